@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+# What every target shares: language level, warnings, sanitizers, ccache, and the two ways to declare a target.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+
+set(AFM_SANITIZE "" CACHE STRING "comma-separated list for -fsanitize, empty for none")
+option(AFM_BUILD_FUZZERS "build the libFuzzer targets (clang only)" OFF)
+
+find_program(AFM_CCACHE ccache)
+if(AFM_CCACHE)
+  # precompiled headers are cacheable only when time macros and pch defines are declared harmless
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${AFM_CCACHE} sloppiness=pch_defines,time_macros)
+endif()
+
+add_library(afm_build_flags INTERFACE)
+target_compile_options(afm_build_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Wnon-virtual-dtor -Werror
+  -ffp-contract=off
+  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+  # gcc 12 reports false positives of these inside libstdc++ and fmt once it inlines at -O2
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow -Wno-array-bounds -Wno-restrict -Wno-maybe-uninitialized>)
+if(AFM_SANITIZE)
+  add_compile_options(-fsanitize=${AFM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${AFM_SANITIZE})
+endif()
+
+# GLM's conventions are fixed here once: depth 0..1, no implicit or ambiguous conversions.
+add_library(afm_glm INTERFACE)
+target_compile_definitions(afm_glm INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_EXPLICIT_CTOR GLM_ENABLE_EXPERIMENTAL)
+
+# afm_module(NAME HEADERS ... SOURCES ... PUBLIC ... PRIVATE ...)
+# A folder is a static library afm::NAME. Only NAME/include is exported, so that including a module that is not linked
+# fails; every public header is compiled alone by the target all_verify_interface_header_sets.
+function(afm_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 M "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE")
+  add_library(afm_${name} STATIC ${M_SOURCES})
+  add_library(afm::${name} ALIAS afm_${name})
+  target_sources(afm_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${M_HEADERS})
+  target_link_libraries(afm_${name} PUBLIC ${M_PUBLIC} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:afm_build_flags>)
+  set_target_properties(afm_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+endfunction()

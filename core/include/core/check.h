@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace afm::core {
+
+// Prints the failed expression and its place to stderr and aborts.
+[[noreturn]] void check_failed(const char* expression, const char* file, int line);
+
+}  // namespace afm::core
+
+// Our own bugs, in every build type. Never for bad input, and never inside a servo tick.
+#define AFM_CHECK(expression) \
+  (static_cast<bool>(expression) ? void(0) : ::afm::core::check_failed(#expression, __FILE__, __LINE__))

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace afm::core {
+
+// Monotonic time in nanoseconds. Code that needs time takes a Clock; only app/ and the servo's main make a real one.
+class Clock {
+ public:
+  Clock() = default;
+  Clock(const Clock&) = delete;
+  Clock& operator=(const Clock&) = delete;
+  virtual ~Clock() = default;
+  virtual std::int64_t now_ns() const noexcept = 0;
+};
+
+// CLOCK_MONOTONIC, which is the same clock in every process of the machine. Any thread.
+class MonotonicClock final : public Clock {
+ public:
+  std::int64_t now_ns() const noexcept override;
+};
+
+}  // namespace afm::core

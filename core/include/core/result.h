@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+
+namespace afm::core {
+
+// What the world refused. The category decides the program's exit code (app/exit_code.h); the message says what was
+// tried, with what, and what to do: one line, lower case, no full stop.
+enum class ErrorCategory { Failed, WrongUsage, BadInputFile, DeviceMissing };
+
+struct Error {
+  ErrorCategory category = ErrorCategory::Failed;
+  std::string message;
+};
+
+template <class T>
+using Result = tl::expected<T, Error>;
+
+inline tl::unexpected<Error> failure(ErrorCategory category, std::string message) {
+  return tl::unexpected<Error>(Error{category, std::move(message)});
+}
+
+}  // namespace afm::core

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+
+namespace afm::core {
+
+// Every value of a trivially copyable T from one producer to one consumer, or a counted drop: no locks, no pointers, so
+// that it may lie in memory shared by two processes. Indices count up for ever and are masked on access, so that garbage
+// in them can spoil values but never reach outside the array.
+template <class T, std::size_t Capacity>
+class SpscRing {
+  static_assert(std::is_trivially_copyable_v<T>);
+  static_assert((Capacity & (Capacity - 1)) == 0, "capacity must be a power of two");
+
+ public:
+  // The single producer's thread. Wait-free. False, and one more drop, when the consumer has fallen Capacity behind.
+  bool push(const T& value) noexcept {
+    const std::uint64_t head = head_.load(std::memory_order_relaxed);
+    if (head - tail_.load(std::memory_order_acquire) >= Capacity) {
+      dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+      return false;
+    }
+    slots_[head & (Capacity - 1)] = value;
+    head_.store(head + 1, std::memory_order_release);
+    return true;
+  }
+
+  // The single consumer's thread. Wait-free. Empty when there is nothing new.
+  std::optional<T> pop() noexcept {
+    const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
+    if (tail == head_.load(std::memory_order_acquire)) return std::nullopt;
+    const T value = slots_[tail & (Capacity - 1)];
+    tail_.store(tail + 1, std::memory_order_release);
+    return value;
+  }
+
+  std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+
+ private:
+  alignas(64) std::atomic<std::uint64_t> head_{0};
+  alignas(64) std::atomic<std::uint64_t> tail_{0};
+  alignas(64) std::atomic<std::uint64_t> dropped_{0};
+  alignas(64) std::array<T, Capacity> slots_{};
+};
+
+}  // namespace afm::core

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/log.h"
+
+#include <unistd.h>
+
+#include <string>
+
+namespace afm::core {
+
+void log_line(std::string_view text) {
+  std::string line = "touchafm: ";
+  line += text;
+  line += '\n';
+  // a closed stderr is nothing that a log line could report
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
+}
+
+}  // namespace afm::core

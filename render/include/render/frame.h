@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "scene/wall.h"
+
+// What a frame shows, as plain data: everything that the renderer needs beside the constant Scene. No Vulkan types.
+namespace afm::render {
+
+// Bends the mesh of one node like an end-loaded beam, w(x)/w(L) = (3 xi^2 - xi^3)/2 with xi = x/L, clamped at x = 0 and
+// loaded at x = L, along the node's +x; displacement along the node's +z, in the node's units. Normals follow the slope.
+struct BeamBend {
+  scene::NodeIndex node = 0;
+  float length = 1.0F;
+  float end_deflection = 0.0F;
+};
+
+// One key light with a shadow; the rest is the procedural environment.
+struct KeyLight {
+  glm::vec3 direction_to_light{0.3F, 0.8F, 0.5F};  // room frame, any length
+  glm::vec3 radiance{3.0F};
+  glm::vec3 shadow_center_m{0.0F};  // the shadow covers a sphere of this centre and radius
+  float shadow_radius_m = 2.5F;
+};
+
+// A rectangle in the room that shows a drawn panel: lower-left corner, and edges to the right and up, in metres.
+struct PanelPlacement {
+  glm::dvec3 lower_left_m{0.0};
+  glm::dvec3 right_m{1.0, 0.0, 0.0};
+  glm::dvec3 up_m{0.0, 1.0, 0.0};
+};
+
+// ---- panel contents ----
+
+struct PlotPoint {
+  double z_nm = 0;
+  double force_nn = 0;
+};
+
+// One approach-retract curve. Approach is drawn dashed and thinner, retract solid: told apart by more than colour.
+struct PlotCurve {
+  std::string label;
+  glm::vec3 color{1.0F};  // sRGB
+  bool faded = false;     // an earlier material, behind
+  std::vector<PlotPoint> approach;
+  std::vector<PlotPoint> retract;
+};
+
+struct PlotMarker {  // a labelled value: "Z_jtc 2.40 nm"
+  enum class Kind { VerticalLine, HorizontalLine } kind = Kind::VerticalLine;
+  double value = 0;  // nm on the z axis, nN on the force axis
+  std::string label;
+};
+
+// The force-displacement panel: Z (nm) to the right, force on the tip (nN, positive away from the sample) up.
+struct ForcePanel {
+  std::string title;
+  double z_min_nm = -5, z_max_nm = 20, force_min_nn = -2, force_max_nn = 1;
+  std::vector<PlotCurve> curves;
+  std::vector<PlotMarker> markers;
+  std::optional<PlotPoint> cursor;  // where the tip is now
+  std::string stage;                // the part of the cycle in words, with the letters of the paper's Fig. 2
+};
+
+struct DataRow {
+  std::string name, value, source;
+};
+
+struct DataPanel {
+  std::string title;
+  std::string subtitle;
+  std::vector<DataRow> rows;
+};
+
+enum class StateShape { Circle, Triangle, Square, Diamond, Cross };
+
+// The line above: guidance, the servo's state in a word and a shape, and the scale.
+struct Banner {
+  std::string guidance;
+  std::string state_word;
+  StateShape state_shape = StateShape::Circle;
+  glm::vec3 state_color{1.0F};  // sRGB
+  std::string scale;            // "1 m = 33 nm, lever x 1 : 9 000, deflection x 3 300"
+  std::string warning;          // "not real-time", empty for none
+};
+
+struct Label {  // a short text standing in the room: a swatch's name
+  std::string text;
+  bool highlighted = false;
+  PanelPlacement placement;
+};
+
+// ---- the frame ----
+
+struct FrameState {
+  std::array<scene::EyeView, 2> eyes;      // left, right; reversed infinite depth
+  std::vector<glm::dmat4> room_from_node;  // one per scene node
+  std::vector<std::uint8_t> visible;       // one per scene node, 0 hides the node's own mesh
+  std::vector<scene::NodeIndex> highlighted;  // drawn with a glow: what the wand points at or has chosen
+  std::vector<BeamBend> bends;
+  KeyLight key_light;
+  ForcePanel force_panel;
+  PanelPlacement force_placement;
+  DataPanel data_panel;
+  PanelPlacement data_placement;
+  Banner banner;
+  PanelPlacement banner_placement;
+  std::vector<Label> labels;
+};
+
+// An image in host memory: 8-bit sRGB RGBA, rows from top to bottom.
+struct Image {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+}  // namespace afm::render

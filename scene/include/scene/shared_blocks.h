@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+// The blocks of the shared scene: trivially copyable, without pointers, SI units, and each with exactly one writer, the
+// process named in its comment. A reader believes nothing unchecked: indices are compared with counts, numbers with ranges.
+namespace afm::scene {
+
+inline constexpr std::uint32_t kMaxNodes = 128;
+inline constexpr std::uint32_t kMaxMaterials = 16;
+inline constexpr std::uint32_t kNameLength = 48;
+inline constexpr std::uint32_t kNoParent = 0xFFFFFFFFU;
+
+using Name = std::array<char, kNameLength>;  // zero-terminated UTF-8
+
+// ---- constant after the segment is created (written by touchafm before the servo starts) ----
+
+struct SharedNode {
+  Name name{};
+  std::uint32_t parent = kNoParent;
+  std::uint32_t padding = 0;
+  std::array<double, 16> parent_from_node{};  // column-major rest transform
+};
+
+// What the force law needs of one choice of tip, lever, sample and medium.
+struct SharedMaterial {
+  Name name{};
+  double tip_radius_m = 0;
+  double spring_constant_n_per_m = 0;
+  double sample_stiffness_n_per_m = 0;  // may be infinite: a rigid sample
+  double hamaker_j = 0;
+  double mean_surface_energy_j_per_m2 = 0;  // sqrt(gamma_s gamma_t)
+};
+
+struct SharedModel {
+  std::uint32_t node_count = 0;
+  std::uint32_t material_count = 0;
+  std::uint32_t sample_node = 0;  // its orientation turns the force: +z of this node is the outward normal
+  std::uint32_t padding = 0;
+  std::array<SharedNode, kMaxNodes> nodes{};
+  std::array<SharedMaterial, kMaxMaterials> materials{};
+};
+
+// ---- written by touchafm ----
+
+// Where every node is now: room from node, column-major, metres.
+struct SceneTransforms {
+  std::uint32_t count = 0;
+  std::uint32_t padding = 0;
+  std::array<std::array<double, 16>, kMaxNodes> room_from_node{};
+};
+
+// The material that the wand chose. `revision` grows by one with every choice.
+struct Selection {
+  std::int32_t material = -1;  // index into SharedModel::materials, -1: none yet
+  std::uint32_t revision = 0;
+};
+
+// What the simulated person does with the simulated hand; ignored by real devices. A new `revision` starts a minimum-jerk
+// path of the hand's aim from where it is now to `target_m` (device frame, +y up, metres) in `duration_s`.
+struct HandScript {
+  std::array<double, 3> target_m{};
+  double duration_s = 0;
+  std::uint32_t revision = 0;
+  std::uint32_t turn_on_pressed = 0;  // 1 while the Turn-On button is held
+};
+
+struct RendererHeartbeat {
+  std::int64_t time_ns = 0;
+  std::uint64_t frame = 0;
+  std::uint32_t leaving = 0;  // 1: the renderer ends in good order; the servo releases the hand and ends too
+  std::uint32_t padding = 0;
+};
+
+// ---- written by touchafm-servo ----
+
+enum class ServoState : std::uint32_t { Disarmed = 0, Arming = 1, Running = 2, Fading = 3, Fault = 4 };
+
+// The latch of the force law (design, section 3) and its wait state: after start, a material change or a dropout no force
+// is given until the tip has been lifted above Z_joc.
+enum class ContactPhase : std::uint32_t { WaitForLift = 0, Free = 1, Attached = 2 };
+
+enum class FaultCode : std::uint32_t {
+  None = 0,
+  RendererDied = 1,
+  RendererHung = 2,
+  NotFinite = 3,
+  LateTick = 4,
+  VelocityTrip = 5,
+  DeviceError = 6,
+  BadSharedData = 7,
+};
+
+// The newest state of the tip, once a tick. Heights along +z of the sample; forces on the tip, positive away from the
+// sample; the hand's values in the device frame.
+struct TipState {
+  std::int64_t time_ns = 0;  // CLOCK_MONOTONIC at the device read
+  std::uint64_t tick = 0;
+  double z_m = 0;  // piezo displacement Z: what the hand commands
+  double tip_height_m = 0;
+  double deflection_m = 0;          // delta_c
+  double sample_deformation_m = 0;  // delta_s
+  double force_n = 0;               // on the tip, from the model
+  std::array<double, 3> hand_position_m{};
+  std::array<double, 3> hand_force_n{};  // after the safety governor: what the device got
+  double hand_m_per_m = 0;               // position scale: metres of hand per metre of Z
+  double hand_n_per_n = 0;               // force scale: newtons on the hand per newton on the tip
+  ServoState servo_state = ServoState::Disarmed;
+  ContactPhase phase = ContactPhase::WaitForLift;
+  FaultCode fault = FaultCode::None;
+  std::int32_t material = -1;
+  std::uint32_t selection_revision = 0;  // the newest Selection that took effect
+  std::uint32_t hand_revision = 0;       // the newest HandScript that was finished
+  std::uint32_t realtime = 0;            // 1: SCHED_FIFO and locked pages were granted
+  std::uint32_t garbage_blocks = 0;      // shared blocks refused as out of range
+};
+
+// Every tick, for curves and sessions.
+struct TipSample {
+  std::int64_t time_ns = 0;
+  std::uint64_t tick = 0;
+  double z_m = 0;
+  double force_n = 0;
+  double tip_height_m = 0;
+  double deflection_m = 0;
+  double sample_deformation_m = 0;
+  double hand_height_m = 0;   // along the sample's normal, device frame
+  double hand_force_n = 0;    // along the sample's normal, positive away from the sample, after the governor
+  ServoState servo_state = ServoState::Disarmed;
+  ContactPhase phase = ContactPhase::WaitForLift;
+  std::int32_t material = -1;
+  std::uint32_t wake_us = 0;  // how late this tick woke
+};
+
+enum class TipEventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2 };
+
+// A transition of the latch, at the place where the path crossed the fold inside the tick.
+struct TipEvent {
+  TipEventKind kind = TipEventKind::JumpToContact;
+  std::int32_t material = -1;
+  std::int64_t time_ns = 0;  // interpolated
+  double z_m = 0;
+  double force_before_n = 0;
+  double force_after_n = 0;
+};
+
+// Wake-up lateness and work of every tick, microseconds; the last bin holds all that is longer.
+inline constexpr std::uint32_t kHistogramBins = 2001;
+struct ServoTiming {
+  double rate_hz = 0;
+  std::uint32_t policy_fifo = 0;  // 1: SCHED_FIFO
+  std::uint32_t priority = 0;
+  std::uint32_t pages_locked = 0;
+  std::uint32_t padding = 0;
+  std::uint64_t ticks = 0;
+  std::uint64_t missed = 0;  // deadlines that passed without a tick
+  std::uint32_t wake_max_us = 0;
+  std::uint32_t work_max_us = 0;
+  std::array<std::uint32_t, kHistogramBins> wake_us{};
+  std::array<std::uint32_t, kHistogramBins> work_us{};
+};
+
+}  // namespace afm::scene

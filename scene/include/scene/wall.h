@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+// Walls, viewers and eyes: pure arithmetic in the room frame (metres, right-handed, +y up), double precision.
+namespace afm::scene {
+
+// A flat rectangular screen by three measured corners, as seen by a viewer in front of it.
+struct Screen {
+  std::string name;
+  glm::dvec3 lower_left{0.0};
+  glm::dvec3 lower_right{0.0};
+  glm::dvec3 upper_left{0.0};
+
+  double width_m() const;
+  double height_m() const;
+  glm::dvec3 normal() const;  // unit, towards the viewer
+  glm::dvec3 center() const;
+};
+
+struct HeadPose {
+  glm::dvec3 position_m{0.0};
+  glm::dquat room_from_head{1.0, 0.0, 0.0, 0.0};  // looks along -z, +x to the right
+};
+
+enum class Eye { Left, Right };
+inline constexpr std::array<Eye, 2> kEyes{Eye::Left, Eye::Right};
+
+// Depth conventions of the research's test vectors; the program renders with VulkanReversedInfinite alone.
+enum class DepthConvention { Vulkan, VulkanReversed, VulkanReversedInfinite, VulkanYUp, OpenGl };
+
+struct EyeView {
+  glm::dmat4 projection{1.0};  // clip from view
+  glm::dmat4 view{1.0};        // view from room
+  glm::dvec3 eye_position_m{0.0};
+};
+
+// left = position - R (ipd/2, 0, 0), right = position + R (ipd/2, 0, 0): roll and yaw of the head move the eyes.
+// `eye_from_tracker` is the middle of the eyes in the head's frame.
+glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m, const glm::dvec3& eye_from_tracker_m = glm::dvec3(0.0));
+
+// Generalised perspective projection (Kooima 2008): the view basis is the screen's, never the head's.
+// Fails if the screen's corners do not span a rectangle or the eye is not in front of it.
+// near_m and far_m > 0; far_m is unused by the infinite convention.
+core::Result<EyeView> off_axis_view(const Screen& screen, const glm::dvec3& eye_position_m, DepthConvention convention,
+                                    double near_m, double far_m);
+
+struct Viewer {
+  std::string name = "viewer";
+  double ipd_m = 0.063;
+  HeadPose sweet_spot;  // where the head is taken to be without a tracker
+};
+
+struct Wall {
+  std::vector<Screen> screens;
+  std::vector<Viewer> viewers;
+};
+
+// Reads and checks a wall file (TOML). The error names file, line and key.
+core::Result<Wall> load_wall(const std::string& path);
+
+}  // namespace afm::scene
