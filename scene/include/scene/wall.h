@@ -45,10 +45,17 @@ struct EyeView {
 
 // left = position - R (ipd/2, 0, 0), right = position + R (ipd/2, 0, 0): roll and yaw of the head move the eyes.
 // `eye_from_tracker` is the middle of the eyes in the head's frame.
-glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m, const glm::dvec3& eye_from_tracker_m = glm::dvec3(0.0));
+glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m,
+                        const glm::dvec3& eye_from_tracker_m = glm::dvec3(0.0));
+
+// Whether the corners are finite, apart, and square within a degree (what a tape measure gets right).
+core::Result<void> check_screen(const Screen& screen);
+
+// An eye nearer to a screen than this is an error of measurement, not a viewer.
+inline constexpr double kSmallestEyeDistanceM = 0.01;
 
 // Generalised perspective projection (Kooima 2008): the view basis is the screen's, never the head's.
-// Fails if the screen's corners do not span a rectangle or the eye is not in front of it.
+// Fails as check_screen does, or if the eye is not in front of the screen.
 // near_m and far_m > 0; far_m is unused by the infinite convention.
 core::Result<EyeView> off_axis_view(const Screen& screen, const glm::dvec3& eye_position_m, DepthConvention convention,
                                     double near_m, double far_m);

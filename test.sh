@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# Sets TouchAFM up on Debian 12, builds it with every test, and runs them. Arguments are passed on to ctest.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+scripts/install-packages
+scripts/build release
+exec ctest --preset release "$@"
