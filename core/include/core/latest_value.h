@@ -15,9 +15,9 @@ namespace afm::core {
 // lie in memory shared by two processes. A reader may miss values, never sees a torn one, and gives up after a bounded
 // number of tries when the writer died or was stopped in the middle of a store.
 //
-// A seqlock whose payload is made of atomic words, so that no access is a data race (Boehm, "Can seqlocks get along with
-// programming language memory models?", MSPC 2012); acquire and release on the words themselves replace fences, which
-// ThreadSanitizer does not model.
+// A seqlock whose payload is made of atomic words, so that no access is a data race (Boehm, "Can seqlocks get along
+// with programming language memory models?", MSPC 2012); acquire and release on the words themselves replace fences,
+// which ThreadSanitizer does not model.
 template <class T>
 class LatestValue {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -40,13 +40,21 @@ class LatestValue {
   // One attempt: empty before the first store and while a store is under way. Any thread, wait-free: the only form that
   // a servo tick may use.
   std::optional<T> try_load() const noexcept {
+    std::uint64_t seen = 0;
+    return try_load_newer(seen);
+  }
+
+  // Like try_load(), and empty as well when the newest value is the one that `seen` names. Updates `seen` when it
+  // returns a value; start with 0.
+  std::optional<T> try_load_newer(std::uint64_t& seen) const noexcept {
     const std::uint64_t before = sequence_.load(std::memory_order_acquire);
-    if (before == 0 || (before & 1U) != 0) return std::nullopt;
+    if (before == seen || before == 0 || (before & 1U) != 0) return std::nullopt;
     std::array<std::uint64_t, kWords> words;
     for (std::size_t i = 0; i < kWords; ++i) words[i] = payload_[i].load(std::memory_order_acquire);
     if (sequence_.load(std::memory_order_relaxed) != before) return std::nullopt;
+    seen = before;
     T value;
-    std::memcpy(&value, words.data(), sizeof(T));
+    std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
     return value;
   }
 
@@ -57,9 +65,6 @@ class LatestValue {
     }
     return std::nullopt;
   }
-
-  // Changes with every store; lets a reader see that nothing is new without copying.
-  std::uint64_t version() const noexcept { return sequence_.load(std::memory_order_acquire); }
 
  private:
   static constexpr std::size_t kWords = (sizeof(T) + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);

@@ -11,12 +11,13 @@
 namespace afm::core {
 
 // Every value of a trivially copyable T from one producer to one consumer, or a counted drop: no locks, no pointers, so
-// that it may lie in memory shared by two processes. Indices count up for ever and are masked on access, so that garbage
-// in them can spoil values but never reach outside the array.
+// that it may lie in memory shared by two processes. Indices count up for ever and are masked on access, so that
+// garbage in them can spoil values but never reach outside the array.
 template <class T, std::size_t Capacity>
 class SpscRing {
   static_assert(std::is_trivially_copyable_v<T>);
-  static_assert((Capacity & (Capacity - 1)) == 0, "capacity must be a power of two");
+  static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
+  static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0, "capacity must be a power of two");
 
  public:
   // The single producer's thread. Wait-free. False, and one more drop, when the consumer has fallen Capacity behind.
@@ -34,7 +35,13 @@ class SpscRing {
   // The single consumer's thread. Wait-free. Empty when there is nothing new.
   std::optional<T> pop() noexcept {
     const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
-    if (tail == head_.load(std::memory_order_acquire)) return std::nullopt;
+    const std::uint64_t head = head_.load(std::memory_order_acquire);
+    if (tail == head) return std::nullopt;
+    if (head - tail > Capacity) {
+      // no producer can be that far ahead: indices are garbage, and draining them could take for ever
+      tail_.store(head, std::memory_order_release);
+      return std::nullopt;
+    }
     const T value = slots_[tail & (Capacity - 1)];
     tail_.store(tail + 1, std::memory_order_release);
     return value;

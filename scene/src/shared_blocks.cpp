@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/shared_blocks.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "core/check.h"
+#include "scene/shared_segment.h"
+
+namespace afm::scene {
+
+namespace {
+
+// Nothing in the scene or in the hand's frame is as far away as this; it keeps products of numbers finite.
+constexpr double kLargest = 1e9;
+
+bool sane(double value) { return std::isfinite(value) && std::abs(value) <= kLargest; }
+
+template <class Numbers>
+bool all_sane(const Numbers& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), sane);
+}
+
+bool positive(double value) { return sane(value) && value > 0; }
+
+bool terminated(const Name& name) { return std::find(name.begin(), name.end(), '\0') != name.end(); }
+
+bool known(ServoState state) { return state <= ServoState::Fault; }
+bool known(ContactPhase phase) { return phase <= ContactPhase::Attached; }
+bool known(FaultCode code) { return code <= FaultCode::BadSharedData; }
+bool known(TipEventKind kind) { return kind == TipEventKind::JumpToContact || kind == TipEventKind::JumpOffContact; }
+
+bool within(std::int32_t material, const SharedModel& model) {
+  return material >= -1 && material < static_cast<std::int32_t>(std::min(model.material_count, kMaxMaterials));
+}
+
+auto refusal(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
+
+core::Result<void> validate(const SharedMaterial& material, std::uint32_t index) {
+  if (!terminated(material.name)) return refusal(fmt::format("shared material {} has a name without an end", index));
+  const bool rigid = std::isinf(material.sample_stiffness_n_per_m) && material.sample_stiffness_n_per_m > 0;
+  if (!positive(material.tip_radius_m) || !positive(material.spring_constant_n_per_m) ||
+      !(rigid || positive(material.sample_stiffness_n_per_m)) || !positive(material.hamaker_j) ||
+      !positive(material.mean_surface_energy_j_per_m2)) {
+    return refusal(fmt::format("shared material {} has a parameter that is not a positive number", index));
+  }
+  return {};
+}
+
+}  // namespace
+
+core::Result<void> validate(const SharedModel& model) {
+  if (model.node_count == 0 || model.node_count > kMaxNodes) {
+    return refusal(fmt::format("the shared scene has {} nodes: 1 to {} fit", model.node_count, kMaxNodes));
+  }
+  if (model.material_count == 0 || model.material_count > kMaxMaterials) {
+    return refusal(fmt::format("the shared scene has {} materials: 1 to {} fit", model.material_count, kMaxMaterials));
+  }
+  if (model.sample_node >= model.node_count) {
+    return refusal(fmt::format("the sample is node {} of a shared scene of {}", model.sample_node, model.node_count));
+  }
+  for (std::uint32_t i = 0; i < model.node_count; ++i) {
+    const SharedNode& node = model.nodes[i];
+    if (!terminated(node.name)) return refusal(fmt::format("shared node {} has a name without an end", i));
+    if (node.parent != kNoParent && node.parent >= i) {
+      return refusal(fmt::format("shared node {} stands before its parent {}", i, node.parent));
+    }
+    if (!all_sane(node.parent_from_node)) return refusal(fmt::format("shared node {} has a transform of no use", i));
+  }
+  for (std::uint32_t i = 0; i < model.material_count; ++i) {
+    if (auto valid = validate(model.materials[i], i); !valid) return valid;
+  }
+  return {};
+}
+
+bool plausible(const SceneTransforms& transforms, const SharedModel& model) {
+  if (transforms.count != model.node_count || transforms.count > kMaxNodes) return false;
+  return std::all_of(transforms.room_from_node.begin(), transforms.room_from_node.begin() + transforms.count,
+                     [](const auto& matrix) { return all_sane(matrix); });
+}
+
+bool plausible(const Selection& selection, const SharedModel& model) { return within(selection.material, model); }
+
+bool plausible(const HandScript& script) {
+  return all_sane(script.target_m) && sane(script.duration_s) && script.duration_s >= 0 && script.turn_on_pressed <= 1;
+}
+
+bool plausible(const RendererHeartbeat& heartbeat) { return heartbeat.leaving <= 1; }
+
+bool plausible(const TipState& state, const SharedModel& model) {
+  return sane(state.z_m) && sane(state.tip_height_m) && sane(state.deflection_m) && sane(state.sample_deformation_m) &&
+         sane(state.force_n) && all_sane(state.hand_position_m) && all_sane(state.hand_force_n) &&
+         std::isfinite(state.hand_m_per_m) && std::isfinite(state.hand_n_per_n) && known(state.servo_state) &&
+         known(state.phase) && known(state.fault) && within(state.material, model);
+}
+
+bool plausible(const TipSample& sample, const SharedModel& model) {
+  return sane(sample.z_m) && sane(sample.force_n) && sane(sample.tip_height_m) && sane(sample.deflection_m) &&
+         sane(sample.sample_deformation_m) && sane(sample.hand_height_m) && sane(sample.hand_force_n) &&
+         known(sample.servo_state) && known(sample.phase) && within(sample.material, model);
+}
+
+bool plausible(const TipEvent& event, const SharedModel& model) {
+  return known(event.kind) && sane(event.z_m) && sane(event.force_before_n) && sane(event.force_after_n) &&
+         within(event.material, model);
+}
+
+glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node) {
+  AFM_CHECK(node < model.node_count && model.node_count <= kMaxNodes);
+  glm::dmat4 room_from_node(1.0);
+  for (std::uint32_t i = node;; i = model.nodes[i].parent) {
+    room_from_node = glm::make_mat4(model.nodes[i].parent_from_node.data()) * room_from_node;
+    if (model.nodes[i].parent == kNoParent) return room_from_node;
+  }
+}
+
+}  // namespace afm::scene
