@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "physics/interaction.h"
+#include "physics/units.h"
+
+// The closed forms of Liu & Peng, section 3.2; equation numbers are theirs. They are evaluated with alpha finite in
+// general, never assumed to be 1. All take valid interactions (physics/interaction.h) and may be called from any
+// thread.
+//
+// Signs and frames, for the whole program:
+//   +z is the outward normal of the sample, z = 0 its undeformed surface.
+//   Force on the tip is positive away from the sample: repulsion > 0, attraction < 0.
+//   Z = D + delta_c + delta_s (3.5): Z is the height that the apex would have on an unbent lever, D the gap between the
+//   apex and the deformed surface, delta_c > 0 a lever bent towards the sample, delta_s > 0 a surface drawn out towards
+//   the tip. So the apex stands at z = Z - delta_c = D + delta_s, and at rest F = -k_c delta_c = -k_s delta_s.
+// The paper prints its events without signs, and so are the values below: magnitudes, all >= 0.
+namespace afm::physics {
+
+// alpha = 1 + k_c/k_s (3.7); 1 for a rigid sample.
+double alpha(const Interaction& interaction);
+
+// k' = k_c k_s/(k_c + k_s) (3.1): the slope of the contact line, lever and sample in series.
+Stiffness effective_stiffness(const Interaction& interaction);
+
+// D_attr = cbrt(alpha A_H R/(3 k_c)) (3.8): the gap from which the tip jumps to contact.
+Length jump_to_contact_gap(const Interaction& interaction);
+
+// (delta_c)_attr = 1/2 cbrt(A_H R/(3 alpha^2 k_c)) (3.9): the lever's deflection just before that jump.
+Length jump_to_contact_deflection(const Interaction& interaction);
+
+// Z_jtc = D_attr + alpha (delta_c)_attr (3.6), from Hao, Baro & Saenz 1991: the fold of Z(D) under van der Waals
+// attraction. It is 3/2 D_attr for every alpha.
+Length jump_to_contact_z(const Interaction& interaction);
+
+// W_ad = 2 sqrt(gamma_s gamma_t) (3.3).
+SurfaceEnergy work_of_adhesion(const Interaction& interaction);
+
+// F_ad = 2 pi R W_ad (3.2), (3.4), from Derjaguin, Muller & Toporov 1975: the pull-off force.
+Force adhesion_force(const Interaction& interaction);
+
+// The attraction A_H R/(6 D^2) of a sphere to a half-space at the gap D > 0 (Derjaguin's approximation, on which
+// (3.8) and (3.9) rest), as a magnitude.
+Force van_der_waals_attraction(const Interaction& interaction, Length gap);
+
+// Where apex, lever and surface come to rest at Z under a force on the tip, signed as above. It holds in contact, and
+// away from it with a force of zero.
+struct RestPose {
+  Length tip_height;             // of the apex above the undeformed surface, Z - delta_c
+  Length cantilever_deflection;  // delta_c = -F/k_c
+  Length sample_deformation;     // delta_s = -F/k_s
+};
+RestPose rest_pose(const Interaction& interaction, Length z, Force force) noexcept;
+
+// Everything that happens in one cycle, as magnitudes.
+struct ApproachRetractEvents {
+  double alpha = 1.0;
+  Stiffness effective_stiffness;  // k'
+  Length d_attr;                  // gap at the jump to contact
+  Length delta_c_attr;            // deflection of the lever just before it
+  Length delta_s_attr;            // deformation of the sample just before it, (k_c/k_s) (delta_c)_attr
+  Length z_jtc;                   // jump to contact
+  Force f_fold;  // attraction just before the jump, k_c (delta_c)_attr: a third of F_attr when alpha = 1
+  Force f_attr;  // k' Z_jtc (3.10): the lever's pull just after the jump, with the tip on the surface
+  SurfaceEnergy work_of_adhesion;
+  Force f_ad;          // pull-off force
+  Length z_joc;        // jump off contact, F_ad/k'; the paper prints no equation for it
+  Energy loop_energy;  // k' (Z_joc^2 - Z_jtc^2)/2: what one cycle of the latch dissipates; negative if Z_joc < Z_jtc
+};
+
+// Throws std::invalid_argument as validate() does.
+ApproachRetractEvents approach_retract_events(const Interaction& interaction);
+
+}  // namespace afm::physics

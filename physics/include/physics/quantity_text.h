@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "physics/units.h"
+
+// Quantities as people write them, "50nm" or "24.5 zJ", and as they read them, "13.999 nm". Independent of the locale.
+namespace afm::physics {
+
+struct Unit {
+  std::string_view symbol;
+  double si;   // of one unit
+  bool shown;  // offered in messages and used for output; the others are spellings that are understood as well
+};
+
+// The units of one sort of quantity, the largest first. Stiffness and surface energy are one type but two lists, so
+// that a spring constant in mJ/m2 is refused.
+template <class Q>
+struct UnitList {
+  std::string_view sort;  // "a length", as messages name it
+  std::span<const Unit> units;
+};
+
+extern const UnitList<Length> kLengthUnits;                // m mm um nm pm
+extern const UnitList<Force> kForceUnits;                  // N mN uN nN pN
+extern const UnitList<Energy> kEnergyUnits;                // J aJ zJ
+extern const UnitList<Stiffness> kStiffnessUnits;          // N/m mN/m
+extern const UnitList<SurfaceEnergy> kSurfaceEnergyUnits;  // J/m2 mJ/m2, also mN/m
+
+enum class Infinity { Refused, Allowed };
+
+template <class Q>
+struct ParsedQuantity {
+  std::optional<Q> value;
+  std::string error;  // one line that lists the legal units; empty if there is a value
+};
+
+// The value in SI, or the error. For every text; use parse_quantity.
+std::variant<double, std::string> parse_si(std::string_view text, std::string_view sort, std::span<const Unit> units,
+                                           Infinity infinity);
+
+// Reads a decimal number and a unit, with or without blanks around them. Refused, with a message: a bare number,
+// another dimension's unit, a number beyond double, NaN, and, unless allowed, "inf" (which needs its unit too).
+template <class Q>
+ParsedQuantity<Q> parse_quantity(std::string_view text, const UnitList<Q>& list,
+                                 Infinity infinity = Infinity::Refused) {
+  const auto parsed = parse_si(text, list.sort, list.units, infinity);
+  if (const double* si = std::get_if<double>(&parsed)) return {Q(*si), {}};
+  return {std::nullopt, std::get<std::string>(parsed)};
+}
+
+// Use format_quantity.
+std::string format_si(double si, std::span<const Unit> units, int digits);
+
+// With `digits` significant digits (1 to 17) in the unit that leaves 1 to 1000 before the point, where there is one.
+template <class Q>
+std::string format_quantity(Q value, const UnitList<Q>& list, int digits = 5) {
+  return format_si(value.si, list.units, digits);
+}
+
+}  // namespace afm::physics

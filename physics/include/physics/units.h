@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <compare>
+
+namespace afm::physics {
+
+// A number with the dimension kg^Kg m^M s^S, held in SI. Sums, comparisons and assignments across dimensions do not
+// compile; products and quotients add the exponents, and become a plain double where these cancel.
+//
+// N/m and J/m^2 are one dimension, so Stiffness and SurfaceEnergy are one type: the compiler cannot tell them apart,
+// named fields must.
+template <int Kg, int M, int S>
+struct Quantity {
+  double si = 0.0;
+
+  constexpr Quantity() = default;
+  constexpr explicit Quantity(double value_si) : si(value_si) {}
+
+  constexpr auto operator<=>(const Quantity&) const = default;
+  constexpr Quantity operator-() const { return Quantity(-si); }
+  constexpr Quantity operator+(Quantity other) const { return Quantity(si + other.si); }
+  constexpr Quantity operator-(Quantity other) const { return Quantity(si - other.si); }
+  constexpr Quantity operator*(double factor) const { return Quantity(si * factor); }
+  constexpr Quantity operator/(double divisor) const { return Quantity(si / divisor); }
+};
+
+template <int Kg, int M, int S>
+constexpr Quantity<Kg, M, S> operator*(double factor, Quantity<Kg, M, S> q) {
+  return q * factor;
+}
+
+template <int Kg, int M, int S>
+constexpr auto from_si(double value) {
+  if constexpr (Kg == 0 && M == 0 && S == 0) {
+    return value;
+  } else {
+    return Quantity<Kg, M, S>(value);
+  }
+}
+
+template <int Kg1, int M1, int S1, int Kg2, int M2, int S2>
+constexpr auto operator*(Quantity<Kg1, M1, S1> a, Quantity<Kg2, M2, S2> b) {
+  return from_si<Kg1 + Kg2, M1 + M2, S1 + S2>(a.si * b.si);
+}
+
+template <int Kg1, int M1, int S1, int Kg2, int M2, int S2>
+constexpr auto operator/(Quantity<Kg1, M1, S1> a, Quantity<Kg2, M2, S2> b) {
+  return from_si<Kg1 - Kg2, M1 - M2, S1 - S2>(a.si / b.si);
+}
+
+template <int Kg, int M, int S>
+auto sqrt(Quantity<Kg, M, S> q) {
+  static_assert(Kg % 2 == 0 && M % 2 == 0 && S % 2 == 0, "sqrt needs even exponents");
+  return from_si<Kg / 2, M / 2, S / 2>(std::sqrt(q.si));
+}
+
+template <int Kg, int M, int S>
+auto cbrt(Quantity<Kg, M, S> q) {
+  static_assert(Kg % 3 == 0 && M % 3 == 0 && S % 3 == 0, "cbrt needs exponents divisible by three");
+  return from_si<Kg / 3, M / 3, S / 3>(std::cbrt(q.si));
+}
+
+template <int Kg, int M, int S>
+constexpr Quantity<Kg, M, S> abs(Quantity<Kg, M, S> q) {
+  return q.si < 0.0 ? -q : q;
+}
+
+template <int Kg, int M, int S>
+bool isfinite(Quantity<Kg, M, S> q) {
+  return std::isfinite(q.si);
+}
+
+using Mass = Quantity<1, 0, 0>;
+using Length = Quantity<0, 1, 0>;
+using Area = Quantity<0, 2, 0>;
+using Volume = Quantity<0, 3, 0>;
+using Time = Quantity<0, 0, 1>;
+using Velocity = Quantity<0, 1, -1>;
+using Force = Quantity<1, 1, -2>;
+using Energy = Quantity<1, 2, -2>;
+using Stiffness = Quantity<1, 0, -2>;      // N/m
+using SurfaceEnergy = Quantity<1, 0, -2>;  // J/m^2
+
+// 50.0_nm, 0.1_N_per_m, 24.5_zJ; both floating and whole numbers.
+namespace literals {
+
+#define AFM_UNIT_LITERAL(suffix, type, factor)                                                                  \
+  constexpr type operator""_##suffix(long double value) { return type(static_cast<double>(value) * (factor)); } \
+  constexpr type operator""_##suffix(unsigned long long value) { return type(static_cast<double>(value) * (factor)); }
+
+AFM_UNIT_LITERAL(m, Length, 1.0)
+AFM_UNIT_LITERAL(mm, Length, 1e-3)
+AFM_UNIT_LITERAL(um, Length, 1e-6)
+AFM_UNIT_LITERAL(nm, Length, 1e-9)
+AFM_UNIT_LITERAL(pm, Length, 1e-12)
+AFM_UNIT_LITERAL(s, Time, 1.0)
+AFM_UNIT_LITERAL(ms, Time, 1e-3)
+AFM_UNIT_LITERAL(kg, Mass, 1.0)
+AFM_UNIT_LITERAL(m_per_s, Velocity, 1.0)
+AFM_UNIT_LITERAL(um_per_s, Velocity, 1e-6)
+AFM_UNIT_LITERAL(N, Force, 1.0)
+AFM_UNIT_LITERAL(nN, Force, 1e-9)
+AFM_UNIT_LITERAL(N_per_m, Stiffness, 1.0)
+AFM_UNIT_LITERAL(J, Energy, 1.0)
+AFM_UNIT_LITERAL(aJ, Energy, 1e-18)
+AFM_UNIT_LITERAL(zJ, Energy, 1e-21)
+AFM_UNIT_LITERAL(J_per_m2, SurfaceEnergy, 1.0)
+AFM_UNIT_LITERAL(mJ_per_m2, SurfaceEnergy, 1e-3)
+
+#undef AFM_UNIT_LITERAL
+
+}  // namespace literals
+
+}  // namespace afm::physics

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/quantity_text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace afm::physics {
+namespace {
+
+constexpr std::array kLengths{Unit{"m", 1.0, true},         Unit{"mm", 1e-3, true},       Unit{"um", 1e-6, true},
+                              Unit{"\u00b5m", 1e-6, false}, Unit{"\u03bcm", 1e-6, false}, Unit{"nm", 1e-9, true},
+                              Unit{"pm", 1e-12, true}};
+constexpr std::array kForces{Unit{"N", 1.0, true},         Unit{"mN", 1e-3, true},       Unit{"uN", 1e-6, true},
+                             Unit{"\u00b5N", 1e-6, false}, Unit{"\u03bcN", 1e-6, false}, Unit{"nN", 1e-9, true},
+                             Unit{"pN", 1e-12, true}};
+constexpr std::array kEnergies{Unit{"J", 1.0, true}, Unit{"aJ", 1e-18, true}, Unit{"zJ", 1e-21, true}};
+constexpr std::array kStiffnesses{Unit{"N/m", 1.0, true}, Unit{"mN/m", 1e-3, true}, Unit{"nN/nm", 1.0, false}};
+constexpr std::array kSurfaceEnergies{Unit{"J/m2", 1.0, true}, Unit{"J/m^2", 1.0, false}, Unit{"J/m\u00b2", 1.0, false},
+                                      Unit{"mJ/m2", 1e-3, true}, Unit{"mJ/m^2", 1e-3, false},
+                                      Unit{"mJ/m\u00b2", 1e-3, false},
+                                      // surface tension is written so
+                                      Unit{"N/m", 1.0, false}, Unit{"mN/m", 1e-3, false}};
+
+std::string_view trim(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+// What a message may repeat: one line, not too long.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string result = "\"" + std::string(text.substr(0, kLongest)) + (text.size() > kLongest ? "...\"" : "\"");
+  std::replace_if(
+      result.begin(), result.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, '?');
+  return result;
+}
+
+std::string list_units(std::span<const Unit> units) {
+  std::string list;
+  for (const Unit& unit : units) {
+    if (!unit.shown) continue;
+    if (!list.empty()) list += ", ";
+    list += unit.symbol;
+  }
+  return list;
+}
+
+std::string refusal(std::string_view text, std::string_view sort, std::span<const Unit> units, std::string_view why) {
+  return "cannot read " + quoted(text) + " as " + std::string(sort) + ": " + std::string(why) +
+         "; write a number and one of the units " + list_units(units);
+}
+
+}  // namespace
+
+const UnitList<Length> kLengthUnits{"a length", kLengths};
+const UnitList<Force> kForceUnits{"a force", kForces};
+const UnitList<Energy> kEnergyUnits{"an energy", kEnergies};
+const UnitList<Stiffness> kStiffnessUnits{"a stiffness", kStiffnesses};
+const UnitList<SurfaceEnergy> kSurfaceEnergyUnits{"a surface energy", kSurfaceEnergies};
+
+std::variant<double, std::string> parse_si(std::string_view text, std::string_view sort, std::span<const Unit> units,
+                                           Infinity infinity) {
+  std::string_view rest = trim(text);
+  // from_chars takes a minus but no plus
+  if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-') rest.remove_prefix(1);
+
+  double number = 0.0;
+  const auto [end, status] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  if (status == std::errc::invalid_argument) return refusal(text, sort, units, "it does not begin with a number");
+  const std::string_view symbol = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
+  if (symbol.empty()) return refusal(text, sort, units, "it has no unit");
+  const auto unit = std::find_if(units.begin(), units.end(), [&](const Unit& u) { return u.symbol == symbol; });
+  if (unit == units.end()) return refusal(text, sort, units, quoted(symbol) + " is not its unit");
+  if (status == std::errc::result_out_of_range) return refusal(text, sort, units, "the number is out of range");
+  if (std::isnan(number)) return refusal(text, sort, units, "it is not a number");
+  if (std::isinf(number) && infinity == Infinity::Refused) {
+    return refusal(text, sort, units, "it may not be infinite");
+  }
+  return number * unit->si;
+}
+
+std::string format_si(double si, std::span<const Unit> units, int digits) {
+  // the largest unit in which the rounded number is at least 1, or the smallest; the largest for zero
+  const int precision = std::clamp(digits, 1, 17);
+  const double rounds_to_one = 1.0 - 0.5 * std::pow(10.0, -precision);
+  const Unit* chosen = nullptr;
+  for (const Unit& unit : units) {
+    if (!unit.shown) continue;
+    if (chosen == nullptr || (si != 0.0 && std::abs(si) < chosen->si * rounds_to_one)) chosen = &unit;
+  }
+  std::array<char, 64> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), si / chosen->si,
+                                    std::chars_format::general, precision);
+  return std::string(buffer.data(), result.ptr) + " " + std::string(chosen->symbol);
+}
+
+}  // namespace afm::physics
