@@ -15,7 +15,7 @@ option(AFM_BUILD_FUZZERS "build the libFuzzer targets (clang only)" OFF)
 find_program(AFM_CCACHE ccache)
 if(AFM_CCACHE)
   # precompiled headers are cacheable only when time macros and pch defines are declared harmless
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${AFM_CCACHE} sloppiness=pch_defines,time_macros)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${AFM_CCACHE})
 endif()
 
 add_library(afm_build_flags INTERFACE)
