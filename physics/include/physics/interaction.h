@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <stdexcept>
+#include <string>
+#include <utility>
+
 #include "physics/units.h"
 
 namespace afm::physics {
@@ -14,9 +18,22 @@ struct Interaction {
   SurfaceEnergy mean_surface_energy;  // sqrt(gamma_s gamma_t), half of the work of adhesion (3.3)
 };
 
-// Throws std::invalid_argument, quoting the value and the legal range, unless every value is a number inside the range
-// of what force microscopes are made of: R 0.1 nm to 1 mm, k_c 1 uN/m to 1 MN/m, k_s 1 uN/m to infinity,
-// A_H 1e-24 J to 1e-16 J, sqrt(gamma_s gamma_t) 1 nJ/m^2 to 100 J/m^2.
+// A value that no force microscope has; the message quotes it with its unit and the legal range.
+class UnphysicalValue : public std::invalid_argument {
+ public:
+  UnphysicalValue(std::string field_name, const std::string& message)
+      : std::invalid_argument(message), field_(std::move(field_name)) {}
+
+  // The member of Interaction: "tip_radius".
+  const std::string& field() const noexcept { return field_; }
+
+ private:
+  std::string field_;
+};
+
+// Throws UnphysicalValue unless every value is a number within: R 0.1 nm to 1 mm, k_c 1 uN/m to 1 MN/m, k_s 1 uN/m to
+// infinity, A_H 1e-24 J to 1e-16 J, sqrt(gamma_s gamma_t) 1 nJ/m^2 to 100 J/m^2: what force microscopes are made of,
+// with room to spare.
 void validate(const Interaction& interaction);
 
 }  // namespace afm::physics
