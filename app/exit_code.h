@@ -10,10 +10,14 @@ enum class ExitCode : int { Done = 0, RunFailed = 1, WrongUsage = 2, BadInputFil
 
 inline ExitCode exit_code(core::ErrorCategory category) {
   switch (category) {
-    case core::ErrorCategory::WrongUsage: return ExitCode::WrongUsage;
-    case core::ErrorCategory::BadInputFile: return ExitCode::BadInputFile;
-    case core::ErrorCategory::DeviceMissing: return ExitCode::DeviceMissing;
-    case core::ErrorCategory::Failed: break;
+    case core::ErrorCategory::WrongUsage:
+      return ExitCode::WrongUsage;
+    case core::ErrorCategory::BadInputFile:
+      return ExitCode::BadInputFile;
+    case core::ErrorCategory::DeviceMissing:
+      return ExitCode::DeviceMissing;
+    case core::ErrorCategory::Failed:
+      break;
   }
   return ExitCode::RunFailed;
 }

@@ -60,6 +60,9 @@ inline constexpr double kSmallestEyeDistanceM = 0.01;
 core::Result<EyeView> off_axis_view(const Screen& screen, const glm::dvec3& eye_position_m, DepthConvention convention,
                                     double near_m, double far_m);
 
+// The near plane of every picture: closer to an eye nothing is drawn.
+inline constexpr double kNearM = 0.1;
+
 struct Viewer {
   std::string name = "viewer";
   double ipd_m = 0.063;

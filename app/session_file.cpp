@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/session_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <type_traits>
+
+#include "app/whole_file.h"
+
+namespace afm::app {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "session records are little-endian");
+
+constexpr std::string_view kMagic = "AFMS";
+constexpr std::uint32_t kVersion = 1;
+
+using scene::TipEvent;
+using scene::TipSample;
+
+std::uint64_t fnv1a(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
+  return hash;
+}
+
+template <class T>
+void put(std::string& bytes, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
+}
+
+template <class T>
+bool take(std::string_view& bytes, T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  if (bytes.size() < sizeof(T)) return false;
+  std::memcpy(&value, bytes.data(), sizeof(T));
+  bytes.remove_prefix(sizeof(T));
+  return true;
+}
+
+template <class T>
+void put_all(std::string& bytes, const std::vector<T>& values) {
+  put(bytes, std::uint64_t{values.size()});
+  for (const T& value : values) put(bytes, value);
+}
+
+template <class T>
+bool take_all(std::string_view& bytes, std::vector<T>& values) {
+  std::uint64_t count = 0;
+  if (!take(bytes, count) || count > bytes.size() / sizeof(T)) return false;
+  values.resize(count);
+  return std::all_of(values.begin(), values.end(), [&](T& value) { return take(bytes, value); });
+}
+
+bool finite(const TipSample& s) {
+  return std::isfinite(s.z_m) && std::isfinite(s.force_n) && std::isfinite(s.tip_height_m) &&
+         std::isfinite(s.deflection_m) && std::isfinite(s.sample_deformation_m) && std::isfinite(s.hand_height_m) &&
+         std::isfinite(s.hand_force_n);
+}
+
+bool finite(const TipEvent& e) {
+  return std::isfinite(e.z_m) && std::isfinite(e.force_before_n) && std::isfinite(e.force_after_n);
+}
+
+nlohmann::json header_of(const RecordedSession& session) {
+  const scene::SharedMaterial& m = session.interaction;
+  nlohmann::json interaction{{"tip_radius_m", m.tip_radius_m},
+                             {"spring_constant_N_per_m", m.spring_constant_n_per_m},
+                             {"hamaker_J", m.hamaker_j},
+                             {"mean_surface_energy_J_per_m2", m.mean_surface_energy_j_per_m2}};
+  // JSON has no infinity: a rigid sample has no stiffness entry
+  if (std::isfinite(m.sample_stiffness_n_per_m)) interaction["sample_stiffness_N_per_m"] = m.sample_stiffness_n_per_m;
+  return {{"material", session.material},         {"model", session.model},
+          {"interaction", interaction},           {"rate_hz", session.rate_hz},
+          {"realtime", session.realtime},         {"hand_m_per_m", session.hand_m_per_m},
+          {"hand_N_per_N", session.hand_n_per_n}, {"sample_bytes", sizeof(TipSample)},
+          {"event_bytes", sizeof(TipEvent)}};
+}
+
+// Throws nlohmann::json::exception when a key is missing or of the wrong type.
+RecordedSession session_of(const nlohmann::json& header) {
+  RecordedSession session;
+  session.material = header.at("material").get<std::string>();
+  session.model = header.at("model").get<std::string>();
+  session.rate_hz = header.at("rate_hz").get<double>();
+  session.realtime = header.at("realtime").get<bool>();
+  session.hand_m_per_m = header.at("hand_m_per_m").get<double>();
+  session.hand_n_per_n = header.at("hand_N_per_N").get<double>();
+  const nlohmann::json& interaction = header.at("interaction");
+  scene::SharedMaterial& m = session.interaction;
+  m.tip_radius_m = interaction.at("tip_radius_m").get<double>();
+  m.spring_constant_n_per_m = interaction.at("spring_constant_N_per_m").get<double>();
+  m.sample_stiffness_n_per_m = interaction.value("sample_stiffness_N_per_m", HUGE_VAL);
+  m.hamaker_j = interaction.at("hamaker_J").get<double>();
+  m.mean_surface_energy_j_per_m2 = interaction.at("mean_surface_energy_J_per_m2").get<double>();
+  const std::size_t length = std::min(session.material.size(), m.name.size() - 1);
+  std::copy_n(session.material.begin(), length, m.name.begin());
+  return session;
+}
+
+}  // namespace
+
+double RecordedSession::seconds_since_start(std::int64_t time_ns) const {
+  return samples.empty() ? 0.0 : static_cast<double>(time_ns - samples.front().time_ns) * 1e-9;
+}
+
+const TipEvent* RecordedSession::find(scene::TipEventKind kind) const {
+  const auto found = std::find_if(events.begin(), events.end(), [&](const TipEvent& e) { return e.kind == kind; });
+  return found == events.end() ? nullptr : &*found;
+}
+
+core::Result<void> save_session(const RecordedSession& session, const std::string& path) {
+  const std::string header = header_of(session).dump();
+  std::string bytes(kMagic);
+  put(bytes, kVersion);
+  put(bytes, std::uint64_t{header.size()});
+  bytes += header;
+  put_all(bytes, session.samples);
+  put_all(bytes, session.events);
+  put(bytes, fnv1a(bytes));
+  return write_file(path, bytes);
+}
+
+core::Result<RecordedSession> load_session(const std::string& path) {
+  const auto bad = [&](const std::string& why) {
+    return core::failure(core::ErrorCategory::BadInputFile, fmt::format("session file {}: {}", path, why));
+  };
+  const auto file = read_file(path);
+  if (!file) return tl::unexpected(file.error());
+
+  std::string_view bytes = *file;
+  if (!bytes.starts_with(kMagic)) return bad("this is not a TouchAFM session; give a file that `touchafm demo` wrote");
+  std::string_view body = bytes.substr(kMagic.size());
+  std::uint32_t version = 0;
+  std::uint64_t header_size = 0;
+  if (!take(body, version)) return bad("it is cut short; record it again");
+  if (version != kVersion) {
+    return bad(fmt::format("it has version {}, this program reads version {}; record it again", version, kVersion));
+  }
+  const std::size_t sum_size = sizeof(std::uint64_t);
+  std::uint64_t sum = 0;
+  if (bytes.size() < sum_size + kMagic.size()) return bad("it is cut short; record it again");
+  std::memcpy(&sum, bytes.data() + bytes.size() - sum_size, sum_size);
+  if (sum != fnv1a(bytes.substr(0, bytes.size() - sum_size)))
+    return bad("its checksum is wrong: it is cut short or altered; record it again");
+  body.remove_suffix(sum_size);
+
+  if (!take(body, header_size) || header_size > body.size()) return bad("it is cut short; record it again");
+  try {
+    const nlohmann::json header = nlohmann::json::parse(body.substr(0, header_size));
+    body.remove_prefix(header_size);
+    RecordedSession session = session_of(header);
+    if (header.at("sample_bytes") != sizeof(TipSample) || header.at("event_bytes") != sizeof(TipEvent)) {
+      return bad("its records have another size than this program's; record it again");
+    }
+    if (!take_all(body, session.samples) || !take_all(body, session.events) || !body.empty()) {
+      return bad("its records do not fill the file; record it again");
+    }
+    if (session.samples.empty()) return bad("it holds no sample; record it again");
+    const auto is_finite = [](const auto& record) { return finite(record); };
+    if (!std::all_of(session.samples.begin(), session.samples.end(), is_finite) ||
+        !std::all_of(session.events.begin(), session.events.end(), is_finite)) {
+      return bad("it holds numbers that are not finite; record it again");
+    }
+    return session;
+  } catch (const nlohmann::json::exception& error) {
+    return bad(fmt::format("its header is damaged ({}); record it again", error.what()));
+  }
+}
+
+}  // namespace afm::app

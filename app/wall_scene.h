@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "input/selection.h"
+#include "input/wand.h"
+#include "render/frame.h"
+#include "scene/material_library.h"
+#include "scene/scene.h"
+#include "scene/shared_blocks.h"
+#include "scene/wall.h"
+
+namespace afm::app {
+
+// What the picture shows of the tip: heights along the sample's normal, metres of the nanoworld.
+struct TipView {
+  double z_m = 0;            // piezo displacement
+  double deflection_m = 0;   // delta_c, positive towards the sample
+  double deformation_m = 0;  // delta_s
+};
+
+// How large things are drawn: metres of the nanoworld (or of the instrument) shown as one metre on the wall.
+struct DrawnScale {
+  double sample_m_per_m = 0;  // sample, displacement, deflection
+  double lever_m_per_m = 0;   // chip and cantilever
+  double tip_m_per_m = 0;     // tip
+};
+
+// The scene that stands on the wall (design, section 5): which models, where, and how they move with the tip. Built
+// once; const from then on. Lengths of the layout are fractions of the wall's height, so that any wall shows the same
+// picture.
+class WallScene {
+ public:
+  static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
+                                      const scene::Screen& screen, const glm::dvec3& viewer_m);
+
+  const scene::Scene& scene() const { return scene_; }
+  scene::NodeIndex sample_node() const { return sample_frame_; }
+
+  // The swatches as targets of the wand, in the order of the materials.
+  std::vector<input::Target> swatch_targets() const;
+
+  // Where a simulated person holds the wand.
+  glm::dvec3 wand_grip_m() const;
+
+  DrawnScale drawn_scale(std::size_t material) const;
+
+  struct Pose {
+    std::optional<std::size_t> material;  // none: no sample lies on the stage yet
+    TipView tip;
+    std::optional<std::size_t> hovered;
+    std::optional<input::WandState> wand;
+  };
+
+  // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.
+  void place(const Pose& pose, render::FrameState& frame) const;
+
+  // Only the transforms, for the shared block that the servo reads.
+  void place(const Pose& pose, scene::SceneTransforms& transforms) const;
+
+  // A panel that covers the middle of the wall, for looking at all curves together.
+  render::PanelPlacement wide_panel() const;
+
+ private:
+  struct MaterialLook {
+    scene::NodeIndex sample;
+    scene::NodeIndex swatch;
+    double stroke_m;           // from the deepest push to the highest lift
+    double full_deflection_m;  // at pull-off
+  };
+
+  void place_probe(const Pose& pose, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
+  void place_optics(const Pose& pose, const glm::dvec3& lever_end_m, std::vector<glm::dmat4>& local) const;
+  std::vector<glm::dmat4> local_transforms(const Pose& pose, render::BeamBend& bend) const;
+  std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;
+  render::PanelPlacement panel(double left, double bottom, double width, double height) const;
+
+  scene::Scene scene_;
+  std::vector<std::string> titles_;
+  std::vector<MaterialLook> looks_;
+  glm::dmat4 room_from_layout_{
+      1.0};                // origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre
+  double wall_width_ = 0;  // in layout units
+  double wall_top_ = 0;
+  double wall_bottom_ = 0;
+
+  scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, stage_{};
+  scene::NodeIndex laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{}, wand_{}, ray_{};
+  double lever_length_ = 0;  // glTF metres, clamp to tip axis
+  double tip_length_ = 0;    // glTF metres, base to apex
+};
+
+}  // namespace afm::app
