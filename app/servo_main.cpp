@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <thread>
+
+#include "core/clock.h"
+#include "core/file_descriptor.h"
+#include "core/log.h"
+#include "exit_code.h"
+#include "haptics/realtime.h"
+#include "haptics/servo_loop.h"
+#include "haptics/simulated_device.h"
+#include "scene/shared_segment.h"
+
+// touchafm-servo: the process that holds the hand. Its main thread is the servo; a second thread watches the renderer.
+namespace {
+
+using namespace std::string_view_literals;
+using afm::app::ExitCode;
+
+constexpr double kDefaultRateHz = 1000.0;
+
+struct Options {
+  int segment = -1;
+  int parent_socket = -1;
+  double rate_hz = kDefaultRateHz;
+};
+
+template <class Number>
+bool parse(std::string_view text, Number& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+std::optional<Options> parse_options(int count, char** arguments) {
+  Options options;
+  for (int i = 1; i < count; i += 2) {
+    const std::string_view name = arguments[i];
+    if (i + 1 == count) return std::nullopt;
+    const std::string_view value = arguments[i + 1];
+    const bool parsed = (name == "--segment"sv && parse(value, options.segment)) ||
+                        (name == "--parent-socket"sv && parse(value, options.parent_socket)) ||
+                        (name == "--rate"sv && parse(value, options.rate_hz));
+    if (!parsed) return std::nullopt;
+  }
+  if (options.segment < 0 || options.parent_socket < 0) return std::nullopt;
+  return options;
+}
+
+// Waits for the first of: the renderer's end of the socket closes, a signal asks to end, the servo is done. Real-time
+// like the servo, because the hand is held until it is heard.
+class Monitor {
+ public:
+  Monitor(afm::haptics::ServoLoop& loop, int parent_socket, int signals)
+      : done_(::eventfd(0, EFD_CLOEXEC)),
+        thread_([this, &loop, parent_socket, signals] { watch(loop, parent_socket, signals); }) {}
+
+  Monitor(const Monitor&) = delete;
+  Monitor& operator=(const Monitor&) = delete;
+
+  ~Monitor() {
+    ::eventfd_write(done_.get(), 1);
+    thread_.join();
+  }
+
+ private:
+  void watch(afm::haptics::ServoLoop& loop, int parent_socket, int signals) {
+    // the servo's notes say already what is refused here
+    afm::haptics::enter_realtime(afm::haptics::kMonitorPriority, afm::haptics::PageLock::Leave);
+    std::array<pollfd, 3> watched{{{.fd = parent_socket, .events = POLLIN, .revents = 0},
+                                   {.fd = signals, .events = POLLIN, .revents = 0},
+                                   {.fd = done_.get(), .events = POLLIN, .revents = 0}}};
+    while (::poll(watched.data(), watched.size(), -1) < 0 && errno == EINTR) {
+    }
+    if (watched[2].revents != 0) return;
+    if (watched[1].revents != 0) {
+      loop.stop();
+    } else {
+      // nothing is ever sent: whatever this is, it is the end, or a reason to let go
+      loop.renderer_died();
+    }
+  }
+
+  afm::core::FileDescriptor done_;
+  std::thread thread_;
+};
+
+// SIGINT and SIGTERM become readable events; every thread that is made from here on inherits the mask.
+afm::core::FileDescriptor catch_signals() {
+  sigset_t ending;
+  ::sigemptyset(&ending);
+  ::sigaddset(&ending, SIGINT);
+  ::sigaddset(&ending, SIGTERM);
+  ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+  return afm::core::FileDescriptor(::signalfd(-1, &ending, SFD_CLOEXEC));
+}
+
+ExitCode run(const Options& options) {
+  const afm::core::FileDescriptor parent_socket(options.parent_socket);
+  auto segment = afm::scene::SharedSegment::attach(afm::core::FileDescriptor(options.segment));
+  if (!segment) {
+    afm::core::log_line(segment.error().message);
+    return afm::app::exit_code(segment.error().category);
+  }
+  afm::haptics::SimulatedDevice device;
+  auto loop = afm::haptics::ServoLoop::create(*segment, device, options.rate_hz);
+  if (!loop) {
+    afm::core::log_line(loop.error().message);
+    return afm::app::exit_code(loop.error().category);
+  }
+
+  const afm::core::FileDescriptor signals = catch_signals();
+  const afm::core::MonotonicClock clock;
+  afm::haptics::ServoExit exit{};
+  {
+    const Monitor monitor(**loop, parent_socket.get(), signals.get());
+    const auto grant = afm::haptics::enter_realtime(afm::haptics::kServoPriority, afm::haptics::PageLock::Lock);
+    for (const std::string& note : grant.notes) afm::core::log_line(note);
+    (*loop)->note_grant(grant);
+    exit = (*loop)->run(clock);
+  }
+  if (exit == afm::haptics::ServoExit::RendererDied) {
+    afm::core::log_line("the renderer died: force released");
+    return ExitCode::RunFailed;
+  }
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  // a reader of stderr that died with the renderer must not end the servo
+  ::signal(SIGPIPE, SIG_IGN);
+  const auto options = parse_options(count, arguments);
+  if (!options) {
+    afm::core::log_line("touchafm-servo is started by touchafm; run 'touchafm demo --out DIR' instead");
+    return static_cast<int>(ExitCode::WrongUsage);
+  }
+  return static_cast<int>(run(*options));
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "scene/shared_blocks.h"
+
+// What the servo knows of a haptic device. The device frame is right +x, up +y, towards the user +z, in metres; its
+// axes are parallel to the room's.
+namespace afm::haptics {
+
+struct DeviceSpec {
+  std::string name;
+  double max_force_n = 0;             // nominal peak
+  double max_continuous_force_n = 0;  // what the motors stand for ever
+  double max_stiffness_n_per_m = 0;   // stable at the servo's rate
+  glm::dvec3 workspace_min_m{0.0};
+  glm::dvec3 workspace_max_m{0.0};
+  glm::dvec3 contact_point_m{0.0};  // where the hand is when the tip touches the undeformed sample (Z = 0)
+};
+
+// The force that the servo lets a device have at most: 2.0 N, the default of careful drivers for hands
+// (sawSensablePhantom), and less for a device whose nominal peak leaves no reserve of a tenth.
+double force_cap_n(const DeviceSpec& spec);
+
+struct DeviceSample {
+  glm::dvec3 position_m{0.0};
+  bool turn_on = false;               // the button that enables the force, held down
+  bool healthy = true;                // false: the device failed, the rest is not to be used
+  std::uint32_t finished_script = 0;  // revision of the newest HandScript that was played to its end
+};
+
+// A force for a hand. Only SafetyGovernor can make one, so no other code can push a device.
+class ForceCommand {
+ public:
+  const glm::dvec3& force_n() const noexcept { return force_n_; }
+
+ private:
+  friend class SafetyGovernor;
+  explicit ForceCommand(const glm::dvec3& force_n) : force_n_(force_n) {}
+
+  glm::dvec3 force_n_;
+};
+
+// A haptic device, used by the servo's thread alone. read() and write() are called in turn, once per tick, and neither
+// waits, allocates nor throws.
+class HapticDevice {
+ public:
+  HapticDevice() = default;
+  HapticDevice(const HapticDevice&) = delete;
+  HapticDevice& operator=(const HapticDevice&) = delete;
+  virtual ~HapticDevice() = default;
+
+  virtual const DeviceSpec& spec() const noexcept = 0;
+  virtual DeviceSample read(std::int64_t now_ns) noexcept = 0;
+  virtual void write(const ForceCommand& command) noexcept = 0;
+
+  // What the simulated person is to do next. There is nobody to tell at a real device.
+  virtual void follow(const scene::HandScript& /*script*/) noexcept {}
+};
+
+}  // namespace afm::haptics

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/result.h"
+#include "haptics/device.h"
+#include "haptics/realtime.h"
+#include "haptics/safety.h"
+#include "haptics/scaling.h"
+#include "physics/force_model.h"
+#include "scene/shared_segment.h"
+
+namespace afm::haptics {
+
+enum class ServoExit { RendererLeft, RendererDied, Stopped };
+
+// The servo: hand's position in, force out, once a period, and a record of it in the shared segment. It reads what the
+// renderer shares but never waits for it.
+//
+// tick() and run() belong to one thread; they do not allocate, lock, log, throw or make a system call except to read
+// the clock and, in run(), to sleep. renderer_died() and stop() may be called from any thread.
+class ServoLoop {
+ public:
+  // Builds the force law and the scaling of every material, so that a tick never has to. Fails on materials without
+  // a force law, on a device that cannot show them, and on a rate outside 100 Hz to 10 kHz. The segment and the device
+  // must outlive the loop.
+  static core::Result<std::unique_ptr<ServoLoop>> create(scene::SharedSegment& segment, HapticDevice& device,
+                                                         double rate_hz);
+
+  // One period. `now_ns` grows from tick to tick; `wake_us` is how late it came and is only recorded.
+  void tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
+
+  // Ticks at absolute deadlines until the renderer is gone or stop() was called, and the hand is released. A deadline
+  // that has passed is skipped and counted, never caught up.
+  ServoExit run(const core::MonotonicClock& clock) noexcept;
+
+  void renderer_died() noexcept { renderer_died_.store(true, std::memory_order_relaxed); }
+  void stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
+
+  // What enter_realtime() granted, for the record. Before run().
+  void note_grant(const RealtimeGrant& grant) noexcept;
+
+  std::int64_t period_ns() const noexcept { return period_ns_; }
+  const scene::ServoTiming& timing() const noexcept { return timing_; }
+
+ private:
+  // What the hand meets with one material under the tip.
+  struct Encounter {
+    physics::ApproachRetractModel model;
+    FitScaling scaling;
+  };
+
+  ServoLoop(scene::SharedSegment& segment, HapticDevice& device, std::int64_t period_ns,
+            std::vector<Encounter> encounters);
+
+  void read_shared_blocks(std::int64_t now_ns) noexcept;
+  void turn_sample(const std::array<double, 16>& room_from_sample) noexcept;
+  void change_material() noexcept;
+  RendererLink renderer_link(std::int64_t now_ns) const noexcept;
+  void publish(std::int64_t now_ns, std::uint32_t wake_us, const physics::TipResponse& response) noexcept;
+  void publish_events(std::int64_t now_ns, const physics::TipResponse& response) noexcept;
+  bool finished() const noexcept;
+
+  scene::ServoSide shared_;
+  HapticDevice& device_;
+  std::int64_t period_ns_;
+  std::uint32_t sample_node_;
+  std::vector<Encounter> encounters_;  // one per material; never resized after construction
+  SafetyGovernor governor_;
+
+  Encounter* encounter_ = nullptr;  // the material under the tip, null before the first choice
+  scene::Selection chosen_;         // the newest choice, perhaps not in effect yet
+  glm::dvec3 normal_{0.0, 1.0, 0.0};
+  glm::dvec3 hand_position_m_;
+  double hand_height_m_ = 0;
+  scene::TipState state_;
+  std::int64_t previous_ns_ = 0;
+
+  bool heard_renderer_ = false;
+  bool leaving_ = false;
+  std::int64_t heartbeat_seen_ns_ = 0;
+  std::uint32_t refused_transforms_ = 0;
+  std::atomic<bool> renderer_died_{false};
+  std::atomic<bool> stop_{false};
+
+  scene::ServoTiming timing_;
+};
+
+}  // namespace afm::haptics

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "core/file_descriptor.h"
+#include "core/result.h"
+#include "haptics/servo_loop.h"
+#include "scene/shared_segment.h"
+
+// How touchafm starts a servo, sees whether it lives, and ends it.
+namespace afm::haptics {
+
+// A running servo. Used by the thread that stores heartbeats; the segment and its RendererSide must outlive it.
+//
+// The destructor ends it in good order: it stores a heartbeat that says `leaving`, which fades the force, and waits.
+// The caller stores no other heartbeat from then on.
+class Servo {
+ public:
+  Servo() = default;
+  Servo(const Servo&) = delete;
+  Servo& operator=(const Servo&) = delete;
+  virtual ~Servo() = default;
+
+  virtual bool alive() noexcept = 0;
+
+  // Once it has ended: its exit code, or 128 and the number of the signal that ended it, as a shell counts.
+  virtual std::optional<int> exit_status() noexcept = 0;
+};
+
+// touchafm-servo as a child process, which inherits the standard streams, the segment and one end of a socket pair, and
+// nothing else. When this process dies, in whatever way, the kernel closes the other end, and the servo releases the
+// hand.
+class ServoProcess final : public Servo {
+ public:
+  // `program` is the path of touchafm-servo; `rate_hz` is what ServoLoop takes.
+  static core::Result<std::unique_ptr<ServoProcess>> spawn(const std::string& program, scene::SharedSegment& segment,
+                                                           scene::RendererSide& side, double rate_hz);
+
+  // Waits at most 2 s for the servo to leave; then it is terminated, then killed. Leaves no zombie.
+  ~ServoProcess() override;
+
+  bool alive() noexcept override;
+  std::optional<int> exit_status() noexcept override;
+  pid_t pid() const noexcept { return pid_; }
+
+ private:
+  ServoProcess(pid_t pid, core::FileDescriptor lifeline, scene::RendererSide& side)
+      : pid_(pid), lifeline_(std::move(lifeline)), side_(side) {}
+
+  bool ended_within(int milliseconds) noexcept;
+
+  pid_t pid_;
+  core::FileDescriptor lifeline_;
+  scene::RendererSide& side_;
+  std::optional<int> exit_status_;
+};
+
+// The same loop with the same simulated device as a thread of this process, for sanitizers and debuggers. Its pages are
+// not locked, so it reports itself as not real-time; a debugger's stop disarms it.
+class ServoThread final : public Servo {
+ public:
+  static core::Result<std::unique_ptr<ServoThread>> start(scene::SharedSegment& segment, scene::RendererSide& side,
+                                                          double rate_hz);
+  ~ServoThread() override;
+
+  bool alive() noexcept override { return !exit_status().has_value(); }
+  std::optional<int> exit_status() noexcept override;
+
+ private:
+  ServoThread(std::unique_ptr<HapticDevice> device, std::unique_ptr<ServoLoop> loop, scene::RendererSide& side);
+
+  std::unique_ptr<HapticDevice> device_;
+  std::unique_ptr<ServoLoop> loop_;
+  scene::RendererSide& side_;
+  std::atomic<int> exit_status_{kRunning};
+  std::thread thread_;
+
+  static constexpr int kRunning = -1;
+};
+
+}  // namespace afm::haptics

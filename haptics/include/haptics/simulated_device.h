@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "haptics/device.h"
+
+namespace afm::haptics {
+
+// How a hand that holds a pen responds, per axis: m x'' = -c x' + k (aim - x) + force.
+struct HandImpedance {
+  double mass_kg = 0.12;
+  double damping_n_s_per_m = 2.0;
+  double grip_stiffness_n_per_m = 200.0;
+};
+
+// A person at an Omni: the hand hangs by its grip's stiffness on an aim that moves along minimum-jerk paths (Flash &
+// Hogan 1985), and the force of the device moves the hand. So attraction really pulls it down, and pull-off lets it
+// fly.
+//
+// Between two reads the force is constant and the aim is taken as straight, and the motion is solved in closed form:
+// deterministic given the times of the ticks, exact at any tick length, bounded in cost. The workspace ends in
+// inelastic stops.
+//
+// A person who tears at 2 N must aim 10 mm above the place where the tip lets go (2 N / 200 N/m).
+class SimulatedDevice final : public HapticDevice {
+ public:
+  // The hand rests where it is put. The impedance must be oscillatory: c^2 < 4 m k.
+  explicit SimulatedDevice(const glm::dvec3& start_m = glm::dvec3(0.0, 0.060, 0.0), const HandImpedance& hand = {});
+
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  DeviceSample read(std::int64_t now_ns) noexcept override;
+  void write(const ForceCommand& command) noexcept override { force_n_ = command.force_n(); }
+  void follow(const scene::HandScript& script) noexcept override { next_ = script; }
+
+  const glm::dvec3& velocity_m_per_s() const noexcept { return velocity_m_per_s_; }
+
+ private:
+  glm::dvec3 aim_m(std::int64_t now_ns) const noexcept;
+  void advance(int axis, double seconds, double aim_from_m, double aim_to_m) noexcept;
+  void begin_next_script() noexcept;
+
+  DeviceSpec spec_;
+  HandImpedance hand_;
+  scene::HandScript next_;  // the newest that was heard, possibly the one under way
+
+  // the path under way, and where the aim was at the last read
+  std::int64_t path_begin_ns_ = 0;
+  double path_duration_s_ = 0;
+  glm::dvec3 path_from_m_;
+  glm::dvec3 path_to_m_;
+  glm::dvec3 aim_m_;
+  std::uint32_t script_ = 0;
+  std::uint32_t finished_script_ = 0;
+
+  glm::dvec3 position_m_;
+  glm::dvec3 velocity_m_per_s_{0.0};
+  glm::dvec3 force_n_{0.0};
+  std::int64_t time_ns_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace afm::haptics

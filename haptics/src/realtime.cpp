@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/realtime.h"
+
+#include <fmt/core.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+
+namespace afm::haptics {
+
+namespace {
+
+// Touches more stack than a tick uses, so that no tick meets a page fault there.
+void prefault_stack() {
+  constexpr std::size_t kBytes = 256 * 1024;
+  constexpr std::size_t kPage = 4096;
+  std::array<char, kBytes> stack;
+  volatile char* bytes = stack.data();
+  for (std::size_t i = 0; i < kBytes; i += kPage) bytes[i] = 0;
+}
+
+}  // namespace
+
+RealtimeGrant enter_realtime(int priority, PageLock lock) {
+  RealtimeGrant grant;
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  if (const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters); error == 0) {
+    grant.priority = priority;
+  } else {
+    grant.notes.push_back(
+        fmt::format("not real-time: SCHED_FIFO {} was refused ({}); grant rtprio {} in "
+                    "/etc/security/limits.d and log in again",
+                    priority, std::strerror(error), priority));
+  }
+  if (::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL) != 0) {
+    grant.notes.push_back(fmt::format("timers stay coarse: a slack of 1 ns was refused ({})", std::strerror(errno)));
+  }
+  if (lock == PageLock::Lock) {
+    grant.pages_locked = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+    if (!grant.pages_locked) {
+      grant.notes.push_back(
+          fmt::format("not real-time: locking the pages was refused ({}); grant memlock unlimited in "
+                      "/etc/security/limits.d and log in again",
+                      std::strerror(errno)));
+    }
+  }
+  prefault_stack();
+  return grant;
+}
+
+}  // namespace afm::haptics

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/servo_loop.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <ctime>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <stdexcept>
+
+namespace afm::haptics {
+
+using scene::ContactPhase;
+using scene::ServoState;
+
+namespace {
+
+constexpr double kSlowestHz = 100.0;
+constexpr double kFastestHz = 10'000.0;
+constexpr std::uint64_t kTimingStoresPerSecond = 5;
+
+ContactPhase shared_phase(physics::Phase phase) {
+  switch (phase) {
+    case physics::Phase::Free:
+      return ContactPhase::Free;
+    case physics::Phase::Attached:
+      return ContactPhase::Attached;
+    case physics::Phase::WaitForLift:
+      break;
+  }
+  return ContactPhase::WaitForLift;
+}
+
+physics::Interaction interaction(const scene::SharedMaterial& material) {
+  return {.tip_radius = physics::Length(material.tip_radius_m),
+          .spring_constant = physics::Stiffness(material.spring_constant_n_per_m),
+          .sample_stiffness = physics::Stiffness(material.sample_stiffness_n_per_m),
+          .hamaker = physics::Energy(material.hamaker_j),
+          .mean_surface_energy = physics::SurfaceEnergy(material.mean_surface_energy_j_per_m2)};
+}
+
+void count(std::array<std::uint32_t, scene::kHistogramBins>& bins, std::uint32_t& largest, std::uint32_t us) {
+  ++bins[std::min<std::uint32_t>(us, scene::kHistogramBins - 1)];
+  largest = std::max(largest, us);
+}
+
+std::uint32_t microseconds(std::int64_t ns) {
+  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(ns / 1000, 0, UINT32_MAX));
+}
+
+void sleep_until(std::int64_t deadline_ns) {
+  const timespec deadline{.tv_sec = deadline_ns / 1'000'000'000, .tv_nsec = deadline_ns % 1'000'000'000};
+  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
+  }
+}
+
+}  // namespace
+
+core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment& segment, HapticDevice& device,
+                                                           double rate_hz) {
+  if (!(rate_hz >= kSlowestHz && rate_hz <= kFastestHz)) {
+    return core::failure(
+        core::ErrorCategory::WrongUsage,
+        fmt::format("cannot run the servo at {} Hz: choose {} to {} Hz", rate_hz, kSlowestHz, kFastestHz));
+  }
+  std::vector<Encounter> encounters;
+  encounters.reserve(segment.model().material_count);
+  for (std::uint32_t i = 0; i < segment.model().material_count; ++i) {
+    try {
+      physics::ApproachRetractModel model(interaction(segment.model().materials[i]));
+      auto scaling = FitScaling::create(model.events(), device.spec());
+      if (!scaling) return tl::unexpected(scaling.error());
+      encounters.push_back({.model = model, .scaling = *scaling});
+    } catch (const std::invalid_argument& error) {
+      return core::failure(
+          core::ErrorCategory::Failed,
+          fmt::format("cannot make material {} felt: {}", segment.model().materials[i].name.data(), error.what()));
+    }
+  }
+  const auto period_ns = static_cast<std::int64_t>(std::llround(1e9 / rate_hz));
+  return std::unique_ptr<ServoLoop>(new ServoLoop(segment, device, period_ns, std::move(encounters)));
+}
+
+ServoLoop::ServoLoop(scene::SharedSegment& segment, HapticDevice& device, std::int64_t period_ns,
+                     std::vector<Encounter> encounters)
+    : shared_(segment.servo_side()),
+      device_(device),
+      period_ns_(period_ns),
+      sample_node_(segment.model().sample_node),
+      encounters_(std::move(encounters)),
+      governor_(period_ns, force_cap_n(device.spec()), FitScaling::kStrokeM),
+      hand_position_m_(device.spec().contact_point_m) {
+  timing_.rate_hz = 1e9 / static_cast<double>(period_ns);
+  const glm::dmat4 rest = scene::rest_room_from_node(segment.model(), sample_node_);
+  std::array<double, 16> room_from_sample{};
+  std::copy_n(glm::value_ptr(rest), room_from_sample.size(), room_from_sample.begin());
+  turn_sample(room_from_sample);
+}
+
+void ServoLoop::note_grant(const RealtimeGrant& grant) noexcept {
+  timing_.policy_fifo = grant.priority > 0 ? 1 : 0;
+  timing_.priority = static_cast<std::uint32_t>(std::max(0, grant.priority));
+  timing_.pages_locked = grant.pages_locked ? 1 : 0;
+  state_.realtime = grant.realtime() ? 1 : 0;
+}
+
+void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
+  read_shared_blocks(now_ns);
+  const DeviceSample hand = device_.read(now_ns);
+
+  // the place of a device that failed, or that makes no sense, is the last one known; the governor hears of it below
+  const double sum = hand.position_m.x + hand.position_m.y + hand.position_m.z;
+  const bool usable = hand.healthy && std::isfinite(sum);
+  if (usable) {
+    hand_position_m_ = hand.position_m;
+    hand_height_m_ = glm::dot(hand.position_m - device_.spec().contact_point_m, normal_);
+  } else if (encounter_ != nullptr) {
+    encounter_->model.wait_for_lift();
+  }
+
+  physics::TipResponse response;
+  double wanted_n = 0;
+  if (encounter_ != nullptr) {
+    response = encounter_->model.step(physics::Length(encounter_->scaling.z_m(hand_height_m_)));
+    wanted_n = encounter_->scaling.hand_force_n(response.force.si);
+  }
+  bool pulled_off = false;
+  for (std::uint32_t i = 0; i < response.event_count; ++i) {
+    pulled_off = pulled_off || response.events[i].kind == physics::EventKind::JumpOffContact;
+  }
+
+  const auto output = governor_.step({.time_ns = now_ns,
+                                      .hand_position_m = hand.position_m,
+                                      .wanted_force_n = wanted_n * normal_,
+                                      .hand_height_m = hand_height_m_,
+                                      .phase = shared_phase(response.phase),
+                                      .pulled_off = pulled_off,
+                                      .turn_on = hand.turn_on,
+                                      .device_healthy = hand.healthy,
+                                      .renderer = renderer_link(now_ns)});
+  device_.write(output.command);
+  if (output.dropped && encounter_ != nullptr) encounter_->model.wait_for_lift();
+
+  const glm::dvec3& force_n = output.command.force_n();
+  state_.hand_force_n = {force_n.x, force_n.y, force_n.z};
+  state_.hand_revision = hand.finished_script;
+  publish_events(now_ns, response);
+  publish(now_ns, wake_us, response);
+  previous_ns_ = now_ns;
+  change_material();
+}
+
+void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
+  if (const auto heartbeat = shared_.new_heartbeat()) {
+    // the time of its arrival counts, not the time that it claims
+    heartbeat_seen_ns_ = now_ns;
+    heard_renderer_ = true;
+    leaving_ = leaving_ || heartbeat->leaving != 0;
+  }
+  if (const auto transforms = shared_.new_transforms()) turn_sample(transforms->room_from_node[sample_node_]);
+  if (const auto selection = shared_.new_selection()) chosen_ = *selection;
+  if (const auto script = shared_.new_hand_script()) device_.follow(*script);
+}
+
+// The outward normal is +z of the sample's frame, which navigation only moves, turns and scales.
+void ServoLoop::turn_sample(const std::array<double, 16>& room_from_sample) noexcept {
+  const glm::dvec3 z_axis(room_from_sample[8], room_from_sample[9], room_from_sample[10]);
+  const double length = glm::length(z_axis);
+  if (std::isnormal(length)) {
+    normal_ = z_axis / length;
+  } else {
+    ++refused_transforms_;
+  }
+}
+
+// The paper's procedure: choose, lift, press Turn-On. A choice waits until the tip is off the sample, then the force is
+// taken away, and only without force does the law change.
+void ServoLoop::change_material() noexcept {
+  if (chosen_.material < 0 || chosen_.revision == state_.selection_revision) return;
+  if (chosen_.material != state_.material) {
+    if (encounter_ != nullptr && encounter_->model.phase() == physics::Phase::Attached) return;
+    governor_.disarm();
+    if (!governor_.released()) return;
+    encounter_ = &encounters_[static_cast<std::size_t>(chosen_.material)];
+    encounter_->model.wait_for_lift();
+    state_.material = chosen_.material;
+    state_.hand_m_per_m = encounter_->scaling.hand_m_per_m();
+    state_.hand_n_per_n = encounter_->scaling.hand_n_per_n();
+  }
+  state_.selection_revision = chosen_.revision;
+}
+
+RendererLink ServoLoop::renderer_link(std::int64_t now_ns) const noexcept {
+  if (renderer_died_.load(std::memory_order_relaxed)) return RendererLink::Died;
+  if (leaving_ || stop_.load(std::memory_order_relaxed)) return RendererLink::Leaving;
+  if (!heard_renderer_) return RendererLink::Absent;
+  return now_ns - heartbeat_seen_ns_ > SafetyGovernor::kHangNs ? RendererLink::Hung : RendererLink::Alive;
+}
+
+void ServoLoop::publish_events(std::int64_t now_ns, const physics::TipResponse& response) noexcept {
+  for (std::uint32_t i = 0; i < response.event_count; ++i) {
+    const physics::ModelEvent& event = response.events[i];
+    const double since_previous_ns = event.fraction * static_cast<double>(now_ns - previous_ns_);
+    shared_.push(scene::TipEvent{.kind = event.kind == physics::EventKind::JumpToContact
+                                             ? scene::TipEventKind::JumpToContact
+                                             : scene::TipEventKind::JumpOffContact,
+                                 .material = state_.material,
+                                 .time_ns = previous_ns_ + std::llround(since_previous_ns),
+                                 .z_m = event.z.si,
+                                 .force_before_n = event.force_before.si,
+                                 .force_after_n = event.force_after.si});
+  }
+}
+
+void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physics::TipResponse& response) noexcept {
+  ++state_.tick;
+  state_.time_ns = now_ns;
+  state_.z_m = encounter_ != nullptr ? encounter_->scaling.z_m(hand_height_m_) : 0.0;
+  state_.tip_height_m = response.tip_height.si;
+  state_.deflection_m = response.cantilever_deflection.si;
+  state_.sample_deformation_m = response.sample_deformation.si;
+  state_.force_n = response.force.si;
+  state_.hand_position_m = {hand_position_m_.x, hand_position_m_.y, hand_position_m_.z};
+  state_.servo_state = governor_.state();
+  state_.phase = shared_phase(response.phase);
+  state_.fault = governor_.fault();
+  state_.garbage_blocks = shared_.refused_blocks() + refused_transforms_;
+  shared_.store(state_);
+
+  // without a material there is no curve to draw
+  if (encounter_ == nullptr) return;
+  const glm::dvec3 hand_force_n(state_.hand_force_n[0], state_.hand_force_n[1], state_.hand_force_n[2]);
+  shared_.push(scene::TipSample{.time_ns = now_ns,
+                                .tick = state_.tick,
+                                .z_m = state_.z_m,
+                                .force_n = state_.force_n,
+                                .tip_height_m = state_.tip_height_m,
+                                .deflection_m = state_.deflection_m,
+                                .sample_deformation_m = state_.sample_deformation_m,
+                                .hand_height_m = hand_height_m_,
+                                .hand_force_n = glm::dot(hand_force_n, normal_),
+                                .servo_state = state_.servo_state,
+                                .phase = state_.phase,
+                                .material = state_.material,
+                                .wake_us = wake_us});
+}
+
+bool ServoLoop::finished() const noexcept {
+  const bool ending =
+      leaving_ || renderer_died_.load(std::memory_order_relaxed) || stop_.load(std::memory_order_relaxed);
+  return ending && governor_.released();
+}
+
+ServoExit ServoLoop::run(const core::MonotonicClock& clock) noexcept {
+  const std::uint64_t ticks_per_store =
+      std::max<std::uint64_t>(1, static_cast<std::uint64_t>(timing_.rate_hz) / kTimingStoresPerSecond);
+  std::int64_t deadline_ns = clock.now_ns() + period_ns_;
+  do {
+    sleep_until(deadline_ns);
+    const std::int64_t woke_ns = clock.now_ns();
+    const std::int64_t missed = std::max<std::int64_t>(0, woke_ns - deadline_ns) / period_ns_;
+    const std::uint32_t wake_us = microseconds(woke_ns - deadline_ns);
+    tick(woke_ns, wake_us);
+    deadline_ns += (missed + 1) * period_ns_;
+
+    ++timing_.ticks;
+    timing_.missed += static_cast<std::uint64_t>(missed);
+    count(timing_.wake_us, timing_.wake_max_us, wake_us);
+    count(timing_.work_us, timing_.work_max_us, microseconds(clock.now_ns() - woke_ns));
+
+    // in the slack before the next deadline: some 16 KB, a few microseconds
+    if (timing_.ticks % ticks_per_store == 0) shared_.store(timing_);
+  } while (!finished());
+
+  shared_.store(timing_);
+  if (leaving_) return ServoExit::RendererLeft;
+  return renderer_died_.load(std::memory_order_relaxed) ? ServoExit::RendererDied : ServoExit::Stopped;
+}
+
+}  // namespace afm::haptics
