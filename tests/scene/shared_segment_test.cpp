@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/shared_segment.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "support/paper_model.h"
+
+namespace {
+
+using namespace afm::scene;
+using afm::core::FileDescriptor;
+using afm::test::paper_model;
+using testing::HasSubstr;
+
+constexpr std::uint64_t kDigest = 0x1234;
+constexpr off_t kVersionOffset = 8;  // after the magic
+constexpr off_t kBlockSizesOffset = 32;
+
+SharedSegment create_segment() {
+  auto segment = SharedSegment::create(paper_model(), kDigest);
+  EXPECT_TRUE(segment) << segment.error().message;
+  return std::move(*segment);
+}
+
+FileDescriptor copy_of(const SharedSegment& segment) { return FileDescriptor(::dup(segment.descriptor())); }
+
+template <class T>
+void overwrite(const SharedSegment& segment, off_t offset, const T& value) {
+  ASSERT_EQ(::pwrite(segment.descriptor(), &value, sizeof(T), offset), static_cast<ssize_t>(sizeof(T)));
+}
+
+std::string attach_error(const SharedSegment& segment) {
+  const auto attached = SharedSegment::attach(copy_of(segment));
+  return attached ? "attached" : attached.error().message;
+}
+
+TEST(SharedSegment, ShowsTheModelToWhoAttaches) {
+  const SharedSegment segment = create_segment();
+  const auto attached = SharedSegment::attach(copy_of(segment));
+  ASSERT_TRUE(attached) << attached.error().message;
+  EXPECT_EQ(attached->scene_digest(), kDigest);
+  EXPECT_EQ(attached->model().material_count, 3U);
+  EXPECT_STREQ(attached->model().materials[1].name.data(), "gold");
+}
+
+TEST(SharedSegment, CarriesEveryBlockAcross) {
+  SharedSegment segment = create_segment();
+  auto attached = SharedSegment::attach(copy_of(segment));
+  ASSERT_TRUE(attached);
+  RendererSide renderer = segment.renderer_side();
+  ServoSide servo = attached->servo_side();
+
+  EXPECT_FALSE(servo.new_transforms() || servo.new_selection() || servo.new_hand_script() || servo.new_heartbeat());
+  SceneTransforms transforms;
+  transforms.count = 2;
+  transforms.room_from_node[1][5] = 3.0;
+  renderer.store(transforms);
+  renderer.store(Selection{.material = 2, .revision = 9});
+  renderer.store(HandScript{.target_m = {0, 0.1, 0}, .duration_s = 2, .revision = 4, .turn_on_pressed = 1});
+  renderer.store(RendererHeartbeat{.time_ns = 77, .frame = 5});
+  EXPECT_EQ(servo.new_transforms()->room_from_node[1][5], 3.0);
+  EXPECT_EQ(servo.new_selection()->revision, 9U);
+  EXPECT_EQ(servo.new_hand_script()->target_m[1], 0.1);
+  EXPECT_EQ(servo.new_heartbeat()->time_ns, 77);
+  EXPECT_FALSE(servo.new_transforms() || servo.new_selection() || servo.new_hand_script() || servo.new_heartbeat());
+
+  EXPECT_FALSE(renderer.tip_state() || renderer.servo_timing() || renderer.pop_sample() || renderer.pop_event());
+  servo.store(TipState{.tick = 3, .z_m = 1e-9});
+  ServoTiming timing;
+  timing.wake_us[kHistogramBins - 1] = 8;
+  servo.store(timing);
+  servo.push(TipSample{.tick = 1});
+  servo.push(TipSample{.tick = 2});
+  servo.push(TipEvent{.kind = TipEventKind::JumpOffContact});
+  EXPECT_EQ(renderer.tip_state()->z_m, 1e-9);
+  EXPECT_EQ(renderer.servo_timing()->wake_us[kHistogramBins - 1], 8U);
+  EXPECT_EQ(renderer.pop_sample()->tick, 1U);
+  EXPECT_EQ(renderer.pop_sample()->tick, 2U);
+  EXPECT_FALSE(renderer.pop_sample());
+  EXPECT_EQ(renderer.pop_event()->kind, TipEventKind::JumpOffContact);
+  EXPECT_EQ(renderer.refused_blocks() + servo.refused_blocks(), 0U);
+}
+
+TEST(SharedSegment, CountsTheSamplesThatNobodyTook) {
+  SharedSegment segment = create_segment();
+  ServoSide servo = segment.servo_side();
+  for (std::uint32_t i = 0; i < kSampleRingCapacity + 5; ++i) servo.push(TipSample{});
+  EXPECT_EQ(segment.renderer_side().lost_samples(), 5U);
+}
+
+TEST(SharedSegment, ServesTwoProcesses) {
+  SharedSegment segment = create_segment();
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    auto attached = SharedSegment::attach(copy_of(segment));
+    if (attached) attached->servo_side().push(TipSample{.tick = 42});
+    ::_exit(attached ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(segment.renderer_side().pop_sample()->tick, 42U);
+}
+
+TEST(SharedSegment, IsSealedAgainstResizing) {
+  const SharedSegment segment = create_segment();
+  EXPECT_NE(::ftruncate(segment.descriptor(), 4096), 0);
+  EXPECT_NE(::fcntl(segment.descriptor(), F_GETFD) & FD_CLOEXEC, 0);
+}
+
+TEST(SharedSegment, PrintsBothVersionsWhenTheyDiffer) {
+  const SharedSegment segment = create_segment();
+  overwrite(segment, kVersionOffset, std::uint32_t{kSegmentVersion + 41});
+  EXPECT_THAT(attach_error(segment), HasSubstr("version 42"));
+  EXPECT_THAT(attach_error(segment), HasSubstr("version 1"));
+}
+
+TEST(SharedSegment, RefusesOtherBlockSizes) {
+  const SharedSegment segment = create_segment();
+  overwrite(segment, kBlockSizesOffset, std::uint32_t{12});
+  EXPECT_THAT(attach_error(segment), HasSubstr("blocks differ"));
+}
+
+TEST(SharedSegment, RefusesWhatIsNoSegment) {
+  const SharedSegment segment = create_segment();
+  overwrite(segment, 0, std::uint64_t{0});
+  EXPECT_THAT(attach_error(segment), HasSubstr("something else"));
+
+  EXPECT_THAT(SharedSegment::attach(FileDescriptor(::open("/dev/null", O_RDWR))).error().message, HasSubstr("shorter"));
+  EXPECT_THAT(SharedSegment::attach(FileDescriptor(9999)).error().message, HasSubstr("9999"));
+}
+
+TEST(SharedSegment, RefusesACopyThatCouldShrink) {
+  const SharedSegment segment = create_segment();
+  std::vector<char> bytes(static_cast<std::size_t>(::lseek(segment.descriptor(), 0, SEEK_END)));
+  ASSERT_EQ(::pread(segment.descriptor(), bytes.data(), bytes.size(), 0), static_cast<ssize_t>(bytes.size()));
+  FileDescriptor unsealed(::memfd_create("unsealed", MFD_CLOEXEC));
+  ASSERT_EQ(::write(unsealed.get(), bytes.data(), bytes.size() - 1), static_cast<ssize_t>(bytes.size() - 1));
+  EXPECT_THAT(SharedSegment::attach(FileDescriptor(::dup(unsealed.get()))).error().message,
+              HasSubstr("bytes instead of"));
+  ASSERT_EQ(::pwrite(unsealed.get(), &bytes.back(), 1, static_cast<off_t>(bytes.size() - 1)), 1);
+  EXPECT_THAT(SharedSegment::attach(std::move(unsealed)).error().message, HasSubstr("not sealed"));
+}
+
+struct BadModel {
+  const char* message;
+  void (*spoil)(SharedModel&);
+};
+
+class SharedModelWith : public testing::TestWithParam<BadModel> {};
+
+TEST_P(SharedModelWith, IsRefusedWithAReason) {
+  SharedModel model = paper_model();
+  ASSERT_TRUE(validate(model));
+  GetParam().spoil(model);
+  const auto created = SharedSegment::create(model, kDigest);
+  ASSERT_FALSE(created);
+  EXPECT_THAT(created.error().message, HasSubstr(GetParam().message));
+}
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+INSTANTIATE_TEST_SUITE_P(
+    Defects, SharedModelWith,
+    testing::Values(BadModel{"0 nodes", [](SharedModel& m) { m.node_count = 0; }},
+                    BadModel{"129 nodes", [](SharedModel& m) { m.node_count = 129; }},
+                    BadModel{"0 materials", [](SharedModel& m) { m.material_count = 0; }},
+                    BadModel{"17 materials", [](SharedModel& m) { m.material_count = 17; }},
+                    BadModel{"sample is node 2", [](SharedModel& m) { m.sample_node = 2; }},
+                    BadModel{"node 1 stands before its parent 1", [](SharedModel& m) { m.nodes[1].parent = 1; }},
+                    BadModel{"node 0 stands before its parent 5", [](SharedModel& m) { m.nodes[0].parent = 5; }},
+                    BadModel{"transform", [](SharedModel& m) { m.nodes[1].parent_from_node[3] = kNan; }},
+                    BadModel{"name without an end", [](SharedModel& m) { m.nodes[0].name.fill('x'); }},
+                    BadModel{"name without an end", [](SharedModel& m) { m.materials[0].name.fill('x'); }},
+                    BadModel{"material 2", [](SharedModel& m) { m.materials[2].hamaker_j = kNan; }},
+                    BadModel{"material 1", [](SharedModel& m) { m.materials[1].tip_radius_m = 0; }},
+                    BadModel{"material 0", [](SharedModel& m) { m.materials[0].spring_constant_n_per_m = -1; }},
+                    BadModel{"material 0",
+                             [](SharedModel& m) { m.materials[0].sample_stiffness_n_per_m = -INFINITY; }}));
+
+TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
+  SharedSegment segment = create_segment();
+  RendererSide renderer = segment.renderer_side();
+  ServoSide servo = segment.servo_side();
+
+  renderer.store(Selection{.material = 3, .revision = 1});
+  EXPECT_FALSE(servo.new_selection());
+  renderer.store(HandScript{.target_m = {0, kNan, 0}});
+  EXPECT_FALSE(servo.new_hand_script());
+  renderer.store(HandScript{.duration_s = -1});
+  EXPECT_FALSE(servo.new_hand_script());
+  renderer.store(SceneTransforms{.count = 3});
+  EXPECT_FALSE(servo.new_transforms());
+  renderer.store(RendererHeartbeat{.leaving = 2});
+  EXPECT_FALSE(servo.new_heartbeat());
+  EXPECT_EQ(servo.refused_blocks(), 5U);
+
+  servo.store(TipState{.z_m = kNan});
+  EXPECT_FALSE(renderer.tip_state());
+  servo.store(TipState{.servo_state = static_cast<ServoState>(77)});
+  EXPECT_FALSE(renderer.tip_state());
+  servo.push(TipEvent{.kind = static_cast<TipEventKind>(0)});
+  servo.push(TipEvent{.kind = TipEventKind::JumpToContact, .material = 3});
+  EXPECT_FALSE(renderer.pop_event());
+  // what comes after a bad sample is still found
+  servo.push(TipSample{.force_n = kNan});
+  servo.push(TipSample{.tick = 8});
+  EXPECT_EQ(renderer.pop_sample()->tick, 8U);
+  EXPECT_EQ(renderer.refused_blocks(), 5U);
+}
+
+TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
+  SharedSegment segment = create_segment();
+  const auto size = static_cast<std::size_t>(::lseek(segment.descriptor(), 0, SEEK_END));
+  std::mt19937_64 random(3);
+  std::vector<std::uint64_t> noise(size / sizeof(std::uint64_t));
+  for (int round = 0; round < 20; ++round) {
+    for (auto& word : noise) word = random();
+    // everything but the header and the model, which attach() has validated
+    constexpr std::size_t kConstantPart = 32768;
+    ASSERT_GT(::pwrite(segment.descriptor(), noise.data(), size - kConstantPart, kConstantPart), 0);
+    RendererSide renderer = segment.renderer_side();
+    ServoSide servo = segment.servo_side();
+    for (int i = 0; i < 3; ++i) {
+      const auto selection = servo.new_selection();
+      EXPECT_TRUE(!selection || selection->material < 3);
+      const auto state = renderer.tip_state();
+      EXPECT_TRUE(!state || std::isfinite(state->z_m));
+      servo.new_transforms();
+      servo.new_hand_script();
+      servo.new_heartbeat();
+      while (renderer.pop_sample()) {
+      }
+      while (renderer.pop_event()) {
+      }
+    }
+  }
+}
+
+TEST(SharedModel, ComposesTheRestTransform) {
+  SharedModel model = paper_model();
+  model.nodes[0].parent_from_node[13] = 0.25;
+  const glm::dmat4 rest = rest_room_from_node(model, 1);
+  EXPECT_EQ(rest[2], glm::dvec4(0, 1, 0, 0));
+  EXPECT_EQ(rest[3], glm::dvec4(0, 1.75, 0, 1));
+}
+
+}  // namespace

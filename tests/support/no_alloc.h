@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+// Replaces the global operator new and delete of a test program: include it in exactly one of its sources. While
+// a NoAllocation lives, an allocation or a release by its thread ends the program with a message.
+namespace afm::test {
+
+inline thread_local bool allocation_forbidden = false;
+
+class NoAllocation {
+ public:
+  NoAllocation() { allocation_forbidden = true; }
+  NoAllocation(const NoAllocation&) = delete;
+  NoAllocation& operator=(const NoAllocation&) = delete;
+  ~NoAllocation() { allocation_forbidden = false; }
+};
+
+inline void refuse_allocation(const char* what) {
+  if (!allocation_forbidden) return;
+  allocation_forbidden = false;
+  std::fprintf(stderr, "%s where no allocation is allowed\n", what);
+  std::abort();
+}
+
+}  // namespace afm::test
+
+// The plain forms reach these; the standard library's array and nothrow forms are defined by them.
+void* operator new(std::size_t size) {
+  afm::test::refuse_allocation("operator new");
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  afm::test::refuse_allocation("operator new");
+  const auto align = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
+  throw std::bad_alloc();
+}
+
+void operator delete(void* memory) noexcept {
+  if (memory != nullptr) afm::test::refuse_allocation("operator delete");
+  std::free(memory);
+}
+
+void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { operator delete(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { operator delete(memory); }

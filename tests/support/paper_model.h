@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstring>
+#include <limits>
+#include <string_view>
+
+#include "scene/shared_blocks.h"
+
+// The three materials of Liu & Peng, Table 1, on a sample whose +z points up, for tests that need no files.
+namespace afm::test {
+
+inline scene::Name name_of(std::string_view text) {
+  scene::Name name{};
+  std::memcpy(name.data(), text.data(), text.size());
+  return name;
+}
+
+inline scene::SharedMaterial material(std::string_view name, double spring_constant, double hamaker,
+                                      double surface_energy) {
+  return {.name = name_of(name),
+          .tip_radius_m = 50e-9,
+          .spring_constant_n_per_m = spring_constant,
+          .sample_stiffness_n_per_m = std::numeric_limits<double>::infinity(),
+          .hamaker_j = hamaker,
+          .mean_surface_energy_j_per_m2 = surface_energy};
+}
+
+inline constexpr std::int32_t kMica = 0, kGold = 1, kSiliconNitride = 2;
+
+inline scene::SharedModel paper_model() {
+  scene::SharedModel model;
+  model.node_count = 2;
+  model.nodes[0].name = name_of("stage");
+  model.nodes[0].parent_from_node = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  model.nodes[1].name = name_of("sample");
+  model.nodes[1].parent = 0;
+  // columns: the sample's x, y, z and origin in the room; z is up
+  model.nodes[1].parent_from_node = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 1.5, 0, 1};
+  model.sample_node = 1;
+  model.material_count = 3;
+  model.materials[kMica] = material("mica", 0.1, 24.5e-21, 2.228e-3);
+  model.materials[kGold] = material("gold", 0.1, 120e-21, 15.915e-3);
+  model.materials[kSiliconNitride] = material("si3n4", 0.036, 10e-21, 0.955e-3);
+  return model;
+}
+
+}  // namespace afm::test
