@@ -10,19 +10,20 @@
 namespace afm::physics {
 namespace {
 
-constexpr std::array kLengths{Unit{"m", 1.0, true},         Unit{"mm", 1e-3, true},       Unit{"um", 1e-6, true},
-                              Unit{"\u00b5m", 1e-6, false}, Unit{"\u03bcm", 1e-6, false}, Unit{"nm", 1e-9, true},
-                              Unit{"pm", 1e-12, true}};
-constexpr std::array kForces{Unit{"N", 1.0, true},         Unit{"mN", 1e-3, true},       Unit{"uN", 1e-6, true},
-                             Unit{"\u00b5N", 1e-6, false}, Unit{"\u03bcN", 1e-6, false}, Unit{"nN", 1e-9, true},
-                             Unit{"pN", 1e-12, true}};
-constexpr std::array kEnergies{Unit{"J", 1.0, true}, Unit{"aJ", 1e-18, true}, Unit{"zJ", 1e-21, true}};
-constexpr std::array kStiffnesses{Unit{"N/m", 1.0, true}, Unit{"mN/m", 1e-3, true}, Unit{"nN/nm", 1.0, false}};
+constexpr std::array kLengths{Unit{"m", 1.0, true},        Unit{"mm", 1e3, true},       Unit{"um", 1e6, true},
+                              Unit{"\u00b5m", 1e6, false}, Unit{"\u03bcm", 1e6, false}, Unit{"nm", 1e9, true},
+                              Unit{"pm", 1e12, true}};
+constexpr std::array kForces{Unit{"N", 1.0, true},        Unit{"mN", 1e3, true},       Unit{"uN", 1e6, true},
+                             Unit{"\u00b5N", 1e6, false}, Unit{"\u03bcN", 1e6, false}, Unit{"nN", 1e9, true},
+                             Unit{"pN", 1e12, true}};
+constexpr std::array kVelocities{Unit{"m/s", 1.0, true}, Unit{"mm/s", 1e3, true}, Unit{"um/s", 1e6, true}};
+constexpr std::array kEnergies{Unit{"J", 1.0, true}, Unit{"aJ", 1e18, true}, Unit{"zJ", 1e21, true}};
+constexpr std::array kStiffnesses{Unit{"N/m", 1.0, true}, Unit{"mN/m", 1e3, true}, Unit{"nN/nm", 1.0, false}};
 constexpr std::array kSurfaceEnergies{Unit{"J/m2", 1.0, true}, Unit{"J/m^2", 1.0, false}, Unit{"J/m\u00b2", 1.0, false},
-                                      Unit{"mJ/m2", 1e-3, true}, Unit{"mJ/m^2", 1e-3, false},
-                                      Unit{"mJ/m\u00b2", 1e-3, false},
+                                      Unit{"mJ/m2", 1e3, true}, Unit{"mJ/m^2", 1e3, false},
+                                      Unit{"mJ/m\u00b2", 1e3, false},
                                       // surface tension is written so
-                                      Unit{"N/m", 1.0, false}, Unit{"mN/m", 1e-3, false}};
+                                      Unit{"N/m", 1.0, false}, Unit{"mN/m", 1e3, false}};
 
 std::string_view trim(std::string_view text) {
   constexpr std::string_view kBlanks = " \t";
@@ -59,6 +60,7 @@ std::string refusal(std::string_view text, std::string_view sort, std::span<cons
 
 const UnitList<Length> kLengthUnits{"a length", kLengths};
 const UnitList<Force> kForceUnits{"a force", kForces};
+const UnitList<Velocity> kVelocityUnits{"a velocity", kVelocities};
 const UnitList<Energy> kEnergyUnits{"an energy", kEnergies};
 const UnitList<Stiffness> kStiffnessUnits{"a stiffness", kStiffnesses};
 const UnitList<SurfaceEnergy> kSurfaceEnergyUnits{"a surface energy", kSurfaceEnergies};
@@ -81,7 +83,7 @@ std::variant<double, std::string> parse_si(std::string_view text, std::string_vi
   if (std::isinf(number) && infinity == Infinity::Refused) {
     return refusal(text, sort, units, "it may not be infinite");
   }
-  return number * unit->si;
+  return number / unit->per_si;
 }
 
 std::string format_si(double si, std::span<const Unit> units, int digits) {
@@ -91,10 +93,10 @@ std::string format_si(double si, std::span<const Unit> units, int digits) {
   const Unit* chosen = nullptr;
   for (const Unit& unit : units) {
     if (!unit.shown) continue;
-    if (chosen == nullptr || (si != 0.0 && std::abs(si) < chosen->si * rounds_to_one)) chosen = &unit;
+    if (chosen == nullptr || (si != 0.0 && std::abs(si) * chosen->per_si < rounds_to_one)) chosen = &unit;
   }
   std::array<char, 64> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), si / chosen->si,
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), si * chosen->per_si,
                                     std::chars_format::general, precision);
   return std::string(buffer.data(), result.ptr) + " " + std::string(chosen->symbol);
 }

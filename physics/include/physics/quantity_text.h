@@ -14,8 +14,8 @@ namespace afm::physics {
 
 struct Unit {
   std::string_view symbol;
-  double si;   // of one unit
-  bool shown;  // offered in messages and used for output; the others are spellings that are understood as well
+  double per_si;  // how many are one SI unit: 1e9 for nm; a power of ten up to 1e22, which a double holds exactly
+  bool shown;     // offered in messages and used for output; the others are spellings that are understood as well
 };
 
 // The units of one sort of quantity, the largest first. Stiffness and surface energy are one type but two lists, so
@@ -30,6 +30,7 @@ extern const UnitList<Length> kLengthUnits;                // m mm um nm pm
 extern const UnitList<Force> kForceUnits;                  // N mN uN nN pN
 extern const UnitList<Energy> kEnergyUnits;                // J aJ zJ
 extern const UnitList<Stiffness> kStiffnessUnits;          // N/m mN/m
+extern const UnitList<Velocity> kVelocityUnits;            // m/s mm/s um/s
 extern const UnitList<SurfaceEnergy> kSurfaceEnergyUnits;  // J/m2 mJ/m2, also mN/m
 
 enum class Infinity { Refused, Allowed };

@@ -83,31 +83,32 @@ using Energy = Quantity<1, 2, -2>;
 using Stiffness = Quantity<1, 0, -2>;      // N/m
 using SurfaceEnergy = Quantity<1, 0, -2>;  // J/m^2
 
-// 50.0_nm, 0.1_N_per_m, 24.5_zJ; both floating and whole numbers.
+// 50.0_nm, 0.1_N_per_m, 24.5_zJ; both floating and whole numbers. They divide by a power of ten, which a double holds
+// exactly where it does not hold the small factor, so that 1000_nm == 1_um.
 namespace literals {
 
-#define AFM_UNIT_LITERAL(suffix, type, factor)                                                                  \
-  constexpr type operator""_##suffix(long double value) { return type(static_cast<double>(value) * (factor)); } \
-  constexpr type operator""_##suffix(unsigned long long value) { return type(static_cast<double>(value) * (factor)); }
+#define AFM_UNIT_LITERAL(suffix, type, per_si)                                                                  \
+  constexpr type operator""_##suffix(long double value) { return type(static_cast<double>(value) / (per_si)); } \
+  constexpr type operator""_##suffix(unsigned long long value) { return type(static_cast<double>(value) / (per_si)); }
 
 AFM_UNIT_LITERAL(m, Length, 1.0)
-AFM_UNIT_LITERAL(mm, Length, 1e-3)
-AFM_UNIT_LITERAL(um, Length, 1e-6)
-AFM_UNIT_LITERAL(nm, Length, 1e-9)
-AFM_UNIT_LITERAL(pm, Length, 1e-12)
+AFM_UNIT_LITERAL(mm, Length, 1e3)
+AFM_UNIT_LITERAL(um, Length, 1e6)
+AFM_UNIT_LITERAL(nm, Length, 1e9)
+AFM_UNIT_LITERAL(pm, Length, 1e12)
 AFM_UNIT_LITERAL(s, Time, 1.0)
-AFM_UNIT_LITERAL(ms, Time, 1e-3)
+AFM_UNIT_LITERAL(ms, Time, 1e3)
 AFM_UNIT_LITERAL(kg, Mass, 1.0)
 AFM_UNIT_LITERAL(m_per_s, Velocity, 1.0)
-AFM_UNIT_LITERAL(um_per_s, Velocity, 1e-6)
+AFM_UNIT_LITERAL(um_per_s, Velocity, 1e6)
 AFM_UNIT_LITERAL(N, Force, 1.0)
-AFM_UNIT_LITERAL(nN, Force, 1e-9)
+AFM_UNIT_LITERAL(nN, Force, 1e9)
 AFM_UNIT_LITERAL(N_per_m, Stiffness, 1.0)
 AFM_UNIT_LITERAL(J, Energy, 1.0)
-AFM_UNIT_LITERAL(aJ, Energy, 1e-18)
-AFM_UNIT_LITERAL(zJ, Energy, 1e-21)
+AFM_UNIT_LITERAL(aJ, Energy, 1e18)
+AFM_UNIT_LITERAL(zJ, Energy, 1e21)
 AFM_UNIT_LITERAL(J_per_m2, SurfaceEnergy, 1.0)
-AFM_UNIT_LITERAL(mJ_per_m2, SurfaceEnergy, 1e-3)
+AFM_UNIT_LITERAL(mJ_per_m2, SurfaceEnergy, 1e3)
 
 #undef AFM_UNIT_LITERAL
 
