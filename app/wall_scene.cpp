@@ -39,9 +39,8 @@ constexpr double kSwatchSpacing = 0.46;
 constexpr double kSwatchRadius = 0.16;
 constexpr double kPanelMargin = 0.03;
 
-// The stroke reaches from this fraction of the highest lift below zero to a bit above Z_joc.
-constexpr double kPushOfLift = 0.35;
-constexpr double kLiftOfZjoc = 1.25;
+// The stroke of a cycle in units of Z_joc: from the deepest push below zero to the highest lift.
+constexpr double kStrokeOfZjoc = 0.30 + 1.32;
 
 using glm::dmat4;
 using glm::dvec3;
@@ -181,7 +180,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
     MaterialLook look{};
     look.sample = build.model("sample-" + material.name + ".glb", "sample-" + material.name, w.sample_frame_);
     look.swatch = build.model("swatch-" + material.name + ".glb", "swatch-" + material.name, w.layout_);
-    look.stroke_m = events.z_joc.si * kLiftOfZjoc * (1.0 + kPushOfLift);
+    look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
     look.full_deflection_m = events.f_ad.si / material.interaction.spring_constant.si;
     w.looks_.push_back(look);
     w.titles_.push_back(material.title);
@@ -217,6 +216,11 @@ std::vector<input::Target> WallScene::swatch_targets() const {
     targets.push_back({dvec3(room_from_layout_ * glm::dvec4(center, 1.0)), kSwatchRadius * unit_m});
   }
   return targets;
+}
+
+glm::dvec3 WallScene::sample_normal() const {
+  return glm::normalize(
+      dvec3(room_from_layout_ * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(0, 0, 1, 0)));
 }
 
 glm::dvec3 WallScene::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(kWandGrip, 1.0)); }

@@ -20,9 +20,8 @@ namespace afm::app {
 
 // What the picture shows of the tip: heights along the sample's normal, metres of the nanoworld.
 struct TipView {
-  double z_m = 0;            // piezo displacement
-  double deflection_m = 0;   // delta_c, positive towards the sample
-  double deformation_m = 0;  // delta_s
+  double z_m = 0;           // piezo displacement
+  double deflection_m = 0;  // delta_c, positive towards the sample
 };
 
 // How large things are drawn: metres of the nanoworld (or of the instrument) shown as one metre on the wall.
@@ -45,6 +44,9 @@ class WallScene {
 
   // The swatches as targets of the wand, in the order of the materials.
   std::vector<input::Target> swatch_targets() const;
+
+  // Outward normal of the sample in the room, unit.
+  glm::dvec3 sample_normal() const;
 
   // Where a simulated person holds the wand.
   glm::dvec3 wand_grip_m() const;

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "app/command.h"
+#include "app/curves_plot.h"
+#include "app/demo_figures.h"
+#include "app/demonstration.h"
+#include "app/output_folder.h"
+#include "app/report.h"
+#include "app/stage_setup.h"
+#include "app/whole_file.h"
+#include "core/log.h"
+#include "physics/quantity_text.h"
+#include "render/context.h"
+
+namespace afm::app {
+
+namespace {
+
+// Fig. 5 is drawn larger than the live wall.
+constexpr std::uint32_t kFigureEyeWidth = 1440;
+constexpr double kSlowestHand = 0.005, kFastestHand = 0.200;  // m/s
+
+struct DemoOptions {
+  std::string out;
+  StageFiles files;
+  std::uint32_t eye_width = 960;
+  HandPath hand;
+  ServoMode servo = ServoMode::Process;
+};
+
+void say(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+
+core::Result<void> draw_figures(render::Context& context, const Stage& stage, const DemoResult& result,
+                                OutputFolder& out, std::vector<ReportPicture>& pictures) {
+  auto renderer = render::Renderer::create(context, stage.wall_scene.scene(), stage.renderer_options(kFigureEyeWidth));
+  if (!renderer) return tl::unexpected(renderer.error());
+  const FrameBuilder frames(stage.wall_scene, stage.materials, stage.eyes);
+  const FigurePlan plan(result.sessions, 0);
+  for (const Figure& figure : plan.figures()) {
+    say(fmt::format("  {}", figure.file));
+    const std::string path = out.staged(figure.file);
+    if (auto drawn = draw_figure(figure, frames, *renderer, path); !drawn) return drawn;
+    auto bytes = read_file(path);
+    if (!bytes) return tl::unexpected(bytes.error());
+    pictures.push_back({figure.caption, std::move(*bytes)});
+  }
+  return {};
+}
+
+core::Result<void> write_results(const DemoResult& result, const std::vector<ReportPicture>& pictures,
+                                 OutputFolder& out) {
+  for (const RecordedSession& session : result.sessions) {
+    if (auto saved = save_session(session, out.staged("session-" + session.material + ".afms")); !saved) return saved;
+    if (auto saved = out.write("curve-" + session.material + ".csv", session_csv(session)); !saved) return saved;
+  }
+  if (auto saved = out.write("summary.json", summary_json(result).dump(2) + "\n"); !saved) return saved;
+  if (auto saved = out.write("report.html", report_html(result, pictures, curves_svg(result.sessions))); !saved)
+    return saved;
+  return out.commit();
+}
+
+core::Result<void> check_accuracy(const DemoResult& result) {
+  for (const Measurement& m : result.measurements) {
+    if (!(m.worst_error() <= kEventErrorBound)) {
+      return core::failure(
+          core::ErrorCategory::Failed,
+          fmt::format("{}: an event is off by {:.3g} % from the equations, more than {} %; see summary.json", m.title,
+                      100.0 * m.worst_error(), 100.0 * kEventErrorBound));
+    }
+  }
+  return {};
+}
+
+core::Result<void> run_demo(const DemoOptions& options, const std::string& program) {
+  const core::MonotonicClock clock;
+  const std::int64_t start_ns = clock.now_ns();
+
+  auto stage = load_stage(options.files);
+  if (!stage) return tl::unexpected(stage.error());
+  auto out = OutputFolder::open(options.out);
+  if (!out) return tl::unexpected(out.error());
+  auto context = render::Context::open();
+  if (!context) return tl::unexpected(context.error());
+  const render::RendererOptions renderer_options = stage->renderer_options(options.eye_width);
+  auto renderer = render::Renderer::create(*context, stage->wall_scene.scene(), renderer_options);
+  if (!renderer) return tl::unexpected(renderer.error());
+
+  DemoResult result;
+  result.vulkan_device = context->device_name();
+  result.haptic_device = "simulated hand";
+  result.eye_width = renderer_options.eye_width;
+  result.eye_height = renderer_options.eye_height;
+  result.hand_speed_m_per_s = options.hand.speed_m_per_s;
+  say(fmt::format("drawing 2 x {} x {} pixels on {}", result.eye_width, result.eye_height, result.vulkan_device));
+
+  {
+    const auto model = shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), stage->materials);
+    if (!model) return tl::unexpected(model.error());
+    auto servo = ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
+    if (!servo) return tl::unexpected(servo.error());
+    const FrameBuilder frames(stage->wall_scene, stage->materials, stage->eyes);
+    Demonstration live(stage->wall_scene, stage->materials, frames, *renderer, **servo, clock, options.hand);
+    if (auto ran = live.run(result, say); !ran) return ran;
+    renderer->wait();
+  }
+
+  for (std::size_t i = 0; i < result.sessions.size(); ++i) {
+    auto measured = measure(result.sessions[i], stage->materials.materials[i]);
+    if (!measured) return tl::unexpected(measured.error());
+    result.measurements.push_back(std::move(*measured));
+  }
+  say("drawing the figures");
+  std::vector<ReportPicture> pictures;
+  if (auto drawn = draw_figures(*context, *stage, result, *out, pictures); !drawn) return drawn;
+  result.seconds = static_cast<double>(clock.now_ns() - start_ns) * 1e-9;
+  if (auto written = write_results(result, pictures, *out); !written) return written;
+  if (auto accurate = check_accuracy(result); !accurate) return accurate;
+
+  std::printf("open %s/report.html\n", options.out.c_str());
+  return {};
+}
+
+}  // namespace
+
+void add_demo_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand(
+      "demo", "the main job: feel and draw one full cycle on every sample, with no hardware and no display");
+  command->footer(
+      "Leaves in DIR: report.html (open it), fig5a.png to fig5e.png (side-by-side stereo), summary.json, and for "
+      "every\n"
+      "material curve-NAME.csv and session-NAME.afms.\n\nexample: touchafm demo --out out\n"
+      "         touchafm demo --out fast --hand-speed 200mm/s --eye-width 1440");
+  auto options = std::make_shared<DemoOptions>();
+  command->add_option("--out", options->out, "folder for the results; made if it does not exist")
+      ->required()
+      ->type_name("DIR");
+  add_stage_options(*command, options->files, context);
+  command
+      ->add_option("--eye-width", options->eye_width,
+                   "width of each eye's live picture in pixels; the height follows the wall")
+      ->check(CLI::Range(64, 8192))
+      ->capture_default_str()
+      ->type_name("PIXELS");
+  auto speed = std::make_shared<std::string>("30mm/s");
+  command->add_option("--hand-speed", *speed, "mean speed of the simulated hand, 5mm/s to 200mm/s")
+      ->capture_default_str()
+      ->type_name("SPEED");
+  auto servo = std::make_shared<std::string>("process");
+  command->add_option("--servo", *servo, "how the servo runs: process, or thread for debuggers and sanitizers")
+      ->check(CLI::IsMember({"process", "thread"}))
+      ->capture_default_str();
+  command->callback([options, speed, servo, &context] {
+    context.chosen = [options, speed, servo, &context]() -> core::Result<void> {
+      const auto parsed = physics::parse_quantity(*speed, physics::kVelocityUnits);
+      if (!parsed.value) return core::failure(core::ErrorCategory::WrongUsage, "--hand-speed: " + parsed.error);
+      if (parsed.value->si < kSlowestHand || parsed.value->si > kFastestHand) {
+        return core::failure(core::ErrorCategory::WrongUsage,
+                             fmt::format("--hand-speed: {} is outside 5mm/s to 200mm/s, the speeds of a hand", *speed));
+      }
+      options->hand.speed_m_per_s = parsed.value->si;
+      options->servo = *servo == "thread" ? ServoMode::Thread : ServoMode::Process;
+      return run_demo(*options, context.program_path);
+    };
+  });
+}
+
+}  // namespace afm::app

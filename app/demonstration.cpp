@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/demonstration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/interruption.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr double kPatienceSeconds = 20.0;  // beyond the time that the step itself takes
+constexpr double kTurnM = 0.2e-9;          // Z must rise this far above its lowest before it counts as retracting
+
+}  // namespace
+
+Demonstration::Demonstration(const WallScene& wall_scene, const scene::MaterialLibrary& materials,
+                             const FrameBuilder& frames, render::Renderer& renderer, ServoLink& servo,
+                             const core::Clock& clock, const HandPath& path)
+    : wall_scene_(wall_scene),
+      materials_(materials),
+      frames_(frames),
+      renderer_(renderer),
+      servo_(servo),
+      clock_(clock),
+      path_(path),
+      person_(wall_scene.wand_grip_m(), wall_scene.sample_normal(), path),
+      targets_(wall_scene.swatch_targets()),
+      curves_(materials.materials.size()) {}
+
+core::Result<void> Demonstration::run(DemoResult& result, const Progress& progress) {
+  for (std::size_t i = 0; i < materials_.materials.size(); ++i) {
+    if (auto felt = feel(i, result, progress); !felt) return felt;
+  }
+  result.servo = servo_.timing();
+  result.lost_samples = servo_.lost_samples();
+  return {};
+}
+
+core::Result<void> Demonstration::feel(std::size_t material, DemoResult& result, const Progress& progress) {
+  const std::string& title = materials_.materials[material].title;
+  progress(fmt::format("{} of {}: {}", material + 1, materials_.materials.size(), title));
+  person_.begin(targets_[material].center_m, static_cast<std::int32_t>(material), clock_.now_ns());
+  const double stroke_seconds = (path_.lift_m - path_.push_m) / path_.speed_m_per_s;
+
+  std::size_t events_told = 0;
+  while (person_.step() != SimulatedPerson::Step::Done) {
+    if (auto stepped = step(result); !stepped) return stepped;
+    for (; current_ == material && events_told < session_.events.size(); ++events_told) {
+      const scene::TipEvent& e = session_.events[events_told];
+      const bool in = e.kind == scene::TipEventKind::JumpToContact;
+      progress(fmt::format("  {:<17} Z = {:8.4f} nm   pull {:8.5f} nN", in ? "jump to contact" : "jump off contact",
+                           e.z_m * 1e9, -(in ? e.force_after_n : e.force_before_n) * 1e9));
+    }
+    if (person_.seconds_in_step(clock_.now_ns()) > kPatienceSeconds + stroke_seconds) {
+      return core::failure(core::ErrorCategory::Failed,
+                           fmt::format("{}: waited {:.0f} s for {}, in vain; run again, with less load on the machine",
+                                       title, kPatienceSeconds + stroke_seconds, person_.waiting_for()));
+    }
+    if (interrupted())
+      return core::failure(core::ErrorCategory::Failed, "interrupted: the hand was released, nothing was written");
+  }
+  const scene::TipState& tip = servo_.tip();
+  session_.realtime = tip.realtime != 0;
+  session_.hand_m_per_m = tip.hand_m_per_m;
+  session_.hand_n_per_n = tip.hand_n_per_n;
+  session_.rate_hz = kServoRateHz;
+  result.sessions.push_back(session_);
+  return {};
+}
+
+core::Result<void> Demonstration::step(DemoResult& result) {
+  const std::int64_t now_ns = clock_.now_ns();
+  if (auto taken = take_news(now_ns); !taken) return taken;
+
+  person_.update(now_ns, servo_.tip());
+  servo_.script(person_.hand());
+
+  // the wand's ray and button choose, as they would in a visitor's hand
+  const input::WandState wand = person_.wand(now_ns);
+  const input::Selector::Result pointing = selector_.update(wand, targets_);
+  if (pointing.chosen) servo_.choose(static_cast<std::int32_t>(*pointing.chosen));
+
+  const Moment now = moment(wand, pointing);
+  scene::SceneTransforms transforms;
+  wall_scene_.place({.material = now.material, .tip = now.tip, .hovered = now.hovered, .wand = now.wand}, transforms);
+  servo_.place(transforms);
+
+  renderer_.render(frames_.build(now));
+  result.frame_ms.push_back(static_cast<double>(clock_.now_ns() - now_ns) * 1e-6);
+  return {};
+}
+
+core::Result<void> Demonstration::take_news(std::int64_t now_ns) {
+  auto news = servo_.poll(now_ns);
+  if (!news) return tl::unexpected(news.error());
+
+  // an event may arrive a moment before the sample of its tick
+  pending_events_.insert(pending_events_.end(), news->events.begin(), news->events.end());
+  auto event = pending_events_.begin();
+  for (const scene::TipSample& sample : news->samples) {
+    if (sample.material < 0) continue;
+    const auto material = static_cast<std::size_t>(sample.material);
+    if (current_ != material) {
+      // a new material has taken effect: a new session begins
+      current_ = material;
+      session_ = {};
+      session_.material = materials_.materials[material].name;
+      session_.interaction = shared_material(materials_.materials[material]);
+      deepest_z_m_ = sample.z_m;
+    }
+    for (; event != pending_events_.end() && event->time_ns <= sample.time_ns; ++event) {
+      session_.events.push_back(*event);
+      curves_[material].add(*event);
+    }
+    session_.samples.push_back(sample);
+    curves_[material].add(sample);
+    deepest_z_m_ = std::min(deepest_z_m_, sample.z_m);
+  }
+  pending_events_.erase(pending_events_.begin(), event);
+  return {};
+}
+
+Moment Demonstration::moment(const input::WandState& wand, const input::Selector::Result& pointing) const {
+  const scene::TipState& tip = servo_.tip();
+  Moment now;
+  if (tip.material >= 0) now.material = static_cast<std::size_t>(tip.material);
+  now.tip = {.z_m = tip.z_m, .deflection_m = tip.deflection_m};
+  now.force_n = tip.force_n;
+  now.servo_state = tip.servo_state;
+  now.phase = tip.phase;
+  now.retracting = tip.z_m > deepest_z_m_ + kTurnM;
+  now.realtime = tip.realtime != 0;
+  now.hovered = pointing.hovered;
+  now.wand = wand;
+  now.guidance = guidance();
+  now.curves = curves_;
+  return now;
+}
+
+std::string Demonstration::guidance() const {
+  using Step = SimulatedPerson::Step;
+  switch (person_.step()) {
+    case Step::PointAtSwatch:
+      return "Point at a sample and press";
+    case Step::PressSelect:
+      return "This is what the tip will touch";
+    case Step::Lift:
+      return "Lift the pen to its top";
+    case Step::PressTurnOn:
+      return "Press Turn-On to feel the force";
+    case Step::MoveDown:
+      return "Move down until the beam bends";
+    case Step::MoveUp:
+      return "Move up until it lets go";
+    case Step::Rest:
+    case Step::Done:
+      break;
+  }
+  return "One full cycle: approach and retract";
+}
+
+Moment moment_of(const RecordedSession& session, std::size_t material, std::int64_t time_ns,
+                 std::span<const CycleCurve> curves) {
+  const auto after = std::upper_bound(session.samples.begin(), session.samples.end(), time_ns,
+                                      [](std::int64_t t, const scene::TipSample& s) { return t < s.time_ns; });
+  const scene::TipSample& sample = after == session.samples.begin() ? session.samples.front() : *(after - 1);
+  const auto lowest =
+      std::min_element(session.samples.begin(), after, [](const auto& a, const auto& b) { return a.z_m < b.z_m; });
+
+  Moment then;
+  then.material = material;
+  then.tip = {.z_m = sample.z_m, .deflection_m = sample.deflection_m};
+  then.force_n = sample.force_n;
+  then.servo_state = sample.servo_state;
+  then.phase = sample.phase;
+  then.retracting = lowest != after && sample.z_m > lowest->z_m + kTurnM;
+  then.realtime = session.realtime;
+  then.curves = curves;
+  return then;
+}
+
+}  // namespace afm::app

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "app/command.h"
+#include "app/exit_code.h"
+#include "app/interruption.h"
+#include "app/version.h"
+#include "core/log.h"
+
+namespace {
+
+using afm::app::ExitCode;
+
+// Beside an installed program, share/touchafm; in a build, the source tree's assets.
+std::string find_assets(const std::filesystem::path& program) {
+  const std::filesystem::path installed = program.parent_path().parent_path() / "share" / "touchafm";
+  std::error_code ignored;
+  return std::filesystem::is_directory(installed, ignored) ? installed.string() : AFM_ASSETS_DIR;
+}
+
+int fail(ExitCode code, const std::string& message) {
+  afm::core::log_line("error: " + message);
+  return static_cast<int>(code);
+}
+
+int run(int count, char** arguments) {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  afm::app::CommandContext context{.assets_dir = find_assets(program), .program_path = program.string(), .chosen = {}};
+
+  CLI::App app(
+      "TouchAFM: feel and see the approach-retract cycle of an atomic force microscope.\n"
+      "Exit codes: 0 done, 1 the run failed, 2 wrong usage, 3 bad input file, 4 a needed device is missing.",
+      "touchafm");
+  app.set_version_flag("--version", std::string("touchafm ") + afm::app::kVersion);
+  app.require_subcommand(1);
+  afm::app::add_demo_command(app, context);
+  afm::app::add_curve_command(app, context);
+  afm::app::add_paper_command(app, context);
+  afm::app::add_render_command(app, context);
+  afm::app::add_wall_command(app, context);
+  afm::app::add_devices_command(app, context);
+
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& wrong) {
+    return fail(ExitCode::WrongUsage, std::string(wrong.what()) + "; see touchafm --help");
+  }
+  const auto done = context.chosen();
+  if (!done) return fail(exit_code(done.error().category), done.error().message);
+  return static_cast<int>(ExitCode::Done);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  afm::app::catch_interruptions();
+  try {
+    return run(count, arguments);
+  } catch (const std::exception& error) {
+    // Vulkan's own failures (a lost device, no memory) and the standard library's
+    return fail(ExitCode::RunFailed, error.what());
+  }
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+
+namespace afm::app {
+
+// A folder of results that appears whole or not at all: files are written into a folder beside it, and moved into place
+// by commit(). Without a commit nothing is left. One thread.
+class OutputFolder {
+ public:
+  // Makes sure at once, before hours of work, that `path` can be written.
+  static core::Result<OutputFolder> open(const std::string& path);
+
+  OutputFolder(OutputFolder&& other) noexcept;
+  OutputFolder& operator=(OutputFolder&&) = delete;
+  ~OutputFolder();
+
+  // Where a file of that name is to be written until commit().
+  std::string staged(std::string_view name) const;
+
+  core::Result<void> write(std::string_view name, std::string_view bytes);
+
+  // Moves every staged file into the folder; older files of the same names are replaced, others stay.
+  core::Result<void> commit();
+
+ private:
+  OutputFolder(std::string path, std::string staging) : path_(std::move(path)), staging_(std::move(staging)) {}
+
+  std::string path_;
+  std::string staging_;
+};
+
+}  // namespace afm::app

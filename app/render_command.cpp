@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "app/command.h"
+#include "app/demonstration.h"
+#include "app/frame_builder.h"
+#include "app/session_file.h"
+#include "app/stage_setup.h"
+#include "render/context.h"
+#include "render/image_file.h"
+
+namespace afm::app {
+
+namespace {
+
+struct RenderOptions {
+  std::string session;
+  std::string out;
+  double at_s = 0;
+  std::uint32_t eye_width = 960;
+  render::Layout layout = render::Layout::SideBySide;
+  StageFiles files;
+};
+
+core::Result<void> run_render(const RenderOptions& options) {
+  auto session = load_session(options.session);
+  if (!session) return tl::unexpected(session.error());
+  auto stage = load_stage(options.files);
+  if (!stage) return tl::unexpected(stage.error());
+  const auto& materials = stage->materials.materials;
+  const auto found =
+      std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == session->material; });
+  if (found == materials.end()) {
+    return core::failure(
+        core::ErrorCategory::BadInputFile,
+        fmt::format("session file {}: its material \"{}\" is not in the material file; give that file with --materials",
+                    options.session, session->material));
+  }
+  const double length_s = session->seconds_since_start(session->samples.back().time_ns);
+  if (!(options.at_s >= 0.0 && options.at_s <= length_s)) {
+    return core::failure(
+        core::ErrorCategory::WrongUsage,
+        fmt::format("--at: {:g} s is outside the session, which lasts {:.3f} s", options.at_s, length_s));
+  }
+
+  auto context = render::Context::open();
+  if (!context) return tl::unexpected(context.error());
+  auto renderer =
+      render::Renderer::create(*context, stage->wall_scene.scene(), stage->renderer_options(options.eye_width));
+  if (!renderer) return tl::unexpected(renderer.error());
+
+  const auto material = static_cast<std::size_t>(found - materials.begin());
+  const std::int64_t time_ns = session->samples.front().time_ns + static_cast<std::int64_t>(options.at_s * 1e9);
+  std::vector<CycleCurve> curves(materials.size());
+  curves[material] = curve_until(*session, time_ns);
+  Moment moment = moment_of(*session, material, time_ns, curves);
+  moment.guidance = fmt::format("{} at {:.2f} s", found->title, options.at_s);
+  const FrameBuilder frames(stage->wall_scene, stage->materials, stage->eyes);
+  renderer->render(frames.build(moment));
+  return render::write_png(renderer->read_composed(options.layout), options.out);
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, CommandContext& context) {
+  static const std::map<std::string, render::Layout> kLayouts{
+      {"left", render::Layout::Left}, {"right", render::Layout::Right}, {"side-by-side", render::Layout::SideBySide}};
+  CLI::App* command = app.add_subcommand("render", "draw a moment of a recorded session without a window");
+  command->footer("example: touchafm render --session out/session-gold.afms --at 5.2 --out gold.png");
+  auto options = std::make_shared<RenderOptions>();
+  command->add_option("--session", options->session, "session file that the demo has written")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--out", options->out, "picture to write")->required()->type_name("FILE.png");
+  command->add_option("--at", options->at_s, "time from the start of the session, in seconds")
+      ->capture_default_str()
+      ->type_name("SECONDS");
+  command
+      ->add_option("--stereo", options->layout,
+                   "how the eyes are composed: left, right, side-by-side; default: side-by-side")
+      ->transform(CLI::CheckedTransformer(kLayouts))
+      ->type_name("MODE");
+  command
+      ->add_option("--eye-width", options->eye_width,
+                   "width of each eye's picture in pixels; the height follows the wall")
+      ->check(CLI::Range(64, 8192))
+      ->capture_default_str()
+      ->type_name("PIXELS");
+  add_stage_options(*command, options->files, context);
+  command->callback([options, &context] { context.chosen = [options] { return run_render(*options); }; });
+}
+
+}  // namespace afm::app

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "app/measurement.h"
+#include "app/session_file.h"
+#include "scene/shared_blocks.h"
+
+namespace afm::app {
+
+// All that a run of the demo has found out.
+struct DemoResult {
+  std::vector<RecordedSession> sessions;  // one per material, in the file's order
+  std::vector<Measurement> measurements;
+  scene::ServoTiming servo;
+  std::uint64_t lost_samples = 0;
+  std::vector<double> frame_ms;
+  double seconds = 0;
+  std::string vulkan_device;
+  std::string haptic_device;
+  std::uint32_t eye_width = 0, eye_height = 0;
+  double hand_speed_m_per_s = 0;
+};
+
+// summary.json of the design, section 5: SI, magnitudes, relative errors.
+nlohmann::json summary_json(const DemoResult& result);
+
+struct ReportPicture {
+  std::string caption;
+  std::string png;  // the bytes of the file
+};
+
+// One HTML file that opens anywhere: pictures and plots are inside it.
+std::string report_html(const DemoResult& result, const std::vector<ReportPicture>& pictures,
+                        const std::string& curves_svg);
+
+// Every sample of a session as CSV with a # header that holds every parameter and event.
+std::string session_csv(const RecordedSession& session);
+
+}  // namespace afm::app

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/servo_link.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+namespace afm::app {
+
+namespace {
+
+// Names are for people; a longer one is cut.
+void set_name(scene::Name& name, std::string_view text) {
+  std::copy_n(text.begin(), std::min(text.size(), name.size() - 1), name.begin());
+}
+
+}  // namespace
+
+scene::SharedMaterial shared_material(const scene::MaterialEntry& material) {
+  const physics::Interaction& in = material.interaction;
+  scene::SharedMaterial shared;
+  set_name(shared.name, material.name);
+  shared.tip_radius_m = in.tip_radius.si;
+  shared.spring_constant_n_per_m = in.spring_constant.si;
+  shared.sample_stiffness_n_per_m = in.sample_stiffness.si;
+  shared.hamaker_j = in.hamaker.si;
+  shared.mean_surface_energy_j_per_m2 = in.mean_surface_energy.si;
+  return shared;
+}
+
+core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
+                                              const scene::MaterialLibrary& materials) {
+  if (scene.nodes.size() > scene::kMaxNodes || materials.materials.size() > scene::kMaxMaterials) {
+    return core::failure(
+        core::ErrorCategory::BadInputFile,
+        fmt::format("the scene has {} nodes and {} materials; at most {} and {} can be shared with the servo",
+                    scene.nodes.size(), materials.materials.size(), scene::kMaxNodes, scene::kMaxMaterials));
+  }
+  scene::SharedModel model;
+  model.node_count = static_cast<std::uint32_t>(scene.nodes.size());
+  model.material_count = static_cast<std::uint32_t>(materials.materials.size());
+  model.sample_node = sample_node;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    scene::SharedNode& node = model.nodes[i];
+    set_name(node.name, scene.nodes[i].name);
+    node.parent = scene.nodes[i].parent.value_or(scene::kNoParent);
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 4; ++row) {
+        node.parent_from_node[static_cast<std::size_t>(4 * column + row)] =
+            scene.nodes[i].parent_from_node[column][row];
+      }
+    }
+  }
+  std::transform(materials.materials.begin(), materials.materials.end(), model.materials.begin(), shared_material);
+  return model;
+}
+
+core::Result<std::unique_ptr<ServoLink>> ServoLink::start(const scene::SharedModel& model, std::uint64_t scene_digest,
+                                                          ServoMode mode, const std::string& program) {
+  auto segment = scene::SharedSegment::create(model, scene_digest);
+  if (!segment) return tl::unexpected(segment.error());
+  std::unique_ptr<ServoLink> link(new ServoLink(std::move(*segment)));
+
+  if (mode == ServoMode::Process) {
+    const std::string servo = std::filesystem::path(program).replace_filename("touchafm-servo").string();
+    auto process = haptics::ServoProcess::spawn(servo, link->segment_, link->side_, kServoRateHz);
+    if (!process) return tl::unexpected(process.error());
+    link->servo_ = std::move(*process);
+  } else {
+    auto thread = haptics::ServoThread::start(link->segment_, link->side_, kServoRateHz);
+    if (!thread) return tl::unexpected(thread.error());
+    link->servo_ = std::move(*thread);
+  }
+  return link;
+}
+
+core::Result<ServoLink::News> ServoLink::poll(std::int64_t now_ns) {
+  side_.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = frame_++, .leaving = 0, .padding = 0});
+  if (const auto state = side_.tip_state()) tip_ = *state;
+
+  News news;
+  while (const auto sample = side_.pop_sample()) news.samples.push_back(*sample);
+  while (const auto event = side_.pop_event()) news.events.push_back(*event);
+
+  if (!servo_->alive()) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("the servo ended unexpectedly (status {}): no force reaches the hand; start again",
+                                     servo_->exit_status().value_or(-1)));
+  }
+  return news;
+}
+
+void ServoLink::choose(std::int32_t material) {
+  selection_.material = material;
+  ++selection_.revision;
+  side_.store(selection_);
+}
+
+}  // namespace afm::app

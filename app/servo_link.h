@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "haptics/servo_process.h"
+#include "scene/material_library.h"
+#include "scene/scene.h"
+#include "scene/shared_segment.h"
+
+namespace afm::app {
+
+enum class ServoMode { Process, Thread };
+
+inline constexpr double kServoRateHz = 1000.0;
+
+scene::SharedMaterial shared_material(const scene::MaterialEntry& material);
+
+// The shared model of a scene: its nodes at rest and the materials' interactions. Fails if there are more of either
+// than the segment holds.
+core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
+                                              const scene::MaterialLibrary& materials);
+
+// The frame loop's end of the servo: starts it over a segment of its own, tells it what was chosen and where things
+// are, and takes every sample and event. One thread.
+class ServoLink {
+ public:
+  // `program` is the running touchafm; touchafm-servo lies beside it.
+  static core::Result<std::unique_ptr<ServoLink>> start(const scene::SharedModel& model, std::uint64_t scene_digest,
+                                                        ServoMode mode, const std::string& program);
+
+  struct News {
+    std::vector<scene::TipSample> samples;
+    std::vector<scene::TipEvent> events;
+  };
+
+  // Once a frame: everything new since the last call, and the newest state. Fails when the servo has ended.
+  core::Result<News> poll(std::int64_t now_ns);
+
+  const scene::TipState& tip() const { return tip_; }
+  scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
+  std::uint64_t lost_samples() const { return side_.lost_samples(); }
+
+  void choose(std::int32_t material);
+  void place(const scene::SceneTransforms& transforms) { side_.store(transforms); }
+  void script(const scene::HandScript& script) { side_.store(script); }
+
+ private:
+  explicit ServoLink(scene::SharedSegment segment) : segment_(std::move(segment)), side_(segment_.renderer_side()) {}
+
+  scene::SharedSegment segment_;
+  scene::RendererSide side_;
+  scene::Selection selection_;
+  scene::TipState tip_;
+  std::uint64_t frame_ = 0;
+  std::unique_ptr<haptics::Servo> servo_;  // last: it ends before its segment goes
+};
+
+}  // namespace afm::app

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/stage_setup.h"
+
+#include <cmath>
+#include <utility>
+
+#include "app/frame_builder.h"
+
+namespace afm::app {
+
+render::RendererOptions Stage::renderer_options(std::uint32_t eye_width) const {
+  const scene::Screen& screen = wall.screens.front();
+  render::RendererOptions options;
+  options.eye_width = eye_width;
+  options.eye_height = static_cast<std::uint32_t>(std::lround(eye_width * screen.height_m() / screen.width_m()));
+  options.panel_texels_per_m = 2.0 * eye_width / screen.width_m();
+  return options;
+}
+
+core::Result<Stage> load_stage(const StageFiles& files) {
+  auto materials =
+      scene::load_materials(files.materials.empty() ? files.assets_dir + "/materials.toml" : files.materials);
+  if (!materials) return tl::unexpected(materials.error());
+  auto wall = scene::load_wall(files.wall.empty() ? files.assets_dir + "/walls/powerwall.toml" : files.wall);
+  if (!wall) return tl::unexpected(wall.error());
+  const auto eyes = eyes_at_sweet_spot(*wall);
+  if (!eyes) return tl::unexpected(eyes.error());
+  auto wall_scene =
+      WallScene::load(files.assets_dir, *materials, wall->screens.front(), wall->viewers.front().sweet_spot.position_m);
+  if (!wall_scene) return tl::unexpected(wall_scene.error());
+  return Stage{std::move(*materials), std::move(*wall), *eyes, std::move(*wall_scene)};
+}
+
+void add_stage_options(CLI::App& command, StageFiles& files, const CommandContext& context) {
+  files.assets_dir = context.assets_dir;
+  command
+      .add_option("--wall", files.wall,
+                  "wall file (TOML): the screen's corners and the viewer; default: the paper's 10 ft x 7.5 ft wall")
+      ->type_name("FILE");
+  command
+      .add_option("--materials", files.materials,
+                  "material file (TOML); default: mica, gold and silicon nitride of the paper")
+      ->type_name("FILE");
+  command.add_option("--assets", files.assets_dir, "folder of the models, walls and materials")->type_name("DIR");
+}
+
+}  // namespace afm::app

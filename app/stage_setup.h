@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "app/command.h"
+#include "app/wall_scene.h"
+#include "core/result.h"
+#include "render/renderer.h"
+#include "scene/material_library.h"
+#include "scene/wall.h"
+
+namespace afm::app {
+
+// The files that a picture of the wall is made of.
+struct StageFiles {
+  std::string assets_dir;
+  std::string wall;       // empty: the paper's wall in the assets
+  std::string materials;  // empty: the paper's three in the assets
+};
+
+// All that is loaded before anything moves.
+struct Stage {
+  scene::MaterialLibrary materials;
+  scene::Wall wall;
+  std::array<scene::EyeView, 2> eyes;
+  WallScene wall_scene;
+
+  // Square pixels: the height follows the wall's proportions.
+  render::RendererOptions renderer_options(std::uint32_t eye_width) const;
+};
+
+core::Result<Stage> load_stage(const StageFiles& files);
+
+// --wall, --materials and --assets.
+void add_stage_options(CLI::App& command, StageFiles& files, const CommandContext& context);
+
+}  // namespace afm::app
