@@ -1,1 +1,274 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "app/svg_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace afm::app {
+namespace {
+
+constexpr double kLeft = 92;
+constexpr double kRight = 28;
+constexpr double kTop = 84;
+constexpr double kBottom = 68;
+constexpr double kTolerancePx = 0.1;
+constexpr int kTicks = 8;  // about so many on an axis
+
+bool finite(SvgPoint p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+// 1, 2 or 5 times a power of ten, about `range`/kTicks.
+double tick_step(double range) {
+  const double rough = range / kTicks;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double mantissa = rough / power;
+  return power * (mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : mantissa < 7.5 ? 5.0 : 10.0);
+}
+
+// A number on an axis whose ticks are `step` apart: no more decimals than that needs, and a real minus sign.
+std::string tick_text(double value, double step) {
+  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
+  return value < -0.5 * step ? "\u2212" + text : text;
+}
+
+struct Axis {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  double step = 1;
+
+  void include(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+
+  // widens to a margin around the data, and to something for no data and for a single value
+  void settle() {
+    if (low > high) low = 0, high = 1;
+    if (low == high) low -= 0.5 * std::max(1e-12, std::abs(low)), high += 0.5 * std::max(1e-12, std::abs(high));
+    const double margin = 0.04 * (high - low);
+    low -= margin;
+    high += margin;
+    step = tick_step(high - low);
+  }
+
+  double first_tick() const { return std::ceil(low / step); }
+  double last_tick() const { return std::floor(high / step); }
+};
+
+// From the plot's numbers to pixels.
+class Frame {
+ public:
+  explicit Frame(const SvgPlot& plot)
+      : left_(kLeft), right_(plot.width - kRight), top_(kTop), bottom_(plot.height - kBottom) {
+    for (const SvgLine& line : plot.lines) {
+      for (const SvgPoint& point : line.points) include(point);
+    }
+    for (const SvgMark& mark : plot.marks) include(mark.at);
+    x_.settle();
+    y_.settle();
+  }
+
+  const Axis& x() const { return x_; }
+  const Axis& y() const { return y_; }
+  double left() const { return left_; }
+  double right() const { return right_; }
+  double top() const { return top_; }
+  double bottom() const { return bottom_; }
+  double x_px(double x) const { return left_ + (x - x_.low) / (x_.high - x_.low) * (right_ - left_); }
+  double y_px(double y) const { return bottom_ - (y - y_.low) / (y_.high - y_.low) * (bottom_ - top_); }
+
+ private:
+  void include(SvgPoint point) {
+    if (!finite(point)) return;
+    x_.include(point.x);
+    y_.include(point.y);
+  }
+
+  double left_, right_, top_, bottom_;
+  Axis x_, y_;
+};
+
+double distance_to_segment(SvgPoint p, SvgPoint a, SvgPoint b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double length2 = dx * dx + dy * dy;
+  const double t = length2 > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length2, 0.0, 1.0) : 0.0;
+  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
+
+void draw_axes(std::string& out, const SvgPlot& plot, const Frame& frame) {
+  out += fmt::format("<g stroke=\"#dde1e6\">\n");
+  std::string labels;
+  for (double i = frame.x().first_tick(); i <= frame.x().last_tick(); ++i) {
+    const double x = frame.x_px(i * frame.x().step);
+    out += fmt::format("<path d=\"M{0:.2f} {1:.2f}V{2:.2f}\"{3}/>\n", x, frame.top(), frame.bottom(),
+                       i == 0 ? " stroke=\"#7a828c\"" : "");
+    labels += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{}</text>\n", x, frame.bottom() + 22,
+                          tick_text(i * frame.x().step, frame.x().step));
+  }
+  for (double i = frame.y().first_tick(); i <= frame.y().last_tick(); ++i) {
+    const double y = frame.y_px(i * frame.y().step);
+    out += fmt::format("<path d=\"M{0:.2f} {1:.2f}H{2:.2f}\"{3}/>\n", frame.left(), y, frame.right(),
+                       i == 0 ? " stroke=\"#7a828c\"" : "");
+    labels += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"end\">{}</text>\n", frame.left() - 10, y + 5,
+                          tick_text(i * frame.y().step, frame.y().step));
+  }
+  out += fmt::format(
+      "</g>\n<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"none\" stroke=\"#3c434b\"/>\n",
+      frame.left(), frame.top(), frame.right() - frame.left(), frame.bottom() - frame.top());
+  out += labels;
+  const double middle_y = 0.5 * (frame.top() + frame.bottom());
+  out += fmt::format("<text x=\"{:.2f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
+                     0.5 * (frame.left() + frame.right()), plot.height - 18, escaped(plot.x_label));
+  out += fmt::format("<text transform=\"translate(26 {:.2f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+                     middle_y, escaped(plot.y_label));
+}
+
+const char* dashes(LineStyle style) { return style == LineStyle::Dashed ? " stroke-dasharray=\"7 5\"" : ""; }
+
+void draw_line(std::string& out, const SvgLine& line, const Frame& frame) {
+  std::string path;
+  std::vector<SvgPoint> run;
+  const auto end_run = [&] {
+    const auto kept = simplified(run, kTolerancePx);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      path += fmt::format("{}{:.2f} {:.2f}", i == 0 ? 'M' : 'L', kept[i].x, kept[i].y);
+    }
+    run.clear();
+  };
+  for (const SvgPoint& point : line.points) {
+    if (finite(point)) {
+      run.push_back({frame.x_px(point.x), frame.y_px(point.y)});
+    } else {
+      end_run();
+    }
+  }
+  end_run();
+  if (path.empty()) return;
+  out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n",
+                     path, escaped(line.color), line.style == LineStyle::Dashed ? 1.8 : 2.4, dashes(line.style));
+}
+
+void draw_mark(std::string& out, const SvgMark& mark, const Frame& frame) {
+  if (!finite(mark.at)) return;
+  const double x = frame.x_px(mark.at.x), y = frame.y_px(mark.at.y);
+  out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4.5\" fill=\"{}\" stroke=\"#fff\"/>\n", x, y,
+                     escaped(mark.color));
+  if (mark.text.empty()) return;
+  const bool beside = mark.side == SvgMark::Side::Left || mark.side == SvgMark::Side::Right;
+  const double dx = mark.side == SvgMark::Side::Left ? -10 : mark.side == SvgMark::Side::Right ? 10 : 0;
+  const double dy = beside ? 5 : mark.side == SvgMark::Side::Above ? -11 : 21;
+  const char* anchor = !beside ? "middle" : mark.side == SvgMark::Side::Left ? "end" : "start";
+  // a white rim keeps the text readable where it crosses a line
+  out += fmt::format(
+      "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\" fill=\"{}\" font-weight=\"600\" stroke=\"#fff\" "
+      "stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\">{}</text>\n",
+      x + dx, y + dy, anchor, escaped(mark.color), escaped(mark.text));
+}
+
+void draw_legend(std::string& out, const SvgPlot& plot, const Frame& frame) {
+  constexpr double kSample = 34;
+  constexpr double kCharacter = 8.3;  // a little more than the mean advance of the font at its size
+  double x = frame.left();
+  for (const SvgLine& line : plot.lines) {
+    if (line.label.empty()) continue;
+    out += fmt::format("<path d=\"M{:.2f} 62H{:.2f}\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", x, x + kSample,
+                       escaped(line.color), line.style == LineStyle::Dashed ? 1.8 : 2.4, dashes(line.style));
+    out += fmt::format("<text x=\"{:.2f}\" y=\"67\">{}</text>\n", x + kSample + 8, escaped(line.label));
+    x += kSample + 30 + kCharacter * static_cast<double>(line.label.size());
+  }
+}
+
+}  // namespace
+
+std::string_view distinct_color(std::size_t index) {
+  // blue, vermillion, bluish green, reddish purple, and orange darkened to be seen on white
+  constexpr std::array<std::string_view, 5> kColors{"#0072b2", "#d55e00", "#009e73", "#b0578f", "#a97500"};
+  return kColors[index % kColors.size()];
+}
+
+std::vector<SvgPoint> simplified(std::span<const SvgPoint> points, double tolerance) {
+  if (points.size() < 3) return {points.begin(), points.end()};
+  const auto by_x = [](SvgPoint a, SvgPoint b) { return a.x < b.x; };
+  const auto by_y = [](SvgPoint a, SvgPoint b) { return a.y < b.y; };
+  const auto [left, right] = std::minmax_element(points.begin(), points.end(), by_x);
+  const auto [lowest, highest] = std::minmax_element(points.begin(), points.end(), by_y);
+
+  std::vector<bool> keep(points.size(), false);
+  std::vector<std::size_t> anchors{0, points.size() - 1};
+  for (const auto extreme : {left, right, lowest, highest}) {
+    anchors.push_back(static_cast<std::size_t>(extreme - points.begin()));
+  }
+  std::sort(anchors.begin(), anchors.end());
+
+  // split each span at its farthest point until none is farther than the tolerance
+  std::vector<std::pair<std::size_t, std::size_t>> spans;
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    keep[anchors[i]] = true;
+    if (i > 0) spans.emplace_back(anchors[i - 1], anchors[i]);
+  }
+  while (!spans.empty()) {
+    const auto [first, last] = spans.back();
+    spans.pop_back();
+    double farthest = tolerance;
+    std::size_t at = first;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const double distance = distance_to_segment(points[i], points[first], points[last]);
+      if (distance > farthest) farthest = distance, at = i;
+    }
+    if (at == first) continue;
+    keep[at] = true;
+    spans.emplace_back(first, at);
+    spans.emplace_back(at, last);
+  }
+
+  std::vector<SvgPoint> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (keep[i]) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
+std::string svg(const SvgPlot& plot) {
+  const Frame frame(plot);
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
+      "font-family=\"Inter, 'DejaVu Sans', sans-serif\" font-size=\"16\" fill=\"#1d2329\">\n"
+      "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n"
+      "<text x=\"{3}\" y=\"36\" font-size=\"20\" font-weight=\"600\">{2}</text>\n",
+      plot.width, plot.height, escaped(plot.title), kLeft);
+  draw_axes(out, plot, frame);
+  for (const SvgLine& line : plot.lines) draw_line(out, line, frame);
+  for (const SvgMark& mark : plot.marks) draw_mark(out, mark, frame);
+  draw_legend(out, plot, frame);
+  return out + "</svg>\n";
+}
+
+}  // namespace afm::app

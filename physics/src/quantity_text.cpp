@@ -58,12 +58,12 @@ std::string refusal(std::string_view text, std::string_view sort, std::span<cons
 
 }  // namespace
 
-const UnitList<Length> kLengthUnits{"a length", kLengths};
-const UnitList<Force> kForceUnits{"a force", kForces};
-const UnitList<Velocity> kVelocityUnits{"a velocity", kVelocities};
-const UnitList<Energy> kEnergyUnits{"an energy", kEnergies};
-const UnitList<Stiffness> kStiffnessUnits{"a stiffness", kStiffnesses};
-const UnitList<SurfaceEnergy> kSurfaceEnergyUnits{"a surface energy", kSurfaceEnergies};
+constinit const UnitList<Length> kLengthUnits{"a length", kLengths};
+constinit const UnitList<Force> kForceUnits{"a force", kForces};
+constinit const UnitList<Velocity> kVelocityUnits{"a velocity", kVelocities};
+constinit const UnitList<Energy> kEnergyUnits{"an energy", kEnergies};
+constinit const UnitList<Stiffness> kStiffnessUnits{"a stiffness", kStiffnesses};
+constinit const UnitList<SurfaceEnergy> kSurfaceEnergyUnits{"a surface energy", kSurfaceEnergies};
 
 std::variant<double, std::string> parse_si(std::string_view text, std::string_view sort, std::span<const Unit> units,
                                            Infinity infinity) {
