@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+# cmake -DCOMPILER=... -DINCLUDES=the include path of afm_physics -DSOURCE=... -P illegal_include.cmake
+list(TRANSFORM INCLUDES PREPEND -I)
+set(command ${COMPILER} -std=c++20 -fsyntax-only ${INCLUDES} ${SOURCE})
+execute_process(COMMAND ${command} RESULT_VARIABLE control ERROR_VARIABLE message)
+if(NOT control EQUAL 0)
+  message(FATAL_ERROR "the control does not compile, so the refusal would prove nothing:\n${message}")
+endif()
+execute_process(COMMAND ${command} -DAFM_ILLEGAL RESULT_VARIABLE status ERROR_VARIABLE message)
+if(status EQUAL 0)
+  message(FATAL_ERROR "physics could include render/renderer.h")
+endif()
+if(NOT message MATCHES "render/renderer.h")
+  message(FATAL_ERROR "refused for another reason:\n${message}")
+endif()
