@@ -18,16 +18,12 @@ namespace {
 constexpr double kVelocityCutoffHz = 30.0;
 constexpr double kPi = 3.14159265358979323846;
 
-constexpr double kFarthestM = 1e3;  // no hand is as far away as this; bounds the velocity
-
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-double largest_component(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 // Finite `v` shortened to `longest` where it is longer; direction kept. Scaled first, so that huge numbers do not
 // overflow.
 glm::dvec3 shortened(const glm::dvec3& v, double longest) {
-  const double largest = largest_component(v);
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (largest == 0.0) return v;
   const glm::dvec3 direction = v / largest;
   const double length = glm::length(direction);
@@ -54,8 +50,7 @@ SafetyGovernor::Output SafetyGovernor::step(const GovernorInput& input) noexcept
   time_ns_ = input.time_ns;
 
   if (!input.device_healthy) return cut(FaultCode::DeviceError);
-  if (!finite(input.wanted_force_n) || !finite(input.hand_position_m) || !std::isfinite(input.hand_height_m) ||
-      largest_component(input.hand_position_m) > kFarthestM) {
+  if (!finite(input.wanted_force_n) || !is_within_reach(input.hand_position_m) || !std::isfinite(input.hand_height_m)) {
     return cut(FaultCode::NotFinite);
   }
   if (!started_) position_m_ = input.hand_position_m;
@@ -87,6 +82,7 @@ void SafetyGovernor::begin_fade(std::int64_t duration_ns, FaultCode code) noexce
     return;
   }
   state_ = ServoState::Fading;
+  fade_begins_ = true;
   fade_duration_ns_ = duration_ns;
   fault_ = code;
 }
@@ -149,7 +145,9 @@ void SafetyGovernor::advance_state(const GovernorInput& input, std::int64_t elap
       if (gain_ >= 1.0) state_ = ServoState::Running;
       break;
     case ServoState::Fading:
-      gain_ = std::max(0.0, gain_ - seconds(elapsed_ns) / seconds(fade_duration_ns_));
+      // the pause before the fade is not part of it
+      gain_ = std::max(0.0, gain_ - seconds(fade_begins_ ? period_ns_ : elapsed_ns) / seconds(fade_duration_ns_));
+      fade_begins_ = false;
       break;
     case ServoState::Fault:
       if (turn_on_edge) state_ = ServoState::Disarmed;

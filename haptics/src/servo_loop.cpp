@@ -112,9 +112,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   const DeviceSample hand = device_.read(now_ns);
 
   // the place of a device that failed, or that makes no sense, is the last one known; the governor hears of it below
-  const double sum = hand.position_m.x + hand.position_m.y + hand.position_m.z;
-  const bool usable = hand.healthy && std::isfinite(sum);
-  if (usable) {
+  if (hand.healthy && is_within_reach(hand.position_m)) {
     hand_position_m_ = hand.position_m;
     hand_height_m_ = glm::dot(hand.position_m - device_.spec().contact_point_m, normal_);
   } else if (encounter_ != nullptr) {

@@ -25,6 +25,9 @@ struct DeviceSpec {
 // (sawSensablePhantom), and less for a device whose nominal peak leaves no reserve of a tenth.
 double force_cap_n(const DeviceSpec& spec);
 
+// Finite and not absurdly far: what a hand's position must be before anything is computed from it.
+bool is_within_reach(const glm::dvec3& position_m) noexcept;
+
 struct DeviceSample {
   glm::dvec3 position_m{0.0};
   bool turn_on = false;               // the button that enables the force, held down

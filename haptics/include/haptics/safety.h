@@ -93,6 +93,7 @@ class SafetyGovernor {
   scene::ServoState state_ = scene::ServoState::Disarmed;
   scene::FaultCode fault_ = scene::FaultCode::None;
   double gain_ = 0;
+  bool fade_begins_ = false;
   std::int64_t fade_duration_ns_ = kFadeNs;
   std::int64_t guard_until_ns_ = 0;
   std::int64_t damping_until_ns_ = 0;

@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/safety.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <random>
+#include <type_traits>
+
+namespace {
+
+using namespace afm::haptics;
+using afm::scene::ContactPhase;
+using afm::scene::FaultCode;
+using afm::scene::ServoState;
+
+// Nobody but the governor makes a force for a hand.
+static_assert(!std::is_default_constructible_v<ForceCommand>);
+static_assert(!std::is_constructible_v<ForceCommand, glm::dvec3>);
+static_assert(!std::is_aggregate_v<ForceCommand>);
+
+constexpr std::int64_t kPeriodNs = 1'000'000;
+constexpr double kCapN = 2.0;
+constexpr double kReleaseHeightM = 0.050;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1e-12;
+
+// A governor and the input of the next tick, which tests change.
+class Governor : public testing::Test {
+ protected:
+  double step(std::int64_t elapsed_ns = kPeriodNs) {
+    input_.time_ns += elapsed_ns;
+    const auto output = governor_.step(input_);
+    dropped_ = output.dropped;
+    force_n_ = output.command.force_n();
+    return glm::length(force_n_);
+  }
+
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) step();
+  }
+
+  // Disarmed, with everything in place for Turn-On.
+  void lift() {
+    input_.hand_height_m = 0.060;
+    input_.hand_position_m = glm::dvec3(0.0, 0.060, 0.0);
+    input_.phase = ContactPhase::Free;
+    input_.renderer = RendererLink::Alive;
+    steps(100);
+  }
+
+  void press() {
+    input_.turn_on = true;
+    step();
+    input_.turn_on = false;
+  }
+
+  void arm() {
+    lift();
+    press();
+    steps(500);
+    ASSERT_EQ(governor_.state(), ServoState::Running);
+  }
+
+  // Running, with `force_n` reached.
+  void hold(double force_n) {
+    arm();
+    input_.phase = ContactPhase::Attached;
+    input_.hand_height_m = 0.040;
+    input_.wanted_force_n = glm::dvec3(0.0, -force_n, 0.0);
+    steps(20);
+    ASSERT_NEAR(step(), force_n, kRounding);
+  }
+
+  // Ticks until the command is exactly zero.
+  int ticks_to_zero() {
+    for (int i = 1; i < 10'000; ++i) {
+      if (step() == 0.0) return i;
+    }
+    return -1;
+  }
+
+  SafetyGovernor governor_{kPeriodNs, kCapN, kReleaseHeightM};
+  GovernorInput input_{.time_ns = 1'000'000'000};
+  glm::dvec3 force_n_{0.0};
+  bool dropped_ = false;
+};
+
+TEST_F(Governor, GivesNoForceBeforeTurnOn) {
+  lift();
+  input_.wanted_force_n = glm::dvec3(1.0);
+  for (int i = 0; i < 2000; ++i) EXPECT_EQ(step(), 0.0);
+  EXPECT_EQ(governor_.state(), ServoState::Disarmed);
+}
+
+TEST_F(Governor, ArmsInHalfASecond) {
+  lift();
+  press();
+  EXPECT_EQ(governor_.state(), ServoState::Arming);
+  steps(499);
+  EXPECT_EQ(governor_.state(), ServoState::Arming);
+  steps(2);
+  EXPECT_EQ(governor_.state(), ServoState::Running);
+}
+
+TEST_F(Governor, RampsTheForceWhileArming) {
+  lift();
+  press();
+  input_.wanted_force_n = glm::dvec3(0.0, -1.0, 0.0);
+  steps(125);
+  EXPECT_NEAR(step(), 0.25, 0.01);
+  steps(250);
+  EXPECT_NEAR(step(), 0.75, 0.01);
+}
+
+struct Obstacle {
+  const char* name;
+  void (*put)(GovernorInput&);
+};
+
+class GovernorWithObstacle : public Governor, public testing::WithParamInterface<Obstacle> {};
+
+TEST_P(GovernorWithObstacle, DoesNotArm) {
+  lift();
+  GetParam().put(input_);
+  step();
+  press();
+  EXPECT_EQ(governor_.state(), ServoState::Disarmed);
+  steps(600);
+  EXPECT_EQ(governor_.state(), ServoState::Disarmed);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Interlock, GovernorWithObstacle,
+    testing::Values(Obstacle{"TooLow", [](GovernorInput& i) { i.hand_height_m = 0.0549; }},
+                    Obstacle{"Attached", [](GovernorInput& i) { i.phase = ContactPhase::Attached; }},
+                    Obstacle{"WaitingForLift", [](GovernorInput& i) { i.phase = ContactPhase::WaitForLift; }},
+                    Obstacle{"Force", [](GovernorInput& i) { i.wanted_force_n.y = 0.06; }},
+                    Obstacle{"Moving", [](GovernorInput& i) { i.hand_position_m.x += 0.05; }},
+                    Obstacle{"NoRenderer", [](GovernorInput& i) { i.renderer = RendererLink::Absent; }},
+                    Obstacle{"HungRenderer", [](GovernorInput& i) { i.renderer = RendererLink::Hung; }},
+                    Obstacle{"LeavingRenderer", [](GovernorInput& i) { i.renderer = RendererLink::Leaving; }},
+                    Obstacle{"DeadRenderer", [](GovernorInput& i) { i.renderer = RendererLink::Died; }}),
+    [](const auto& test) { return test.param.name; });
+
+TEST_F(Governor, TakesOnlyTheEdgeOfTheButton) {
+  input_.turn_on = true;
+  lift();
+  steps(600);
+  EXPECT_EQ(governor_.state(), ServoState::Disarmed);
+}
+
+TEST_F(Governor, PassesAForceWithinItsLimitsUnchanged) {
+  hold(kCapN);
+  EXPECT_EQ(force_n_, glm::dvec3(0.0, -kCapN, 0.0));
+  input_.wanted_force_n = glm::dvec3(0.1, -1.9, 0.2);
+  step();
+  EXPECT_EQ(force_n_, input_.wanted_force_n);
+}
+
+TEST_F(Governor, ShortensALongVectorAndKeepsItsDirection) {
+  arm();
+  input_.wanted_force_n = glm::dvec3(3.0, -4.0, 12.0);
+  steps(10);
+  EXPECT_NEAR(glm::length(force_n_), kCapN, kRounding);
+  EXPECT_NEAR(glm::dot(force_n_, input_.wanted_force_n), kCapN * 13.0, 1e-9);
+}
+
+TEST_F(Governor, LimitsTheSlewInBothDirections) {
+  arm();
+  input_.wanted_force_n = glm::dvec3(0.0, -2.0, 0.0);
+  for (const double expected_n : {0.5, 1.0, 1.5, 2.0, 2.0}) EXPECT_NEAR(step(), expected_n, kRounding);
+  input_.wanted_force_n = glm::dvec3(0.0);
+  for (const double expected_n : {1.5, 1.0, 0.5}) EXPECT_NEAR(step(), expected_n, kRounding);
+  EXPECT_EQ(step(), 0.0);
+}
+
+TEST_F(Governor, ReleasesWithin20MsOfTheRenderersDeath) {
+  hold(kCapN);
+  input_.renderer = RendererLink::Died;
+  EXPECT_LE(ticks_to_zero(), 20);
+  EXPECT_TRUE(dropped_);
+  EXPECT_TRUE(governor_.released());
+  EXPECT_EQ(governor_.state(), ServoState::Disarmed);
+  EXPECT_EQ(governor_.fault(), FaultCode::RendererDied);
+}
+
+TEST_F(Governor, FadesIn100MsWhenTheRendererHangsOrLeaves) {
+  for (const RendererLink link : {RendererLink::Hung, RendererLink::Leaving}) {
+    governor_ = SafetyGovernor(kPeriodNs, kCapN, kReleaseHeightM);
+    input_ = {.time_ns = 1'000'000'000};
+    hold(kCapN);
+    input_.renderer = link;
+    EXPECT_NEAR(ticks_to_zero(), 100, 1);
+    EXPECT_EQ(governor_.fault(), link == RendererLink::Hung ? FaultCode::RendererHung : FaultCode::None);
+  }
+}
+
+TEST_F(Governor, HurriesAFadeWhenTheHungRendererDies) {
+  hold(kCapN);
+  input_.renderer = RendererLink::Hung;
+  steps(10);
+  input_.renderer = RendererLink::Died;
+  EXPECT_LE(ticks_to_zero(), 20);
+  EXPECT_EQ(governor_.fault(), FaultCode::RendererDied);
+}
+
+TEST_F(Governor, NeedsTurnOnAgainWhenTheRendererComesBack) {
+  hold(kCapN);
+  input_.renderer = RendererLink::Hung;
+  ticks_to_zero();
+  input_.renderer = RendererLink::Alive;
+  steps(1000);
+  EXPECT_EQ(governor_.state(), ServoState::Disarmed);
+  EXPECT_EQ(governor_.fault(), FaultCode::RendererHung);
+  input_.wanted_force_n = glm::dvec3(0.0);
+  lift();
+  press();
+  EXPECT_EQ(governor_.state(), ServoState::Arming);
+  EXPECT_EQ(governor_.fault(), FaultCode::None);
+}
+
+// The model wants something else after the pause; what the hand gets glides there.
+TEST_F(Governor, GlidesAfterALateTick) {
+  hold(1.0);
+  input_.wanted_force_n = glm::dvec3(0.0, -2.0, 0.0);
+  EXPECT_NEAR(step(5 * kPeriodNs), 1.1, kRounding);
+  EXPECT_NEAR(step(), 1.2, kRounding);
+  EXPECT_EQ(governor_.state(), ServoState::Running);
+}
+
+TEST_F(Governor, DisarmsAfterAPauseOfMoreThan20Ms) {
+  for (const std::int64_t pause_ns : {50'000'000, 500'000'000}) {
+    governor_ = SafetyGovernor(kPeriodNs, kCapN, kReleaseHeightM);
+    input_ = {.time_ns = 1'000'000'000};
+    hold(kCapN);
+    const double before_n = glm::length(force_n_);
+    EXPECT_GE(step(pause_ns), before_n - SafetyGovernor::kSlewNPerS * 1e-3 - kRounding);
+    EXPECT_LE(ticks_to_zero(), 20);
+    EXPECT_EQ(governor_.state(), ServoState::Disarmed);
+    EXPECT_EQ(governor_.fault(), FaultCode::LateTick);
+  }
+}
+
+TEST_F(Governor, StaysRunningAfterAPauseOf20Ms) {
+  hold(1.0);
+  step(20'000'000);
+  EXPECT_EQ(governor_.state(), ServoState::Running);
+}
+
+TEST_F(Governor, CutsToZeroOnWhatIsNotANumber) {
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    for (int where = 0; where < 3; ++where) {
+      governor_ = SafetyGovernor(kPeriodNs, kCapN, kReleaseHeightM);
+      input_ = {.time_ns = 1'000'000'000};
+      hold(kCapN);
+      if (where == 0) input_.wanted_force_n.x = bad;
+      if (where == 1) input_.hand_position_m.z = bad;
+      if (where == 2) input_.hand_height_m = bad;
+      EXPECT_EQ(step(), 0.0);
+      EXPECT_TRUE(dropped_);
+      EXPECT_EQ(governor_.state(), ServoState::Fault);
+      EXPECT_EQ(governor_.fault(), FaultCode::NotFinite);
+    }
+  }
+}
+
+TEST_F(Governor, LeavesAFaultOnlyByTurnOnAndOnlyOnceItsCauseIsGone) {
+  hold(kCapN);
+  input_.device_healthy = false;
+  EXPECT_EQ(step(), 0.0);
+  EXPECT_EQ(governor_.fault(), FaultCode::DeviceError);
+  press();
+  EXPECT_EQ(governor_.state(), ServoState::Fault);
+  input_.device_healthy = true;
+  steps(100);
+  EXPECT_EQ(governor_.state(), ServoState::Fault);
+  press();
+  EXPECT_EQ(governor_.state(), ServoState::Disarmed);
+  input_.wanted_force_n = glm::dvec3(0.0);
+  arm();
+}
+
+TEST_F(Governor, TripsAtAHandThatFlies) {
+  arm();
+  input_.wanted_force_n = glm::dvec3(0.0, 1.0, 0.0);
+  int ticks = 0;
+  while (governor_.state() == ServoState::Running && ++ticks < 100) {
+    input_.hand_position_m.y += 2e-3;  // 2 m/s
+    step();
+  }
+  EXPECT_EQ(governor_.state(), ServoState::Fault);
+  EXPECT_EQ(governor_.fault(), FaultCode::VelocityTrip);
+  EXPECT_EQ(glm::length(force_n_), 0.0);
+  EXPECT_GE(ticks, 5);
+}
+
+TEST_F(Governor, ToleratesTheRecoilOfARelaxedHand) {
+  arm();
+  for (int i = 0; i < 100; ++i) {
+    input_.hand_position_m.y += 0.63e-3;
+    step();
+  }
+  EXPECT_EQ(governor_.state(), ServoState::Running);
+}
+
+TEST_F(Governor, BrakesTheHandAfterPullOffAndStopsBrakingAfter100Ms) {
+  arm();
+  input_.pulled_off = true;
+  for (int i = 0; i < 99; ++i) {
+    input_.hand_position_m.y += 0.2e-3;  // 0.2 m/s upwards
+    step();
+    input_.pulled_off = false;
+  }
+  EXPECT_NEAR(force_n_.y, -3.0 * 0.2, 0.01);
+  for (int i = 0; i < 5; ++i) {
+    input_.hand_position_m.y += 0.2e-3;
+    step();
+  }
+  EXPECT_EQ(force_n_.y, 0.0);
+}
+
+TEST_F(Governor, DisarmsWithoutAFaultForAChangeOfMaterial) {
+  hold(1.0);
+  governor_.disarm();
+  EXPECT_LE(ticks_to_zero(), 20);
+  EXPECT_EQ(governor_.state(), ServoState::Disarmed);
+  EXPECT_EQ(governor_.fault(), FaultCode::None);
+}
+
+// Any number a double can be, the ordinary ones more often.
+double any_double(std::mt19937_64& random) {
+  switch (random() % 64) {
+    case 0:
+      return kNan;
+    case 1:
+      return kInfinity;
+    case 2:
+      return -kInfinity;
+    case 3:
+      return std::numeric_limits<double>::max();
+    case 4:
+      return -std::numeric_limits<double>::denorm_min();
+    default:
+      return std::uniform_real_distribution<double>(-4.0, 4.0)(random);
+  }
+}
+
+TEST(GovernorFuzz, StaysFiniteWithinCapAndSlewWhateverComesIn) {
+  std::mt19937_64 random(20240917);
+  SafetyGovernor governor(kPeriodNs, kCapN, kReleaseHeightM);
+  GovernorInput input{.time_ns = 1'000'000'000};
+  glm::dvec3 last_n(0.0);
+  int in_force = 0;
+  for (int i = 0; i < 1'000'000; ++i) {
+    const bool calm = (i / 2000) % 2 == 0;  // long enough to arm
+    input.time_ns += calm ? kPeriodNs : static_cast<std::int64_t>(random() % 4'000'000) - 10'000;
+    if (random() % 5000 == 0) input.time_ns += 30'000'000;
+    input.hand_position_m = calm ? glm::dvec3(0.0) : glm::dvec3(any_double(random) * 1e-3);
+    input.hand_height_m = calm ? 0.060 : any_double(random);
+    const bool steady = calm && i % 2000 < 200;
+    input.wanted_force_n =
+        steady ? glm::dvec3(0.0) : glm::dvec3(any_double(random), any_double(random), any_double(random));
+    if (calm && !std::isfinite(glm::dot(input.wanted_force_n, glm::dvec3(1.0)))) input.wanted_force_n = glm::dvec3(0.0);
+    input.phase = calm ? ContactPhase::Free : static_cast<ContactPhase>(random() % 3);
+    input.pulled_off = random() % 100 == 0;
+    input.turn_on = random() % 4 == 0;
+    input.device_healthy = calm || random() % 100 != 0;
+    input.renderer = calm ? RendererLink::Alive : static_cast<RendererLink>(random() % 5);
+
+    const glm::dvec3 force_n = governor.step(input).command.force_n();
+    const double length_n = glm::length(force_n);
+    ASSERT_TRUE(std::isfinite(length_n));
+    ASSERT_LE(length_n, kCapN + kRounding);
+    if (governor.state() == ServoState::Fault) {
+      ASSERT_EQ(length_n, 0.0);
+    } else {
+      ASSERT_LE(glm::length(force_n - last_n), SafetyGovernor::kSlewNPerS * 1e-3 + kRounding);
+    }
+    in_force += length_n > 0.0 ? 1 : 0;
+    last_n = force_n;
+  }
+  EXPECT_GT(in_force, 100'000) << "the fuzzer hardly ever reached a force";
+}
+
+}  // namespace

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "haptics/servo_loop.h"
+#include "haptics/simulated_device.h"
+#include "scene/shared_segment.h"
+#include "support/paper_model.h"
+
+namespace afm::test {
+
+// The servo, the simulated hand and the renderer's side of the segment, in time that only tick() moves.
+class ServoBench {
+ public:
+  explicit ServoBench(const scene::SharedModel& model = paper_model(), double rate_hz = 1000.0)
+      : segment(std::move(*scene::SharedSegment::create(model, 0))),
+        renderer(segment.renderer_side()),
+        loop(std::move(*haptics::ServoLoop::create(segment, device, rate_hz))) {}
+
+  // One tick `late_ns` after its time.
+  void tick(std::int64_t late_ns = 0) {
+    if (heartbeats) renderer.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = ++frame});
+    now_ns += loop->period_ns() + late_ns;
+    loop->tick(now_ns, static_cast<std::uint32_t>(late_ns / 1000));
+    while (const auto sample = renderer.pop_sample()) samples.push_back(*sample);
+    while (const auto event = renderer.pop_event()) events.push_back(*event);
+  }
+
+  void run(double seconds) {
+    for (std::int64_t end_ns = now_ns + std::llround(1e9 * seconds); now_ns < end_ns;) tick();
+  }
+
+  scene::TipState state() { return *renderer.tip_state(); }
+  double hand_force_n() {
+    const auto force = state().hand_force_n;
+    return std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
+  }
+
+  void choose(std::int32_t material) {
+    renderer.store(scene::Selection{.material = material, .revision = ++selection});
+  }
+
+  // Aims the hand at this height above the contact point; the button is `pressed` from then on.
+  void aim(double height_m, double seconds, bool pressed = false) {
+    renderer.store(scene::HandScript{.target_m = {0.0, height_m, 0.0},
+                                     .duration_s = seconds,
+                                     .revision = ++script,
+                                     .turn_on_pressed = pressed ? 1U : 0U});
+  }
+
+  // Aims and waits until the path has been played.
+  void move(double height_m, double seconds) {
+    aim(height_m, seconds);
+    while (state_or_default().hand_revision != script) tick();
+  }
+
+  // The paper's procedure: choose, lift, press Turn-On; returns in Running with the button released.
+  void arm(std::int32_t material) {
+    choose(material);
+    move(kTop, 0.3);
+    run(1.0);
+    aim(kTop, 0.0, true);
+    run(0.1);
+    aim(kTop, 0.0);
+    run(0.6);
+    ASSERT_EQ(state().servo_state, scene::ServoState::Running);
+  }
+
+  // Holds the tip on the sample in the middle of the adhesive stroke.
+  void hold_attached(std::int32_t material) {
+    arm(material);
+    move(-0.010, 0.5);
+    move(0.025, 0.5);
+    run(0.5);
+    ASSERT_EQ(state().phase, scene::ContactPhase::Attached);
+    ASSERT_GT(hand_force_n(), 0.5);
+  }
+
+  static constexpr double kTop = 0.060;
+
+  scene::SharedSegment segment;
+  scene::RendererSide renderer;
+  haptics::SimulatedDevice device;
+  std::unique_ptr<haptics::ServoLoop> loop;
+  std::vector<scene::TipSample> samples;
+  std::vector<scene::TipEvent> events;
+  std::int64_t now_ns = 1'000'000'000;
+  bool heartbeats = true;
+  std::uint64_t frame = 0;
+  std::uint32_t selection = 0;
+  std::uint32_t script = 0;
+
+ private:
+  scene::TipState state_or_default() { return renderer.tip_state().value_or(scene::TipState{}); }
+};
+
+}  // namespace afm::test

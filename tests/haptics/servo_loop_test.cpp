@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/servo_loop.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <tuple>
+
+#include "physics/contact.h"
+#include "servo_bench.h"
+
+namespace {
+
+using namespace afm::scene;
+using afm::haptics::ServoLoop;
+using afm::haptics::SimulatedDevice;
+using afm::test::kGold;
+using afm::test::kMica;
+using afm::test::kSiliconNitride;
+using afm::test::paper_model;
+using afm::test::ServoBench;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+afm::physics::ApproachRetractEvents calculated(std::int32_t material) {
+  const SharedMaterial m = paper_model().materials[static_cast<std::size_t>(material)];
+  return afm::physics::approach_retract_events(
+      {.tip_radius = afm::physics::Length(m.tip_radius_m),
+       .spring_constant = afm::physics::Stiffness(m.spring_constant_n_per_m),
+       .sample_stiffness = afm::physics::Stiffness(m.sample_stiffness_n_per_m),
+       .hamaker = afm::physics::Energy(m.hamaker_j),
+       .mean_surface_energy = afm::physics::SurfaceEnergy(m.mean_surface_energy_j_per_m2)});
+}
+
+// Material, and the highest speed of the hand's aim.
+class FullCycle : public testing::TestWithParam<std::tuple<std::int32_t, double>> {
+ protected:
+  // A minimum-jerk path is 15/8 as fast in its middle as on average (Flash & Hogan 1985).
+  static double seconds_for(double distance_m, double top_speed) { return 1.875 * distance_m / top_speed; }
+
+  void cycle() {
+    const auto [material, speed] = GetParam();
+    bench_.arm(material);
+    bench_.move(-0.030, seconds_for(0.090, speed));
+    bench_.run(0.3);
+    bench_.move(0.072, seconds_for(0.102, speed));
+    bench_.run(0.5);
+  }
+
+  ServoBench bench_;
+};
+
+TEST_P(FullCycle, JumpsOnceEachWayWithTheForcesOfTheEquations) {
+  cycle();
+  const auto [material, speed] = GetParam();
+  const auto expected = calculated(material);
+  ASSERT_EQ(bench_.events.size(), 2U);
+
+  const TipEvent& in = bench_.events[0];
+  EXPECT_EQ(in.kind, TipEventKind::JumpToContact);
+  EXPECT_EQ(in.material, material);
+  EXPECT_NEAR(in.z_m, expected.z_jtc.si, 1e-9 * expected.z_jtc.si);
+  EXPECT_NEAR(in.force_after_n, -expected.f_attr.si, 1e-9 * expected.f_attr.si);
+
+  const TipEvent& off = bench_.events[1];
+  EXPECT_EQ(off.kind, TipEventKind::JumpOffContact);
+  EXPECT_NEAR(off.z_m, expected.z_joc.si, 1e-9 * expected.z_joc.si);
+  EXPECT_NEAR(off.force_before_n, -expected.f_ad.si, 1e-9 * expected.f_ad.si);
+  EXPECT_EQ(off.force_after_n, 0.0);
+
+  EXPECT_LT(in.time_ns, off.time_ns);
+  EXPECT_EQ(bench_.state().servo_state, ServoState::Running);
+  EXPECT_EQ(bench_.state().fault, FaultCode::None);
+}
+
+TEST_P(FullCycle, RecordsEveryTickInOrder) {
+  cycle();
+  ASSERT_FALSE(bench_.samples.empty());
+  for (std::size_t i = 1; i < bench_.samples.size(); ++i) {
+    ASSERT_EQ(bench_.samples[i].tick, bench_.samples[i - 1].tick + 1);
+    ASSERT_EQ(bench_.samples[i].time_ns, bench_.samples[i - 1].time_ns + 1'000'000);
+  }
+  EXPECT_EQ(bench_.renderer.lost_samples() + bench_.renderer.refused_blocks(), 0U);
+  EXPECT_EQ(bench_.state().garbage_blocks, 0U);
+}
+
+TEST_P(FullCycle, PlacesEachEventBetweenTheSamplesAroundIt) {
+  cycle();
+  for (const TipEvent& event : bench_.events) {
+    for (std::size_t i = 1; i < bench_.samples.size(); ++i) {
+      if (bench_.samples[i].time_ns < event.time_ns) continue;
+      const double before_m = bench_.samples[i - 1].z_m;
+      const double after_m = bench_.samples[i].z_m;
+      EXPECT_LE(std::min(before_m, after_m), event.z_m);
+      EXPECT_GE(std::max(before_m, after_m), event.z_m);
+      break;
+    }
+  }
+}
+
+TEST_P(FullCycle, KeepsTheHandsForceWithinTheCapAndTheSlew) {
+  cycle();
+  for (std::size_t i = 1; i < bench_.samples.size(); ++i) {
+    ASSERT_LE(std::abs(bench_.samples[i].hand_force_n), 2.0 + 1e-12);
+    ASSERT_LE(std::abs(bench_.samples[i].hand_force_n - bench_.samples[i - 1].hand_force_n), 0.5 + 1e-12);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Hands, FullCycle,
+    testing::Combine(testing::Values(kMica, kGold, kSiliconNitride), testing::Values(0.005, 0.02, 0.1, 0.2)),
+    [](const auto& test) {
+      return std::string(paper_model().materials[static_cast<std::size_t>(std::get<0>(test.param))].name.data()) +
+             "At" + std::to_string(std::lround(1e3 * std::get<1>(test.param))) + "mmPerS";
+    });
+
+TEST(ServoLoop, PullsTheHandDownAtSnapInAndLetsItFlyAtPullOff) {
+  ServoBench bench;
+  bench.arm(kMica);
+  bench.move(-0.010, 1.0);
+  ASSERT_EQ(bench.events.size(), 1U);
+
+  // after snap-in the hand stands lower than its aim would hold it: 200 N/m against 40 N/m
+  bench.move(0.030, 1.0);
+  bench.run(1.0);
+  EXPECT_NEAR(bench.state().hand_position_m[1], 0.030 * 200.0 / 240.0, 1e-5);
+
+  // at pull-off the grip is stretched by 2 N / 200 N/m, and 60 ms later the hand is most of that higher
+  bench.move(0.072, 3.0);
+  ASSERT_EQ(bench.events.size(), 2U);
+  const auto released = std::find_if(bench.samples.begin(), bench.samples.end(), [&](const TipSample& sample) {
+    return sample.time_ns >= bench.events[1].time_ns;
+  });
+  ASSERT_GT(bench.samples.end() - released, 60);
+  EXPECT_NEAR(released->hand_height_m, 0.050, 1e-4);
+  EXPECT_GT((released + 60)->hand_height_m, 0.057);
+}
+
+TEST(ServoLoop, GivesNoForceBeforeTurnOn) {
+  ServoBench bench;
+  bench.choose(kMica);
+  bench.move(0.060, 0.3);
+  bench.move(-0.020, 0.5);
+  bench.run(0.5);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
+  EXPECT_EQ(bench.hand_force_n(), 0.0);
+  EXPECT_NEAR(bench.state().hand_position_m[1], -0.020, 1e-5);
+}
+
+TEST(ServoLoop, FeelsTheSampleInItsNewOrientation) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  const double angle = 0.3;
+  SceneTransforms transforms;
+  transforms.count = 2;
+  transforms.room_from_node[0] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  transforms.room_from_node[1] = {1, 0, 0, 0, 0, 0, -1, 0, 2 * std::sin(angle), 2 * std::cos(angle), 0, 0, 0, 0, 0, 1};
+  bench.renderer.store(transforms);
+  bench.run(1.0);
+  const TipState state = bench.state();
+  EXPECT_NEAR(state.hand_force_n[0] / state.hand_force_n[1], std::tan(angle), 1e-9);
+  EXPECT_LT(state.hand_force_n[1], 0.0);
+}
+
+TEST(ServoLoop, WaitsWithAChangeOfMaterialUntilTheTipIsOff) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  const std::uint32_t before = bench.state().selection_revision;
+  bench.choose(kGold);
+  bench.run(0.2);
+  EXPECT_EQ(bench.state().material, kMica);
+  EXPECT_EQ(bench.state().selection_revision, before);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Running);
+
+  bench.move(0.072, 0.5);
+  bench.run(0.5);
+  EXPECT_EQ(bench.state().material, kGold);
+  EXPECT_EQ(bench.state().selection_revision, before + 1);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
+  EXPECT_EQ(bench.hand_force_n(), 0.0);
+  EXPECT_NEAR(bench.state().hand_m_per_m, 0.050 / calculated(kGold).z_joc.si, 1.0);
+}
+
+TEST(ServoLoop, DoesNotDisarmForTheSameMaterialAgain) {
+  ServoBench bench;
+  bench.arm(kMica);
+  bench.choose(kMica);
+  bench.run(0.1);
+  EXPECT_EQ(bench.state().selection_revision, bench.selection);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Running);
+}
+
+TEST(ServoLoop, IgnoresAndCountsGarbageInTheSharedBlocks) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  const double force_n = bench.hand_force_n();
+  bench.renderer.store(Selection{.material = 99, .revision = 1000});
+  bench.renderer.store(HandScript{.target_m = {kNan, 0, 0}, .revision = 1000});
+  SceneTransforms transforms;
+  transforms.count = 2;  // all zero: a sample without an orientation
+  bench.renderer.store(transforms);
+  bench.run(0.05);
+  EXPECT_EQ(bench.state().garbage_blocks, 3U);
+  EXPECT_NEAR(bench.hand_force_n(), force_n, 1e-3);
+  EXPECT_EQ(bench.state().material, kMica);
+}
+
+TEST(ServoLoop, FadesWhenTheHeartbeatStops) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  bench.heartbeats = false;
+  const std::int64_t stopped_ns = bench.now_ns;
+  bench.run(0.249);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Running);
+  while (bench.hand_force_n() > 0.0) bench.tick();
+  EXPECT_LE(bench.now_ns - stopped_ns, 352'000'000);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
+  EXPECT_EQ(bench.state().fault, FaultCode::RendererHung);
+  // a tip that stuck is not taken up again in the middle
+  bench.tick();
+  EXPECT_EQ(bench.state().phase, ContactPhase::WaitForLift);
+}
+
+TEST(ServoLoop, ReleasesWhenTheRendererDied) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  bench.loop->renderer_died();
+  const std::int64_t died_ns = bench.now_ns;
+  while (bench.hand_force_n() > 0.0) bench.tick();
+  EXPECT_LE(bench.now_ns - died_ns, 21'000'000);
+  EXPECT_EQ(bench.state().fault, FaultCode::RendererDied);
+}
+
+TEST(ServoLoop, DisarmsAfterAStallAndNeverThrowsTheHand) {
+  for (const std::int64_t stall_ns : {5'000'000, 50'000'000, 500'000'000}) {
+    ServoBench bench;
+    bench.hold_attached(kMica);
+    double last_n = bench.hand_force_n();
+    bench.aim(0.035, 0.0);
+    bench.tick(stall_ns);
+    for (int i = 0; i < 200; ++i) {
+      const double force_n = bench.hand_force_n();
+      ASSERT_LE(std::abs(force_n - last_n), 0.2);
+      last_n = force_n;
+      bench.tick();
+    }
+    EXPECT_EQ(bench.state().servo_state, stall_ns > 20'000'000 ? ServoState::Disarmed : ServoState::Running);
+  }
+}
+
+// A device whose reports a test can spoil; it remembers the last force that it got.
+class FaultyDevice final : public afm::haptics::HapticDevice {
+ public:
+  const afm::haptics::DeviceSpec& spec() const noexcept override { return hand_.spec(); }
+  afm::haptics::DeviceSample read(std::int64_t now_ns) noexcept override {
+    auto sample = hand_.read(now_ns);
+    if (spoil != nullptr) spoil(sample);
+    return sample;
+  }
+  void write(const afm::haptics::ForceCommand& command) noexcept override {
+    force_n = command.force_n();
+    hand_.write(command);
+  }
+  void follow(const HandScript& script) noexcept override { hand_.follow(script); }
+
+  void (*spoil)(afm::haptics::DeviceSample&) = nullptr;
+  glm::dvec3 force_n{0.0};
+
+ private:
+  SimulatedDevice hand_;
+};
+
+TEST(ServoLoop, ReleasesADeviceThatReportsNonsense) {
+  for (auto* spoil : {+[](afm::haptics::DeviceSample& s) { s.position_m.y = kNan; },
+                      +[](afm::haptics::DeviceSample& s) { s.position_m.x = INFINITY; },
+                      +[](afm::haptics::DeviceSample& s) { s.position_m.y = 1e200; },
+                      +[](afm::haptics::DeviceSample& s) { s.healthy = false; }}) {
+    auto segment = SharedSegment::create(paper_model(), 0);
+    FaultyDevice device;
+    auto loop = ServoLoop::create(*segment, device, 1000.0);
+    RendererSide renderer = segment->renderer_side();
+    renderer.store(Selection{.material = kMica, .revision = 1});
+    std::int64_t now_ns = 0;
+    const auto run = [&](int ticks) {
+      for (int i = 0; i < ticks; ++i) {
+        renderer.store(RendererHeartbeat{});
+        (*loop)->tick(now_ns += 1'000'000, 0);
+      }
+    };
+    run(100);
+    renderer.store(HandScript{.target_m = {0, 0.06, 0}, .revision = 1, .turn_on_pressed = 1});
+    run(600);
+    renderer.store(HandScript{.target_m = {0, -0.02, 0}, .duration_s = 0.5, .revision = 2});
+    run(1000);
+    ASSERT_GT(device.force_n.y, 0.4);
+    device.spoil = spoil;
+    run(1);
+    EXPECT_EQ(device.force_n, glm::dvec3(0.0));
+    EXPECT_EQ(renderer.tip_state()->servo_state, ServoState::Fault);
+    device.spoil = nullptr;
+    run(100);
+    EXPECT_EQ(device.force_n, glm::dvec3(0.0));
+    EXPECT_EQ(renderer.refused_blocks(), 0U);
+  }
+}
+
+TEST(ServoLoop, GoesOnInASegmentWhereItsPredecessorDied) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  SimulatedDevice device;
+  auto successor = ServoLoop::create(bench.segment, device, 1000.0);
+  ASSERT_TRUE(successor);
+  for (int i = 0; i < 50; ++i) {
+    bench.renderer.store(RendererHeartbeat{});
+    (*successor)->tick(bench.now_ns += 1'000'000, 0);
+  }
+  EXPECT_EQ(bench.state().tick, 50U);
+  EXPECT_EQ(bench.state().material, kMica);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
+  EXPECT_EQ(bench.hand_force_n(), 0.0);
+}
+
+TEST(ServoLoop, RefusesARateThatNoServoCanKeep) {
+  auto segment = SharedSegment::create(paper_model(), 0);
+  SimulatedDevice device;
+  for (const double rate_hz : {0.0, 99.0, 20'000.0, -1000.0, kNan}) {
+    EXPECT_THAT(ServoLoop::create(*segment, device, rate_hz).error().message,
+                testing::HasSubstr("choose 100 to 10000 Hz"));
+  }
+}
+
+TEST(ServoLoop, RefusesAMaterialWithoutAForceLaw) {
+  SharedModel model = paper_model();
+  model.materials[kGold].tip_radius_m = 1e6;
+  auto segment = SharedSegment::create(model, 0);
+  SimulatedDevice device;
+  EXPECT_THAT(ServoLoop::create(*segment, device, 1000.0).error().message, testing::HasSubstr("gold"));
+}
+
+}  // namespace
