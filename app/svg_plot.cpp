@@ -71,8 +71,15 @@ struct Axis {
 
   // widens to a margin around the data, and to something for no data and for a single value
   void settle() {
-    if (low > high) low = 0, high = 1;
-    if (low == high) low -= 0.5 * std::max(1e-12, std::abs(low)), high += 0.5 * std::max(1e-12, std::abs(high));
+    if (low > high) {
+      low = 0;
+      high = 1;
+    }
+    if (low == high) {
+      const double half = 0.5 * std::max(1e-12, std::abs(low));
+      low -= half;
+      high += half;
+    }
     const double margin = 0.04 * (high - low);
     low -= margin;
     high += margin;
@@ -241,7 +248,10 @@ std::vector<SvgPoint> simplified(std::span<const SvgPoint> points, double tolera
     std::size_t at = first;
     for (std::size_t i = first + 1; i < last; ++i) {
       const double distance = distance_to_segment(points[i], points[first], points[last]);
-      if (distance > farthest) farthest = distance, at = i;
+      if (distance > farthest) {
+        farthest = distance;
+        at = i;
+      }
     }
     if (at == first) continue;
     keep[at] = true;
