@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "surface.h"
+
+namespace afm::generate {
+
+using Json = nlohmann::ordered_json;
+
+// glTF 2.0 factors, linear.
+struct MaterialSpec {
+  std::string name;
+  V3 base_color{1, 1, 1};
+  double metallic = 0;
+  double roughness = 0.5;
+  double alpha = 1;  // below 1: alphaMode BLEND
+  V3 emissive{0, 0, 0};
+  double emissive_strength = 1;
+  bool unlit = false;
+  bool vertex_colors = false;  // write COLOR_0
+};
+
+struct Part {
+  Surface surface;
+  MaterialSpec material;
+};
+
+struct NodeSpec {
+  std::string name;
+  std::optional<std::size_t> parent{};  // an earlier node
+  std::optional<Placement> placement{};
+  std::vector<Part> parts{};
+  Json extras{};
+};
+
+// One .glb file to be. Lengths in metres.
+struct Model {
+  std::string name;  // the file's, without extension
+  std::vector<NodeSpec> nodes;
+};
+
+// The bytes of the binary glTF file: the same for the same model on every machine. Positions are rounded to the 2^22nd
+// part of each mesh's size.
+std::vector<std::uint8_t> to_glb(const Model& model);
+
+}  // namespace afm::generate

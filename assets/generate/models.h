@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "model_file.h"
+
+// The models of assets/models, one function a file or family. Sizes are the instrument's true ones in metres, except
+// for the swatches, the optics and the wand, which are as large as they stand in the room.
+namespace afm::generate {
+
+Model probe();                 // chip, V-shaped cantilever, pyramidal tip
+std::vector<Model> samples();  // a patch of mica, gold and silicon nitride each
+Model stage();
+std::vector<Model> swatches();  // what the wand points at to choose a material
+Model optics();                 // laser, four-quadrant photodiode, beam, spot
+Model wand();
+
+inline std::vector<Model> all_models() {
+  std::vector<Model> models{probe(), stage(), optics(), wand()};
+  for (Model& model : samples()) models.push_back(std::move(model));
+  for (Model& model : swatches()) models.push_back(std::move(model));
+  return models;
+}
+
+}  // namespace afm::generate

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "height_field.h"
+#include "models.h"
+
+namespace afm::generate {
+namespace {
+
+constexpr double kNm = 1e-9;
+
+// A rounded grain in each cell of a jittered grid. The eighth-power mean joins them without a kink and in any order.
+struct Grains {
+  double cell = 0;          // metres
+  double smallest = 0;      // height, of the largest one
+  double radius_low = 0.7;  // of the cell
+  double radius_high = 1.0;
+  std::uint32_t seed = 0;
+
+  double height(double x, double y) const {
+    // the middle of a cell stands at the origin, with a grain of its own
+    const double column = std::floor(x / cell + 0.5), row = std::floor(y / cell + 0.5);
+    double sum = 0;
+    for (int i = -2; i <= 2; ++i) {
+      for (int k = -2; k <= 2; ++k) {
+        const double power =
+            grain(static_cast<std::int64_t>(column) + i, static_cast<std::int64_t>(row) + k, x / cell, y / cell);
+        sum += power * power;
+      }
+    }
+    return std::sqrt(std::sqrt(std::sqrt(sum)));
+  }
+
+ private:
+  // the fourth power of one grain's height at a place in cells, its highest point being 1 or less
+  double grain(std::int64_t column, std::int64_t row, double x, double y) const {
+    const bool central = column == 0 && row == 0;
+    const double jitter = central ? 0 : 0.8;
+    const double dx = x - static_cast<double>(column) - jitter * (random_unit(column, row, seed) - 0.5);
+    const double dy = y - static_cast<double>(row) - jitter * (random_unit(column, row, seed + 1) - 0.5);
+    const double radius = central ? radius_high : mix(radius_low, radius_high, random_unit(column, row, seed + 2));
+    const double top = central ? 0.9 : mix(smallest, 1, random_unit(column, row, seed + 3));
+    const double q = (dx * dx + dy * dy) / (radius * radius);
+    const double cap = top * std::max(0.0, 1 - q * std::sqrt(q));
+    return cap * cap * cap * cap;
+  }
+};
+
+NodeSpec surface_node(const HeightField& field, std::vector<Part> parts) {
+  return {
+      .name = "surface",
+      .parent = 0,
+      .parts = std::move(parts),
+      .extras = {{"patch_side_m", field.side()},
+                 {"grid_vertices_a_side", field.vertices_a_side()},
+                 {"grid_spacing_m", field.spacing()},
+                 {"roughness_rms_m", field.roughness()},
+                 {"height_grid",
+                  "z of the first primitive's vertices: row by row from -y to +y, x fastest, centred on the origin"}}};
+}
+
+Model sample(std::string name, NodeSpec node) {
+  Model model{std::move(name), {}};
+  model.nodes.push_back({.name = "sample", .placement = kYUpFromZUp});
+  model.nodes.push_back(std::move(node));
+  return model;
+}
+
+// Terraces that fall towards -y, the viewer; every step is one layer, 1.0 nm.
+Model mica() {
+  constexpr double kLayer = 1.0 * kNm, kRiser = 2.4 * kNm;
+  constexpr double kSteps[] = {-30, -15.5, 17.5, 32};  // nm along the direction of ascent
+  constexpr int kLayersBelowCenter = 2;
+  const auto layers = [&](double x, double y) {
+    double count = -kLayersBelowCenter;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const double along = 0.96 * y + 0.28 * x, across = 0.96 * x - 0.28 * y;
+      const double wander = 2.8 * noise(across / (17 * kNm), k, 11) + 0.9 * noise(across / (7 * kNm), k, 12);
+      count += smooth_step(-kRiser / 2, kRiser / 2, along - (kSteps[k] + wander) * kNm);
+    }
+    return count;
+  };
+  const HeightField field(90, 84 * kNm / 90, [&](double x, double y) { return layers(x, y) * kLayer; });
+
+  const V3 even{0.80, 0.74, 0.74}, odd{0.60, 0.54, 0.56};
+  std::vector<WallBand> bands;
+  for (int layer = 2; layer > -9; --layer) {
+    bands.push_back({layer * kLayer, (layer - 1) * kLayer, layer % 2 == 0 ? even : odd});
+  }
+  const auto tint = [&](const V3& position) {
+    return mix(V3{0.80, 0.77, 0.79}, V3{1, 1, 1}, (position.z / kLayer + kLayersBelowCenter) / 4);
+  };
+  const MaterialSpec material{
+      .name = "mica", .base_color = {0.66, 0.58, 0.585}, .roughness = 0.35, .vertex_colors = true};
+  NodeSpec node = surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}});
+  node.extras["step_m"] = kLayer;
+  return sample("sample-mica", std::move(node));
+}
+
+// An evaporated film: rounded grains, the middle one with a flat top.
+Model gold() {
+  constexpr double kHeight = 8 * kNm;
+  const Grains grains{.cell = 42 * kNm, .smallest = 0.62, .radius_low = 0.66, .radius_high = 0.92, .seed = 21};
+  HeightField field(112, 430 * kNm / 112, [&](double x, double y) {
+    return kHeight * grains.height(x, y) + 0.25 * kNm * noise(x / (11 * kNm), y / (11 * kNm), 31);
+  });
+  field.level_at_center();
+
+  const auto tint = [&](const V3& position) {
+    const double lit = mix(0.42, 1, smooth_step(-6.5 * kNm, 0.5 * kNm, position.z));
+    return V3{lit, lit * mix(0.94, 1, lit), lit * mix(0.85, 1, lit)};
+  };
+  const MaterialSpec film{
+      .name = "gold", .base_color = {1.0, 0.77, 0.34}, .metallic = 1, .roughness = 0.3, .vertex_colors = true};
+  const MaterialSpec substrate{.name = "substrate", .base_color = {0.34, 0.33, 0.35}, .roughness = 0.6};
+  const std::vector<WallBand> film_bands{{kHeight, -16 * kNm, {0.85, 0.82, 0.78}}};
+  const std::vector<WallBand> substrate_bands{{-16 * kNm, -46 * kNm}};
+  return sample("sample-gold", surface_node(field, {{top_of(field, tint), film},
+                                                    {walls_of(field, film_bands), film},
+                                                    {walls_of(field, substrate_bands), substrate}}));
+}
+
+// A deposited film: isotropic, fine, without a direction or a step.
+Model silicon_nitride() {
+  constexpr double kRoughness = 0.4 * kNm;
+  const Grains grains{.cell = 4.6 * kNm, .smallest = 0.35, .radius_low = 0.7, .radius_high = 1.05, .seed = 41};
+  HeightField field(94, 94 * kNm / 94, [&](double x, double y) {
+    return grains.height(x, y) + 0.22 * noise(x / (13 * kNm), y / (13 * kNm), 51);
+  });
+  field.scale(kRoughness / field.roughness());
+  const double plateau = field.at(47, 47);
+  field.flatten_center(6 * kNm, plateau);
+  field.level_at_center();
+
+  const auto tint = [&](const V3& position) {
+    const double lit = mix(0.55, 1, smooth_step(-4 * kRoughness, 0.5 * kRoughness, position.z));
+    return V3{lit, lit, lit};
+  };
+  const MaterialSpec material{
+      .name = "silicon nitride", .base_color = {0.105, 0.185, 0.195}, .roughness = 0.5, .vertex_colors = true};
+  const std::vector<WallBand> bands{{3 * kNm, -9.5 * kNm, {0.7, 0.7, 0.7}}};
+  return sample("sample-si3n4",
+                surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}}));
+}
+
+}  // namespace
+
+std::vector<Model> samples() { return {mica(), gold(), silicon_nitride()}; }
+
+}  // namespace afm::generate

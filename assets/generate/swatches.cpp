@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+
+#include "models.h"
+
+namespace afm::generate {
+namespace {
+
+constexpr double kCm = 0.01;
+
+// The plinth, seen from its right side (z to the viewer): a block whose front leans back under the label.
+constexpr double kWidth = 30 * kCm, kDepth = 22 * kCm, kPlinthHeight = 8 * kCm;
+constexpr V2 kFrontLow{11 * kCm, 1.8 * kCm};               // z, y
+constexpr V2 kFrontHigh{5.5 * kCm, kPlinthHeight};         // z, y
+constexpr double kTopMiddle = (5.5 * kCm - 11 * kCm) / 2;  // z of the middle of the top
+
+MaterialSpec plinth_material() { return {.name = "plinth", .base_color = {0.060, 0.065, 0.075}, .roughness = 0.42}; }
+
+// Local z runs along the room's x; local (x, y) are the room's (z, y), which turns the outline's sense.
+Surface plinth() {
+  const double edge = 0.6 * kCm;
+  const double back = -kDepth / 2;
+  const std::vector<V2> side{{back, 0}, {kFrontLow.x, 0}, kFrontLow, kFrontHigh, {back, kPlinthHeight}};
+  Surface prism, placed;
+  add_prism(prism, rounded_polygon(side, edge, 2), -kWidth / 2, kWidth / 2, edge * 0.8);
+  add_placed(placed, prism, {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {-1, 0, 0}});
+  return placed;
+}
+
+// Local z becomes the room's up, standing at (x, height, z).
+Placement upright(double x, double height, double z) { return {{x, height, z}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0}}; }
+
+// The middle of the slanted face: x to the right, y up along the slope, z outwards.
+NodeSpec label() {
+  const V2 along = unit(V2{kFrontHigh.x - kFrontLow.x, kFrontHigh.y - kFrontLow.y});
+  const V2 middle = (kFrontLow + kFrontHigh) * 0.5;
+  const V2 reach = kFrontHigh - kFrontLow;
+  const Placement placement{{0, middle.y, middle.x}, {1, 0, 0}, {0, along.y, along.x}, {0, -along.x, along.y}};
+  return {.name = "label",
+          .parent = 0,
+          .placement = placement,
+          .extras = {{"width_m", kWidth - 3 * kCm}, {"height_m", std::sqrt(dot(reach, reach)) - 1.6 * kCm}}};
+}
+
+Model swatch(std::string name, Surface sample, MaterialSpec material) {
+  Model model{std::move(name), {}};
+  model.nodes.push_back({.name = "swatch",
+                         .parts = {{std::move(sample), std::move(material)}, {plinth(), plinth_material()}},
+                         .extras = {{"width_m", kWidth}, {"depth_m", kDepth}, {"plinth_height_m", kPlinthHeight}}});
+  model.nodes.push_back(label());
+  return model;
+}
+
+// A book of mica: irregular six-sided flakes, each turned a little against the one below.
+Model mica() {
+  constexpr int kFlakes = 9;
+  constexpr double kFlake = 1.15 * kCm, kPitch = 1.55 * kCm;
+  constexpr double kHalf = 0.5;
+  const double c = std::sqrt(0.75);
+  const V2 hexagon[] = {{1, 0}, {kHalf, c}, {-kHalf, c}, {-1, 0}, {-kHalf, -c}, {kHalf, -c}};
+  Surface stack;
+  for (int flake = 0; flake < kFlakes; ++flake) {
+    const auto random = [&](int what) { return random_unit(flake, what, 61); };
+    std::vector<V2> corners;
+    for (int k = 0; k < 6; ++k) corners.push_back(hexagon[k] * ((7.4 + 2.2 * random(k)) * kCm));
+    Surface prism;
+    add_prism(prism, rounded_polygon(corners, 0.7 * kCm, 2), 0, kFlake, 0.16 * kCm);
+    const double shade = flake % 2 == 0 ? 1.0 : 0.84;
+    prism.paint({shade, shade * mix(0.95, 1.0, random(6)), shade * mix(0.94, 1.0, random(7))});
+
+    // turned about the vertical and tipped by a few degrees
+    const V2 turn = unit(V2{1, 0.5 * (random(8) - 0.5)});
+    const V3 up = unit(V3{0.07 * (random(9) - 0.5), 1, 0.07 * (random(10) - 0.5)});
+    const V3 x = unit(cross(up, {turn.y, 0, turn.x}));
+    const V3 origin{1.2 * kCm * (random(11) - 0.5), kPlinthHeight + 0.1 * kCm + flake * kPitch,
+                    kTopMiddle + 1.0 * kCm * (random(12) - 0.5)};
+    add_placed(stack, prism, {origin, x, cross(up, x), up});
+  }
+  return swatch("swatch-mica", std::move(stack),
+                {.name = "mica", .base_color = {0.74, 0.62, 0.63}, .roughness = 0.3, .vertex_colors = true});
+}
+
+// A bar whose sides lean in, as it comes out of the mould.
+Surface ingot() {
+  const double half_length = 11 * kCm, half_depth = 3.6 * kCm, height = 5.4 * kCm, lean = 1.3 * kCm;
+  const double round = 0.6 * kCm, bevel = 0.5 * kCm;
+  const Outline foot = rounded_rectangle({-half_length, -half_depth}, {half_length, half_depth}, round, 3);
+  const Outline rim =
+      rounded_rectangle({-half_length + lean, -half_depth + lean}, {half_length - lean, half_depth - lean}, round, 3);
+  Surface bar;
+  add_loft(bar, {{inset(foot, bevel * 0.5), 0, 0, -1},
+                 {foot, bevel * 0.5, height, lean},
+                 {rim, height - bevel, height, lean},
+                 {inset(rim, bevel), height, 0, 1}});
+  add_cap(bar, inset(rim, bevel), height, Facing::Up);
+  return bar;
+}
+
+// Two bars and a third across them.
+Model gold() {
+  Surface pile;
+  const Surface bar = ingot();
+  const double height = 5.4 * kCm;
+  add_placed(pile, bar, upright(0, kPlinthHeight, kTopMiddle - 3.9 * kCm));
+  add_placed(pile, bar, upright(0, kPlinthHeight, kTopMiddle + 3.9 * kCm));
+  const V3 along{0.96, 0, -0.28};  // turned by 16 degrees
+  add_placed(pile, bar, {{0, kPlinthHeight + height, kTopMiddle}, along, {-0.28, 0, -0.96}, {0, 1, 0}});
+  return swatch("swatch-gold", std::move(pile),
+                {.name = "gold", .base_color = {1.0, 0.77, 0.34}, .metallic = 1, .roughness = 0.24});
+}
+
+// A polished disc with the flat that marks its orientation, leaning back in a slotted foot.
+Model silicon_nitride() {
+  constexpr double kRadius = 8.8 * kCm, kThickness = 1.3 * kCm;
+  Outline rim;
+  for (const OutlinePoint& point : circle(kRadius, 5)) {
+    if (point.normal.y > -0.94) rim.push_back(point);
+  }
+  // the flat's ends keep their place but face down; the list starts at the right, so the gap lies inside it
+  Outline disc;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    disc.push_back(rim[i]);
+    const OutlinePoint& next = rim[(i + 1) % rim.size()];
+    if (rim[i].normal.x < 0 && next.normal.x > 0 && next.normal.y < 0) {
+      disc.push_back({rim[i].position, {0, -1}});
+      disc.push_back({next.position, {0, -1}});
+    }
+  }
+  Surface wafer, group;
+  add_prism(wafer, disc, -kThickness / 2, kThickness / 2, 0.25 * kCm);
+  const double flat = 0.94 * kRadius;  // the lowest that the disc reaches, nearly
+  add_placed(group, wafer,
+             {{0, kPlinthHeight + 0.9 * kCm + flat * 0.96, kTopMiddle - flat * 0.28},
+              {1, 0, 0},
+              {0, 0.96, -0.28},
+              {0, 0.28, 0.96}});
+  Surface foot;
+  add_prism(foot, rounded_rectangle({-6 * kCm, -2.2 * kCm}, {6 * kCm, 2.2 * kCm}, 0.8 * kCm, 3), 0, 1.9 * kCm,
+            0.3 * kCm);
+  Model model =
+      swatch("swatch-si3n4", std::move(group),
+             {.name = "silicon nitride", .base_color = {0.055, 0.125, 0.135}, .metallic = 0.1, .roughness = 0.12});
+  Surface stand;
+  add_placed(stand, foot, upright(0, kPlinthHeight, kTopMiddle));
+  model.nodes.front().parts.push_back(
+      {std::move(stand), {.name = "stand", .base_color = {0.45, 0.46, 0.48}, .metallic = 1, .roughness = 0.35}});
+  return model;
+}
+
+}  // namespace
+
+std::vector<Model> swatches() { return {mica(), gold(), silicon_nitride()}; }
+
+}  // namespace afm::generate
