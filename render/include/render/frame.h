@@ -18,7 +18,8 @@
 namespace afm::render {
 
 // Bends the mesh of one node like an end-loaded beam, w(x)/w(L) = (3 xi^2 - xi^3)/2 with xi = x/L, clamped at x = 0 and
-// loaded at x = L, along the node's +x; displacement along the node's +z, in the node's units. Normals follow the slope.
+// loaded at x = L, along the node's +x; displacement along the node's +z, in the node's units. Normals follow the
+// slope.
 struct BeamBend {
   scene::NodeIndex node = 0;
   float length = 1.0F;
@@ -34,10 +35,13 @@ struct KeyLight {
 };
 
 // A rectangle in the room that shows a drawn panel: lower-left corner, and edges to the right and up, in metres.
+// Without area the panel is not shown.
 struct PanelPlacement {
   glm::dvec3 lower_left_m{0.0};
   glm::dvec3 right_m{1.0, 0.0, 0.0};
   glm::dvec3 up_m{0.0, 1.0, 0.0};
+
+  bool operator==(const PanelPlacement&) const = default;
 };
 
 // ---- panel contents ----
@@ -45,6 +49,8 @@ struct PanelPlacement {
 struct PlotPoint {
   double z_nm = 0;
   double force_nn = 0;
+
+  bool operator==(const PlotPoint&) const = default;
 };
 
 // One approach-retract curve. Approach is drawn dashed and thinner, retract solid: told apart by more than colour.
@@ -54,12 +60,16 @@ struct PlotCurve {
   bool faded = false;     // an earlier material, behind
   std::vector<PlotPoint> approach;
   std::vector<PlotPoint> retract;
+
+  bool operator==(const PlotCurve&) const = default;
 };
 
 struct PlotMarker {  // a labelled value: "Z_jtc 2.40 nm"
   enum class Kind { VerticalLine, HorizontalLine } kind = Kind::VerticalLine;
   double value = 0;  // nm on the z axis, nN on the force axis
   std::string label;
+
+  bool operator==(const PlotMarker&) const = default;
 };
 
 // The force-displacement panel: Z (nm) to the right, force on the tip (nN, positive away from the sample) up.
@@ -70,16 +80,22 @@ struct ForcePanel {
   std::vector<PlotMarker> markers;
   std::optional<PlotPoint> cursor;  // where the tip is now
   std::string stage;                // the part of the cycle in words, with the letters of the paper's Fig. 2
+
+  bool operator==(const ForcePanel&) const = default;
 };
 
 struct DataRow {
   std::string name, value, source;
+
+  bool operator==(const DataRow&) const = default;
 };
 
 struct DataPanel {
   std::string title;
   std::string subtitle;
   std::vector<DataRow> rows;
+
+  bool operator==(const DataPanel&) const = default;
 };
 
 enum class StateShape { Circle, Triangle, Square, Diamond, Cross };
@@ -92,21 +108,25 @@ struct Banner {
   glm::vec3 state_color{1.0F};  // sRGB
   std::string scale;            // "1 m = 33 nm, lever x 1 : 9 000, deflection x 3 300"
   std::string warning;          // "not real-time", empty for none
+
+  bool operator==(const Banner&) const = default;
 };
 
 struct Label {  // a short text standing in the room: a swatch's name
   std::string text;
   bool highlighted = false;
   PanelPlacement placement;
+
+  bool operator==(const Label&) const = default;
 };
 
 // ---- the frame ----
 
 struct FrameState {
-  std::array<scene::EyeView, 2> eyes;      // left, right; reversed infinite depth
-  std::vector<glm::dmat4> room_from_node;  // one per scene node
-  std::vector<std::uint8_t> visible;       // one per scene node, 0 hides the node's own mesh
-  std::vector<scene::NodeIndex> highlighted;  // drawn with a glow: what the wand points at or has chosen
+  std::array<scene::EyeView, 2> eyes;         // left, right; reversed infinite depth
+  std::vector<glm::dmat4> room_from_node;     // one per scene node
+  std::vector<std::uint8_t> visible;          // one per scene node, 0 hides the node's own mesh
+  std::vector<scene::NodeIndex> highlighted;  // these and all below them glow: what the wand points at or has chosen
   std::vector<BeamBend> bends;
   KeyLight key_light;
   ForcePanel force_panel;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+namespace afm::render {
+
+class Device;
+
+// Off in the programs; on in every test, together with synchronisation validation.
+enum class Validation { Off, On };
+
+// One Vulkan device as the `devices` command lists it.
+struct DeviceDescription {
+  std::string name;
+  std::string kind;    // "discrete GPU", "CPU", ...
+  std::string driver;  // name and version as the driver reports them
+  bool usable = false;
+  std::string reason;  // why not, empty if usable
+};
+
+// The Vulkan instance, the chosen device and its queue. Prefers a discrete GPU, then an integrated or virtual one, and
+// takes a CPU device (lavapipe) when there is nothing else. Must outlive every Renderer made from it; one thread at a
+// time.
+class Context {
+ public:
+  // DeviceMissing: no loader, no driver, no device that can do what the renderer needs, or, with Validation::On, no
+  // validation layer. The message says what to install.
+  static core::Result<Context> open(Validation validation = Validation::Off);
+
+  Context(Context&&) noexcept;
+  Context& operator=(Context&&) noexcept;
+  ~Context();
+
+  const std::string& device_name() const;
+
+  // What the validation layer has said since the last call. Always empty with Validation::Off.
+  std::vector<std::string> take_validation_messages();
+
+  Device& device() { return *device_; }
+
+ private:
+  explicit Context(std::unique_ptr<Device> device);
+  std::unique_ptr<Device> device_;
+};
+
+// Every Vulkan device of this machine. DeviceMissing as in Context::open() if there is no loader or no driver.
+core::Result<std::vector<DeviceDescription>> list_devices();
+
+}  // namespace afm::render

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <initializer_list>
+
+#include "vulkan.h"
+
+namespace afm::render {
+
+// How an image is used at one point of a command buffer. Every barrier of the renderer names two of these, with stages
+// and accesses spelled out at the call.
+struct ImageUse {
+  vk::PipelineStageFlags2 stages;
+  vk::AccessFlags2 access;
+  vk::ImageLayout layout = vk::ImageLayout::eUndefined;
+};
+
+inline vk::ImageMemoryBarrier2 image_barrier(vk::Image image, vk::ImageAspectFlags aspect, const ImageUse& before,
+                                             const ImageUse& after) {
+  return {.srcStageMask = before.stages,
+          .srcAccessMask = before.access,
+          .dstStageMask = after.stages,
+          .dstAccessMask = after.access,
+          .oldLayout = before.layout,
+          .newLayout = after.layout,
+          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+          .image = image,
+          .subresourceRange = {
+              .aspectMask = aspect, .levelCount = VK_REMAINING_MIP_LEVELS, .layerCount = VK_REMAINING_ARRAY_LAYERS}};
+}
+
+inline void record_barriers(const vk::raii::CommandBuffer& command,
+                            std::initializer_list<vk::ImageMemoryBarrier2> barriers) {
+  command.pipelineBarrier2({.imageMemoryBarrierCount = static_cast<std::uint32_t>(barriers.size()),
+                            .pImageMemoryBarriers = barriers.begin()});
+}
+
+}  // namespace afm::render

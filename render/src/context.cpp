@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/context.h"
+
+#include <utility>
+
+#include "device.h"
+
+namespace afm::render {
+
+Context::Context(std::unique_ptr<Device> device) : device_(std::move(device)) {}
+Context::Context(Context&&) noexcept = default;
+Context& Context::operator=(Context&&) noexcept = default;
+Context::~Context() = default;
+
+core::Result<Context> Context::open(Validation validation) {
+  auto device = Device::open(validation);
+  if (!device) {
+    return tl::unexpected(device.error());
+  }
+  return Context(std::move(*device));
+}
+
+const std::string& Context::device_name() const { return device_->name(); }
+
+std::vector<std::string> Context::take_validation_messages() { return device_->messages().take(); }
+
+}  // namespace afm::render

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "core/check.h"
+
+namespace afm::render {
+
+glm::mat4 shadow_from_room(const KeyLight& light) {
+  const glm::dvec3 to_light = glm::normalize(glm::dvec3(light.direction_to_light));
+  const glm::dvec3 helper = std::abs(to_light.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 right = glm::normalize(glm::cross(helper, to_light));
+  const glm::dvec3 up = glm::cross(to_light, right);
+  const double radius = light.shadow_radius_m;
+  const glm::dvec3 center(light.shadow_center_m);
+
+  // rows of the matrix: x and y span -1..1 across the sphere, z 0..1 along the light
+  const glm::dvec3 rows[3]{right / radius, up / radius, -to_light / (2.0 * radius)};
+  glm::dmat4 m(1.0);
+  for (glm::length_t row = 0; row < 3; ++row) {
+    for (glm::length_t column = 0; column < 3; ++column) {
+      m[column][row] = rows[row][column];
+    }
+    m[3][row] = -glm::dot(rows[row], center) + (row == 2 ? 0.5 : 0.0);
+  }
+  return glm::mat4(m);
+}
+
+FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, const glm::vec2& size, float guard_band) {
+  const double shrink = 1.0 / double{guard_band};
+  const glm::dmat4 guarded(glm::dvec4(shrink, 0, 0, 0), glm::dvec4(0, shrink, 0, 0), glm::dvec4(0, 0, 1, 0),
+                           glm::dvec4(0, 0, 0, 1));
+  FrameBlock block{};
+  for (std::size_t view = 0; view < 2; ++view) {
+    const auto& eye = frame.eyes[std::min(first_eye + view, std::size_t{1})];
+    block.clip_from_room[view] = glm::mat4(guarded * eye.projection * eye.view);
+    block.eye_position[view] = glm::vec4(glm::vec3(eye.eye_position_m), 1.0F);
+  }
+  const auto& light = frame.key_light;
+  block.shadow_from_room = shadow_from_room(light);
+  block.light_direction = glm::vec4(glm::normalize(light.direction_to_light), 0.0F);
+  block.light_radiance = glm::vec4(light.radiance, 2.0F * light.shadow_radius_m / static_cast<float>(kShadowMapSize));
+  block.target_size = glm::vec4(size, 1.0F / size);
+  return block;
+}
+
+glm::dmat3 normal_matrix(const glm::dmat4& room_from_node) {
+  const glm::dmat3 linear(room_from_node);
+
+  // the cofactor matrix is the inverse transpose up to the determinant's size, and exists for flattened nodes too
+  glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                      glm::cross(linear[0], linear[1]));
+  const double longest = std::max({glm::length(cofactor[0]), glm::length(cofactor[1]), glm::length(cofactor[2])});
+  if (!(longest > 0.0) || !std::isfinite(longest)) {
+    return glm::dmat3(1.0);
+  }
+  const double mirrored = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
+  return cofactor * (mirrored / longest);
+}
+
+void mark_highlighted(const FrameState& frame, const SceneGeometry& geometry, std::vector<std::uint8_t>& glowing) {
+  const auto& parents = geometry.parents();
+  glowing.assign(parents.size(), 0);
+  for (const auto node : frame.highlighted) {
+    AFM_CHECK(node < parents.size());
+    glowing[node] = 1;
+  }
+
+  // parents stand before their children
+  for (std::size_t node = 0; node < parents.size(); ++node) {
+    if (parents[node] && glowing[*parents[node]] != 0) {
+      glowing[node] = 1;
+    }
+  }
+}
+
+void fill_draw_blocks(const FrameState& frame, const SceneGeometry& geometry, const std::vector<std::uint8_t>& glowing,
+                      std::span<DrawBlock> blocks) {
+  const auto& draws = geometry.draws();
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    const auto node = draws[i].node;
+    DrawBlock block = draws[i].block;
+    const auto& room_from_node = frame.room_from_node[node];
+    block.room_from_node = glm::mat4(room_from_node);
+    const glm::mat3 normals(normal_matrix(room_from_node));
+    for (glm::length_t column = 0; column < 3; ++column) {
+      block.normal_column[column] = glm::vec4(normals[column], 0.0F);
+    }
+    block.emissive.a = glowing[node] != 0 ? 1.0F : 0.0F;
+    for (const auto& bend : frame.bends) {
+      if (bend.node == node && bend.length > 0.0F) {
+        block.bend = glm::vec4(1.0F / bend.length, bend.end_deflection, 0.0F, 0.0F);
+      }
+    }
+    blocks[i] = block;
+  }
+}
+
+}  // namespace afm::render

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame_slot.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace afm::render {
+namespace {
+
+constexpr auto kUniform = vk::DescriptorType::eUniformBuffer;
+constexpr auto kStorage = vk::DescriptorType::eStorageBuffer;
+constexpr auto kSampled = vk::DescriptorType::eCombinedImageSampler;
+
+vk::raii::DescriptorPool create_pool(const Device& device, std::uint32_t sets) {
+  const std::array sizes{vk::DescriptorPoolSize{.type = kUniform, .descriptorCount = sets},
+                         vk::DescriptorPoolSize{.type = kStorage, .descriptorCount = sets},
+                         vk::DescriptorPoolSize{.type = kSampled, .descriptorCount = sets}};
+  return vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                            .maxSets = sets,
+                                            .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+                                            .pPoolSizes = sizes.data()});
+}
+
+void write_set(const Device& device, vk::DescriptorSet set, const Buffer& uniforms, const Buffer& draws,
+               const ShadowMap& shadow_map) {
+  const vk::DescriptorBufferInfo uniform_info{.buffer = *uniforms.buffer, .range = VK_WHOLE_SIZE};
+  const vk::DescriptorBufferInfo draw_info{.buffer = *draws.buffer, .range = VK_WHOLE_SIZE};
+  const vk::DescriptorImageInfo shadow_info = shadow_map.descriptor();
+  const std::array writes{vk::WriteDescriptorSet{.dstSet = set,
+                                                 .dstBinding = AFM_BINDING_FRAME,
+                                                 .descriptorCount = 1,
+                                                 .descriptorType = kUniform,
+                                                 .pBufferInfo = &uniform_info},
+                          vk::WriteDescriptorSet{.dstSet = set,
+                                                 .dstBinding = AFM_BINDING_DRAWS,
+                                                 .descriptorCount = 1,
+                                                 .descriptorType = kStorage,
+                                                 .pBufferInfo = &draw_info},
+                          vk::WriteDescriptorSet{.dstSet = set,
+                                                 .dstBinding = AFM_BINDING_SHADOW,
+                                                 .descriptorCount = 1,
+                                                 .descriptorType = kSampled,
+                                                 .pImageInfo = &shadow_info}};
+  device->updateDescriptorSets(writes, nullptr);
+}
+
+}  // namespace
+
+vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device) {
+  const auto both = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+  const std::array bindings{
+      vk::DescriptorSetLayoutBinding{
+          .binding = AFM_BINDING_FRAME, .descriptorType = kUniform, .descriptorCount = 1, .stageFlags = both},
+      vk::DescriptorSetLayoutBinding{
+          .binding = AFM_BINDING_DRAWS, .descriptorType = kStorage, .descriptorCount = 1, .stageFlags = both},
+      vk::DescriptorSetLayoutBinding{.binding = AFM_BINDING_SHADOW,
+                                     .descriptorType = kSampled,
+                                     .descriptorCount = 1,
+                                     .stageFlags = vk::ShaderStageFlagBits::eFragment}};
+  return vk::raii::DescriptorSetLayout(
+      *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
+}
+
+FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, const ShadowMap& shadow_map,
+                     std::size_t pass_count, std::size_t draw_count)
+    : pool_(*device, vk::CommandPoolCreateInfo{.queueFamilyIndex = device.queue_family()}),
+      draws_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * sizeof(DrawBlock),
+                                vk::BufferUsageFlagBits::eStorageBuffer)),
+      draw_count_(draw_count),
+      descriptor_pool_(create_pool(device, static_cast<std::uint32_t>(pass_count))) {
+  commands_ = std::move(
+      vk::raii::CommandBuffers(
+          *device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1})
+          .front());
+  for (std::size_t pass = 0; pass < pass_count; ++pass) {
+    uniforms_.push_back(
+        create_host_buffer(device, "frame uniforms", sizeof(FrameBlock), vk::BufferUsageFlagBits::eUniformBuffer));
+    sets_.push_back(
+        std::move(vk::raii::DescriptorSets(
+                      *device, {.descriptorPool = *descriptor_pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})
+                      .front()));
+    write_set(device, *sets_.back(), uniforms_.back(), draws_, shadow_map);
+  }
+}
+
+void FrameSlot::write(const FrameState& frame, const SceneGeometry& geometry, const EyeTargets& eyes) {
+  const glm::vec2 size(static_cast<float>(eyes.extent().width), static_cast<float>(eyes.extent().height));
+  for (std::size_t pass = 0; pass < uniforms_.size(); ++pass) {
+    const FrameBlock block = make_frame_block(frame, pass, size, eyes.guard_band());
+    std::memcpy(uniforms_[pass].mapped, &block, sizeof(block));
+  }
+  mark_highlighted(frame, geometry, glowing_);
+  auto* blocks = reinterpret_cast<DrawBlock*>(draws_.mapped);
+  fill_draw_blocks(frame, geometry, glowing_, {blocks, draw_count_});
+}
+
+const vk::raii::CommandBuffer& FrameSlot::begin_commands() const {
+  pool_.reset();
+  commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  return commands_;
+}
+
+}  // namespace afm::render

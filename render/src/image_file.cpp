@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/image_file.h"
+
+#include <png.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace afm::render {
+namespace {
+
+core::Error write_error(const std::string& path, int error) {
+  return {core::ErrorCategory::Failed,
+          "cannot write the picture " + path + " (" + std::strerror(error) + "): choose a folder that can be written"};
+}
+
+// Writes all bytes or says why not; 0 on success, else errno.
+int write_all(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+  std::FILE* file = std::fopen(path.c_str(), "wbe");
+  if (file == nullptr) {
+    return errno;
+  }
+  int error = 0;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) {
+    error = errno;
+  }
+  if (std::fclose(file) != 0 && error == 0) {
+    error = errno;
+  }
+  return error;
+}
+
+}  // namespace
+
+core::Result<std::vector<std::uint8_t>> encode_png(const Image& image) {
+  std::vector<std::uint8_t> rgb;
+  rgb.reserve(image.rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) {
+    rgb.insert(rgb.end(), {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
+  }
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = image.width;
+  png.height = image.height;
+  png.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::vector<std::uint8_t> bytes(size);
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0) {
+    return core::failure(core::ErrorCategory::Failed, std::string("cannot encode a picture as PNG: ") + png.message);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+core::Result<void> write_png(const Image& image, const std::string& path) {
+  const auto bytes = encode_png(image);
+  if (!bytes) {
+    return tl::unexpected(bytes.error());
+  }
+  const std::string partial = path + ".partial";
+  if (const int error = write_all(partial, *bytes); error != 0) {
+    std::remove(partial.c_str());
+    return tl::unexpected(write_error(path, error));
+  }
+  if (std::rename(partial.c_str(), path.c_str()) != 0) {
+    const int error = errno;
+    std::remove(partial.c_str());
+    return tl::unexpected(write_error(path, error));
+  }
+  return {};
+}
+
+}  // namespace afm::render

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <imgui.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+
+#include "core/result.h"
+
+namespace afm::render {
+
+// What a text is for; its size on the wall follows from it.
+enum class TextStyle { Small, Body, Strong, Title, Guidance };
+inline constexpr std::size_t kTextStyles = 5;
+
+// Height of the em square, millimetres on the wall.
+float text_height_mm(TextStyle style);
+
+// The glyphs of all styles, drawn once at the resolution of the panels' textures.
+struct PanelFonts {
+  std::unique_ptr<ImFontAtlas> atlas;
+  std::array<ImFont*, kTextStyles> fonts{};
+  float texels_per_mm = 1.0F;
+};
+
+// Reads the system's fonts: Inter (fonts-inter), and DejaVu Sans (fonts-dejavu-core) for glyphs that Inter lacks or in
+// its place. Failed: neither is installed.
+core::Result<PanelFonts> load_panel_fonts(double texels_per_m);
+
+}  // namespace afm::render

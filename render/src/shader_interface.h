@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+namespace afm::render {
+
+using glm::ivec4;
+using glm::mat4;
+using glm::vec4;
+
+#include "interface.glsl.h"
+
+static_assert(sizeof(FrameBlock) == 272 && offsetof(FrameBlock, shadow_from_room) == 160);
+static_assert(sizeof(DrawBlock) == 176 && offsetof(DrawBlock, base_color) == 112);
+static_assert(sizeof(PanelBlock) == 48 && sizeof(CanvasBlock) == 16 && sizeof(ComposeBlock) == 16);
+
+}  // namespace afm::render

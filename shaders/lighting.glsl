@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface and the studio that it stands in. The studio is analytic (a gradient sky and two softboxes), because texture
+// filtering, not arithmetic, is what costs time on a CPU device.
+
+const float kPi = 3.14159265;
+
+struct Surface {
+  vec3 normal;      // unit, room
+  vec3 to_eye;      // unit, room
+  vec3 diffuse;     // diffuse albedo
+  vec3 specular;    // reflectance at normal incidence
+  float roughness;  // perceptual, as in glTF
+};
+
+// A rectangle of light far away: brightness of it in `direction` as a surface of that roughness reflects it. A wider lobe
+// sees a wider, dimmer rectangle.
+float softbox(vec3 direction, vec3 axis, vec2 half_size, float roughness) {
+  vec3 side = normalize(cross(vec3(0.0, 1.0, 0.0), axis));
+  vec3 top = cross(axis, side);
+  float facing = dot(direction, axis);
+  vec2 place = abs(vec2(dot(direction, side), dot(direction, top))) / max(facing, 0.05);
+  float blur = 0.04 + 0.9 * roughness * roughness + 0.25 * roughness;
+  vec2 inside = 1.0 - smoothstep(half_size - blur, half_size + blur, place);
+  vec2 spread = half_size / max(half_size, vec2(blur));
+  return facing > 0.05 ? inside.x * inside.y * spread.x * spread.y : 0.0;
+}
+
+const vec3 kFillAxis = vec3(0.7346, 0.1130, 0.6690);
+const vec3 kRimAxis = vec3(0.5298, 0.3974, -0.7492);
+const vec3 kKeyTint = vec3(1.00, 0.95, 0.87);
+const vec3 kRimTint = vec3(0.62, 0.80, 1.00);
+
+// Radiance that arrives from `direction`, averaged over the lobe of a surface of that roughness.
+vec3 studio_radiance(vec3 direction, vec3 key_axis, float roughness) {
+  float blur = 0.12 + 0.8 * roughness;
+  vec3 sky = mix(vec3(0.20, 0.22, 0.26), vec3(0.34, 0.38, 0.46), smoothstep(0.0, 1.0, direction.y));
+  vec3 radiance = mix(vec3(0.045, 0.045, 0.05), sky, smoothstep(-blur, blur, direction.y));
+  radiance += kKeyTint * 2.6 * softbox(direction, key_axis, vec2(0.75, 0.42), roughness);
+  radiance += kRimTint * 1.9 * softbox(direction, kRimAxis, vec2(0.30, 1.10), roughness);
+  radiance += vec3(0.30, 0.31, 0.33) * softbox(direction, kFillAxis, vec2(0.50, 0.80), roughness);
+  return radiance;
+}
+
+// The same studio averaged over the cosine lobe of a diffuse surface. The squared wrapped cosine of a far softbox stays
+// within a few percent of the integral for boxes of this size.
+vec3 studio_irradiance(vec3 normal, vec3 key_axis) {
+  vec3 light = mix(vec3(0.070, 0.072, 0.080), vec3(0.27, 0.30, 0.35), 0.5 + 0.5 * normal.y);
+  float key = 0.5 + 0.5 * dot(normal, key_axis);
+  float rim = 0.5 + 0.5 * dot(normal, kRimAxis);
+  float fill = 0.5 + 0.5 * dot(normal, kFillAxis);
+  return light + kKeyTint * 0.26 * key * key + kRimTint * 0.13 * rim * rim + vec3(0.05) * fill * fill;
+}
+
+// Directional albedo of GGX by B. Karis's fit ("Physically Based Shading on Mobile", 2014) of D. Lazarov's.
+vec3 specular_albedo(vec3 specular, float roughness, float n_dot_v) {
+  const vec4 c0 = vec4(-1.0, -0.0275, -0.572, 0.022);
+  const vec4 c1 = vec4(1.0, 0.0425, 1.04, -0.04);
+  vec4 r = roughness * c0 + c1;
+  float a004 = min(r.x * r.x, exp2(-9.28 * n_dot_v)) * r.x + r.y;
+  vec2 ab = vec2(-1.04, 1.04) * a004 + r.zw;
+  return specular * ab.x + ab.y;
+}
+
+// GGX with the height-correlated Smith term in E. Hammon's approximation (GDC 2017) and Schlick's Fresnel term; times
+// n.l, for unit radiance of a distant light.
+vec3 key_reflection(Surface s, vec3 to_light) {
+  vec3 h = normalize(to_light + s.to_eye);
+  float n_dot_l = max(dot(s.normal, to_light), 0.0);
+  float n_dot_v = max(dot(s.normal, s.to_eye), 1e-3);
+  float n_dot_h = max(dot(s.normal, h), 0.0);
+  float v_dot_h = max(dot(s.to_eye, h), 0.0);
+  float alpha = max(s.roughness * s.roughness, 0.01);
+  float alpha2 = alpha * alpha;
+  float d = n_dot_h * n_dot_h * (alpha2 - 1.0) + 1.0;
+  float distribution = alpha2 / (kPi * d * d);
+  float visibility = 0.5 / mix(2.0 * n_dot_l * n_dot_v, n_dot_l + n_dot_v, alpha);
+  float grazing = 1.0 - v_dot_h;
+  float grazing2 = grazing * grazing;
+  vec3 fresnel = s.specular + (1.0 - s.specular) * grazing2 * grazing2 * grazing;
+  return ((1.0 - fresnel) * s.diffuse / kPi + min(distribution * visibility, 12.0) * fresnel) * n_dot_l;
+}
+
+vec3 studio_reflection(Surface s, vec3 key_axis) {
+  float n_dot_v = max(dot(s.normal, s.to_eye), 0.0);
+  vec3 reflected = reflect(-s.to_eye, s.normal);
+  return s.diffuse * studio_irradiance(s.normal, key_axis) +
+         specular_albedo(s.specular, s.roughness, n_dot_v) * studio_radiance(reflected, key_axis, s.roughness);
+}

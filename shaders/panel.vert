@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_EXT_multiview : require
+#extension GL_GOOGLE_include_directive : require
+#include "interface.glsl.h"
+
+layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
+layout(push_constant) uniform Panel { PanelBlock panel; };
+layout(location = 0) out vec2 texture_place;
+
+// A rectangle as a triangle strip of four vertices; the texture's first row is at the top.
+void main() {
+  vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
+  texture_place = vec2(corner.x, 1.0 - corner.y);
+  vec3 place = panel.lower_left.xyz + corner.x * panel.right.xyz + corner.y * panel.up.xyz;
+  gl_Position = frame.clip_from_room[gl_ViewIndex] * vec4(place, 1.0);
+}

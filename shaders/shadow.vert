@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "interface.glsl.h"
+#include "beam.glsl"
+
+layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
+layout(set = 0, binding = AFM_BINDING_DRAWS, std430) readonly buffer Draws { DrawBlock draws[]; };
+
+layout(location = 0) in vec3 position;
+
+void main() {
+  vec3 bent = position + vec3(0.0, 0.0, beam_deflection(draws[gl_InstanceIndex].bend, position.x));
+  gl_Position = frame.shadow_from_room * draws[gl_InstanceIndex].room_from_node * vec4(bent, 1.0);
+}
