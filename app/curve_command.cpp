@@ -38,8 +38,8 @@ core::Result<Q> parse_option(const std::string& option, const std::string& text,
 // Replaces one of the material's numbers by what the option says, if it was given, and says so in its source.
 template <class Q>
 core::Result<void> override_value(scene::MaterialEntry& material, const std::string& option, const std::string& text,
-                                  const char* key, Q& value, const physics::UnitList<Q>& units, double factor = 1.0,
-                                  Infinity infinity = Infinity::Refused) {
+                                  const char* key, Q& value, const physics::UnitList<Q>& units, double factor,
+                                  Infinity infinity) {
   if (text.empty()) return {};
   const auto parsed = parse_option(option, text, units, infinity);
   if (!parsed) return tl::unexpected(parsed.error());
@@ -52,29 +52,21 @@ core::Result<void> override_value(scene::MaterialEntry& material, const std::str
 
 core::Result<void> apply_overrides(const CurveOptions& options, scene::MaterialEntry& material) {
   physics::Interaction& interaction = material.interaction;
-  if (auto done = override_value(material, "--tip-radius", options.tip_radius, "tip_radius", interaction.tip_radius,
-                                 physics::kLengthUnits);
-      !done) {
-    return done;
-  }
-  if (auto done = override_value(material, "--spring-constant", options.spring_constant, "spring_constant",
-                                 interaction.spring_constant, physics::kStiffnessUnits);
-      !done) {
-    return done;
-  }
-  if (auto done = override_value(material, "--sample-stiffness", options.sample_stiffness, "sample_stiffness",
-                                 interaction.sample_stiffness, physics::kStiffnessUnits, 1.0, Infinity::Allowed);
-      !done) {
-    return done;
-  }
-  if (auto done =
-          override_value(material, "--hamaker", options.hamaker, "hamaker", interaction.hamaker, physics::kEnergyUnits);
-      !done) {
-    return done;
-  }
+  core::Result<void> done;
+  const auto take = [&](const char* option, const std::string& text, const char* key, auto& value, const auto& units,
+                        double factor = 1.0, Infinity infinity = Infinity::Refused) {
+    if (done) done = override_value(material, option, text, key, value, units, factor, infinity);
+  };
+  take("--tip-radius", options.tip_radius, "tip_radius", interaction.tip_radius, physics::kLengthUnits);
+  take("--spring-constant", options.spring_constant, "spring_constant", interaction.spring_constant,
+       physics::kStiffnessUnits);
+  take("--sample-stiffness", options.sample_stiffness, "sample_stiffness", interaction.sample_stiffness,
+       physics::kStiffnessUnits, 1.0, Infinity::Allowed);
+  take("--hamaker", options.hamaker, "hamaker", interaction.hamaker, physics::kEnergyUnits);
   // W_ad = 2 sqrt(gamma_s gamma_t) (3.3)
-  return override_value(material, "--work-of-adhesion", options.work_of_adhesion, "mean_surface_energy",
-                        interaction.mean_surface_energy, physics::kSurfaceEnergyUnits, 0.5);
+  take("--work-of-adhesion", options.work_of_adhesion, "mean_surface_energy", interaction.mean_surface_energy,
+       physics::kSurfaceEnergyUnits, 0.5);
+  return done;
 }
 
 core::Result<physics::SweepPlan> sweep_plan(const CurveOptions& options, physics::Length z_joc) {
@@ -198,8 +190,8 @@ std::string curve_csv(const CurveRun& run) {
   return fmt::to_string(text);
 }
 
-nlohmann::json curve_json(const CurveRun& run) {
-  using nlohmann::json;
+nlohmann::ordered_json curve_json(const CurveRun& run) {
+  using json = nlohmann::ordered_json;
   const auto& [radius, k_c, k_s, hamaker, surface_energy] = run.material.interaction;
   json result{{"model", run.model},
               {"parameters",

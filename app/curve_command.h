@@ -38,6 +38,6 @@ std::string curve_csv(const CurveRun& run);
 
 // The events as the design's section 4 prints them; null for a jump that did not happen in the sweep, for the energy of
 // a loop that stayed open, and for a sample stiffness without bound (JSON has no infinity).
-nlohmann::json curve_json(const CurveRun& run);
+nlohmann::ordered_json curve_json(const CurveRun& run);
 
 }  // namespace afm::app

@@ -1,1 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "app/paper_command.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "app/command.h"
+#include "app/output_folder.h"
+#include "app/paper_report.h"
+#include "app/paper_tables.h"
+#include "core/log.h"
+
+namespace afm::app {
+
+core::Result<void> write_paper(const PaperOptions& options) {
+  const auto library = scene::load_materials(options.materials_file);
+  if (!library) return tl::unexpected(library.error());
+  MeasuredEvents measured;
+  if (!options.summary_file.empty()) {
+    auto loaded = load_measured_events(options.summary_file);
+    if (!loaded) return tl::unexpected(loaded.error());
+    measured = std::move(*loaded);
+  }
+  const auto tables = paper_tables(*library, measured);
+  if (!tables) return tl::unexpected(tables.error());
+
+  const std::array<std::pair<const char*, std::string>, 6> files{{{"paper.md", paper_markdown(*tables)},
+                                                                  {"paper.json", paper_json(*tables)},
+                                                                  {"table1.csv", table1_csv(*tables)},
+                                                                  {"table2.csv", table2_csv(*tables)},
+                                                                  {"fig2.svg", figure2_svg(library->materials.front())},
+                                                                  {"fig5e.svg", figure5e_svg(*library)}}};
+  auto folder = OutputFolder::open(options.out);
+  if (!folder) return tl::unexpected(folder.error());
+  for (const auto& [name, bytes] : files) {
+    if (const auto written = folder->write(name, bytes); !written) return written;
+  }
+  return folder->commit();
+}
+
+void add_paper_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command =
+      app.add_subcommand("paper", "the paper's Tables 1 and 2, Fig. 2 and Fig. 5(e), ours beside its own");
+  // shared: the parser writes into it while it lives, the chosen command reads it afterwards
+  const auto options = std::make_shared<PaperOptions>();
+  command->add_option("--out", options->out, "folder for paper.md, paper.json, the tables and the figures")->required();
+  command->add_option("--summary", options->summary_file, "summary.json of a demo, for a column of what it measured");
+  command->add_option("--materials", options->materials_file, "material file (TOML); default: the built-in one");
+  command->footer("example: touchafm paper --out paper --summary out/summary.json");
+  command->callback([options, &context] {
+    if (options->materials_file.empty()) options->materials_file = context.assets_dir + "/materials.toml";
+    context.chosen = [options]() -> core::Result<void> {
+      auto done = write_paper(*options);
+      if (done) core::log_line(fmt::format("open {}/paper.md", options->out));
+      return done;
+    };
+  });
+}
+
+}  // namespace afm::app

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kLeft = 92;
 constexpr double kRight = 28;
-constexpr double kTop = 84;
+constexpr double kTitle = 48;  // the height of what stands above the legend
+constexpr double kLegendRow = 26;
 constexpr double kBottom = 68;
 constexpr double kTolerancePx = 0.1;
 constexpr int kTicks = 8;  // about so many on an axis
@@ -90,11 +91,48 @@ struct Axis {
   double last_tick() const { return std::floor(high / step); }
 };
 
+// A line's sample and its label, `x` from the plot's left edge.
+struct LegendEntry {
+  const SvgLine* line;
+  double x;
+  int row;
+};
+
+constexpr double kLegendSample = 34;
+
+// Rows as long as the plot is wide; at least one.
+std::vector<LegendEntry> legend_entries(const SvgPlot& plot) {
+  constexpr double kCharacter = 8.3;  // a little more than the mean advance of the font at its size
+  const double width = plot.width - kLeft - kRight;
+  std::vector<LegendEntry> entries;
+  double x = 0;
+  int row = 0;
+  for (const SvgLine& line : plot.lines) {
+    if (line.label.empty()) continue;
+    const double advance = kLegendSample + 30 + kCharacter * static_cast<double>(line.label.size());
+    if (x > 0 && x + advance > width) {
+      x = 0;
+      ++row;
+    }
+    entries.push_back({&line, x, row});
+    x += advance;
+  }
+  return entries;
+}
+
+double legend_height(const SvgPlot& plot) {
+  const auto entries = legend_entries(plot);
+  return kLegendRow * (entries.empty() ? 0 : entries.back().row + 1);
+}
+
 // From the plot's numbers to pixels.
 class Frame {
  public:
   explicit Frame(const SvgPlot& plot)
-      : left_(kLeft), right_(plot.width - kRight), top_(kTop), bottom_(plot.height - kBottom) {
+      : left_(kLeft),
+        right_(plot.width - kRight),
+        top_(kTitle + legend_height(plot) + 10),
+        bottom_(plot.height - kBottom) {
     for (const SvgLine& line : plot.lines) {
       for (const SvgPoint& point : line.points) include(point);
     }
@@ -160,6 +198,8 @@ void draw_axes(std::string& out, const SvgPlot& plot, const Frame& frame) {
 
 const char* dashes(LineStyle style) { return style == LineStyle::Dashed ? " stroke-dasharray=\"7 5\"" : ""; }
 
+double stroke_width(LineStyle style) { return style == LineStyle::Dashed ? 1.8 : 2.4; }
+
 void draw_line(std::string& out, const SvgLine& line, const Frame& frame) {
   std::string path;
   std::vector<SvgPoint> run;
@@ -180,7 +220,7 @@ void draw_line(std::string& out, const SvgLine& line, const Frame& frame) {
   end_run();
   if (path.empty()) return;
   out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n",
-                     path, escaped(line.color), line.style == LineStyle::Dashed ? 1.8 : 2.4, dashes(line.style));
+                     path, escaped(line.color), stroke_width(line.style), dashes(line.style));
 }
 
 void draw_mark(std::string& out, const SvgMark& mark, const Frame& frame) {
@@ -200,16 +240,14 @@ void draw_mark(std::string& out, const SvgMark& mark, const Frame& frame) {
       x + dx, y + dy, anchor, escaped(mark.color), escaped(mark.text));
 }
 
-void draw_legend(std::string& out, const SvgPlot& plot, const Frame& frame) {
-  constexpr double kSample = 34;
-  constexpr double kCharacter = 8.3;  // a little more than the mean advance of the font at its size
-  double x = frame.left();
-  for (const SvgLine& line : plot.lines) {
-    if (line.label.empty()) continue;
-    out += fmt::format("<path d=\"M{:.2f} 62H{:.2f}\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", x, x + kSample,
-                       escaped(line.color), line.style == LineStyle::Dashed ? 1.8 : 2.4, dashes(line.style));
-    out += fmt::format("<text x=\"{:.2f}\" y=\"67\">{}</text>\n", x + kSample + 8, escaped(line.label));
-    x += kSample + 30 + kCharacter * static_cast<double>(line.label.size());
+void draw_legend(std::string& out, const SvgPlot& plot) {
+  for (const auto& [line, offset, row] : legend_entries(plot)) {
+    const double x = kLeft + offset;
+    const double y = kTitle + kLegendRow * (row + 0.5);
+    out += fmt::format("<path d=\"M{:.2f} {:.2f}H{:.2f}\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", x, y,
+                       x + kLegendSample, escaped(line->color), stroke_width(line->style), dashes(line->style));
+    out +=
+        fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", x + kLegendSample + 8, y + 5, escaped(line->label));
   }
 }
 
@@ -266,18 +304,34 @@ std::vector<SvgPoint> simplified(std::span<const SvgPoint> points, double tolera
   return kept;
 }
 
-std::string svg(const SvgPlot& plot) {
-  const Frame frame(plot);
+std::string svg(const SvgPlot& plot) { return svg(std::span(&plot, 1)); }
+
+std::string svg(std::span<const SvgPlot> column) {
+  int width = 0;
+  int height = 0;
+  for (const SvgPlot& plot : column) {
+    width = std::max(width, plot.width);
+    height += plot.height;
+  }
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
       "font-family=\"Inter, 'DejaVu Sans', sans-serif\" font-size=\"16\" fill=\"#1d2329\">\n"
-      "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n"
-      "<text x=\"{3}\" y=\"36\" font-size=\"20\" font-weight=\"600\">{2}</text>\n",
-      plot.width, plot.height, escaped(plot.title), kLeft);
-  draw_axes(out, plot, frame);
-  for (const SvgLine& line : plot.lines) draw_line(out, line, frame);
-  for (const SvgMark& mark : plot.marks) draw_mark(out, mark, frame);
-  draw_legend(out, plot, frame);
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
+      width, height);
+  int top = 0;
+  for (const SvgPlot& plot : column) {
+    const Frame frame(plot);
+    out += fmt::format(
+        "<g transform=\"translate(0 {0})\">\n<title>{1}</title>\n"
+        "<text x=\"{2}\" y=\"34\" font-size=\"20\" font-weight=\"600\">{1}</text>\n",
+        top, escaped(plot.title), kLeft);
+    draw_axes(out, plot, frame);
+    for (const SvgLine& line : plot.lines) draw_line(out, line, frame);
+    for (const SvgMark& mark : plot.marks) draw_mark(out, mark, frame);
+    draw_legend(out, plot);
+    out += "</g>\n";
+    top += plot.height;
+  }
   return out + "</svg>\n";
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -52,5 +53,8 @@ std::vector<SvgPoint> simplified(std::span<const SvgPoint> points, double tolera
 // names its namespace, in a file of its own. Lines are thinned to a tenth of a pixel. An empty plot has axes from 0
 // to 1.
 std::string svg(const SvgPlot& plot);
+
+// Several plots below each other in one such element.
+std::string svg(std::span<const SvgPlot> column);
 
 }  // namespace afm::app

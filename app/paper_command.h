@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "core/result.h"
+
+namespace afm::app {
+
+// What `touchafm paper` was asked for.
+struct PaperOptions {
+  std::string materials_file;
+  std::string summary_file;  // of a demo, or empty
+  std::string out;
+};
+
+// Writes paper.md, paper.json, table1.csv, table2.csv, fig2.svg and fig5e.svg into options.out, all or none.
+core::Result<void> write_paper(const PaperOptions& options);
+
+}  // namespace afm::app
