@@ -61,12 +61,49 @@ V3 HeightField::normal(std::size_t column, std::size_t row) const {
 Surface top_of(const HeightField& field, const std::function<V3(const V3&)>& color) {
   Surface surface;
   const std::size_t side = field.vertices_a_side();
-  surface.add_grid(side, side, [&](std::size_t row, std::size_t column) {
-    const V3 position = field.position(column, row);
-    return SurfaceVertex{position, field.normal(column, row), color(position)};
-  });
+  for (std::size_t row = 0; row < side; ++row) {
+    for (std::size_t column = 0; column < side; ++column) {
+      const V3 position = field.position(column, row);
+      surface.add({position, field.normal(column, row), color(position)});
+    }
+  }
+
+  // each square is cut along its more level diagonal, so that a step's edge runs smoothly across the grid
+  for (std::size_t row = 0; row + 1 < side; ++row) {
+    for (std::size_t column = 0; column + 1 < side; ++column) {
+      const auto a = static_cast<std::uint32_t>(row * side + column), b = a + 1;
+      const auto c = static_cast<std::uint32_t>(a + side), d = c + 1;
+      const auto drop = [&](std::uint32_t from, std::uint32_t to) {
+        return std::abs(surface.vertices[from].position.z - surface.vertices[to].position.z);
+      };
+      if (drop(a, d) <= drop(b, c)) {
+        surface.add_triangle(a, b, d);
+        surface.add_triangle(a, d, c);
+      } else {
+        surface.add_triangle(a, b, c);
+        surface.add_triangle(b, d, c);
+      }
+    }
+  }
   return surface;
 }
+
+namespace {
+
+// A whole rectangle of one cut face, below which no fine edge is needed: a fan joins the many points above to two.
+void add_level_band(Surface& surface, const std::vector<V3>& above, double bottom, V3 outward, V3 color) {
+  const V3 left{above.front().x, above.front().y, bottom}, right{above.back().x, above.back().y, bottom};
+  const std::uint32_t low_left = surface.add({left, outward, color}), low_right = surface.add({right, outward, color});
+  std::uint32_t last = surface.add({above.front(), outward, color});
+  for (std::size_t i = 1; i < above.size(); ++i) {
+    const std::uint32_t next = surface.add({above[i], outward, color});
+    surface.add_triangle(low_left, next, last);
+    last = next;
+  }
+  surface.add_triangle(low_left, low_right, last);
+}
+
+}  // namespace
 
 Surface walls_of(const HeightField& field, const std::vector<WallBand>& bands) {
   Surface surface;
@@ -74,24 +111,28 @@ Surface walls_of(const HeightField& field, const std::vector<WallBand>& bands) {
   const V3 outward[] = {{0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
   for (int face = 0; face < 4; ++face) {
     // the rim counter-clockwise as seen from above
-    const auto rim = [&](std::size_t i) {
-      switch (face) {
-        case 0:
-          return field.position(i, 0);
-        case 1:
-          return field.position(last, i);
-        case 2:
-          return field.position(last - i, last);
-        default:
-          return field.position(0, last - i);
-      }
-    };
+    std::vector<V3> rim;
+    for (std::size_t i = 0; i < side; ++i) {
+      const V3 corners[] = {field.position(i, 0), field.position(last, i), field.position(last - i, last),
+                            field.position(0, last - i)};
+      rim.push_back(corners[face]);
+    }
     for (const WallBand& band : bands) {
-      surface.add_grid(2, side, [&](std::size_t row, std::size_t column) {
-        V3 position = rim(column);
-        position.z = std::min(position.z, row == 0 ? band.bottom : band.top);
-        return SurfaceVertex{position, outward[face], band.color};
-      });
+      const auto cut = [&](double height) {
+        std::vector<V3> line = rim;
+        for (V3& point : line) point.z = std::min(point.z, height);
+        return line;
+      };
+      const std::vector<V3> above = cut(band.top), below = cut(band.bottom);
+      const bool level = std::all_of(rim.begin(), rim.end(), [&](const V3& point) { return point.z >= band.top; });
+      if (level) {
+        add_level_band(surface, above, band.bottom, outward[face], band.color);
+        rim = {below.front(), below.back()};
+      } else {
+        surface.add_grid(2, side, [&](std::size_t row, std::size_t column) {
+          return SurfaceVertex{row == 0 ? below[column] : above[column], outward[face], band.color};
+        });
+      }
     }
   }
   return surface;

@@ -38,7 +38,8 @@ class HeightField {
 // The upper side: exactly the grid's vertices in the grid's order.
 Surface top_of(const HeightField& field, const std::function<V3(const V3& position)>& color);
 
-// A stripe on the four cut faces, from `top` (or the surface, if that is lower) down to `bottom`.
+// A stripe on the four cut faces, from `top` (or the surface, if that is lower) down to `bottom`; given from the top
+// down.
 struct WallBand {
   double top = 0;
   double bottom = 0;

@@ -36,6 +36,21 @@ double position_grid(const Surface& surface) {
   return grid / (1U << 22U);
 }
 
+// On the grid, and without the triangles that have no area there.
+Surface on_grid(const Surface& surface) {
+  const double grid = position_grid(surface);
+  const auto round = [grid](double c) { return std::floor(c / grid + 0.5) * grid; };
+  Surface result;
+  for (SurfaceVertex vertex : surface.vertices) {
+    vertex.position = {round(vertex.position.x), round(vertex.position.y), round(vertex.position.z)};
+    result.add(vertex);
+  }
+  for (std::size_t i = 0; i < surface.indices.size(); i += 3) {
+    result.add_triangle(surface.indices[i], surface.indices[i + 1], surface.indices[i + 2]);
+  }
+  return result;
+}
+
 std::size_t add_view(Writer& writer, std::size_t offset, int target, std::optional<int> stride) {
   Json view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", writer.binary.size() - offset}};
   if (stride) view["byteStride"] = *stride;
@@ -52,13 +67,12 @@ std::size_t add_accessor(Writer& writer, Json accessor) {
 
 Json add_attributes(Writer& writer, const Surface& surface, bool colors) {
   const std::size_t offset = writer.binary.size();
-  const double grid = position_grid(surface);
   std::array<double, 3> low{}, high{};
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
     const SurfaceVertex& vertex = surface.vertices[i];
     const std::array<double, 3> position = components(vertex.position);
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto stored = static_cast<float>(std::floor(position[k] / grid + 0.5) * grid);
+      const auto stored = static_cast<float>(position[k]);
       low[k] = i == 0 ? double{stored} : std::min(low[k], double{stored});
       high[k] = i == 0 ? double{stored} : std::max(high[k], double{stored});
       writer.put(stored);
@@ -139,8 +153,9 @@ std::size_t add_mesh(Writer& writer, const NodeSpec& node) {
   Json mesh{{"name", node.name}};
   for (const Part& part : node.parts) {
     Json primitive;
-    primitive["attributes"] = add_attributes(writer, part.surface, part.material.vertex_colors);
-    primitive["indices"] = add_indices(writer, part.surface);
+    const Surface surface = on_grid(part.surface);
+    primitive["attributes"] = add_attributes(writer, surface, part.material.vertex_colors);
+    primitive["indices"] = add_indices(writer, surface);
     primitive["material"] = add_material(writer, part.material);
     mesh["primitives"].push_back(primitive);
   }

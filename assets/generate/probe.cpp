@@ -26,11 +26,11 @@ constexpr double kSharpHeight = 3 * kUm;
 constexpr double kApexRadius = 0.05 * kUm;
 
 // The chip's front: a slab with the 54.7 degree flanks of a {111} etch, whose tangent is sqrt(2).
-constexpr double kChipLength = 420 * kUm;
-constexpr double kChipHalfWidth = 200 * kUm;
-constexpr double kChipHeight = 110 * kUm;
+constexpr double kChipLength = 300 * kUm;
+constexpr double kChipHalfWidth = 130 * kUm;
+constexpr double kChipHeight = 80 * kUm;
 
-MaterialSpec nitride() { return {.name = "silicon nitride", .base_color = {0.42, 0.40, 0.13}, .roughness = 0.28}; }
+MaterialSpec nitride() { return {.name = "silicon nitride", .base_color = {0.48, 0.40, 0.12}, .roughness = 0.28}; }
 MaterialSpec gold() {
   return {.name = "gold coating", .base_color = {1.0, 0.77, 0.34}, .metallic = 1, .roughness = 0.22};
 }
@@ -230,13 +230,15 @@ Model probe() {
                                     {"base_width_m", 2 * kHalfBase},
                                     {"thickness_m", kTrueThickness},
                                     {"drawn_thickness_m", kDrawnThickness}}});
-  model.nodes.push_back(
-      {.name = "tip",
-       .parent = 2,
-       .placement = Placement{{kTipX, 0, 0}},
-       .parts = {{tip_surface(), nitride()}},
-       .extras = {{"base_m", 2 * kTipHalfBase}, {"height_m", -apex_height()}, {"apex_radius_m", kApexRadius}}});
-  model.nodes.push_back({.name = "apex", .parent = 3, .placement = Placement{{0, 0, apex_height()}}});
+  model.nodes.push_back({.name = "tip",
+                         .parent = 2,
+                         .placement = Placement{{kTipX, 0, 0}},
+                         .parts = {{tip_surface(), nitride()}},
+                         .extras = {{"base_m", 2 * kTipHalfBase}, {"height_m", -apex_height()}}});
+  model.nodes.push_back({.name = "apex",
+                         .parent = 3,
+                         .placement = Placement{{0, 0, apex_height()}},
+                         .extras = {{"radius_m", kApexRadius}}});
   return model;
 }
 

@@ -69,7 +69,7 @@ Model sample(std::string name, NodeSpec node) {
 
 // Terraces that fall towards -y, the viewer; every step is one layer, 1.0 nm.
 Model mica() {
-  constexpr double kLayer = 1.0 * kNm, kRiser = 2.4 * kNm;
+  constexpr double kLayer = 1.0 * kNm, kRiser = 2.8 * kNm;
   constexpr double kSteps[] = {-30, -15.5, 17.5, 32};  // nm along the direction of ascent
   constexpr int kLayersBelowCenter = 2;
   const auto layers = [&](double x, double y) {
@@ -81,7 +81,7 @@ Model mica() {
     }
     return count;
   };
-  const HeightField field(90, 84 * kNm / 90, [&](double x, double y) { return layers(x, y) * kLayer; });
+  const HeightField field(96, 84 * kNm / 96, [&](double x, double y) { return layers(x, y) * kLayer; });
 
   const V3 even{0.80, 0.74, 0.74}, odd{0.60, 0.54, 0.56};
   std::vector<WallBand> bands;
@@ -101,8 +101,8 @@ Model mica() {
 // An evaporated film: rounded grains, the middle one with a flat top.
 Model gold() {
   constexpr double kHeight = 8 * kNm;
-  const Grains grains{.cell = 42 * kNm, .smallest = 0.62, .radius_low = 0.66, .radius_high = 0.92, .seed = 21};
-  HeightField field(112, 430 * kNm / 112, [&](double x, double y) {
+  const Grains grains{.cell = 42 * kNm, .smallest = 0.62, .radius_low = 0.62, .radius_high = 0.86, .seed = 21};
+  HeightField field(96, 430 * kNm / 96, [&](double x, double y) {
     return kHeight * grains.height(x, y) + 0.25 * kNm * noise(x / (11 * kNm), y / (11 * kNm), 31);
   });
   field.level_at_center();
@@ -114,8 +114,9 @@ Model gold() {
   const MaterialSpec film{
       .name = "gold", .base_color = {1.0, 0.77, 0.34}, .metallic = 1, .roughness = 0.3, .vertex_colors = true};
   const MaterialSpec substrate{.name = "substrate", .base_color = {0.34, 0.33, 0.35}, .roughness = 0.6};
-  const std::vector<WallBand> film_bands{{kHeight, -16 * kNm, {0.85, 0.82, 0.78}}};
-  const std::vector<WallBand> substrate_bands{{-16 * kNm, -46 * kNm}};
+  const std::vector<WallBand> film_bands{{kHeight, -9 * kNm, {0.85, 0.82, 0.78}},
+                                         {-9 * kNm, -18 * kNm, {0.78, 0.75, 0.70}}};
+  const std::vector<WallBand> substrate_bands{{-18 * kNm, -46 * kNm}};
   return sample("sample-gold", surface_node(field, {{top_of(field, tint), film},
                                                     {walls_of(field, film_bands), film},
                                                     {walls_of(field, substrate_bands), substrate}}));
@@ -125,11 +126,11 @@ Model gold() {
 Model silicon_nitride() {
   constexpr double kRoughness = 0.4 * kNm;
   const Grains grains{.cell = 4.6 * kNm, .smallest = 0.35, .radius_low = 0.7, .radius_high = 1.05, .seed = 41};
-  HeightField field(94, 94 * kNm / 94, [&](double x, double y) {
+  HeightField field(96, 94 * kNm / 96, [&](double x, double y) {
     return grains.height(x, y) + 0.22 * noise(x / (13 * kNm), y / (13 * kNm), 51);
   });
   field.scale(kRoughness / field.roughness());
-  const double plateau = field.at(47, 47);
+  const double plateau = field.at(48, 48);
   field.flatten_center(6 * kNm, plateau);
   field.level_at_center();
 
@@ -138,8 +139,8 @@ Model silicon_nitride() {
     return V3{lit, lit, lit};
   };
   const MaterialSpec material{
-      .name = "silicon nitride", .base_color = {0.105, 0.185, 0.195}, .roughness = 0.5, .vertex_colors = true};
-  const std::vector<WallBand> bands{{3 * kNm, -9.5 * kNm, {0.7, 0.7, 0.7}}};
+      .name = "silicon nitride", .base_color = {0.075, 0.13, 0.14}, .roughness = 0.5, .vertex_colors = true};
+  const std::vector<WallBand> bands{{3 * kNm, -2 * kNm, {0.85, 0.85, 0.85}}, {-2 * kNm, -9.5 * kNm, {0.7, 0.7, 0.7}}};
   return sample("sample-si3n4",
                 surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}}));
 }

@@ -53,8 +53,8 @@ Model swatch(std::string name, Surface sample, MaterialSpec material) {
 
 // A book of mica: irregular six-sided flakes, each turned a little against the one below.
 Model mica() {
-  constexpr int kFlakes = 9;
-  constexpr double kFlake = 1.15 * kCm, kPitch = 1.55 * kCm;
+  constexpr int kFlakes = 13;
+  constexpr double kFlake = 0.78 * kCm, kPitch = 1.02 * kCm;
   constexpr double kHalf = 0.5;
   const double c = std::sqrt(0.75);
   const V2 hexagon[] = {{1, 0}, {kHalf, c}, {-kHalf, c}, {-1, 0}, {-kHalf, -c}, {kHalf, -c}};
@@ -62,15 +62,15 @@ Model mica() {
   for (int flake = 0; flake < kFlakes; ++flake) {
     const auto random = [&](int what) { return random_unit(flake, what, 61); };
     std::vector<V2> corners;
-    for (int k = 0; k < 6; ++k) corners.push_back(hexagon[k] * ((7.4 + 2.2 * random(k)) * kCm));
+    for (int k = 0; k < 6; ++k) corners.push_back(hexagon[k] * ((8.2 + 2.2 * random(k) - 0.11 * flake) * kCm));
     Surface prism;
-    add_prism(prism, rounded_polygon(corners, 0.7 * kCm, 2), 0, kFlake, 0.16 * kCm);
+    add_prism(prism, rounded_polygon(corners, 0.6 * kCm, 2), 0, kFlake, 0.14 * kCm);
     const double shade = flake % 2 == 0 ? 1.0 : 0.84;
     prism.paint({shade, shade * mix(0.95, 1.0, random(6)), shade * mix(0.94, 1.0, random(7))});
 
     // turned about the vertical and tipped by a few degrees
     const V2 turn = unit(V2{1, 0.5 * (random(8) - 0.5)});
-    const V3 up = unit(V3{0.07 * (random(9) - 0.5), 1, 0.07 * (random(10) - 0.5)});
+    const V3 up = unit(V3{0.045 * (random(9) - 0.5), 1, 0.045 * (random(10) - 0.5)});
     const V3 x = unit(cross(up, {turn.y, 0, turn.x}));
     const V3 origin{1.2 * kCm * (random(11) - 0.5), kPlinthHeight + 0.1 * kCm + flake * kPitch,
                     kTopMiddle + 1.0 * kCm * (random(12) - 0.5)};
@@ -92,6 +92,7 @@ Surface ingot() {
                  {foot, bevel * 0.5, height, lean},
                  {rim, height - bevel, height, lean},
                  {inset(rim, bevel), height, 0, 1}});
+  add_cap(bar, inset(foot, bevel * 0.5), 0, Facing::Down);
   add_cap(bar, inset(rim, bevel), height, Facing::Up);
   return bar;
 }
@@ -109,28 +110,29 @@ Model gold() {
                 {.name = "gold", .base_color = {1.0, 0.77, 0.34}, .metallic = 1, .roughness = 0.24});
 }
 
+void add_arc(Outline& outline, V2 center, double radius, V2 from, V2 to, int halvings) {
+  for (const V2 direction : arc(from, to, halvings)) outline.push_back({center + direction * radius, direction});
+}
+
+// A circle whose lowest part is cut off at y = -flat; fillets of `fillet` join the two.
+Outline disc_with_flat(double radius, double flat, double fillet) {
+  const double x = std::sqrt((radius - fillet) * (radius - fillet) - (flat - fillet) * (flat - fillet));
+  const V2 right{x, fillet - flat}, left{-x, fillet - flat};
+  const V2 turns[] = {unit(right), {1, 0}, {0, 1}, {-1, 0}, unit(left)};
+  Outline outline;
+  for (std::size_t i = 0; i + 1 < 5; ++i) add_arc(outline, {0, 0}, radius, turns[i], turns[i + 1], 5);
+  add_arc(outline, left, fillet, unit(left), {0, -1}, 2);
+  add_arc(outline, right, fillet, {0, -1}, unit(right), 2);
+  return outline;
+}
+
 // A polished disc with the flat that marks its orientation, leaning back in a slotted foot.
 Model silicon_nitride() {
-  constexpr double kRadius = 8.8 * kCm, kThickness = 1.3 * kCm;
-  Outline rim;
-  for (const OutlinePoint& point : circle(kRadius, 5)) {
-    if (point.normal.y > -0.94) rim.push_back(point);
-  }
-  // the flat's ends keep their place but face down; the list starts at the right, so the gap lies inside it
-  Outline disc;
-  for (std::size_t i = 0; i < rim.size(); ++i) {
-    disc.push_back(rim[i]);
-    const OutlinePoint& next = rim[(i + 1) % rim.size()];
-    if (rim[i].normal.x < 0 && next.normal.x > 0 && next.normal.y < 0) {
-      disc.push_back({rim[i].position, {0, -1}});
-      disc.push_back({next.position, {0, -1}});
-    }
-  }
+  constexpr double kRadius = 8.8 * kCm, kFlat = 8.2 * kCm, kThickness = 1.3 * kCm;
   Surface wafer, group;
-  add_prism(wafer, disc, -kThickness / 2, kThickness / 2, 0.25 * kCm);
-  const double flat = 0.94 * kRadius;  // the lowest that the disc reaches, nearly
+  add_prism(wafer, disc_with_flat(kRadius, kFlat, 1.0 * kCm), -kThickness / 2, kThickness / 2, 0.25 * kCm);
   add_placed(group, wafer,
-             {{0, kPlinthHeight + 0.9 * kCm + flat * 0.96, kTopMiddle - flat * 0.28},
+             {{0, kPlinthHeight + 0.9 * kCm + kFlat * 0.96, kTopMiddle - kFlat * 0.28},
               {1, 0, 0},
               {0, 0.96, -0.28},
               {0, 0.28, 0.96}});

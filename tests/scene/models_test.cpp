@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "models.h"
+#include "scene/gltf_loader.h"
+
+namespace afm::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path& models_folder() {
+  static const fs::path folder = fs::path(AFM_SOURCE_DIR) / "assets" / "models";
+  return folder;
+}
+
+Scene load(const std::string& name) {
+  core::Result<Scene> scene = load_gltf((models_folder() / (name + ".glb")).string());
+  if (!scene) {
+    ADD_FAILURE() << scene.error().message;
+    return {};
+  }
+  return *scene;
+}
+
+const std::vector<std::string>& sample_names() {
+  static const std::vector<std::string> names{"sample-mica", "sample-gold", "sample-si3n4"};
+  return names;
+}
+
+glm::dmat4 model_from_node(const Scene& scene, NodeIndex node) {
+  glm::dmat4 transform = scene.nodes[node].parent_from_node;
+  for (std::optional<NodeIndex> parent = scene.nodes[node].parent; parent; parent = scene.nodes[*parent].parent) {
+    transform = scene.nodes[*parent].parent_from_node * transform;
+  }
+  return transform;
+}
+
+const Mesh& mesh_of(const Scene& scene, const std::string& node) {
+  return scene.meshes.at(*scene.nodes.at(scene.find_node(node).value()).mesh);
+}
+
+std::vector<glm::dvec3> positions_of(const Mesh& mesh) {
+  std::vector<glm::dvec3> positions;
+  for (const Primitive& primitive : mesh.primitives) {
+    for (const Vertex& vertex : primitive.vertices) positions.emplace_back(vertex.position);
+  }
+  return positions;
+}
+
+// The height grid of a sample: the first primitive of its surface.
+const std::vector<Vertex>& grid_of(const Scene& scene) { return mesh_of(scene, "surface").primitives.at(0).vertices; }
+
+TEST(Models, AreWhatTheGeneratorWrites) {
+  std::set<std::string> generated;
+  for (const generate::Model& model : generate::all_models()) {
+    const fs::path path = models_folder() / (model.name + ".glb");
+    generated.insert(path.filename());
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<char> committed{std::istreambuf_iterator<char>(file), {}};
+    const std::vector<std::uint8_t> bytes = generate::to_glb(model);
+    const bool equal = std::equal(bytes.begin(), bytes.end(), committed.begin(), committed.end(),
+                                  [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
+    EXPECT_TRUE(equal) << path << " differs; run generate_models assets/models";
+  }
+  std::set<std::string> committed;
+  for (const fs::directory_entry& entry : fs::directory_iterator(models_folder()))
+    committed.insert(entry.path().filename());
+  EXPECT_EQ(committed, generated);
+}
+
+TEST(Models, TakeLittleRoom) {
+  std::uintmax_t total = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(models_folder())) total += entry.file_size();
+  EXPECT_LT(total, 4U << 20U);
+}
+
+TEST(Models, HaveUnitNormalsOnTheOutsideOfEveryTriangle) {
+  std::size_t triangles = 0;
+  for (const generate::Model& model : generate::all_models()) {
+    const Scene scene = load(model.name);
+    for (const Mesh& mesh : scene.meshes) {
+      SCOPED_TRACE(model.name + "/" + mesh.name);
+      std::size_t wrong_length = 0, inside_out = 0;
+      for (const Primitive& primitive : mesh.primitives) {
+        for (const Vertex& vertex : primitive.vertices)
+          wrong_length += std::abs(glm::length(vertex.normal) - 1) > 1e-5F;
+        for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {
+          glm::dvec3 corner[3], normal(0);
+          for (std::size_t k = 0; k < 3; ++k) {
+            const Vertex& vertex = primitive.vertices[primitive.indices[i + k]];
+            corner[k] = vertex.position;
+            normal += glm::dvec3(vertex.normal);
+          }
+          inside_out += glm::dot(glm::cross(corner[1] - corner[0], corner[2] - corner[0]), normal) <= 0;
+          ++triangles;
+        }
+      }
+      EXPECT_EQ(wrong_length, 0U);
+      EXPECT_EQ(inside_out, 0U);
+    }
+  }
+  EXPECT_GT(triangles, 50'000U) << "looked at too little";
+}
+
+TEST(Models, HaveTheNodesThatTheProgramLooksFor) {
+  const std::map<std::string, std::vector<std::string>> expected{
+      {"probe", {"probe", "chip", "cantilever", "tip", "apex"}},
+      {"sample-mica", {"surface"}},
+      {"sample-gold", {"surface"}},
+      {"sample-si3n4", {"surface"}},
+      {"stage", {"stage"}},
+      {"swatch-mica", {"swatch", "label"}},
+      {"swatch-gold", {"swatch", "label"}},
+      {"swatch-si3n4", {"swatch", "label"}},
+      {"optics", {"laser", "photodiode", "quadrant-a", "quadrant-b", "quadrant-c", "quadrant-d", "beam", "spot"}},
+      {"wand", {"wand", "ray"}}};
+  ASSERT_EQ(generate::all_models().size(), expected.size());
+  for (const auto& [name, nodes] : expected) {
+    const Scene scene = load(name);
+    for (const std::string& node : nodes) EXPECT_TRUE(scene.find_node(node)) << name << ": " << node;
+  }
+}
+
+TEST(Models, StandUprightInGltfsFrame) {
+  for (const auto& [name, node] : {std::pair{"probe", "cantilever"}, {"sample-mica", "surface"}, {"stage", "stage"}}) {
+    const Scene scene = load(name);
+    const glm::dmat4 transform = model_from_node(scene, scene.find_node(node).value());
+    EXPECT_EQ(glm::dvec3(transform * glm::dvec4(0, 0, 1, 0)), glm::dvec3(0, 1, 0)) << name;
+    EXPECT_EQ(glm::dvec3(transform * glm::dvec4(1, 0, 0, 0)), glm::dvec3(1, 0, 0)) << name;
+  }
+}
+
+TEST(Cantilever, IsClampedAtZeroAndBendsInManySteps) {
+  const Scene scene = load("probe");
+  double shortest = 1, longest = -1;
+  std::set<double> stations;
+  for (const glm::dvec3& p : positions_of(mesh_of(scene, "cantilever"))) {
+    shortest = std::min(shortest, p.x);
+    longest = std::max(longest, p.x);
+    stations.insert(p.x);
+    EXPECT_GE(p.z, 0.0);
+  }
+  EXPECT_NEAR(shortest, 0.0, 1e-6);
+  EXPECT_NEAR(longest, 200e-6, 1e-9);
+  EXPECT_GE(stations.size(), 48U);
+}
+
+TEST(Tip, EndsInABallOfFiftyNanometres) {
+  const Scene scene = load("probe");
+  const double apex = scene.nodes[scene.find_node("apex").value()].parent_from_node[3].z;
+  const glm::dvec3 center(0, 0, apex + 50e-9);
+  double lowest = 0;
+  std::size_t on_the_ball = 0;
+  for (const glm::dvec3& p : positions_of(mesh_of(scene, "tip"))) {
+    lowest = std::min(lowest, p.z);
+    // nothing of the tip reaches into the ball, whose lowest part is the tip's own
+    EXPECT_GE(glm::length(p - center), 50e-9 * (1 - 1e-4));
+    if (p.z < apex + 15e-9) {
+      EXPECT_NEAR(glm::length(p - center), 50e-9, 50e-9 * 1e-4);
+      ++on_the_ball;
+    }
+  }
+  EXPECT_NEAR(lowest, apex, 1e-12);
+  EXPECT_GT(on_the_ball, 200U) << "too coarse to look round when shown at 10 000 times its size";
+}
+
+TEST(Samples, StandAtZeroWhereTheTipLands) {
+  for (const std::string& name : sample_names()) {
+    const Scene scene = load(name);
+    const std::vector<Vertex>& grid = grid_of(scene);
+    const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(grid.size()))));
+    ASSERT_EQ(side * side, grid.size());
+    const Vertex& middle = grid[(side / 2) * side + side / 2];
+    EXPECT_EQ(middle.position, glm::vec3(0)) << name;
+    EXPECT_GT(middle.normal.z, 0.999F) << name;
+  }
+}
+
+TEST(Samples, AreTouchedByTheBallInTheirMiddleFirst) {
+  constexpr double kRadius = 50e-9;
+  for (const std::string& name : sample_names()) {
+    const Scene scene = load(name);
+    for (const Vertex& vertex : grid_of(scene)) {
+      const glm::dvec3 p(vertex.position);
+      const double off_axis = std::hypot(p.x, p.y);
+      if (off_axis > kRadius) continue;
+      const double ball = kRadius - std::sqrt(kRadius * kRadius - off_axis * off_axis);
+      EXPECT_LE(p.z, ball + 1e-13) << name << " at " << p.x * 1e9 << ", " << p.y * 1e9 << " nm";
+    }
+  }
+}
+
+TEST(Samples, HaveTheSizesOfTheirMaterials) {
+  const std::map<std::string, double> sides{{"sample-mica", 84e-9}, {"sample-gold", 430e-9}, {"sample-si3n4", 94e-9}};
+  for (const auto& [name, side] : sides) {
+    const Scene scene = load(name);
+    const std::vector<Vertex>& grid = grid_of(scene);
+    EXPECT_NEAR(double{grid.back().position.x} - double{grid.front().position.x}, side, side * 1e-5) << name;
+    EXPECT_NEAR(double{grid.back().position.y} - double{grid.front().position.y}, side, side * 1e-5) << name;
+  }
+}
+
+TEST(Mica, IsFlatBetweenStepsOfOneNanometre) {
+  const Scene scene = load("sample-mica");
+  std::map<long, std::size_t> terraces;
+  std::size_t flat = 0;
+  for (const Vertex& vertex : grid_of(scene)) {
+    const double layers = double{vertex.position.z} / 1e-9;
+    const long nearest = std::lround(layers);
+    if (std::abs(layers - static_cast<double>(nearest)) < 1e-3) {
+      ++flat;
+      ++terraces[nearest];
+    }
+  }
+  EXPECT_GT(static_cast<double>(flat), 0.8 * static_cast<double>(grid_of(scene).size()));
+  EXPECT_EQ(terraces.size(), 5U) << "four steps";
+  for (const auto& [layer, count] : terraces) EXPECT_GT(count, 300U) << "terrace " << layer;
+}
+
+TEST(SiliconNitride, IsRoughByAFewTenthsOfANanometre) {
+  const Scene scene = load("sample-si3n4");
+  double mean = 0, squares = 0;
+  const std::vector<Vertex>& grid = grid_of(scene);
+  const auto count = static_cast<double>(grid.size());
+  for (const Vertex& vertex : grid) mean += double{vertex.position.z} / count;
+  for (const Vertex& vertex : grid) squares += std::pow(double{vertex.position.z} - mean, 2) / count;
+  EXPECT_GT(std::sqrt(squares), 0.3e-9);
+  EXPECT_LT(std::sqrt(squares), 0.5e-9);
+}
+
+TEST(Gold, IsGrainedByAFewNanometres) {
+  const Scene scene = load("sample-gold");
+  double low = 0, high = 0;
+  for (const Vertex& vertex : grid_of(scene)) {
+    low = std::min(low, double{vertex.position.z});
+    high = std::max(high, double{vertex.position.z});
+  }
+  EXPECT_GT(high - low, 3e-9);
+  EXPECT_LT(high - low, 9e-9);
+  const Mesh& mesh = mesh_of(scene, "surface");
+  EXPECT_EQ(scene.materials.at(mesh.primitives.at(0).material).metallic, 1.0F);
+}
+
+}  // namespace
+}  // namespace afm::scene
