@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/paper_command.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "app/paper_tables.h"
+
+namespace afm::app {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class PaperCommand : public testing::Test {
+ protected:
+  PaperCommand()
+      : folder_(fs::temp_directory_path() /
+                (std::string("touchafm_paper_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    options_ = {AFM_SOURCE_DIR "/assets/materials.toml", "", folder_.string()};
+  }
+  ~PaperCommand() override { fs::remove_all(folder_); }
+
+  std::string text_of(const char* name) const {
+    std::ifstream file(folder_ / name);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+  fs::path folder_;
+  PaperOptions options_;
+};
+
+TEST_F(PaperCommand, WritesTablesAndFigures) {
+  ASSERT_TRUE(write_paper(options_).has_value());
+  for (const char* name : {"paper.md", "paper.json", "table1.csv", "table2.csv", "fig2.svg", "fig5e.svg"}) {
+    EXPECT_FALSE(text_of(name).empty()) << name;
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 6);
+}
+
+TEST_F(PaperCommand, NamesEveryErratumAndSaysThatAdhesionIsCircular) {
+  ASSERT_TRUE(write_paper(options_).has_value());
+  const std::string markdown = text_of("paper.md");
+  for (const Erratum& erratum : errata()) EXPECT_THAT(markdown, HasSubstr(std::string(erratum.name)));
+  EXPECT_THAT(markdown, HasSubstr("**circular**"));
+}
+
+TEST_F(PaperCommand, PutsThePrintedAndTheExactNumberBesideEachOther) {
+  ASSERT_TRUE(write_paper(options_).has_value());
+  const auto json = nlohmann::json::parse(text_of("paper.json"));
+  const auto& gap = json["table1"]["mica"]["D_attr_m"];
+  EXPECT_NEAR(gap["printed"], 0.799e-9, 1e-21);
+  EXPECT_NEAR(gap["exact"], 1.59834899139e-9, 1e-18);
+  EXPECT_EQ(gap["erratum"], "swapped columns");
+  EXPECT_TRUE(gap["measured"].is_null());
+  const auto& attraction = json["table2"]["mica"]["F_attr_N"];
+  EXPECT_NEAR(attraction["printed"], 0.2387e-9, 1e-21);
+  EXPECT_NEAR(attraction["exact"], 2.39752348708e-10, 1e-19);
+  EXPECT_NEAR(attraction["experiment"], 0.24e-9, 1e-21);
+}
+
+TEST_F(PaperCommand, AgreesWithThePrintWhereNoErratumIsNamed) {
+  const auto library = scene::load_materials(options_.materials_file);
+  ASSERT_TRUE(library.has_value());
+  const auto tables = paper_tables(*library, {});
+  ASSERT_TRUE(tables.has_value());
+  int clean = 0;
+  for (const auto* table : {&tables->table1, &tables->table2}) {
+    for (const TableCell& cell : *table) {
+      // half of the last digit that three decimals or more have
+      const bool agrees = std::abs(std::stod(cell.printed) - cell.exact) <= 0.0005;
+      if (cell.erratum.empty()) {
+        EXPECT_TRUE(agrees) << cell.material << " " << cell.quantity;
+        ++clean;
+      }
+    }
+  }
+  EXPECT_EQ(clean, 5);
+}
+
+TEST_F(PaperCommand, ShowsWhatARunMeasured) {
+  fs::create_directories(folder_);
+  options_.summary_file = (folder_ / "summary.json").string();
+  std::ofstream(options_.summary_file)
+      << R"({"materials": {"mica": {"f_attr_N": 2.5e-10, "f_ad_N": 1.4e-9, "z_jtc_m": 2.4e-9, "z_joc_m": 1.4e-8}}})";
+  ASSERT_TRUE(write_paper(options_).has_value());
+  EXPECT_THAT(text_of("paper.md"), HasSubstr("measured in the run"));
+  EXPECT_NEAR(nlohmann::json::parse(text_of("paper.json"))["table1"]["mica"]["F_attr_N"]["measured"], 2.5e-10, 1e-20);
+}
+
+TEST_F(PaperCommand, LeavesNothingBehindForABadSummary) {
+  options_.summary_file = AFM_SOURCE_DIR "/assets/materials.toml";
+  const auto done = write_paper(options_);
+  ASSERT_FALSE(done.has_value());
+  EXPECT_EQ(done.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_FALSE(fs::exists(folder_));
+}
+
+TEST_F(PaperCommand, FailsOnAFolderThatCannotBeWritten) {
+  options_.out = "/dev/null/paper";
+  const auto done = write_paper(options_);
+  ASSERT_FALSE(done.has_value());
+  EXPECT_EQ(done.error().category, core::ErrorCategory::Failed);
+  EXPECT_THAT(done.error().message, HasSubstr("/dev/null/paper"));
+}
+
+}  // namespace
+}  // namespace afm::app
