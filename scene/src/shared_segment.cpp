@@ -105,14 +105,14 @@ std::uint64_t SharedSegment::scene_digest() const noexcept { return layout_->hea
 
 namespace {
 
-// The value if it is plausible; counts it as refused if not.
+// Empties `value` and counts it as refused unless it is plausible. In place: a block may have 16 KB, and an empty one
+// must cost a tick nothing.
 template <class T, class Count, class... Model>
-std::optional<T> believed(std::optional<T> value, Count& refused, const Model&... model) noexcept {
+void check(std::optional<T>& value, Count& refused, const Model&... model) noexcept {
   if (value && !plausible(*value, model...)) {
     ++refused;
     value.reset();
   }
-  return value;
 }
 
 // The next plausible value of a ring; counts those that it skips as refused.
@@ -133,7 +133,9 @@ void RendererSide::store(const HandScript& script) noexcept { layout_->hand_scri
 void RendererSide::store(const RendererHeartbeat& heartbeat) noexcept { layout_->heartbeat.store(heartbeat); }
 
 std::optional<TipState> RendererSide::tip_state() noexcept {
-  return believed(layout_->tip_state.load(), refused_, layout_->model);
+  auto state = layout_->tip_state.load();
+  check(state, refused_, layout_->model);
+  return state;
 }
 
 std::optional<ServoTiming> RendererSide::servo_timing() const noexcept { return layout_->timing.load(); }
@@ -147,19 +149,27 @@ std::uint64_t RendererSide::lost_samples() const noexcept { return layout_->samp
 std::uint64_t RendererSide::lost_events() const noexcept { return layout_->events.dropped(); }
 
 std::optional<SceneTransforms> ServoSide::new_transforms() noexcept {
-  return believed(layout_->transforms.try_load_newer(seen_transforms_), refused_, layout_->model);
+  auto transforms = layout_->transforms.try_load_newer(seen_transforms_);
+  check(transforms, refused_, layout_->model);
+  return transforms;
 }
 
 std::optional<Selection> ServoSide::new_selection() noexcept {
-  return believed(layout_->selection.try_load_newer(seen_selection_), refused_, layout_->model);
+  auto selection = layout_->selection.try_load_newer(seen_selection_);
+  check(selection, refused_, layout_->model);
+  return selection;
 }
 
 std::optional<HandScript> ServoSide::new_hand_script() noexcept {
-  return believed(layout_->hand_script.try_load_newer(seen_script_), refused_);
+  auto script = layout_->hand_script.try_load_newer(seen_script_);
+  check(script, refused_);
+  return script;
 }
 
 std::optional<RendererHeartbeat> ServoSide::new_heartbeat() noexcept {
-  return believed(layout_->heartbeat.try_load_newer(seen_heartbeat_), refused_);
+  auto heartbeat = layout_->heartbeat.try_load_newer(seen_heartbeat_);
+  check(heartbeat, refused_);
+  return heartbeat;
 }
 
 void ServoSide::store(const TipState& state) noexcept { layout_->tip_state.store(state); }

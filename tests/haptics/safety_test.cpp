@@ -188,13 +188,13 @@ TEST_F(Governor, ReleasesWithin20MsOfTheRenderersDeath) {
   EXPECT_EQ(governor_.fault(), FaultCode::RendererDied);
 }
 
-TEST_F(Governor, FadesIn100MsWhenTheRendererHangsOrLeaves) {
+TEST_F(Governor, FadesIn90MsWhenTheRendererHangsOrLeaves) {
   for (const RendererLink link : {RendererLink::Hung, RendererLink::Leaving}) {
     governor_ = SafetyGovernor(kPeriodNs, kCapN, kReleaseHeightM);
     input_ = {.time_ns = 1'000'000'000};
     hold(kCapN);
     input_.renderer = link;
-    EXPECT_NEAR(ticks_to_zero(), 100, 1);
+    EXPECT_NEAR(ticks_to_zero(), 90, 1);
     EXPECT_EQ(governor_.fault(), link == RendererLink::Hung ? FaultCode::RendererHung : FaultCode::None);
   }
 }

@@ -216,7 +216,7 @@ TEST(ServoLoop, FadesWhenTheHeartbeatStops) {
   bench.run(0.249);
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
   while (bench.hand_force_n() > 0.0) bench.tick();
-  EXPECT_LE(bench.now_ns - stopped_ns, 352'000'000);
+  EXPECT_LE(bench.now_ns - stopped_ns, 350'000'000);
   EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
   EXPECT_EQ(bench.state().fault, FaultCode::RendererHung);
   // a tip that stuck is not taken up again in the middle
