@@ -53,14 +53,15 @@ core::Result<void> draw_figures(render::Context& context, const Stage& stage, co
   return {};
 }
 
-core::Result<void> write_results(const DemoResult& result, const std::vector<ReportPicture>& pictures,
-                                 OutputFolder& out) {
+core::Result<void> write_results(const DemoResult& result, const scene::MaterialLibrary& materials,
+                                 const std::vector<ReportPicture>& pictures, OutputFolder& out) {
   for (const RecordedSession& session : result.sessions) {
     if (auto saved = save_session(session, out.staged("session-" + session.material + ".afms")); !saved) return saved;
     if (auto saved = out.write("curve-" + session.material + ".csv", session_csv(session)); !saved) return saved;
   }
   if (auto saved = out.write("summary.json", summary_json(result).dump(2) + "\n"); !saved) return saved;
-  if (auto saved = out.write("report.html", report_html(result, pictures, curves_svg(result.sessions))); !saved)
+  if (auto saved = out.write("report.html", report_html(result, pictures, curves_svg(result.sessions, materials)));
+      !saved)
     return saved;
   return out.commit();
 }
@@ -119,7 +120,7 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   std::vector<ReportPicture> pictures;
   if (auto drawn = draw_figures(*context, *stage, result, *out, pictures); !drawn) return drawn;
   result.seconds = static_cast<double>(clock.now_ns() - start_ns) * 1e-9;
-  if (auto written = write_results(result, pictures, *out); !written) return written;
+  if (auto written = write_results(result, stage->materials, pictures, *out); !written) return written;
   if (auto accurate = check_accuracy(result); !accurate) return accurate;
 
   std::printf("open %s/report.html\n", options.out.c_str());

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "app/interruption.h"
 
@@ -12,7 +13,30 @@ namespace afm::app {
 namespace {
 
 constexpr double kPatienceSeconds = 20.0;  // beyond the time that the step itself takes
-constexpr double kTurnM = 0.2e-9;          // Z must rise this far above its lowest before it counts as retracting
+constexpr int kMostRestarts = 5;
+constexpr double kTurnM = 0.2e-9;  // Z must rise this far above its lowest before it counts as retracting
+
+const char* reason(scene::FaultCode fault) {
+  switch (fault) {
+    case scene::FaultCode::None:
+      return "no fault";
+    case scene::FaultCode::RendererDied:
+      return "the renderer died";
+    case scene::FaultCode::RendererHung:
+      return "the renderer gave no frame for 250 ms";
+    case scene::FaultCode::NotFinite:
+      return "a position or force was not finite";
+    case scene::FaultCode::LateTick:
+      return "a servo tick came more than 20 ms late";
+    case scene::FaultCode::VelocityTrip:
+      return "the hand was faster than is safe";
+    case scene::FaultCode::DeviceError:
+      return "the haptic device failed";
+    case scene::FaultCode::BadSharedData:
+      return "the shared data was damaged";
+  }
+  return "an unknown fault";
+}
 
 }  // namespace
 
@@ -46,8 +70,21 @@ core::Result<void> Demonstration::feel(std::size_t material, DemoResult& result,
   const double stroke_seconds = (path_.lift_m - path_.push_m) / path_.speed_m_per_s;
 
   std::size_t events_told = 0;
+  int restarts = 0;
   while (person_.step() != SimulatedPerson::Step::Done) {
     if (auto stepped = step(result); !stepped) return stepped;
+    if (person_.restarts() != restarts) {
+      restarts = person_.restarts();
+      if (restarts > kMostRestarts) {
+        return core::failure(
+            core::ErrorCategory::Failed,
+            fmt::format("{}: the servo released the hand {} times ({}); run again, with less load on the machine",
+                        title, restarts, reason(servo_.tip().fault)));
+      }
+      progress(fmt::format("  the servo released the hand: {}; lifting again", reason(servo_.tip().fault)));
+      begin_session(material);
+      events_told = 0;
+    }
     for (; current_ == material && events_told < session_.events.size(); ++events_told) {
       const scene::TipEvent& e = session_.events[events_told];
       const bool in = e.kind == scene::TipEventKind::JumpToContact;
@@ -89,6 +126,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   servo_.place(transforms);
 
   renderer_.render(frames_.build(now));
+  servo_.beat(clock_.now_ns());
   result.frame_ms.push_back(static_cast<double>(clock_.now_ns() - now_ns) * 1e-6);
   return {};
 }
@@ -105,11 +143,7 @@ core::Result<void> Demonstration::take_news(std::int64_t now_ns) {
     const auto material = static_cast<std::size_t>(sample.material);
     if (current_ != material) {
       // a new material has taken effect: a new session begins
-      current_ = material;
-      session_ = {};
-      session_.material = materials_.materials[material].name;
-      session_.interaction = shared_material(materials_.materials[material]);
-      deepest_z_m_ = sample.z_m;
+      begin_session(material);
     }
     for (; event != pending_events_.end() && event->time_ns <= sample.time_ns; ++event) {
       session_.events.push_back(*event);
@@ -121,6 +155,15 @@ core::Result<void> Demonstration::take_news(std::int64_t now_ns) {
   }
   pending_events_.erase(pending_events_.begin(), event);
   return {};
+}
+
+void Demonstration::begin_session(std::size_t material) {
+  current_ = material;
+  session_ = {};
+  session_.material = materials_.materials[material].name;
+  session_.interaction = shared_material(materials_.materials[material]);
+  curves_[material] = {};
+  deepest_z_m_ = std::numeric_limits<double>::infinity();
 }
 
 Moment Demonstration::moment(const input::WandState& wand, const input::Selector::Result& pointing) const {

@@ -32,6 +32,7 @@ class Demonstration {
   core::Result<void> feel(std::size_t material, DemoResult& result, const Progress& progress);
   core::Result<void> step(DemoResult& result);
   core::Result<void> take_news(std::int64_t now_ns);
+  void begin_session(std::size_t material);
   Moment moment(const input::WandState& wand, const input::Selector::Result& pointing) const;
   std::string guidance() const;
 

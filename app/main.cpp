@@ -53,7 +53,7 @@ int run(int count, char** arguments) {
     return fail(ExitCode::WrongUsage, std::string(wrong.what()) + "; see touchafm --help");
   }
   const auto done = context.chosen();
-  if (!done) return fail(exit_code(done.error().category), done.error().message);
+  if (!done) return fail(afm::app::exit_code(done.error().category), done.error().message);
   return static_cast<int>(ExitCode::Done);
 }
 

@@ -77,8 +77,12 @@ core::Result<std::unique_ptr<ServoLink>> ServoLink::start(const scene::SharedMod
   return link;
 }
 
+void ServoLink::beat(std::int64_t now_ns) {
+  side_.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = beats_++, .leaving = 0, .padding = 0});
+}
+
 core::Result<ServoLink::News> ServoLink::poll(std::int64_t now_ns) {
-  side_.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = frame_++, .leaving = 0, .padding = 0});
+  beat(now_ns);
   if (const auto state = side_.tip_state()) tip_ = *state;
 
   News news;

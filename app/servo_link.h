@@ -42,6 +42,10 @@ class ServoLink {
   // Once a frame: everything new since the last call, and the newest state. Fails when the servo has ended.
   core::Result<News> poll(std::int64_t now_ns);
 
+  // Tells the servo that the frame loop lives; poll() does so too. A loop that is silent for 250 ms has hung for the
+  // servo.
+  void beat(std::int64_t now_ns);
+
   const scene::TipState& tip() const { return tip_; }
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
   std::uint64_t lost_samples() const { return side_.lost_samples(); }
@@ -57,7 +61,7 @@ class ServoLink {
   scene::RendererSide side_;
   scene::Selection selection_;
   scene::TipState tip_;
-  std::uint64_t frame_ = 0;
+  std::uint64_t beats_ = 0;
   std::unique_ptr<haptics::Servo> servo_;  // last: it ends before its segment goes
 };
 

@@ -19,6 +19,7 @@ SimulatedPerson::SimulatedPerson(const glm::dvec3& wand_grip_m, const glm::dvec3
 
 void SimulatedPerson::begin(const glm::dvec3& swatch_m, std::int32_t material, std::int64_t now_ns) {
   material_ = material;
+  restarts_ = 0;
   wand_.aim_at(swatch_m, kAimSeconds, now_ns);
   enter(Step::PointAtSwatch, now_ns);
 }
@@ -40,6 +41,12 @@ void SimulatedPerson::move_hand(double height_m, double seconds) {
 }
 
 double SimulatedPerson::stroke_seconds() const { return (path_.lift_m - path_.push_m) / path_.speed_m_per_s; }
+
+void SimulatedPerson::lift_again(std::int64_t now_ns) {
+  ++restarts_;
+  move_hand(path_.lift_m, kLiftSeconds);
+  enter(Step::Lift, now_ns);
+}
 
 void SimulatedPerson::update(std::int64_t now_ns, const scene::TipState& tip) {
   const bool path_finished = tip.hand_revision == hand_.revision;
@@ -75,13 +82,19 @@ void SimulatedPerson::update(std::int64_t now_ns, const scene::TipState& tip) {
       }
       break;
     case Step::MoveDown:
-      if (path_finished && tip.phase == scene::ContactPhase::Attached) {
+      if (tip.servo_state != scene::ServoState::Running) {
+        lift_again(now_ns);
+      } else if (path_finished && tip.phase == scene::ContactPhase::Attached) {
         move_hand(path_.lift_m, stroke_seconds());
         enter(Step::MoveUp, now_ns);
       }
       break;
     case Step::MoveUp:
-      if (path_finished && tip.phase == scene::ContactPhase::Free) enter(Step::Rest, now_ns);
+      if (tip.servo_state != scene::ServoState::Running) {
+        lift_again(now_ns);
+      } else if (path_finished && tip.phase == scene::ContactPhase::Free) {
+        enter(Step::Rest, now_ns);
+      }
       break;
     case Step::Rest:
       if (seconds_in_step(now_ns) > kRestSeconds) enter(Step::Done, now_ns);

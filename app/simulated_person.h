@@ -38,12 +38,16 @@ class SimulatedPerson {
   input::WandState wand(std::int64_t now_ns) const { return wand_.state(now_ns); }
   const scene::HandScript& hand() const { return hand_; }
 
+  // How often in this procedure the force was taken away in mid-stroke, so that it had to be begun again with a lift.
+  int restarts() const { return restarts_; }
+
   // What is being waited for, for the message when it does not come; and since when.
   std::string waiting_for() const;
   double seconds_in_step(std::int64_t now_ns) const;
 
  private:
   void enter(Step step, std::int64_t now_ns);
+  void lift_again(std::int64_t now_ns);
   void move_hand(double height_m, double seconds);
   double stroke_seconds() const;
 
@@ -53,6 +57,7 @@ class SimulatedPerson {
   scene::HandScript hand_;
   std::int32_t material_ = -1;
   Step step_ = Step::Done;
+  int restarts_ = 0;
   std::int64_t step_start_ns_ = 0;
   std::int64_t button_change_ns_ = 0;
 };

@@ -28,7 +28,7 @@ constexpr double kTipDrawnLength = 0.21;
 constexpr double kStageDrawnDiameter = 1.9;
 constexpr glm::dvec3 kLaser(-0.56, 0.80, -0.55);
 constexpr glm::dvec3 kPhotodiode(0.56, 0.66, -0.30);
-constexpr double kPhotodiodeHalfSize = 0.10;
+constexpr double kPhotodiodeHalfSize = 0.0875;
 constexpr double kSpotReach = 0.8;  // of the half size, at the deflection of the pull-off
 constexpr double kBeamRadius = 0.007;
 constexpr double kSpotRadius = 0.022;
@@ -125,6 +125,15 @@ class Builder {
     return scene::append(scene_, *part, name, parent, dmat4(1.0));
   }
 
+  // The same, turned so that the frame `name` has the axes of the model's node `inner`.
+  scene::NodeIndex model_in_frame_of(const std::string& inner, const std::string& file, const std::string& name,
+                                     scene::NodeIndex parent) {
+    const scene::NodeIndex root = model(file, name, parent);
+    if (!error_)
+      scene_.nodes[root].parent_from_node = glm::inverse(ancestor_from_node(scene_, root, node(name + "/" + inner)));
+    return root;
+  }
+
   scene::NodeIndex node(const std::string& name) {
     if (const auto found = scene_.find_node(name)) return *found;
     if (!error_) error_ = missing_node(name);
@@ -162,7 +171,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   w.layout_ = build.frame("layout", std::nullopt, w.room_from_layout_);
   const double c = std::cos(kSampleTiltRad), s = std::sin(kSampleTiltRad);
   w.sample_frame_ = build.frame("sample", w.layout_, frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)));
-  w.stage_ = build.model("stage.glb", "stage", w.sample_frame_);
+  w.stage_ = build.model_in_frame_of("stage", "stage.glb", "stage", w.sample_frame_);
   w.probe_frame_ = build.frame("probe-frame", w.sample_frame_, dmat4(1.0));
   w.lever_ = build.model("probe.glb", "probe", w.probe_frame_);
   w.cantilever_ = build.node("probe/cantilever");
@@ -178,7 +187,9 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   for (const scene::MaterialEntry& material : materials.materials) {
     const physics::ApproachRetractEvents events = physics::approach_retract_events(material.interaction);
     MaterialLook look{};
-    look.sample = build.model("sample-" + material.name + ".glb", "sample-" + material.name, w.sample_frame_);
+    const std::string sample = "sample-" + material.name;
+    look.sample = build.model_in_frame_of("surface", sample + ".glb", sample, w.sample_frame_);
+    look.surface = build.node(sample + "/surface");
     look.swatch = build.model("swatch-" + material.name + ".glb", "swatch-" + material.name, w.layout_);
     look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
     look.full_deflection_m = events.f_ad.si / material.interaction.spring_constant.si;
@@ -292,16 +303,15 @@ std::vector<dmat4> WallScene::local_transforms(const Pose& pose, render::BeamBen
   if (pose.material) {
     const MaterialLook& look = looks_[*pose.material];
     const double scale = kStrokeHeight / look.stroke_m;
-    local[look.sample] = glm::scale(dmat4(1.0), dvec3(scale));
-    const dmat4 surface_turn = scene_.nodes[look.sample].parent_from_node;
-    local[look.sample] = local[look.sample] * surface_turn;
+    local[look.sample] = glm::scale(dmat4(1.0), dvec3(scale)) * local[look.sample];
   }
-  const Bounds stage = bounds_below(scene_, stage_);
+  const Bounds stage = bounds_below(scene_, scene_.find_node("stage/stage").value());
   const double stage_scale = kStageDrawnDiameter / (stage.high.x - stage.low.x);
-  const double thickness = pose.material ? -bounds_below(scene_, looks_[*pose.material].sample).low.z * kStrokeHeight /
+  const double thickness = pose.material ? -bounds_below(scene_, looks_[*pose.material].surface).low.z * kStrokeHeight /
                                                looks_[*pose.material].stroke_m
                                          : 0.0;
-  local[stage_] = glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -thickness)), dvec3(stage_scale));
+  local[stage_] =
+      glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -thickness)), dvec3(stage_scale)) * local[stage_];
 
   const dvec3 lever_end_in_frame(dvec3(
       0.0, 0.0,

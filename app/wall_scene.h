@@ -71,7 +71,8 @@ class WallScene {
 
  private:
   struct MaterialLook {
-    scene::NodeIndex sample;
+    scene::NodeIndex sample;   // the frame that is scaled
+    scene::NodeIndex surface;  // the model's node with the patch
     scene::NodeIndex swatch;
     double stroke_m;           // from the deepest push to the highest lift
     double full_deflection_m;  // at pull-off

@@ -15,7 +15,8 @@ class ScratchFolder {
  public:
   ScratchFolder() {
     std::string path = (std::filesystem::temp_directory_path() / "touchafm-test-XXXXXX").string();
-    if (::mkdtemp(path.data()) == nullptr) throw std::filesystem::filesystem_error("mkdtemp", path, std::error_code(errno, std::generic_category()));
+    if (::mkdtemp(path.data()) == nullptr)
+      throw std::filesystem::filesystem_error("mkdtemp", path, std::error_code(errno, std::generic_category()));
     path_ = path;
   }
   ScratchFolder(const ScratchFolder&) = delete;

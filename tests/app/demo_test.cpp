@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/session_file.h"
+#include "app/whole_file.h"
+#include "physics/contact.h"
+#include "render/image_file.h"
+#include "scene/material_library.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+
+// The main job from the command line to its last file, once, at a fast hand and a small picture.
+namespace afm::app {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class Demo : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new support::ScratchFolder;
+    result_ = new support::ProgramResult(support::run_program(AFM_PROGRAM " demo --out " + folder_->path() +
+                                                              " --hand-speed 120mm/s --eye-width 320" + extra()));
+  }
+  static void TearDownTestSuite() {
+    delete result_;
+    delete folder_;
+  }
+
+  // ThreadSanitizer sees both sides only when the servo is a thread.
+  static std::string extra() {
+    return AFM_SERVO_MODE[0] != '\0' ? std::string(" --servo ") + AFM_SERVO_MODE : std::string();
+  }
+
+  static nlohmann::json summary() { return nlohmann::json::parse(read_file(folder_->file("summary.json")).value()); }
+
+  static inline support::ScratchFolder* folder_ = nullptr;
+  static inline support::ProgramResult* result_ = nullptr;
+};
+
+TEST_F(Demo, EndsWellAndSaysWhatToOpen) {
+  EXPECT_EQ(result_->exit_code, 0) << result_->err;
+  EXPECT_EQ(result_->out, "open " + folder_->path() + "/report.html\n");
+  EXPECT_THAT(result_->err, HasSubstr("jump to contact"));
+}
+
+TEST_F(Demo, MeetsTheEquationsWithinATenthOfAPercent) {
+  const auto materials = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+  const nlohmann::json all = summary();
+  for (const scene::MaterialEntry& material : materials.materials) {
+    const auto events = physics::approach_retract_events(material.interaction);
+    const nlohmann::json& m = all["materials"][material.name];
+    EXPECT_NEAR(m["f_attr_N"].get<double>() / events.f_attr.si, 1.0, 1e-3) << material.name;
+    EXPECT_NEAR(m["f_ad_N"].get<double>() / events.f_ad.si, 1.0, 1e-3) << material.name;
+    EXPECT_NEAR(m["z_jtc_m"].get<double>() / events.z_jtc.si, 1.0, 1e-3) << material.name;
+    EXPECT_NEAR(m["z_joc_m"].get<double>() / events.z_joc.si, 1.0, 1e-3) << material.name;
+    EXPECT_LE(std::abs(m["error_vs_calculation"]["f_attr"].get<double>()), 1e-3) << material.name;
+  }
+}
+
+TEST_F(Demo, TellsTheServosTimingAndTheFrames) {
+  const nlohmann::json all = summary();
+  EXPECT_EQ(all["servo"]["rate_hz"], 1000.0);
+  EXPECT_GT(all["servo"]["ticks"].get<int>(), 3000);
+  for (const char* key : {"p50", "p99", "p99.9", "max"}) {
+    EXPECT_TRUE(all["servo"]["wake_us"].contains(key));
+    EXPECT_TRUE(all["servo"]["work_us"].contains(key));
+    EXPECT_GT(all["frames"]["ms"][key].get<double>(), 0.0);
+  }
+  EXPECT_GT(all["frames"]["count"].get<int>(), 10);
+  EXPECT_EQ(all["servo"]["lost_samples"], 0);
+}
+
+TEST_F(Demo, DrawsEveryPictureSideBySideAndNoneIsEmpty) {
+  for (const char* name : {"fig5a.png", "fig5b.png", "fig5c.png", "fig5d.png", "fig5e.png"}) {
+    const auto image = render::read_png(folder_->file(name));
+    ASSERT_TRUE(image.has_value()) << image.error().message;
+    EXPECT_EQ(image->width, 2U * 1440U);
+    EXPECT_EQ(image->height, 1080U);
+    // a picture has dark and bright pixels, and the eyes differ
+    std::size_t bright = 0, differing = 0;
+    for (std::uint32_t y = 0; y < image->height; ++y) {
+      for (std::uint32_t x = 0; x < 1440; ++x) {
+        const std::size_t left = 4 * (std::size_t{y} * image->width + x), right = left + 4 * 1440;
+        bright += image->rgba[left + 1] > 128 ? 1 : 0;
+        differing += image->rgba[left] != image->rgba[right] ? 1 : 0;
+      }
+    }
+    EXPECT_GT(bright, 1000U) << name;
+    EXPECT_GT(differing, 10000U) << name;
+  }
+}
+
+TEST_F(Demo, LeavesCurvesAndSessionsOfEveryMaterial) {
+  for (const char* name : {"mica", "gold", "si3n4"}) {
+    const auto session = load_session(folder_->file(std::string("session-") + name + ".afms"));
+    ASSERT_TRUE(session.has_value()) << session.error().message;
+    ASSERT_NE(session->find(scene::TipEventKind::JumpToContact), nullptr);
+    ASSERT_NE(session->find(scene::TipEventKind::JumpOffContact), nullptr);
+    const std::string csv = read_file(folder_->file(std::string("curve-") + name + ".csv")).value();
+    EXPECT_THAT(csv, HasSubstr("# hamaker_J: "));
+    EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
+              session->samples.size() + session->events.size() + 13U);
+  }
+}
+
+TEST_F(Demo, TheSnapInReallyMovesTheHand) {
+  const RecordedSession session = load_session(folder_->file("session-mica.afms")).value();
+  const scene::TipEvent* in = session.find(scene::TipEventKind::JumpToContact);
+  // the pull of 0.34 N bends the hand's grip down: within 60 ms it is pulled with more than half of the final force
+  double pull = 0;
+  for (const scene::TipSample& s : session.samples) {
+    if (s.time_ns > in->time_ns && s.time_ns < in->time_ns + 60'000'000) pull = std::min(pull, s.hand_force_n);
+  }
+  EXPECT_LT(pull, -0.1);
+}
+
+TEST_F(Demo, TheReportStandsAlone) {
+  const std::string html = read_file(folder_->file("report.html")).value();
+  EXPECT_THAT(html, HasSubstr("data:image/png;base64,iVBOR"));
+  EXPECT_THAT(html, HasSubstr("<svg"));
+  EXPECT_THAT(html, HasSubstr("circular"));
+  EXPECT_THAT(html, ::testing::Not(HasSubstr("src=\"fig")));
+}
+
+TEST_F(Demo, LeavesNothingElse) {
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_->path())) files += entry.is_regular_file() ? 1 : 100;
+  EXPECT_EQ(files, 5U + 3U + 3U + 2U);
+}
+
+TEST_F(Demo, ASessionIsDrawnAgain) {
+  const std::string picture = folder_->file("again.png");
+  const auto again = support::run_program(AFM_PROGRAM " render --session " + folder_->file("session-gold.afms") +
+                                          " --at 1.5 --stereo left --eye-width 200 --out " + picture);
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(render::read_png(picture)->width, 200U);
+  fs::remove(picture);
+}
+
+}  // namespace
+}  // namespace afm::app

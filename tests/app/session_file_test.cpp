@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/session_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "app/whole_file.h"
+#include "support/scratch_folder.h"
+
+namespace afm::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+RecordedSession example() {
+  RecordedSession session;
+  session.material = "mica";
+  session.interaction.tip_radius_m = 50e-9;
+  session.interaction.spring_constant_n_per_m = 0.1;
+  session.interaction.sample_stiffness_n_per_m = std::numeric_limits<double>::infinity();
+  session.interaction.hamaker_j = 24.5e-21;
+  session.interaction.mean_surface_energy_j_per_m2 = 2.228e-3;
+  session.rate_hz = 1000.0;
+  session.realtime = true;
+  session.hand_m_per_m = 3.57e6;
+  session.hand_n_per_n = 1.43e9;
+  for (int i = 0; i < 1000; ++i) {
+    scene::TipSample sample;
+    sample.time_ns = 5'000'000'000 + i * 1'000'000;
+    sample.z_m = 1e-9 * std::cos(0.01 * i);
+    sample.force_n = -0.1 * sample.z_m;
+    session.samples.push_back(sample);
+  }
+  scene::TipEvent event;
+  event.kind = scene::TipEventKind::JumpOffContact;
+  event.time_ns = 5'300'000'123;
+  event.z_m = 14e-9;
+  session.events.push_back(event);
+  return session;
+}
+
+std::string error_of(const std::string& path) {
+  const auto session = load_session(path);
+  if (session) return "accepted";
+  EXPECT_EQ(session.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_THAT(session.error().message, HasSubstr(path));
+  return session.error().message;
+}
+
+TEST(SessionFile, ComesBackAsItWasSaved) {
+  const support::ScratchFolder folder;
+  ASSERT_TRUE(save_session(example(), folder.file("s.afms")).has_value());
+  const auto loaded = load_session(folder.file("s.afms"));
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().message;
+  EXPECT_EQ(loaded->material, "mica");
+  EXPECT_EQ(loaded->interaction.hamaker_j, 24.5e-21);
+  EXPECT_TRUE(std::isinf(loaded->interaction.sample_stiffness_n_per_m));
+  EXPECT_EQ(loaded->hand_n_per_n, 1.43e9);
+  ASSERT_EQ(loaded->samples.size(), 1000U);
+  EXPECT_EQ(loaded->samples[999].z_m, example().samples[999].z_m);
+  ASSERT_NE(loaded->find(scene::TipEventKind::JumpOffContact), nullptr);
+  EXPECT_EQ(loaded->find(scene::TipEventKind::JumpToContact), nullptr);
+  EXPECT_NEAR(loaded->seconds_since_start(loaded->events[0].time_ns), 0.300000123, 1e-12);
+}
+
+TEST(SessionFile, OfTheSameSessionHasTheSameBytes) {
+  const support::ScratchFolder folder;
+  ASSERT_TRUE(save_session(example(), folder.file("a.afms")).has_value());
+  ASSERT_TRUE(save_session(example(), folder.file("b.afms")).has_value());
+  EXPECT_EQ(read_file(folder.file("a.afms")).value(), read_file(folder.file("b.afms")).value());
+}
+
+TEST(SessionFile, CutAnywhereIsRefused) {
+  const support::ScratchFolder folder;
+  ASSERT_TRUE(save_session(example(), folder.file("s.afms")).has_value());
+  const std::string whole = read_file(folder.file("s.afms")).value();
+  for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 200) {
+    EXPECT_NE(error_of(folder.write("cut.afms", whole.substr(0, size))), "accepted") << size;
+  }
+}
+
+TEST(SessionFile, AlteredInAnyByteIsRefused) {
+  const support::ScratchFolder folder;
+  ASSERT_TRUE(save_session(example(), folder.file("s.afms")).has_value());
+  const std::string whole = read_file(folder.file("s.afms")).value();
+  for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 200) {
+    std::string altered = whole;
+    altered[at] = static_cast<char>(altered[at] ^ 0x40);
+    EXPECT_NE(error_of(folder.write("altered.afms", altered)), "accepted") << at;
+  }
+}
+
+TEST(SessionFile, OfAnotherVersionNamesBoth) {
+  const support::ScratchFolder folder;
+  EXPECT_THAT(error_of(folder.write("new.afms", std::string("AFMS\x09\0\0\0", 8))),
+              HasSubstr("version 9, this program reads version 1"));
+}
+
+TEST(SessionFile, WithNumbersThatAreNotFiniteIsRefused) {
+  const support::ScratchFolder folder;
+  RecordedSession session = example();
+  session.samples[500].force_n = std::nan("");
+  ASSERT_TRUE(save_session(session, folder.file("nan.afms")).has_value());
+  EXPECT_THAT(error_of(folder.file("nan.afms")), HasSubstr("not finite"));
+}
+
+TEST(SessionFile, ThatIsSomethingElseIsNamedSo) {
+  const support::ScratchFolder folder;
+  EXPECT_THAT(error_of(folder.write("picture.png", "\x89PNG and so on")), HasSubstr("not a TouchAFM session"));
+}
+
+}  // namespace
+}  // namespace afm::app

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/wall_scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "physics/contact.h"
+
+namespace afm::app {
+namespace {
+
+class WallSceneTest : public ::testing::Test {
+ protected:
+  const std::string assets_ = AFM_SOURCE_DIR "/assets";
+  const scene::MaterialLibrary materials_ = scene::load_materials(assets_ + "/materials.toml").value();
+  const scene::Wall wall_ = scene::load_wall(assets_ + "/walls/powerwall.toml").value();
+  const scene::Screen& screen_ = wall_.screens.front();
+  const glm::dvec3 viewer_ = wall_.viewers.front().sweet_spot.position_m;
+  const WallScene scene_ = WallScene::load(assets_, materials_, screen_, viewer_).value();
+
+  render::FrameState frame(const WallScene::Pose& pose) const {
+    render::FrameState state;
+    scene_.place(pose, state);
+    return state;
+  }
+
+  glm::dvec3 origin_of(const render::FrameState& state, std::string_view node) const {
+    return glm::dvec3(state.room_from_node[scene_.scene().find_node(node).value()][3]);
+  }
+
+  // Where the apex is, by the drawn transforms.
+  glm::dvec3 apex(const WallScene::Pose& pose) const { return origin_of(frame(pose), "probe/apex"); }
+
+  glm::dvec3 contact() const { return origin_of(frame({}), "sample"); }
+};
+
+TEST_F(WallSceneTest, TheContactPointLiesInTheWallAtEyeHeightInItsMiddleThird) {
+  EXPECT_NEAR(contact().z, 0.0, 1e-12);
+  EXPECT_NEAR(contact().x, 0.0, 1e-12);
+  EXPECT_NEAR(contact().y, viewer_.y, 1e-12);
+  EXPECT_GT(contact().y, screen_.lower_left.y + screen_.height_m() / 3.0);
+  EXPECT_LT(contact().y, screen_.lower_left.y + screen_.height_m() * 2.0 / 3.0);
+}
+
+TEST_F(WallSceneTest, TheApexStandsAtItsHeightHoweverTheLeverBends) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const double z_joc = physics::approach_retract_events(materials_.materials[material].interaction).z_joc.si;
+    const double scale = scene_.drawn_scale(material).sample_m_per_m;
+    for (const double z : {-0.3, 0.0, 0.5, 1.0}) {
+      for (const double deflection : {-0.3, 0.0, 0.5, 1.0}) {
+        const TipView tip{.z_m = z * z_joc, .deflection_m = deflection * z_joc};
+        const glm::dvec3 offset = apex({.material = material, .tip = tip}) - contact();
+        EXPECT_NEAR(glm::dot(offset, scene_.sample_normal()), (tip.z_m - tip.deflection_m) / scale, 2e-3);
+        EXPECT_NEAR(glm::length(offset - glm::dot(offset, scene_.sample_normal()) * scene_.sample_normal()), 0.0, 2e-3);
+      }
+    }
+  }
+}
+
+TEST_F(WallSceneTest, AStrokeFillsAThirdOfTheWallsHeight) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const double z_joc = physics::approach_retract_events(materials_.materials[material].interaction).z_joc.si;
+    const glm::dvec3 high = apex({.material = material, .tip = {.z_m = 1.32 * z_joc}});
+    const glm::dvec3 low = apex({.material = material, .tip = {.z_m = -0.30 * z_joc}});
+    EXPECT_NEAR(glm::length(high - low), screen_.height_m() / 3.0, 0.02);
+  }
+}
+
+TEST_F(WallSceneTest, ShowsOnlyTheSampleOfTheMaterial) {
+  const auto visible = [&](const render::FrameState& state, const std::string& name) {
+    bool any = false;
+    for (std::size_t i = 0; i < scene_.scene().nodes.size(); ++i) {
+      const bool below = scene_.scene().nodes[i].name.starts_with("sample-" + name);
+      any = any || (below && scene_.scene().nodes[i].mesh && state.visible[i] != 0);
+    }
+    return any;
+  };
+  const render::FrameState none = frame({}), gold = frame({.material = 1});
+  for (const char* name : {"mica", "gold", "si3n4"}) {
+    EXPECT_FALSE(visible(none, name)) << name;
+    EXPECT_EQ(visible(gold, name), std::string_view(name) == "gold") << name;
+  }
+}
+
+TEST_F(WallSceneTest, WhatMustBeReadLiesInTheWallAndOnIt) {
+  const render::FrameState state = frame({.material = 0});
+  for (const render::PanelPlacement& panel :
+       {state.force_placement, state.data_placement, state.banner_placement, scene_.wide_panel()}) {
+    for (const glm::dvec3& corner : {panel.lower_left_m, panel.lower_left_m + panel.right_m + panel.up_m}) {
+      EXPECT_NEAR(corner.z, 0.0, 1e-12);
+      EXPECT_GE(corner.x, screen_.lower_left.x);
+      EXPECT_LE(corner.x, screen_.lower_right.x);
+      EXPECT_GE(corner.y, screen_.lower_left.y);
+      EXPECT_LE(corner.y, screen_.upper_left.y);
+    }
+  }
+}
+
+TEST_F(WallSceneTest, TheSwatchesAreSoFarApartThatTheRayCannotConfuseThem) {
+  const auto targets = scene_.swatch_targets();
+  ASSERT_EQ(targets.size(), 3U);
+  for (std::size_t aim = 0; aim < targets.size(); ++aim) {
+    const glm::dvec3 grip = scene_.wand_grip_m();
+    const input::Ray ray{.origin_m = grip, .direction = glm::normalize(targets[aim].center_m - grip)};
+    EXPECT_EQ(input::pick(ray, input::kPickConeRad, targets), aim);
+  }
+}
+
+TEST_F(WallSceneTest, FitsAWallOfAnySize) {
+  const scene::Screen desk{"desk", {-0.3, 0.9, 0.0}, {0.3, 0.9, 0.0}, {-0.3, 1.25, 0.0}};
+  const auto small = WallScene::load(assets_, materials_, desk, {0.0, 1.2, 0.6});
+  ASSERT_TRUE(small.has_value()) << small.error().message;
+  EXPECT_NEAR(small->drawn_scale(0).sample_m_per_m / scene_.drawn_scale(0).sample_m_per_m, 2.286 / 0.35, 1e-6);
+}
+
+TEST_F(WallSceneTest, AMissingModelIsABadInputFileThatIsNamed) {
+  const auto missing = WallScene::load("/nowhere", materials_, screen_, viewer_);
+  ASSERT_FALSE(missing.has_value());
+  EXPECT_EQ(missing.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_THAT(missing.error().message, ::testing::HasSubstr("/nowhere/models/"));
+}
+
+}  // namespace
+}  // namespace afm::app
