@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "haptics/simulated_device.h"
 #include "physics/contact.h"
 
@@ -12,6 +14,8 @@ using namespace afm::haptics;
 using afm::physics::approach_retract_events;
 using afm::physics::ApproachRetractEvents;
 using afm::physics::Interaction;
+
+constexpr double kRigid = std::numeric_limits<double>::infinity();
 
 // R, k_c, k_s, A_H, sqrt(gamma_s gamma_t) of Liu & Peng, Table 1; a finite k_s in the last one.
 ApproachRetractEvents events_of(double spring_constant, double sample_stiffness, double hamaker,
@@ -61,21 +65,21 @@ TEST_P(FitScalingOf, PushesMonotonelyNeverSteeperThanTheSpringAndBelowTheCap) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Materials, FitScalingOf,
-                         testing::Values(events_of(0.1, INFINITY, 24.5e-21, 2.228e-3),
-                                         events_of(0.1, INFINITY, 120e-21, 15.915e-3),
-                                         events_of(0.036, INFINITY, 10e-21, 0.955e-3),
+                         testing::Values(events_of(0.1, kRigid, 24.5e-21, 2.228e-3),
+                                         events_of(0.1, kRigid, 120e-21, 15.915e-3),
+                                         events_of(0.036, kRigid, 10e-21, 0.955e-3),
                                          events_of(0.1, 0.5, 24.5e-21, 2.228e-3)));
 
 TEST(FitScaling, PullsLessOnADeviceWithLessForce) {
   DeviceSpec weak = SimulatedDevice().spec();
   weak.max_force_n = 1.0;
-  const auto events = events_of(0.1, INFINITY, 24.5e-21, 2.228e-3);
+  const auto events = events_of(0.1, kRigid, 24.5e-21, 2.228e-3);
   EXPECT_DOUBLE_EQ(FitScaling::create(events, weak)->pull_force_n(), 0.9);
   EXPECT_DOUBLE_EQ(force_cap_n(weak), 0.9);
 }
 
 TEST(FitScaling, RefusesADeviceThatCannotShowIt) {
-  const auto events = events_of(0.1, INFINITY, 24.5e-21, 2.228e-3);
+  const auto events = events_of(0.1, kRigid, 24.5e-21, 2.228e-3);
   DeviceSpec soft = SimulatedDevice().spec();
   soft.max_stiffness_n_per_m = 30.0;
   EXPECT_THAT(FitScaling::create(events, soft).error().message, testing::HasSubstr("40 N/m"));

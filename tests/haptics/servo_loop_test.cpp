@@ -24,6 +24,7 @@ using afm::test::paper_model;
 using afm::test::ServoBench;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 afm::physics::ApproachRetractEvents calculated(std::int32_t material) {
   const SharedMaterial m = paper_model().materials[static_cast<std::size_t>(material)];
@@ -275,7 +276,7 @@ class FaultyDevice final : public afm::haptics::HapticDevice {
 
 TEST(ServoLoop, ReleasesADeviceThatReportsNonsense) {
   for (auto* spoil : {+[](afm::haptics::DeviceSample& s) { s.position_m.y = kNan; },
-                      +[](afm::haptics::DeviceSample& s) { s.position_m.x = INFINITY; },
+                      +[](afm::haptics::DeviceSample& s) { s.position_m.x = kInfinity; },
                       +[](afm::haptics::DeviceSample& s) { s.position_m.y = 1e200; },
                       +[](afm::haptics::DeviceSample& s) { s.healthy = false; }}) {
     auto segment = SharedSegment::create(paper_model(), 0);

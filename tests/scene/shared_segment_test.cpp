@@ -171,6 +171,7 @@ TEST_P(SharedModelWith, IsRefusedWithAReason) {
 }
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 INSTANTIATE_TEST_SUITE_P(
     Defects, SharedModelWith,
@@ -188,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadModel{"material 1", [](SharedModel& m) { m.materials[1].tip_radius_m = 0; }},
                     BadModel{"material 0", [](SharedModel& m) { m.materials[0].spring_constant_n_per_m = -1; }},
                     BadModel{"material 0",
-                             [](SharedModel& m) { m.materials[0].sample_stiffness_n_per_m = -INFINITY; }}));
+                             [](SharedModel& m) { m.materials[0].sample_stiffness_n_per_m = -kInfinity; }}));
 
 TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   SharedSegment segment = create_segment();
