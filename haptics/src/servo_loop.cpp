@@ -66,35 +66,37 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
         core::ErrorCategory::WrongUsage,
         fmt::format("cannot run the servo at {} Hz: choose {} to {} Hz", rate_hz, kSlowestHz, kFastestHz));
   }
+  // a copy, because what has been checked in shared memory may change there
+  const scene::SharedModel shared = segment.model();
+  if (auto valid = scene::validate(shared); !valid) return tl::unexpected(valid.error());
   std::vector<Encounter> encounters;
-  encounters.reserve(segment.model().material_count);
-  for (std::uint32_t i = 0; i < segment.model().material_count; ++i) {
+  encounters.reserve(shared.material_count);
+  for (std::uint32_t i = 0; i < shared.material_count; ++i) {
     try {
-      physics::ApproachRetractModel model(interaction(segment.model().materials[i]));
+      physics::ApproachRetractModel model(interaction(shared.materials[i]));
       auto scaling = FitScaling::create(model.events(), device.spec());
       if (!scaling) return tl::unexpected(scaling.error());
       encounters.push_back({.model = model, .scaling = *scaling});
     } catch (const std::invalid_argument& error) {
-      return core::failure(
-          core::ErrorCategory::Failed,
-          fmt::format("cannot make material {} felt: {}", segment.model().materials[i].name.data(), error.what()));
+      return core::failure(core::ErrorCategory::Failed, fmt::format("cannot make material {} felt: {}",
+                                                                    shared.materials[i].name.data(), error.what()));
     }
   }
   const auto period_ns = static_cast<std::int64_t>(std::llround(1e9 / rate_hz));
-  return std::unique_ptr<ServoLoop>(new ServoLoop(segment, device, period_ns, std::move(encounters)));
+  return std::unique_ptr<ServoLoop>(new ServoLoop(segment, shared, device, period_ns, std::move(encounters)));
 }
 
-ServoLoop::ServoLoop(scene::SharedSegment& segment, HapticDevice& device, std::int64_t period_ns,
-                     std::vector<Encounter> encounters)
+ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
+                     std::int64_t period_ns, std::vector<Encounter> encounters)
     : shared_(segment.servo_side()),
       device_(device),
       period_ns_(period_ns),
-      sample_node_(segment.model().sample_node),
+      sample_node_(model.sample_node),
       encounters_(std::move(encounters)),
       governor_(period_ns, force_cap_n(device.spec()), FitScaling::kStrokeM),
       hand_position_m_(device.spec().contact_point_m) {
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns);
-  const glm::dmat4 rest = scene::rest_room_from_node(segment.model(), sample_node_);
+  const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
   std::array<double, 16> room_from_sample{};
   std::copy_n(glm::value_ptr(rest), room_from_sample.size(), room_from_sample.begin());
   turn_sample(room_from_sample);
@@ -177,12 +179,13 @@ void ServoLoop::turn_sample(const std::array<double, 16>& room_from_sample) noex
 // The paper's procedure: choose, lift, press Turn-On. A choice waits until the tip is off the sample, then the force is
 // taken away, and only without force does the law change.
 void ServoLoop::change_material() noexcept {
-  if (chosen_.material < 0 || chosen_.revision == state_.selection_revision) return;
+  const auto index = static_cast<std::size_t>(chosen_.material);
+  if (chosen_.material < 0 || index >= encounters_.size() || chosen_.revision == state_.selection_revision) return;
   if (chosen_.material != state_.material) {
     if (encounter_ != nullptr && encounter_->model.phase() == physics::Phase::Attached) return;
     governor_.disarm();
     if (!governor_.released()) return;
-    encounter_ = &encounters_[static_cast<std::size_t>(chosen_.material)];
+    encounter_ = &encounters_[index];
     encounter_->model.wait_for_lift();
     state_.material = chosen_.material;
     state_.hand_m_per_m = encounter_->scaling.hand_m_per_m();

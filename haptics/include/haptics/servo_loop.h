@@ -57,8 +57,8 @@ class ServoLoop {
     FitScaling scaling;
   };
 
-  ServoLoop(scene::SharedSegment& segment, HapticDevice& device, std::int64_t period_ns,
-            std::vector<Encounter> encounters);
+  ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
+            std::int64_t period_ns, std::vector<Encounter> encounters);
 
   void read_shared_blocks(std::int64_t now_ns) noexcept;
   void turn_sample(const std::array<double, 16>& room_from_sample) noexcept;
