@@ -73,8 +73,8 @@ Json add_attributes(Writer& writer, const Surface& surface, bool colors) {
     const std::array<double, 3> position = components(vertex.position);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto stored = static_cast<float>(position[k]);
-      low[k] = i == 0 ? double{stored} : std::min(low[k], double{stored});
-      high[k] = i == 0 ? double{stored} : std::max(high[k], double{stored});
+      low[k] = i == 0 ? static_cast<double>(stored) : std::min(low[k], static_cast<double>(stored));
+      high[k] = i == 0 ? static_cast<double>(stored) : std::max(high[k], static_cast<double>(stored));
       writer.put(stored);
     }
     for (const double c : components(vertex.normal)) writer.put(static_cast<float>(c));

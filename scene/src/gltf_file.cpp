@@ -68,7 +68,8 @@ class TextScan : public nlohmann::json_sax<Json> {
   }
 
   bool number_integer(number_integer_t value) override {
-    const bool is_size = key_ == "byteOffset" || key_ == "byteLength" || key_ == "byteStride" || key_ == "count";
+    const bool is_size = depth_ == 3 && (section_ == "accessors" || section_ == "bufferViews") &&
+                         (key_ == "byteOffset" || key_ == "byteLength" || key_ == "byteStride" || key_ == "count");
     return !is_size || complain(fmt::format("'{}' is {}, a negative size; export it again", key_, value));
   }
 

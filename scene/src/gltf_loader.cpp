@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -162,7 +163,10 @@ Scene build_scene(const tinygltf::Model& model) {
 }  // namespace
 
 core::Result<Scene> load_gltf(const std::string& path) {
-  const auto refuse = [&](const std::string& reason) {
+  const auto refuse = [&](std::string reason) {
+    // a reason may quote the file, which must not break the line or reach a terminal as a control sequence
+    std::replace_if(
+        reason.begin(), reason.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, '?');
     return core::failure(core::ErrorCategory::BadInputFile,
                          fmt::format("cannot load the model '{}': {}", path, reason));
   };

@@ -241,14 +241,15 @@ Complaint check_hierarchy(const tinygltf::Model& model) {
   if (model.defaultScene != -1 && !is_index(model.defaultScene, model.scenes)) {
     return fmt::format("its default scene {} does not exist", model.defaultScene);
   }
+  std::vector<std::size_t> listed_by(model.nodes.size(), model.scenes.size());
   for (std::size_t i = 0; i < model.scenes.size(); ++i) {
-    std::vector<bool> listed(model.nodes.size(), false);
     for (const int node : model.scenes[i].nodes) {
       if (!is_index(node, model.nodes)) return missing("scene", i, "node", node);
       const auto index = static_cast<std::size_t>(node);
-      if (has_parent[index] || listed[index])
+      if (has_parent[index] || listed_by[index] == i) {
         return fmt::format("scene {} lists node {}, which is not a root or stands twice", i, node);
-      listed[index] = true;
+      }
+      listed_by[index] = i;
     }
   }
   return kNone;

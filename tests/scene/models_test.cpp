@@ -207,8 +207,12 @@ TEST(Samples, HaveTheSizesOfTheirMaterials) {
   for (const auto& [name, side] : sides) {
     const Scene scene = load(name);
     const std::vector<Vertex>& grid = grid_of(scene);
-    EXPECT_NEAR(double{grid.back().position.x} - double{grid.front().position.x}, side, side * 1e-5) << name;
-    EXPECT_NEAR(double{grid.back().position.y} - double{grid.front().position.y}, side, side * 1e-5) << name;
+    EXPECT_NEAR(static_cast<double>(grid.back().position.x) - static_cast<double>(grid.front().position.x), side,
+                side * 1e-5)
+        << name;
+    EXPECT_NEAR(static_cast<double>(grid.back().position.y) - static_cast<double>(grid.front().position.y), side,
+                side * 1e-5)
+        << name;
   }
 }
 
@@ -217,7 +221,7 @@ TEST(Mica, IsFlatBetweenStepsOfOneNanometre) {
   std::map<long, std::size_t> terraces;
   std::size_t flat = 0;
   for (const Vertex& vertex : grid_of(scene)) {
-    const double layers = double{vertex.position.z} / 1e-9;
+    const double layers = static_cast<double>(vertex.position.z) / 1e-9;
     const long nearest = std::lround(layers);
     if (std::abs(layers - static_cast<double>(nearest)) < 1e-3) {
       ++flat;
@@ -234,8 +238,8 @@ TEST(SiliconNitride, IsRoughByAFewTenthsOfANanometre) {
   double mean = 0, squares = 0;
   const std::vector<Vertex>& grid = grid_of(scene);
   const auto count = static_cast<double>(grid.size());
-  for (const Vertex& vertex : grid) mean += double{vertex.position.z} / count;
-  for (const Vertex& vertex : grid) squares += std::pow(double{vertex.position.z} - mean, 2) / count;
+  for (const Vertex& vertex : grid) mean += static_cast<double>(vertex.position.z) / count;
+  for (const Vertex& vertex : grid) squares += std::pow(static_cast<double>(vertex.position.z) - mean, 2) / count;
   EXPECT_GT(std::sqrt(squares), 0.3e-9);
   EXPECT_LT(std::sqrt(squares), 0.5e-9);
 }
@@ -244,8 +248,8 @@ TEST(Gold, IsGrainedByAFewNanometres) {
   const Scene scene = load("sample-gold");
   double low = 0, high = 0;
   for (const Vertex& vertex : grid_of(scene)) {
-    low = std::min(low, double{vertex.position.z});
-    high = std::max(high, double{vertex.position.z});
+    low = std::min(low, static_cast<double>(vertex.position.z));
+    high = std::max(high, static_cast<double>(vertex.position.z));
   }
   EXPECT_GT(high - low, 3e-9);
   EXPECT_LT(high - low, 9e-9);

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "scene/gltf_loader.h"
+
+// A small valid model to spoil, and a folder to load it from.
+namespace afm::scene {
+
+inline void put(std::string& bytes, std::uint32_t value, int size = 4) {
+  for (int i = 0; i < size; ++i) bytes.push_back(static_cast<char>(value >> (8 * i)));
+}
+
+inline void put(std::string& bytes, std::initializer_list<float> values) {
+  for (const float value : values) put(bytes, std::bit_cast<std::uint32_t>(value));
+}
+
+// A square of four vertices: 48 bytes of positions, then six 16-bit indices.
+inline std::string square_binary() {
+  std::string bytes;
+  put(bytes, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+  for (const std::uint32_t index : {0U, 1U, 2U, 0U, 2U, 3U}) put(bytes, index, 2);
+  return bytes;
+}
+
+inline nlohmann::json square_json() {
+  return nlohmann::json::parse(R"({
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"name": "sample", "children": [1]}, {"name": "surface", "mesh": 0}],
+    "meshes": [{"name": "square", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+    "materials": [{"name": "mica"}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+    "buffers": [{"byteLength": 60}]})");
+}
+
+inline std::string glb(std::string text, std::string binary) {
+  while (text.size() % 4 != 0) text += ' ';
+  while (binary.size() % 4 != 0) binary += '\0';
+  std::string bytes = "glTF";
+  put(bytes, 2);
+  put(bytes, static_cast<std::uint32_t>(12 + 8 + text.size() + 8 + binary.size()));
+  put(bytes, static_cast<std::uint32_t>(text.size()));
+  put(bytes, 0x4E4F534A);
+  bytes += text;
+  put(bytes, static_cast<std::uint32_t>(binary.size()));
+  put(bytes, 0x004E4942);
+  return bytes + binary;
+}
+
+// Writes models into a folder of its own and loads them.
+class GltfFolder : public testing::Test {
+ protected:
+  GltfFolder() : folder_(std::filesystem::path(testing::TempDir()) / ("gltf_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(folder_ / "models");
+  }
+  ~GltfFolder() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& bytes) const {
+    const std::filesystem::path path = folder_ / "models" / name;
+    std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return path;
+  }
+  core::Result<Scene> load(const nlohmann::json& document, const std::string& binary = square_binary()) const {
+    return load_gltf(write("model.glb", glb(document.dump(), binary)));
+  }
+  core::Result<Scene> load_bytes(const std::string& bytes) const { return load_gltf(write("model.glb", bytes)); }
+
+  void expect_refused(const core::Result<Scene>& scene, const std::string& reason) const {
+    ASSERT_FALSE(scene) << reason;
+    EXPECT_EQ(scene.error().category, core::ErrorCategory::BadInputFile);
+    EXPECT_THAT(scene.error().message, testing::AllOf(testing::HasSubstr("cannot load the model '" + folder_.string()),
+                                                      testing::HasSubstr(reason), testing::HasSubstr("; "),
+                                                      testing::Not(testing::HasSubstr("\n"))));
+  }
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace afm::scene
