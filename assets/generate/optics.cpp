@@ -6,7 +6,7 @@ namespace afm::generate {
 namespace {
 
 constexpr double kCm = 0.01;
-constexpr int kRound = 4;  // halvings: 64 points around
+constexpr int kRound = 3;  // halvings: 32 points around
 
 MaterialSpec anodised() {
   return {.name = "anodised aluminium", .base_color = {0.10, 0.11, 0.13}, .metallic = 0.9, .roughness = 0.38};
@@ -68,21 +68,21 @@ std::vector<Part> laser() {
 Surface quadrant(V2 middle, double half) {
   Surface surface;
   const V2 reach{half, half};
-  add_prism(surface, rounded_rectangle(middle - reach, middle + reach, 0.15 * kCm, 2), -0.4 * kCm, 0, 0.12 * kCm);
+  add_prism(surface, rounded_rectangle(middle - reach, middle + reach, 0.15 * kCm, 1), -0.4 * kCm, 0, 0.12 * kCm);
   return surface;
 }
 
 std::vector<Part> board() {
   Surface plate, frame, pins;
   const double half = 13 * kCm;
-  add_prism(plate, rounded_rectangle({-half, -half}, {half, half}, 1.2 * kCm, 3), -2.0 * kCm, -1.0 * kCm, 0.2 * kCm);
-  add_prism(frame, rounded_rectangle({-9.6 * kCm, -9.6 * kCm}, {9.6 * kCm, 9.6 * kCm}, 0.8 * kCm, 3), -1.1 * kCm,
+  add_prism(plate, rounded_rectangle({-half, -half}, {half, half}, 1.2 * kCm, 2), -2.0 * kCm, -1.0 * kCm, 0.2 * kCm);
+  add_prism(frame, rounded_rectangle({-9.6 * kCm, -9.6 * kCm}, {9.6 * kCm, 9.6 * kCm}, 0.8 * kCm, 2), -1.1 * kCm,
             -0.25 * kCm, 0.2 * kCm);
   for (int side = -1; side <= 1; side += 2) {
     for (int i = 0; i < 6; ++i) {  // contacts along the left and right edges
       const V2 middle{side * 11.2 * kCm, (i - 2.5) * 3.0 * kCm};
       const V2 reach{0.7 * kCm, 0.5 * kCm};
-      add_prism(pins, rounded_rectangle(middle - reach, middle + reach, 0.3 * kCm, 2), -1.1 * kCm, -0.75 * kCm,
+      add_prism(pins, rounded_rectangle(middle - reach, middle + reach, 0.3 * kCm, 1), -1.1 * kCm, -0.75 * kCm,
                 0.12 * kCm);
     }
   }

@@ -30,7 +30,7 @@ constexpr double kChipLength = 300 * kUm;
 constexpr double kChipHalfWidth = 130 * kUm;
 constexpr double kChipHeight = 80 * kUm;
 
-MaterialSpec nitride() { return {.name = "silicon nitride", .base_color = {0.48, 0.40, 0.12}, .roughness = 0.28}; }
+MaterialSpec nitride() { return {.name = "silicon nitride", .base_color = {0.60, 0.55, 0.30}, .roughness = 0.28}; }
 MaterialSpec gold() {
   return {.name = "gold coating", .base_color = {1.0, 0.77, 0.34}, .metallic = 1, .roughness = 0.22};
 }
@@ -163,7 +163,7 @@ TipShape tip_shape() {
 double apex_height() { return tip_shape().center.z - kApexRadius; }
 
 Surface tip_surface() {
-  constexpr std::size_t kCap = 33;  // vertices along each side of the spherical cap
+  constexpr std::size_t kCap = 25;  // vertices along each side of the spherical cap
   const TipShape shape = tip_shape();
   Surface surface;
 
@@ -187,6 +187,17 @@ Surface tip_surface() {
     const std::uint32_t right = surface.add({at_base(before, edge), before});
     surface.add_triangle(corner, right, left);
   }
+
+  // the base, seen when the tip is drawn larger than the lever
+  Outline base;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const V3 before = shape.face_normal[k], after = shape.face_normal[(k + 1) % 4];
+    for (const V3 normal : {before, after}) {
+      const V3 corner = at_base(normal, cross(before, after));
+      base.push_back({{corner.x, corner.y}, {normal.x, normal.y}});
+    }
+  }
+  add_cap(surface, base, 0, Facing::Up);
 
   // the cap, a square of great arcs
   surface.add_grid(kCap, kCap, [&](std::size_t row, std::size_t column) {

@@ -69,30 +69,33 @@ Model sample(std::string name, NodeSpec node) {
 
 // Terraces that fall towards -y, the viewer; every step is one layer, 1.0 nm.
 Model mica() {
-  constexpr double kLayer = 1.0 * kNm, kRiser = 2.8 * kNm;
-  constexpr double kSteps[] = {-30, -15.5, 17.5, 32};  // nm along the direction of ascent
+  constexpr double kLayer = 1.0 * kNm, kRiser = 1.3 * kNm;
+  // nm along the direction of ascent; the steps upwards keep clear of a ball of 50 nm that stands in the middle
+  constexpr double kSteps[] = {-17.5, -8.5, 12.8, 18.4};
   constexpr int kLayersBelowCenter = 2;
   const auto layers = [&](double x, double y) {
     double count = -kLayersBelowCenter;
     for (std::uint32_t k = 0; k < 4; ++k) {
       const double along = 0.96 * y + 0.28 * x, across = 0.96 * x - 0.28 * y;
-      const double wander = 2.8 * noise(across / (17 * kNm), k, 11) + 0.9 * noise(across / (7 * kNm), k, 12);
+      const double wander = 1.6 * noise(across / (11 * kNm), k, 11) + 0.5 * noise(across / (4.5 * kNm), k, 12);
       count += smooth_step(-kRiser / 2, kRiser / 2, along - (kSteps[k] + wander) * kNm);
     }
     return count;
   };
-  const HeightField field(96, 84 * kNm / 96, [&](double x, double y) { return layers(x, y) * kLayer; });
+  const HeightField field(90, 44 * kNm / 90, [&](double x, double y) { return layers(x, y) * kLayer; });
 
   const V3 even{0.80, 0.74, 0.74}, odd{0.60, 0.54, 0.56};
   std::vector<WallBand> bands;
   for (int layer = 2; layer > -9; --layer) {
     bands.push_back({layer * kLayer, (layer - 1) * kLayer, layer % 2 == 0 ? even : odd});
   }
+  // higher terraces are lighter and risers darker, so that the steps are told apart from a distance
   const auto tint = [&](const V3& position) {
-    return mix(V3{0.80, 0.77, 0.79}, V3{1, 1, 1}, (position.z / kLayer + kLayersBelowCenter) / 4);
+    const double layer = position.z / kLayer + kLayersBelowCenter, part = layer - std::floor(layer);
+    return mix(V3{0.72, 0.69, 0.72}, V3{1, 1, 1}, layer / 4) * (1 - 1.4 * part * (1 - part));
   };
   const MaterialSpec material{
-      .name = "mica", .base_color = {0.66, 0.58, 0.585}, .roughness = 0.35, .vertex_colors = true};
+      .name = "mica", .base_color = {0.56, 0.49, 0.495}, .roughness = 0.35, .vertex_colors = true};
   NodeSpec node = surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}});
   node.extras["step_m"] = kLayer;
   return sample("sample-mica", std::move(node));
@@ -102,7 +105,7 @@ Model mica() {
 Model gold() {
   constexpr double kHeight = 8 * kNm;
   const Grains grains{.cell = 42 * kNm, .smallest = 0.62, .radius_low = 0.62, .radius_high = 0.86, .seed = 21};
-  HeightField field(96, 430 * kNm / 96, [&](double x, double y) {
+  HeightField field(90, 316 * kNm / 90, [&](double x, double y) {
     return kHeight * grains.height(x, y) + 0.25 * kNm * noise(x / (11 * kNm), y / (11 * kNm), 31);
   });
   field.level_at_center();
@@ -114,24 +117,26 @@ Model gold() {
   const MaterialSpec film{
       .name = "gold", .base_color = {1.0, 0.77, 0.34}, .metallic = 1, .roughness = 0.3, .vertex_colors = true};
   const MaterialSpec substrate{.name = "substrate", .base_color = {0.34, 0.33, 0.35}, .roughness = 0.6};
+  const MaterialSpec cut{
+      .name = "cut gold", .base_color = {0.85, 0.62, 0.24}, .metallic = 0.4, .roughness = 0.5, .vertex_colors = true};
   const std::vector<WallBand> film_bands{{kHeight, -9 * kNm, {0.85, 0.82, 0.78}},
                                          {-9 * kNm, -18 * kNm, {0.78, 0.75, 0.70}}};
   const std::vector<WallBand> substrate_bands{{-18 * kNm, -46 * kNm}};
   return sample("sample-gold", surface_node(field, {{top_of(field, tint), film},
-                                                    {walls_of(field, film_bands), film},
+                                                    {walls_of(field, film_bands), cut},
                                                     {walls_of(field, substrate_bands), substrate}}));
 }
 
 // A deposited film: isotropic, fine, without a direction or a step.
 Model silicon_nitride() {
   constexpr double kRoughness = 0.4 * kNm;
-  const Grains grains{.cell = 4.6 * kNm, .smallest = 0.35, .radius_low = 0.7, .radius_high = 1.05, .seed = 41};
-  HeightField field(96, 94 * kNm / 96, [&](double x, double y) {
+  const Grains grains{.cell = 3.4 * kNm, .smallest = 0.35, .radius_low = 0.7, .radius_high = 1.05, .seed = 41};
+  HeightField field(90, 53 * kNm / 90, [&](double x, double y) {
     return grains.height(x, y) + 0.22 * noise(x / (13 * kNm), y / (13 * kNm), 51);
   });
   field.scale(kRoughness / field.roughness());
-  const double plateau = field.at(48, 48);
-  field.flatten_center(6 * kNm, plateau);
+  const double plateau = field.at(45, 45);
+  field.flatten_center(10 * kNm, plateau);
   field.level_at_center();
 
   const auto tint = [&](const V3& position) {

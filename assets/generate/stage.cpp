@@ -7,7 +7,7 @@ namespace {
 constexpr double kMm = 1e-3;
 constexpr double kPuckRadius = 7.5 * kMm;
 constexpr double kPuckHeight = 1 * kMm;
-constexpr int kRound = 5;  // halvings: 128 points around
+constexpr int kRound = 4;  // halvings: 64 points around
 
 MaterialSpec steel() { return {.name = "steel", .base_color = {0.56, 0.57, 0.58}, .metallic = 1, .roughness = 0.32}; }
 MaterialSpec dark() { return {.name = "piezo ceramic", .base_color = {0.055, 0.060, 0.070}, .roughness = 0.45}; }

@@ -64,7 +64,7 @@ Model mica() {
     std::vector<V2> corners;
     for (int k = 0; k < 6; ++k) corners.push_back(hexagon[k] * ((8.2 + 2.2 * random(k) - 0.11 * flake) * kCm));
     Surface prism;
-    add_prism(prism, rounded_polygon(corners, 0.6 * kCm, 2), 0, kFlake, 0.14 * kCm);
+    add_prism(prism, rounded_polygon(corners, 0.6 * kCm, 1), 0, kFlake, 0.14 * kCm);
     const double shade = flake % 2 == 0 ? 1.0 : 0.84;
     prism.paint({shade, shade * mix(0.95, 1.0, random(6)), shade * mix(0.94, 1.0, random(7))});
 
@@ -120,7 +120,7 @@ Outline disc_with_flat(double radius, double flat, double fillet) {
   const V2 right{x, fillet - flat}, left{-x, fillet - flat};
   const V2 turns[] = {unit(right), {1, 0}, {0, 1}, {-1, 0}, unit(left)};
   Outline outline;
-  for (std::size_t i = 0; i + 1 < 5; ++i) add_arc(outline, {0, 0}, radius, turns[i], turns[i + 1], 5);
+  for (std::size_t i = 0; i + 1 < 5; ++i) add_arc(outline, {0, 0}, radius, turns[i], turns[i + 1], 4);
   add_arc(outline, left, fillet, unit(left), {0, -1}, 2);
   add_arc(outline, right, fillet, {0, -1}, unit(right), 2);
   return outline;
