@@ -5,10 +5,10 @@
 
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2D font_atlas;
 layout(location = 0) in vec2 texture_place;
-layout(location = 1) in vec4 linear_color;
+layout(location = 1) in vec4 ink;
 layout(location = 0) out vec4 out_color;
 
 void main() {
-  float coverage = linear_color.a * texture(font_atlas, texture_place).r;
-  out_color = vec4(linear_color.rgb * coverage, coverage);
+  float coverage = ink.a * texture(font_atlas, texture_place).r;
+  out_color = vec4(ink.rgb * coverage, coverage);
 }

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl.h"
 
-// UNORM views of the sRGB eye images: bytes go through unchanged.
+// The eye images hold sRGB values in a UNORM format: bytes go through unchanged.
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2D left_eye;
 layout(set = 0, binding = AFM_BINDING_RIGHT_EYE) uniform sampler2D right_eye;
 layout(push_constant) uniform Compose { ComposeBlock compose; };

@@ -6,13 +6,13 @@
 
 // set 0, the frame
 #define AFM_BINDING_FRAME 0
-#define AFM_BINDING_DRAWS 1
+#define AFM_BINDING_DRAW 1
 #define AFM_BINDING_SHADOW 2
 // set 1 of the panels, set 0 of the canvas and of the compose pass: what they sample
 #define AFM_BINDING_TEXTURE 0
 #define AFM_BINDING_RIGHT_EYE 1
 
-// one per frame; indexed by gl_ViewIndex
+// one per frame; what has two elements belongs to the views
 struct FrameBlock {
   mat4 clip_from_room[2];
   vec4 eye_position[2];    // xyz
@@ -22,7 +22,8 @@ struct FrameBlock {
   vec4 target_size;        // width, height of an eye image in pixels, and their reciprocals
 };
 
-// one per primitive that a node shows; indexed by gl_InstanceIndex
+// One per primitive that a node shows: a uniform block with a dynamic offset. lavapipe reads a storage buffer that is
+// indexed in the shader lane by lane, which made a frame three times as long.
 struct DrawBlock {
   mat4 room_from_node;
   vec4 normal_column[3];  // xyz: columns of the normal matrix, scaled so that the longest has length 1

@@ -3,6 +3,7 @@
 #extension GL_EXT_multiview : require
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl.h"
+#include "view.glsl"
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(push_constant) uniform Panel { PanelBlock panel; };
@@ -13,5 +14,5 @@ void main() {
   vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
   texture_place = vec2(corner.x, 1.0 - corner.y);
   vec3 place = panel.lower_left.xyz + corner.x * panel.right.xyz + corner.y * panel.up.xyz;
-  gl_Position = frame.clip_from_room[gl_ViewIndex] * vec4(place, 1.0);
+  gl_Position = view_clip_from_room(frame) * vec4(place, 1.0);
 }

@@ -5,11 +5,11 @@
 #include "beam.glsl"
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
-layout(set = 0, binding = AFM_BINDING_DRAWS, std430) readonly buffer Draws { DrawBlock draws[]; };
+layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 
 layout(location = 0) in vec3 position;
 
 void main() {
-  vec3 bent = position + vec3(0.0, 0.0, beam_deflection(draws[gl_InstanceIndex].bend, position.x));
-  gl_Position = frame.shadow_from_room * draws[gl_InstanceIndex].room_from_node * vec4(bent, 1.0);
+  vec3 bent = position + vec3(0.0, 0.0, beam_deflection(draw.bend, position.x));
+  gl_Position = frame.shadow_from_room * draw.room_from_node * vec4(bent, 1.0);
 }

@@ -16,3 +16,12 @@ vec3 tone_map(vec3 color) {
   float whiteness = 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0);
   return mix(color, vec3(new_peak), whiteness);
 }
+
+// The sRGB curve (IEC 61966-2-1). The eye images hold encoded values in a UNORM format, so that the samples of a pixel and
+// blended primitives mix as the viewer sees them, and a CPU device encodes once a pixel and not once a sample.
+// The power 1/2.4 is a least-squares fit in square roots, which are cheaper, within 0.2 of an 8-bit step for 0..1.
+vec3 srgb_from_linear(vec3 c) {
+  vec3 root = sqrt(max(c, 0.0));
+  vec3 curve = -0.0770821 - 0.0555908 * c + 0.8330840 * root + 0.2989871 * sqrt(root);
+  return mix(c * 12.92, curve, greaterThan(c, vec3(0.0031308)));
+}

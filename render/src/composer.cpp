@@ -66,7 +66,7 @@ Composer::Composer(const Device& device, const EyeTargets& eyes)
                                          .fragment_code = shaders::compose_frag,
                                          .layout = *layout_,
                                          .topology = vk::PrimitiveTopology::eTriangleStrip,
-                                         .color_format = kEyeBytes})),
+                                         .color_format = kEyeFormat})),
       sampler_(*device, vk::SamplerCreateInfo{}),
       pool_(create_pool(device)) {
   set_ = std::move(vk::raii::DescriptorSets(
@@ -74,7 +74,7 @@ Composer::Composer(const Device& device, const EyeTargets& eyes)
                        .front());
   for (const auto eye : scene::kEyes) {
     const vk::DescriptorImageInfo image{
-        .sampler = *sampler_, .imageView = eyes.eye(eye).bytes, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+        .sampler = *sampler_, .imageView = eyes.eye(eye).view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
     device->updateDescriptorSets(
         vk::WriteDescriptorSet{
             .dstSet = *set_,
@@ -93,11 +93,11 @@ const Composer::Target& Composer::target(Layout layout) {
   }
   Target target;
   target.image = create_image(device_, "composed",
-                              {.format = kEyeBytes,
+                              {.format = kEyeFormat,
                                .extent = composed_extent(layout, eyes_.extent()),
                                .usage = vk::ImageUsageFlagBits::eColorAttachment |
                                         vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eSampled});
-  target.view = create_view(device_, target.image, kColor, 0, 1, kEyeBytes);
+  target.view = create_view(device_, target.image, kColor, 0, 1);
   return targets_.emplace(layout, std::move(target)).first->second;
 }
 

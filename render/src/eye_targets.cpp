@@ -59,7 +59,7 @@ EyeTargets::Set EyeTargets::create_set(const Device& device, std::uint32_t layer
                                      .usage = Usage::eColorAttachment | Usage::eTransientAttachment,
                                      .layers = layers,
                                      .samples = samples_});
-    set.multisampled_view = create_view(device, set.multisampled, kColor, 0, layers, kEyeFormat);
+    set.multisampled_view = create_view(device, set.multisampled, kColor, 0, layers);
   }
   set.depth = create_image(device, "eyes depth",
                            {.format = kDepthFormat,
@@ -67,16 +67,15 @@ EyeTargets::Set EyeTargets::create_set(const Device& device, std::uint32_t layer
                             .usage = Usage::eDepthStencilAttachment | Usage::eTransientAttachment,
                             .layers = layers,
                             .samples = samples_});
-  set.depth_view = create_view(device, set.depth, kDepth, 0, layers, kDepthFormat);
+  set.depth_view = create_view(device, set.depth, kDepth, 0, layers);
   set.resolved = create_image(device, "eyes",
                               {.format = kEyeFormat,
                                .extent = extent_,
                                .usage = Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc,
-                               .layers = layers,
-                               .flags = vk::ImageCreateFlagBits::eMutableFormat});
-  set.resolved_view = create_view(device, set.resolved, kColor, 0, layers, kEyeFormat);
+                               .layers = layers});
+  set.resolved_view = create_view(device, set.resolved, kColor, 0, layers);
   for (std::uint32_t layer = 0; layer < layers; ++layer) {
-    set.byte_views.push_back(create_view(device, set.resolved, kColor, layer, 1, kEyeBytes));
+    set.eye_views.push_back(create_view(device, set.resolved, kColor, layer, 1));
   }
   return set;
 }
@@ -127,7 +126,7 @@ EyeTargets::EyeImage EyeTargets::eye(scene::Eye eye) const {
   const std::size_t layer = sets_.size() == 1 ? index : 0;
   return {.image = *sets_[set].resolved.image,
           .layer = static_cast<std::uint32_t>(layer),
-          .bytes = *sets_[set].byte_views[layer]};
+          .view = *sets_[set].eye_views[layer]};
 }
 
 }  // namespace afm::render

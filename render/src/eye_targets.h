@@ -9,8 +9,7 @@
 
 namespace afm::render {
 
-inline constexpr vk::Format kEyeFormat = vk::Format::eR8G8B8A8Srgb;
-inline constexpr vk::Format kEyeBytes = vk::Format::eR8G8B8A8Unorm;  // the same bytes without the sRGB curve
+inline constexpr vk::Format kEyeFormat = vk::Format::eR8G8B8A8Unorm;  // holds sRGB values, see tone.glsl
 inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
 
 // The images that eyes are drawn into. With Multiview one set of two layers; with TwoPasses a set for each eye, because
@@ -37,7 +36,7 @@ class EyeTargets {
   struct EyeImage {
     vk::Image image;
     std::uint32_t layer = 0;
-    vk::ImageView bytes;  // kEyeBytes view of this eye alone
+    vk::ImageView view;  // of this eye alone
   };
   EyeImage eye(scene::Eye eye) const;
 
@@ -49,7 +48,7 @@ class EyeTargets {
     vk::raii::ImageView multisampled_view{nullptr};
     vk::raii::ImageView depth_view{nullptr};
     vk::raii::ImageView resolved_view{nullptr};
-    std::vector<vk::raii::ImageView> byte_views;  // one a layer
+    std::vector<vk::raii::ImageView> eye_views;  // one a layer
   };
   Set create_set(const Device& device, std::uint32_t layers) const;
 

@@ -9,12 +9,18 @@ namespace afm::render {
 namespace {
 
 constexpr auto kUniform = vk::DescriptorType::eUniformBuffer;
-constexpr auto kStorage = vk::DescriptorType::eStorageBuffer;
+constexpr auto kDynamicUniform = vk::DescriptorType::eUniformBufferDynamic;
 constexpr auto kSampled = vk::DescriptorType::eCombinedImageSampler;
+
+// The smallest distance of blocks of `size` bytes that a dynamic offset can express.
+std::uint32_t aligned_stride(const Device& device, std::size_t size) {
+  const auto alignment = device.physical().getProperties().limits.minUniformBufferOffsetAlignment;
+  return static_cast<std::uint32_t>((size + alignment - 1) / alignment * alignment);
+}
 
 vk::raii::DescriptorPool create_pool(const Device& device, std::uint32_t sets) {
   const std::array sizes{vk::DescriptorPoolSize{.type = kUniform, .descriptorCount = sets},
-                         vk::DescriptorPoolSize{.type = kStorage, .descriptorCount = sets},
+                         vk::DescriptorPoolSize{.type = kDynamicUniform, .descriptorCount = sets},
                          vk::DescriptorPoolSize{.type = kSampled, .descriptorCount = sets}};
   return vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                             .maxSets = sets,
@@ -25,7 +31,7 @@ vk::raii::DescriptorPool create_pool(const Device& device, std::uint32_t sets) {
 void write_set(const Device& device, vk::DescriptorSet set, const Buffer& uniforms, const Buffer& draws,
                const ShadowMap& shadow_map) {
   const vk::DescriptorBufferInfo uniform_info{.buffer = *uniforms.buffer, .range = VK_WHOLE_SIZE};
-  const vk::DescriptorBufferInfo draw_info{.buffer = *draws.buffer, .range = VK_WHOLE_SIZE};
+  const vk::DescriptorBufferInfo draw_info{.buffer = *draws.buffer, .range = sizeof(DrawBlock)};
   const vk::DescriptorImageInfo shadow_info = shadow_map.descriptor();
   const std::array writes{vk::WriteDescriptorSet{.dstSet = set,
                                                  .dstBinding = AFM_BINDING_FRAME,
@@ -33,9 +39,9 @@ void write_set(const Device& device, vk::DescriptorSet set, const Buffer& unifor
                                                  .descriptorType = kUniform,
                                                  .pBufferInfo = &uniform_info},
                           vk::WriteDescriptorSet{.dstSet = set,
-                                                 .dstBinding = AFM_BINDING_DRAWS,
+                                                 .dstBinding = AFM_BINDING_DRAW,
                                                  .descriptorCount = 1,
-                                                 .descriptorType = kStorage,
+                                                 .descriptorType = kDynamicUniform,
                                                  .pBufferInfo = &draw_info},
                           vk::WriteDescriptorSet{.dstSet = set,
                                                  .dstBinding = AFM_BINDING_SHADOW,
@@ -53,7 +59,7 @@ vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device) {
       vk::DescriptorSetLayoutBinding{
           .binding = AFM_BINDING_FRAME, .descriptorType = kUniform, .descriptorCount = 1, .stageFlags = both},
       vk::DescriptorSetLayoutBinding{
-          .binding = AFM_BINDING_DRAWS, .descriptorType = kStorage, .descriptorCount = 1, .stageFlags = both},
+          .binding = AFM_BINDING_DRAW, .descriptorType = kDynamicUniform, .descriptorCount = 1, .stageFlags = both},
       vk::DescriptorSetLayoutBinding{.binding = AFM_BINDING_SHADOW,
                                      .descriptorType = kSampled,
                                      .descriptorCount = 1,
@@ -65,9 +71,9 @@ vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device) {
 FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, const ShadowMap& shadow_map,
                      std::size_t pass_count, std::size_t draw_count)
     : pool_(*device, vk::CommandPoolCreateInfo{.queueFamilyIndex = device.queue_family()}),
-      draws_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * sizeof(DrawBlock),
-                                vk::BufferUsageFlagBits::eStorageBuffer)),
-      draw_count_(draw_count),
+      draw_stride_(aligned_stride(device, sizeof(DrawBlock))),
+      draws_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * draw_stride_,
+                                vk::BufferUsageFlagBits::eUniformBuffer)),
       descriptor_pool_(create_pool(device, static_cast<std::uint32_t>(pass_count))) {
   commands_ = std::move(
       vk::raii::CommandBuffers(
@@ -90,9 +96,9 @@ void FrameSlot::write(const FrameState& frame, const SceneGeometry& geometry, co
     const FrameBlock block = make_frame_block(frame, pass, size, eyes.guard_band());
     std::memcpy(uniforms_[pass].mapped, &block, sizeof(block));
   }
+  sort_draws(frame, geometry, draw_order_);
   mark_highlighted(frame, geometry, glowing_);
-  auto* blocks = reinterpret_cast<DrawBlock*>(draws_.mapped);
-  fill_draw_blocks(frame, geometry, glowing_, {blocks, draw_count_});
+  write_draw_blocks(frame, geometry, glowing_, draws_.mapped, draw_stride_);
 }
 
 const vk::raii::CommandBuffer& FrameSlot::begin_commands() const {

@@ -10,7 +10,7 @@
 
 namespace afm::render {
 
-// Set 0 of all pipelines that draw the room: the frame's uniforms, the draws, the shadow map.
+// Set 0 of all pipelines that draw the room: the frame's uniforms, the draw's, the shadow map.
 vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device);
 
 // What one frame in flight owns: its commands, uniforms and draw blocks. Reused once the frame is finished.
@@ -27,15 +27,22 @@ class FrameSlot {
 
   vk::DescriptorSet set(std::size_t pass) const { return *sets_[pass]; }
 
+  // Bytes from one draw's block to the next: dynamic offsets of binding AFM_BINDING_DRAW are multiples of it.
+  std::uint32_t draw_stride() const { return draw_stride_; }
+
+  // The draws' places in the order in which they are drawn.
+  const std::vector<std::uint32_t>& draw_order() const { return draw_order_; }
+
   std::uint64_t finished_at = 0;  // the timeline's value when the slot's newest frame is finished
 
  private:
   vk::raii::CommandPool pool_;
   vk::raii::CommandBuffer commands_{nullptr};
   std::vector<Buffer> uniforms_;  // one for each pass
+  std::uint32_t draw_stride_;
   Buffer draws_;
-  std::size_t draw_count_ = 0;
   std::vector<std::uint8_t> glowing_;
+  std::vector<std::uint32_t> draw_order_;
   vk::raii::DescriptorPool descriptor_pool_{nullptr};
   std::vector<vk::raii::DescriptorSet> sets_;
 };

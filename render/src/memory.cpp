@@ -49,8 +49,7 @@ DeviceImage create_image(const Device& device, const std::string& name, const Im
   result.format = request.format;
   result.extent = request.extent;
   result.layers = request.layers;
-  result.image = vk::raii::Image(*device, {.flags = request.flags,
-                                           .imageType = vk::ImageType::e2D,
+  result.image = vk::raii::Image(*device, {.imageType = vk::ImageType::e2D,
                                            .format = request.format,
                                            .extent = {request.extent.width, request.extent.height, 1},
                                            .mipLevels = 1,
@@ -67,12 +66,12 @@ DeviceImage create_image(const Device& device, const std::string& name, const Im
 }
 
 vk::raii::ImageView create_view(const Device& device, const DeviceImage& image, vk::ImageAspectFlags aspect,
-                                std::uint32_t first, std::uint32_t layers, vk::Format format) {
+                                std::uint32_t first, std::uint32_t layers) {
   return vk::raii::ImageView(
       *device,
       {.image = *image.image,
        .viewType = layers > 1 ? vk::ImageViewType::e2DArray : vk::ImageViewType::e2D,
-       .format = format,
+       .format = image.format,
        .subresourceRange = {
            .aspectMask = aspect, .baseMipLevel = 0, .levelCount = 1, .baseArrayLayer = first, .layerCount = layers}});
 }

@@ -33,7 +33,6 @@ struct ImageRequest {
   vk::ImageUsageFlags usage{};
   std::uint32_t layers = 1;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
-  vk::ImageCreateFlags flags{};
 };
 
 Buffer create_host_buffer(const Device& device, const std::string& name, vk::DeviceSize size,
@@ -45,9 +44,8 @@ Buffer upload_buffer(const Device& device, const std::string& name, std::span<co
 
 DeviceImage create_image(const Device& device, const std::string& name, const ImageRequest& request);
 
-// A view of `layers` layers from `first`: an array view if there is more than one. `format` may differ from the image's
-// if that was created mutable.
+// A view of `layers` layers from `first`: an array view if there is more than one.
 vk::raii::ImageView create_view(const Device& device, const DeviceImage& image, vk::ImageAspectFlags aspect,
-                                std::uint32_t first, std::uint32_t layers, vk::Format format);
+                                std::uint32_t first, std::uint32_t layers);
 
 }  // namespace afm::render

@@ -18,7 +18,7 @@
 namespace afm::render {
 namespace {
 
-constexpr vk::Format kTextureFormat = vk::Format::eR8G8B8A8Srgb;
+constexpr vk::Format kTextureFormat = kEyeFormat;
 constexpr double kLargestTexture = 4096.0;
 constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
 
@@ -135,7 +135,7 @@ void Panels::upload_atlas() {
                                                   .imageExtent = {extent.width, extent.height, 1}});
     record_barriers(command, {image_barrier(*atlas_.image, kColor, copied, sampled)});
   });
-  atlas_view_ = create_view(device_, atlas_, kColor, 0, 1, atlas_.format);
+  atlas_view_ = create_view(device_, atlas_, kColor, 0, 1);
   atlas_pool_ = create_pool();
   atlas_set_ = create_set(atlas_pool_, *atlas_view_);
 }
@@ -175,7 +175,7 @@ bool Panels::resize(Panel& panel) {
                                {.format = kTextureFormat,
                                 .extent = extent,
                                 .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
-  panel.view = create_view(device_, panel.texture, kColor, 0, 1, kTextureFormat);
+  panel.view = create_view(device_, panel.texture, kColor, 0, 1);
   panel.set = nullptr;
   panel.pool = create_pool();
   panel.set = create_set(panel.pool, *panel.view);
@@ -310,7 +310,7 @@ void Panels::record_rectangles(const vk::raii::CommandBuffer& command, vk::Descr
       return;
     }
     const std::array sets{frame_set, *panel.set};
-    command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *rectangle_layout_, 0, sets, nullptr);
+    command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *rectangle_layout_, 0, sets, std::uint32_t{0});
     const PanelBlock block{.lower_left = glm::vec4(glm::vec3(panel.placement.lower_left_m), 1.0F),
                            .right = glm::vec4(glm::vec3(panel.placement.right_m), 0.0F),
                            .up = glm::vec4(glm::vec3(panel.placement.up_m), 0.0F)};

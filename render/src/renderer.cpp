@@ -89,11 +89,11 @@ void Renderer::Parts::record(const vk::raii::CommandBuffer& command, FrameSlot& 
                              const FrameState& frame) {
   panels.record_textures(command, slot_index, frame);
   shadow_map.begin(command);
-  scene_pass.record_shadow(command, geometry, frame.visible, slot.set(0));
+  scene_pass.record_shadow(command, {geometry, slot.draw_order(), frame.visible, slot.set(0), slot.draw_stride()});
   shadow_map.end(command);
   for (std::size_t pass = 0; pass < eyes.pass_count(); ++pass) {
     eyes.begin(command, pass);
-    scene_pass.record_eyes(command, geometry, frame.visible, slot.set(pass));
+    scene_pass.record_eyes(command, {geometry, slot.draw_order(), frame.visible, slot.set(pass), slot.draw_stride()});
     panels.record_rectangles(command, slot.set(pass));
     eyes.end(command, pass);
   }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <span>
-#include <utility>
 
 namespace afm::render {
 namespace {
@@ -18,6 +18,19 @@ DrawBlock material_block(const scene::Material& material) {
   block.emissive = glm::vec4(material.emissive, 0.0F);
   block.surface = glm::vec4(material.metallic, material.roughness, material.unlit ? 1.0F : 0.0F, 0.0F);
   return block;
+}
+
+glm::vec3 box_center(const scene::Primitive& primitive) {
+  if (primitive.vertices.empty()) {
+    return glm::vec3(0.0F);
+  }
+  glm::vec3 low = primitive.vertices.front().position;
+  glm::vec3 high = low;
+  for (const auto& vertex : primitive.vertices) {
+    low = glm::min(low, vertex.position);
+    high = glm::max(high, vertex.position);
+  }
+  return 0.5F * (low + high);
 }
 
 // Vertices and indices of all meshes end to end, and where each primitive lies.
@@ -39,6 +52,7 @@ Packed pack(const scene::Scene& scene) {
                        .first_vertex = static_cast<std::int32_t>(packed.vertices.size()),
                        .double_sided = material.double_sided,
                        .blended = material.blended,
+                       .center = box_center(primitive),
                        .block = material_block(material)});
       packed.vertices.insert(packed.vertices.end(), primitive.vertices.begin(), primitive.vertices.end());
       packed.indices.insert(packed.indices.end(), primitive.indices.begin(), primitive.indices.end());
@@ -67,9 +81,7 @@ SceneGeometry::SceneGeometry(const Device& device, const scene::Scene& scene) {
       }
     }
   }
-  std::stable_sort(draws_.begin(), draws_.end(), [](const Draw& a, const Draw& b) {
-    return std::pair(a.blended, a.double_sided) < std::pair(b.blended, b.double_sided);
-  });
+  std::stable_sort(draws_.begin(), draws_.end(), [](const Draw& a, const Draw& b) { return a.blended < b.blended; });
   opaque_count_ = static_cast<std::size_t>(
       std::count_if(draws_.begin(), draws_.end(), [](const Draw& draw) { return !draw.blended; }));
   vertices_ = upload_buffer(device, "scene vertices", std::as_bytes(std::span(packed.vertices)),

@@ -13,7 +13,8 @@
 
 namespace afm::render {
 
-// One primitive shown by one node: an indexed draw. Its place in SceneGeometry::draws() is its index in the DrawBlocks.
+// One primitive shown by one node: an indexed draw. Its place in SceneGeometry::draws() is its place among the
+// DrawBlocks.
 struct Draw {
   scene::NodeIndex node = 0;
   std::uint32_t first_index = 0;
@@ -21,11 +22,11 @@ struct Draw {
   std::int32_t first_vertex = 0;
   bool double_sided = false;
   bool blended = false;
-  DrawBlock block{};  // with the material's constants filled in
+  glm::vec3 center{0.0F};  // of the primitive's box, in the node's frame
+  DrawBlock block{};       // with the material's constants filled in
 };
 
-// All meshes of a scene in one vertex and one index buffer, and its draws: opaque ones first, then blended ones, sorted
-// once so that equal states follow one another.
+// All meshes of a scene in one vertex and one index buffer, and its draws: opaque ones first, then blended ones.
 class SceneGeometry {
  public:
   SceneGeometry(const Device& device, const scene::Scene& scene);

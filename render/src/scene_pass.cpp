@@ -59,22 +59,6 @@ vk::raii::Pipeline create_shadow_pipeline(const Device& device, vk::PipelineLayo
                                   .depth_bias_slope = kShadowBiasSlope});
 }
 
-bool shown(const Draw& draw, std::span<const std::uint8_t> visible) {
-  return visible.empty() || visible[draw.node] != 0;
-}
-
-void record_draws(const vk::raii::CommandBuffer& command, std::span<const Draw> draws, std::size_t first,
-                  std::span<const std::uint8_t> visible) {
-  for (std::size_t i = 0; i < draws.size(); ++i) {
-    const Draw& draw = draws[i];
-    if (shown(draw, visible)) {
-      command.setCullMode(draw.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
-      command.drawIndexed(draw.index_count, 1, draw.first_index, draw.first_vertex,
-                          static_cast<std::uint32_t>(first + i));
-    }
-  }
-}
-
 }  // namespace
 
 ScenePass::ScenePass(const Device& device, const EyeTargets& eyes, vk::DescriptorSetLayout frame_set_layout)
@@ -84,29 +68,36 @@ ScenePass::ScenePass(const Device& device, const EyeTargets& eyes, vk::Descripto
       background_(create_background_pipeline(device, *layout_, eyes)),
       blended_(create_scene_pipeline(device, *layout_, eyes, Blending::Premultiplied)) {}
 
-void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const SceneGeometry& geometry,
-                              std::span<const std::uint8_t> visible, vk::DescriptorSet frame_set) const {
-  command.bindPipeline(vk::PipelineBindPoint::eGraphics, *shadow_);
-  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, frame_set, nullptr);
-  geometry.bind(command);
-  record_draws(command, std::span(geometry.draws()).first(geometry.opaque_count()), 0, visible);
+void ScenePass::record_draws(const vk::raii::CommandBuffer& command, const Input& input, std::size_t first,
+                             std::size_t end) const {
+  for (const std::uint32_t i : input.order.subspan(first, end - first)) {
+    const Draw& draw = input.geometry.draws()[i];
+    if (input.visible.empty() || input.visible[draw.node] != 0) {
+      command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, i * input.draw_stride);
+      command.setCullMode(draw.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+      command.drawIndexed(draw.index_count, 1, draw.first_index, draw.first_vertex, 0);
+    }
+  }
 }
 
-void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const SceneGeometry& geometry,
-                            std::span<const std::uint8_t> visible, vk::DescriptorSet frame_set) const {
-  const std::span draws(geometry.draws());
-  const std::size_t opaque = geometry.opaque_count();
+void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Input& input) const {
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, *shadow_);
+  input.geometry.bind(command);
+  record_draws(command, input, 0, input.geometry.opaque_count());
+}
+
+void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const Input& input) const {
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, *opaque_);
-  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, frame_set, nullptr);
-  geometry.bind(command);
-  record_draws(command, draws.first(opaque), 0, visible);
+  input.geometry.bind(command);
+  record_draws(command, input, 0, input.geometry.opaque_count());
 
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, *background_);
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, std::uint32_t{0});
   command.setCullMode(vk::CullModeFlagBits::eNone);
   command.draw(4, 1, 0, 0);
 
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, *blended_);
-  record_draws(command, draws.subspan(opaque), opaque, visible);
+  record_draws(command, input, input.geometry.opaque_count(), input.geometry.draws().size());
 }
 
 }  // namespace afm::render

@@ -13,13 +13,20 @@ class ScenePass {
  public:
   ScenePass(const Device& device, const EyeTargets& eyes, vk::DescriptorSetLayout frame_set_layout);
 
-  // `visible[node]` == 0 leaves the node's own mesh out; empty shows all.
-  void record_shadow(const vk::raii::CommandBuffer& command, const SceneGeometry& geometry,
-                     std::span<const std::uint8_t> visible, vk::DescriptorSet frame_set) const;
-  void record_eyes(const vk::raii::CommandBuffer& command, const SceneGeometry& geometry,
-                   std::span<const std::uint8_t> visible, vk::DescriptorSet frame_set) const;
+  struct Input {
+    const SceneGeometry& geometry;
+    std::span<const std::uint32_t> order;   // as FrameSlot::draw_order()
+    std::span<const std::uint8_t> visible;  // 0 leaves the node's own mesh out; empty shows all
+    vk::DescriptorSet frame_set;
+    std::uint32_t draw_stride = 0;  // as FrameSlot::draw_stride()
+  };
+  void record_shadow(const vk::raii::CommandBuffer& command, const Input& input) const;
+  void record_eyes(const vk::raii::CommandBuffer& command, const Input& input) const;
 
  private:
+  void record_draws(const vk::raii::CommandBuffer& command, const Input& input, std::size_t first,
+                    std::size_t end) const;
+
   vk::raii::PipelineLayout layout_;
   vk::raii::Pipeline shadow_;
   vk::raii::Pipeline opaque_;

@@ -26,7 +26,7 @@ ShadowMap::ShadowMap(const Device& device)
                        {.format = kDepthFormat,
                         .extent = {kShadowMapSize, kShadowMapSize},
                         .usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled})),
-      view_(create_view(device, depth_, vk::ImageAspectFlagBits::eDepth, 0, 1, kDepthFormat)),
+      view_(create_view(device, depth_, vk::ImageAspectFlagBits::eDepth, 0, 1)),
       sampler_(*device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                               .minFilter = vk::Filter::eLinear,
                                               .addressModeU = vk::SamplerAddressMode::eClampToBorder,
