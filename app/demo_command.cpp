@@ -41,7 +41,7 @@ core::Result<void> draw_figures(render::Context& context, const Stage& stage, co
   auto renderer = render::Renderer::create(context, stage.wall_scene.scene(), stage.renderer_options(kFigureEyeWidth));
   if (!renderer) return tl::unexpected(renderer.error());
   const FrameBuilder frames(stage.wall_scene, stage.materials, stage.eyes);
-  const FigurePlan plan(result.sessions, 0);
+  const FigurePlan plan(result.sessions, result.measurements, 0);
   for (const Figure& figure : plan.figures()) {
     say(fmt::format("  {}", figure.file));
     const std::string path = out.staged(figure.file);

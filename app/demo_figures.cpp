@@ -17,7 +17,8 @@ constexpr std::int64_t kAfterJumpOffNs = 400'000'000;
 
 }  // namespace
 
-FigurePlan::FigurePlan(const std::vector<RecordedSession>& sessions, std::size_t shown_material) {
+FigurePlan::FigurePlan(const std::vector<RecordedSession>& sessions, const std::vector<Measurement>& measurements,
+                       std::size_t shown_material) {
   const RecordedSession& shown = sessions.at(shown_material);
   const scene::TipEvent* in = shown.find(scene::TipEventKind::JumpToContact);
   const scene::TipEvent* out = shown.find(scene::TipEventKind::JumpOffContact);
@@ -56,6 +57,9 @@ FigurePlan::FigurePlan(const std::vector<RecordedSession>& sessions, std::size_t
     curves_.back().push_back(curve_until(session, session.samples.back().time_ns));
   Moment finale = moment_of(shown, shown_material, shown.samples.back().time_ns, curves_.back());
   finale.compare_all = true;
+  for (const Measurement& m : measurements) {
+    finale.felt.push_back({m.title, m.measured.f_attr_n, m.measured.f_ad_n, m.measured.z_jtc_m, m.measured.z_joc_m});
+  }
   finale.guidance = "All samples together: the same tip, three materials";
   figures_.push_back({"fig5e.png", "(e) The force-displacement curves of all samples.", finale});
 }

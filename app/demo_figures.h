@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/frame_builder.h"
+#include "app/measurement.h"
 #include "app/session_file.h"
 #include "core/result.h"
 #include "render/renderer.h"
@@ -22,7 +23,8 @@ struct Figure {
 // `curves` receives one curve per material for each moment and must outlive the figures.
 class FigurePlan {
  public:
-  FigurePlan(const std::vector<RecordedSession>& sessions, std::size_t shown_material);
+  FigurePlan(const std::vector<RecordedSession>& sessions, const std::vector<Measurement>& measurements,
+             std::size_t shown_material);
 
   const std::vector<Figure>& figures() const { return figures_; }
 

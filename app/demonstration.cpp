@@ -92,9 +92,12 @@ core::Result<void> Demonstration::feel(std::size_t material, DemoResult& result,
                            e.z_m * 1e9, -(in ? e.force_after_n : e.force_before_n) * 1e9));
     }
     if (person_.seconds_in_step(clock_.now_ns()) > kPatienceSeconds + stroke_seconds) {
-      return core::failure(core::ErrorCategory::Failed,
-                           fmt::format("{}: waited {:.0f} s for {}, in vain; run again, with less load on the machine",
-                                       title, kPatienceSeconds + stroke_seconds, person_.waiting_for()));
+      return core::failure(
+          core::ErrorCategory::Failed,
+          fmt::format("{}: waited {:.0f} s for {}, in vain ({}; a frame took {:.0f} ms); run again, with "
+                      "less load on the machine or a smaller --eye-width",
+                      title, kPatienceSeconds + stroke_seconds, person_.waiting_for(), reason(servo_.tip().fault),
+                      percentiles(result.frame_ms).p50));
     }
     if (interrupted())
       return core::failure(core::ErrorCategory::Failed, "interrupted: the hand was released, nothing was written");

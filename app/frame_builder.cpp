@@ -45,8 +45,8 @@ StateSign sign_of(scene::ServoState state) {
   return {"FORCE OFF", render::StateShape::Square, {0.70F, 0.74F, 0.80F}};
 }
 
-// "33 nm" or "170 um", two significant digits: how much one metre of the wall shows.
-std::string scale_text(double m_per_m) { return format_quantity(physics::Length(m_per_m), physics::kLengthUnits, 2); }
+// "33.1 nm": how much one metre of the wall shows.
+std::string scale_text(double m_per_m) { return format_quantity(physics::Length(m_per_m), physics::kLengthUnits, 3); }
 
 }  // namespace
 
@@ -91,12 +91,15 @@ FrameBuilder::FrameBuilder(const WallScene& wall_scene, const scene::MaterialLib
 render::FrameState FrameBuilder::build(const Moment& moment) const {
   render::FrameState frame;
   frame.eyes = eyes_;
-  wall_scene_->place({.material = moment.material, .tip = moment.tip, .hovered = moment.hovered, .wand = moment.wand},
+  wall_scene_->place({.material = moment.material,
+                      .tip = moment.tip,
+                      .hovered = moment.hovered,
+                      .wand = moment.wand,
+                      .instrument = moment.compare_all ? WallScene::Instrument::Hidden : WallScene::Instrument::Shown},
                      frame);
   frame.force_panel = force_panel(moment);
   frame.data_panel = data_panel(moment);
   frame.banner = banner(moment);
-  if (moment.compare_all) frame.force_placement = wall_scene_->wide_panel();
   return frame;
 }
 
@@ -146,8 +149,13 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
 render::DataPanel FrameBuilder::data_panel(const Moment& moment) const {
   render::DataPanel panel;
   if (moment.compare_all) {
-    panel.title = "Measured in this run";
-    panel.subtitle = "see the report for all columns";
+    panel.title = "What was felt";
+    panel.subtitle = "jump to contact / jump off contact";
+    for (const Felt& felt : moment.felt) {
+      panel.rows.push_back({felt.title,
+                            fmt::format("{:.3f} / {:.3f} nN", felt.f_attr_n * kNnPerN, felt.f_ad_n * kNnPerN),
+                            fmt::format("at {:.2f} nm / {:.2f} nm", felt.z_jtc_m * kNmPerM, felt.z_joc_m * kNmPerM)});
+    }
     return panel;
   }
   if (!moment.material) {

@@ -15,6 +15,12 @@
 
 namespace afm::app {
 
+// The events of a finished cycle, magnitudes.
+struct Felt {
+  std::string title;
+  double f_attr_n = 0, f_ad_n = 0, z_jtc_m = 0, z_joc_m = 0;
+};
+
 // One moment of the demonstration, from the live servo or from a session: all that the wall tells.
 struct Moment {
   std::optional<std::size_t> material;
@@ -29,7 +35,8 @@ struct Moment {
   std::string guidance;
   // one per material, empty while it has not been felt; the current one is drawn in front
   std::span<const CycleCurve> curves;
-  bool compare_all = false;  // the finale: all curves together, large
+  bool compare_all = false;  // the finale: all curves together, large, and what was felt
+  std::vector<Felt> felt;
 };
 
 // The part of the cycle in words, with the letters of the paper's Fig. 2.

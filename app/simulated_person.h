@@ -13,7 +13,7 @@ namespace afm::app {
 // Where the hand goes, heights above the contact point along the sample's normal (haptics/scaling.h: the tip lets go at
 // 50 mm, where it tears at the hand with 2 N, so the aim must lie well above).
 struct HandPath {
-  double lift_m = 0.066;
+  double lift_m = 0.070;
   double push_m = -0.018;
   double speed_m_per_s = 0.030;  // mean, along each stroke
 };

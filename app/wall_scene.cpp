@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/wall_scene.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <limits>
 
+#include "app/model_builder.h"
 #include "core/check.h"
 #include "physics/contact.h"
-#include "scene/gltf_loader.h"
 
 namespace afm::app {
 
@@ -23,24 +20,35 @@ constexpr double kReferenceWallHeightM = 2.286;
 constexpr double kStrokeHeight = kReferenceWallHeightM / 3.0;  // what the current material's stroke fills
 constexpr double kSampleTiltRad = 0.26;                        // towards the viewer, so that terraces are seen
 constexpr double kLeverAzimuthRad = 0.42;                      // the lever comes from behind, a little from the left
-constexpr double kLeverDrawnLength = 1.35;
-constexpr double kTipDrawnLength = 0.21;
-constexpr double kStageDrawnDiameter = 1.9;
+constexpr double kLeverDrawnLength = 1.25;
+constexpr double kTipDrawnLength = 0.19;
+constexpr double kStageDrawnDiameter = 1.2;
 constexpr glm::dvec3 kLaser(-0.56, 0.80, -0.55);
 constexpr glm::dvec3 kPhotodiode(0.56, 0.66, -0.30);
 constexpr double kPhotodiodeHalfSize = 0.0875;
 constexpr double kSpotReach = 0.8;  // of the half size, at the deflection of the pull-off
 constexpr double kBeamRadius = 0.007;
 constexpr double kSpotRadius = 0.022;
-constexpr glm::dvec3 kWandGrip(0.40, -0.62, 0.75);
-constexpr double kShelfY = -1.13;
-constexpr double kShelfZ = 0.22;
-constexpr double kSwatchSpacing = 0.46;
+constexpr glm::dvec3 kWandGrip(0.92, -0.55, 0.80);
+constexpr double kShelfY = -0.89;
+constexpr double kShelfZ = 0.62;
+constexpr double kSwatchSpacing = 0.42;
 constexpr double kSwatchRadius = 0.16;
+constexpr glm::dvec3 kSwatchCenter(0.0, 0.13, 0.0);
+constexpr double kRayGap = 0.08;  // the ray ends just before what it points at
+constexpr double kFreeRayLength = 1.2;
+constexpr glm::dvec3 kTowardsViewer(0.0, 0.0, 1.6);
+constexpr double kLabelWidth = 0.27;
+constexpr double kLabelHeight = 0.072;
+constexpr double kLabelLift = 0.002;
 constexpr double kPanelMargin = 0.03;
+constexpr double kPanelInnerEdge = 0.74;
+constexpr double kPanelBottom = -0.20;
+constexpr double kPanelHeight = 0.92;
+constexpr double kBannerHeight = 0.25;
 
 // The stroke of a cycle in units of Z_joc: from the deepest push below zero to the highest lift.
-constexpr double kStrokeOfZjoc = 0.30 + 1.32;
+constexpr double kStrokeOfZjoc = 0.30 + 1.40;
 
 using glm::dmat4;
 using glm::dvec3;
@@ -63,91 +71,6 @@ dmat4 stretched(const dvec3& from, const dvec3& to, double radius) {
   return glm::scale(looking_along(from, to - from), dvec3(radius, radius, length));
 }
 
-core::Error missing_node(const std::string& name) {
-  return {
-      core::ErrorCategory::BadInputFile,
-      fmt::format("models: there is no node \"{}\"; restore assets/models, or run the target generate_models", name)};
-}
-
-// The node's transform relative to one of its ancestors.
-dmat4 ancestor_from_node(const scene::Scene& scene, scene::NodeIndex ancestor, scene::NodeIndex node) {
-  dmat4 result(1.0);
-  for (std::optional<scene::NodeIndex> n = node; n && *n != ancestor; n = scene.nodes[*n].parent) {
-    result = scene.nodes[*n].parent_from_node * result;
-  }
-  return result;
-}
-
-bool is_below(const scene::Scene& scene, scene::NodeIndex ancestor, scene::NodeIndex node) {
-  for (std::optional<scene::NodeIndex> n = node; n; n = scene.nodes[*n].parent) {
-    if (*n == ancestor) return true;
-  }
-  return false;
-}
-
-struct Bounds {
-  dvec3 low{std::numeric_limits<double>::infinity()};
-  dvec3 high{-std::numeric_limits<double>::infinity()};
-};
-
-// Of everything below `root`, in root's frame.
-Bounds bounds_below(const scene::Scene& scene, scene::NodeIndex root) {
-  Bounds bounds;
-  for (scene::NodeIndex i = 0; i < scene.nodes.size(); ++i) {
-    if (!scene.nodes[i].mesh || !is_below(scene, root, i)) continue;
-    const dmat4 root_from_node = ancestor_from_node(scene, root, i);
-    for (const scene::Primitive& primitive : scene.meshes[*scene.nodes[i].mesh].primitives) {
-      for (const scene::Vertex& vertex : primitive.vertices) {
-        const dvec3 p(root_from_node * glm::dvec4(dvec3(vertex.position), 1.0));
-        bounds.low = glm::min(bounds.low, p);
-        bounds.high = glm::max(bounds.high, p);
-      }
-    }
-  }
-  return bounds;
-}
-
-// Loads the models one by one into one graph, and remembers the first error, so that the composition reads straight.
-class Builder {
- public:
-  Builder(std::string models_dir, scene::Scene& scene) : models_dir_(std::move(models_dir)), scene_(scene) {}
-
-  scene::NodeIndex frame(std::string_view name, std::optional<scene::NodeIndex> parent, const dmat4& parent_from_name) {
-    return scene::append(scene_, {}, name, parent, parent_from_name);
-  }
-
-  scene::NodeIndex model(const std::string& file, std::string_view name, scene::NodeIndex parent) {
-    const auto part = scene::load_gltf(models_dir_ + "/" + file);
-    if (!part) {
-      if (!error_) error_ = part.error();
-      return frame(name, parent, dmat4(1.0));
-    }
-    return scene::append(scene_, *part, name, parent, dmat4(1.0));
-  }
-
-  // The same, turned so that the frame `name` has the axes of the model's node `inner`.
-  scene::NodeIndex model_in_frame_of(const std::string& inner, const std::string& file, const std::string& name,
-                                     scene::NodeIndex parent) {
-    const scene::NodeIndex root = model(file, name, parent);
-    if (!error_)
-      scene_.nodes[root].parent_from_node = glm::inverse(ancestor_from_node(scene_, root, node(name + "/" + inner)));
-    return root;
-  }
-
-  scene::NodeIndex node(const std::string& name) {
-    if (const auto found = scene_.find_node(name)) return *found;
-    if (!error_) error_ = missing_node(name);
-    return 0;
-  }
-
-  const std::optional<core::Error>& error() const { return error_; }
-
- private:
-  std::string models_dir_;
-  scene::Scene& scene_;
-  std::optional<core::Error> error_;
-};
-
 }  // namespace
 
 core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
@@ -167,7 +90,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   w.wall_bottom_ = -contact_height / unit;
   w.wall_top_ = w.wall_bottom_ + kReferenceWallHeightM;
 
-  Builder build(assets_dir + "/models", w.scene_);
+  ModelBuilder build(assets_dir + "/models", w.scene_);
   w.layout_ = build.frame("layout", std::nullopt, w.room_from_layout_);
   const double c = std::cos(kSampleTiltRad), s = std::sin(kSampleTiltRad);
   w.sample_frame_ = build.frame("sample", w.layout_, frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)));
@@ -176,7 +99,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   w.lever_ = build.model("probe.glb", "probe", w.probe_frame_);
   w.cantilever_ = build.node("probe/cantilever");
   w.tip_ = build.node("probe/tip");
-  build.model("optics.glb", "optics", w.layout_);
+  w.optics_ = build.model("optics.glb", "optics", w.layout_);
   w.laser_ = build.node("optics/laser");
   w.photodiode_ = build.node("optics/photodiode");
   w.beam_in_ = build.node("optics/beam");
@@ -189,9 +112,12 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
     MaterialLook look{};
     const std::string sample = "sample-" + material.name;
     look.sample = build.model_in_frame_of("surface", sample + ".glb", sample, w.sample_frame_);
-    look.surface = build.node(sample + "/surface");
-    look.swatch = build.model("swatch-" + material.name + ".glb", "swatch-" + material.name, w.layout_);
+    const scene::NodeIndex surface = build.node(sample + "/surface");
+    const std::string swatch = "swatch-" + material.name;
+    look.swatch = build.model(swatch + ".glb", swatch, w.layout_);
+    look.label = build.node(swatch + "/label");
     look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
+    look.thickness_m = build.error() ? 0.0 : -bounds_below(w.scene_, surface).low.z;
     look.full_deflection_m = events.f_ad.si / material.interaction.spring_constant.si;
     w.looks_.push_back(look);
     w.titles_.push_back(material.title);
@@ -208,6 +134,8 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
                           ancestor_from_node(w.scene_, w.lever_, w.tip_)[3])
                         .x;
   w.tip_length_ = -bounds_below(w.scene_, w.tip_).low.z;
+  const Bounds stage = bounds_below(w.scene_, build.node("stage/stage"));
+  w.stage_scale_ = kStageDrawnDiameter / (stage.high.x - stage.low.x);
   return w;
 }
 
@@ -218,13 +146,21 @@ DrawnScale WallScene::drawn_scale(std::size_t material) const {
           .tip_m_per_m = tip_length_ / (kTipDrawnLength * unit_m)};
 }
 
+double WallScene::layout_per_m(const Pose& pose) const {
+  // before a choice nothing lies on the stage, and the tip rests at its height of zero
+  return pose.material ? kStrokeHeight / looks_[*pose.material].stroke_m : 0.0;
+}
+
+glm::dvec3 WallScene::swatch_place(std::size_t i) const {
+  const double middle = 0.5 * static_cast<double>(looks_.size() - 1);
+  return {kSwatchSpacing * (static_cast<double>(i) - middle), kShelfY, kShelfZ};
+}
+
 std::vector<input::Target> WallScene::swatch_targets() const {
   std::vector<input::Target> targets;
-  const double unit_m = glm::length(dvec3(room_from_layout_[0]));
-  const double first = -0.5 * kSwatchSpacing * static_cast<double>(looks_.size() - 1);
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    const dvec3 center(first + kSwatchSpacing * static_cast<double>(i), kShelfY + 0.13, kShelfZ);
-    targets.push_back({dvec3(room_from_layout_ * glm::dvec4(center, 1.0)), kSwatchRadius * unit_m});
+    targets.push_back({dvec3(room_from_layout_ * glm::dvec4(swatch_place(i) + kSwatchCenter, 1.0)),
+                       kSwatchRadius * glm::length(dvec3(room_from_layout_[0]))});
   }
   return targets;
 }
@@ -239,7 +175,7 @@ glm::dvec3 WallScene::wand_grip_m() const { return dvec3(room_from_layout_ * glm
 void WallScene::place_probe(const Pose& pose, std::vector<dmat4>& local, render::BeamBend& bend) const {
   // everything in the sample's frame, in layout units; the lever runs along `along` towards the viewer, parallel to the
   // sample
-  const double per_m = pose.material ? kStrokeHeight / looks_[*pose.material].stroke_m : 0.0;
+  const double per_m = layout_per_m(pose);
   const double lever_scale = kLeverDrawnLength / lever_length_;
   const double tip_scale = kTipDrawnLength / tip_length_;
   const dvec3 up(0.0, 0.0, 1.0);
@@ -273,17 +209,21 @@ void WallScene::place_probe(const Pose& pose, std::vector<dmat4>& local, render:
   local[tip_] = glm::inverse(frame_from_parent) * frame_from_tip;
 }
 
-void WallScene::place_optics(const Pose& pose, const glm::dvec3& lever_end, std::vector<dmat4>& local) const {
+void WallScene::place_optics(const Pose& pose, std::vector<dmat4>& local) const {
   const auto set = [&](scene::NodeIndex node, const dmat4& layout_from_node) {
     const dmat4 layout_from_parent = ancestor_from_node(scene_, layout_, *scene_.nodes[node].parent);
     local[node] = glm::inverse(layout_from_parent) * layout_from_node;
   };
-  // the diode looks half way between the lever and the viewer, so that its four quadrants and the spot are seen
-  const dvec3 to_lever = glm::normalize(dvec3(0.0, 0.2, 0.0) - kPhotodiode);
-  const dmat4 photodiode = looking_along(kPhotodiode, to_lever + dvec3(0.0, 0.0, 1.6));
+  const dvec3 above_apex(0.0, 0.0,
+                         (pose.tip.z_m - pose.tip.deflection_m) * layout_per_m(pose) + kTipDrawnLength + kBeamRadius);
+  const dvec3 lever_end(scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(above_apex, 1.0));
+
+  // the diode looks between the lever and the viewer, so that its four quadrants and the spot are seen
+  const dmat4 photodiode =
+      looking_along(kPhotodiode, glm::normalize(dvec3(0.0, 0.2, 0.0) - kPhotodiode) + kTowardsViewer);
   const double full = pose.material ? looks_[*pose.material].full_deflection_m : 1.0;
   const double reach = std::clamp(pose.tip.deflection_m / full, -1.0, 1.0) * kSpotReach * kPhotodiodeHalfSize;
-  const dmat4 spot = photodiode * glm::translate(dmat4(1.0), dvec3(0.0, reach, 0.012));
+  const dmat4 spot = photodiode * glm::translate(dmat4(1.0), dvec3(0.0, reach, 0.004));
 
   set(laser_, looking_along(kLaser, lever_end - kLaser));
   set(photodiode_, photodiode);
@@ -298,48 +238,34 @@ std::vector<dmat4> WallScene::local_transforms(const Pose& pose, render::BeamBen
   for (const scene::Node& node : scene_.nodes) local.push_back(node.parent_from_node);
 
   place_probe(pose, local, bend);
+  place_sample(pose, local);
+  place_optics(pose, local);
+  for (std::size_t i = 0; i < looks_.size(); ++i) local[looks_[i].swatch] = glm::translate(dmat4(1.0), swatch_place(i));
+  if (pose.wand) place_wand(pose, local);
+  return local;
+}
 
-  // the sample at its true proportions, the stage below it
+// The sample at its true proportions, the stage below it.
+void WallScene::place_sample(const Pose& pose, std::vector<dmat4>& local) const {
+  double thickness = 0.0;
   if (pose.material) {
     const MaterialLook& look = looks_[*pose.material];
-    const double scale = kStrokeHeight / look.stroke_m;
-    local[look.sample] = glm::scale(dmat4(1.0), dvec3(scale)) * local[look.sample];
+    local[look.sample] = glm::scale(dmat4(1.0), dvec3(layout_per_m(pose))) * local[look.sample];
+    thickness = look.thickness_m * layout_per_m(pose);
   }
-  const Bounds stage = bounds_below(scene_, scene_.find_node("stage/stage").value());
-  const double stage_scale = kStageDrawnDiameter / (stage.high.x - stage.low.x);
-  const double thickness = pose.material ? -bounds_below(scene_, looks_[*pose.material].surface).low.z * kStrokeHeight /
-                                               looks_[*pose.material].stroke_m
-                                         : 0.0;
   local[stage_] =
-      glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -thickness)), dvec3(stage_scale)) * local[stage_];
+      glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -thickness)), dvec3(stage_scale_)) * local[stage_];
+}
 
-  const dvec3 lever_end_in_frame(dvec3(
-      0.0, 0.0,
-      (pose.tip.z_m - pose.tip.deflection_m) * (pose.material ? kStrokeHeight / looks_[*pose.material].stroke_m : 0.0) +
-          kTipDrawnLength + 0.01));
-  const dvec3 lever_end(scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(lever_end_in_frame, 1.0));
-  place_optics(pose, lever_end, local);
-
-  const std::vector<input::Target> targets = swatch_targets();
-  const double first = -0.5 * kSwatchSpacing * static_cast<double>(looks_.size() - 1);
-  for (std::size_t i = 0; i < looks_.size(); ++i) {
-    local[looks_[i].swatch] =
-        glm::translate(dmat4(1.0), dvec3(first + kSwatchSpacing * static_cast<double>(i), kShelfY, kShelfZ));
-  }
-
-  if (pose.wand) {
-    const dmat4 layout_from_room = glm::inverse(room_from_layout_);
-    const dvec3 grip(layout_from_room * glm::dvec4(pose.wand->position_m, 1.0));
-    const input::Ray ray = input::ray_of(*pose.wand);
-    const dvec3 direction(layout_from_room * glm::dvec4(ray.direction, 0.0));
-    const double reach = pose.hovered ? glm::distance(targets[*pose.hovered].center_m, ray.origin_m) /
-                                                glm::length(dvec3(room_from_layout_[0])) -
-                                            0.5 * kSwatchRadius
-                                      : 1.2;
-    local[wand_] = looking_along(grip, -direction);
-    local[ray_] = stretched(grip, grip + glm::normalize(direction) * reach, 0.6 * kBeamRadius);
-  }
-  return local;
+void WallScene::place_wand(const Pose& pose, std::vector<dmat4>& local) const {
+  const dmat4 layout_from_room = glm::inverse(room_from_layout_);
+  const input::Ray ray = input::ray_of(*pose.wand);
+  const dvec3 grip(layout_from_room * glm::dvec4(ray.origin_m, 1.0));
+  const dvec3 direction = glm::normalize(dvec3(layout_from_room * glm::dvec4(ray.direction, 0.0)));
+  const double reach =
+      pose.hovered ? glm::distance(swatch_place(*pose.hovered) + kSwatchCenter, grip) - kRayGap : kFreeRayLength;
+  local[wand_] = looking_along(grip, -direction);
+  local[ray_] = stretched(grip, grip + direction * reach, 0.6 * kBeamRadius);
 }
 
 std::vector<dmat4> WallScene::compose(const std::vector<dmat4>& local) const {
@@ -372,8 +298,6 @@ render::PanelPlacement WallScene::panel(double left, double bottom, double width
           .up_m = vector({0.0, height, 0.0})};
 }
 
-render::PanelPlacement WallScene::wide_panel() const { return panel(-0.85, -0.62, 1.7, 1.36); }
-
 void WallScene::place(const Pose& pose, render::FrameState& frame) const {
   render::BeamBend bend;
   frame.room_from_node = compose(local_transforms(pose, bend));
@@ -381,8 +305,9 @@ void WallScene::place(const Pose& pose, render::FrameState& frame) const {
 
   std::vector<scene::NodeIndex> hidden;
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    if (pose.material != i) hidden.push_back(looks_[i].sample);
+    if (pose.material != i || pose.instrument == Instrument::Hidden) hidden.push_back(looks_[i].sample);
   }
+  if (pose.instrument == Instrument::Hidden) hidden.insert(hidden.end(), {lever_, optics_});
   if (!pose.wand) hidden.insert(hidden.end(), {wand_, ray_});
   frame.visible.assign(scene_.nodes.size(), 1);
   frame.highlighted.clear();
@@ -394,19 +319,27 @@ void WallScene::place(const Pose& pose, render::FrameState& frame) const {
   }
 
   const double half = 0.5 * wall_width_;
-  const double side_width = half - 0.72;
-  frame.force_placement = panel(-half + kPanelMargin, -0.42, side_width, 0.95);
-  frame.data_placement = panel(half - kPanelMargin - side_width, -0.42, side_width, 0.95);
-  frame.banner_placement = panel(-half + kPanelMargin, wall_top_ - 0.30, wall_width_ - 2.0 * kPanelMargin, 0.27);
+  const double side_width = half - kPanelInnerEdge - kPanelMargin;
+  // the finale's large plot takes the room of the instrument
+  const double plot_width =
+      pose.instrument == Instrument::Hidden ? 2.0 * kPanelInnerEdge + side_width - kPanelMargin : side_width;
+  frame.force_placement = panel(-half + kPanelMargin, kPanelBottom, plot_width, kPanelHeight);
+  frame.data_placement = panel(kPanelInnerEdge, kPanelBottom, side_width, kPanelHeight);
+  frame.banner_placement = panel(-half + kPanelMargin, wall_top_ - kBannerHeight - kPanelMargin,
+                                 wall_width_ - 2.0 * kPanelMargin, kBannerHeight);
 
+  // on the slanted face of each swatch's plinth
   frame.labels.clear();
-  const double first = -0.5 * kSwatchSpacing * static_cast<double>(looks_.size() - 1);
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    const double x = first + kSwatchSpacing * static_cast<double>(i);
-    render::PanelPlacement placement = panel(x - 0.2, kShelfY - 0.10, 0.40, 0.10);
-    placement.lower_left_m += dvec3(room_from_layout_ * glm::dvec4(0.0, 0.0, kShelfZ + 0.18, 0.0));
+    const dmat4& room_from_label = frame.room_from_node[looks_[i].label];
+    const auto point = [&](const dvec3& p) { return dvec3(room_from_label * glm::dvec4(p, 1.0)); };
+    const dvec3 lower_left = point({-0.5 * kLabelWidth, -0.5 * kLabelHeight, kLabelLift});
     frame.labels.push_back(
-        {.text = titles_[i], .highlighted = pose.hovered == i || pose.material == i, .placement = placement});
+        {.text = titles_[i],
+         .highlighted = pose.hovered == i || pose.material == i,
+         .placement = {.lower_left_m = lower_left,
+                       .right_m = point({0.5 * kLabelWidth, -0.5 * kLabelHeight, kLabelLift}) - lower_left,
+                       .up_m = point({-0.5 * kLabelWidth, 0.5 * kLabelHeight, kLabelLift}) - lower_left}});
   }
 
   const double unit_m = glm::length(dvec3(room_from_layout_[0]));

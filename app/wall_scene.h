@@ -53,11 +53,14 @@ class WallScene {
 
   DrawnScale drawn_scale(std::size_t material) const;
 
+  enum class Instrument { Shown, Hidden };  // hidden in the finale, where the plot takes its room
+
   struct Pose {
-    std::optional<std::size_t> material;  // none: no sample lies on the stage yet
-    TipView tip;
-    std::optional<std::size_t> hovered;
-    std::optional<input::WandState> wand;
+    std::optional<std::size_t> material{};  // none: no sample lies on the stage yet
+    TipView tip{};
+    std::optional<std::size_t> hovered{};
+    std::optional<input::WandState> wand{};
+    Instrument instrument = Instrument::Shown;
   };
 
   // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.
@@ -66,20 +69,22 @@ class WallScene {
   // Only the transforms, for the shared block that the servo reads.
   void place(const Pose& pose, scene::SceneTransforms& transforms) const;
 
-  // A panel that covers the middle of the wall, for looking at all curves together.
-  render::PanelPlacement wide_panel() const;
-
  private:
   struct MaterialLook {
-    scene::NodeIndex sample;   // the frame that is scaled
-    scene::NodeIndex surface;  // the model's node with the patch
+    scene::NodeIndex sample;  // the frame that is scaled
     scene::NodeIndex swatch;
+    scene::NodeIndex label;    // on the swatch, where its name stands
     double stroke_m;           // from the deepest push to the highest lift
     double full_deflection_m;  // at pull-off
+    double thickness_m;        // of the slab
   };
 
   void place_probe(const Pose& pose, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
-  void place_optics(const Pose& pose, const glm::dvec3& lever_end_m, std::vector<glm::dmat4>& local) const;
+  void place_sample(const Pose& pose, std::vector<glm::dmat4>& local) const;
+  void place_optics(const Pose& pose, std::vector<glm::dmat4>& local) const;
+  void place_wand(const Pose& pose, std::vector<glm::dmat4>& local) const;
+  double layout_per_m(const Pose& pose) const;  // layout units per metre of the nanoworld
+  glm::dvec3 swatch_place(std::size_t i) const;
   std::vector<glm::dmat4> local_transforms(const Pose& pose, render::BeamBend& bend) const;
   std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;
   render::PanelPlacement panel(double left, double bottom, double width, double height) const;
@@ -94,9 +99,10 @@ class WallScene {
   double wall_bottom_ = 0;
 
   scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, stage_{};
-  scene::NodeIndex laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{}, wand_{}, ray_{};
+  scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{}, wand_{}, ray_{};
   double lever_length_ = 0;  // glTF metres, clamp to tip axis
   double tip_length_ = 0;    // glTF metres, base to apex
+  double stage_scale_ = 0;
 };
 
 }  // namespace afm::app
