@@ -69,7 +69,7 @@ Model sample(std::string name, NodeSpec node) {
 
 // Terraces that fall towards -y, the viewer; every step is one layer, 1.0 nm.
 Model mica() {
-  constexpr double kLayer = 1.0 * kNm, kRiser = 1.3 * kNm;
+  constexpr double kLayer = 1.0 * kNm, kRiser = 2.0 * kNm;
   // nm along the direction of ascent; the steps upwards keep clear of a ball of 50 nm that stands in the middle
   constexpr double kSteps[] = {-17.5, -8.5, 12.8, 18.4};
   constexpr int kLayersBelowCenter = 2;
@@ -92,7 +92,7 @@ Model mica() {
   // higher terraces are lighter and risers darker, so that the steps are told apart from a distance
   const auto tint = [&](const V3& position) {
     const double layer = position.z / kLayer + kLayersBelowCenter, part = layer - std::floor(layer);
-    return mix(V3{0.72, 0.69, 0.72}, V3{1, 1, 1}, layer / 4) * (1 - 1.4 * part * (1 - part));
+    return mix(V3{0.72, 0.69, 0.72}, V3{1, 1, 1}, layer / 4) * (1 - 0.8 * part * (1 - part));
   };
   const MaterialSpec material{
       .name = "mica", .base_color = {0.56, 0.49, 0.495}, .roughness = 0.35, .vertex_colors = true};
@@ -115,7 +115,7 @@ Model gold() {
     return V3{lit, lit * mix(0.94, 1, lit), lit * mix(0.85, 1, lit)};
   };
   const MaterialSpec film{
-      .name = "gold", .base_color = {1.0, 0.77, 0.34}, .metallic = 1, .roughness = 0.3, .vertex_colors = true};
+      .name = "gold", .base_color = {1.0, 0.72, 0.28}, .metallic = 1, .roughness = 0.3, .vertex_colors = true};
   const MaterialSpec substrate{.name = "substrate", .base_color = {0.34, 0.33, 0.35}, .roughness = 0.6};
   const MaterialSpec cut{
       .name = "cut gold", .base_color = {0.85, 0.62, 0.24}, .metallic = 0.4, .roughness = 0.5, .vertex_colors = true};

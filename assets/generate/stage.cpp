@@ -10,9 +10,9 @@ constexpr double kPuckHeight = 1 * kMm;
 constexpr int kRound = 4;  // halvings: 64 points around
 
 MaterialSpec steel() { return {.name = "steel", .base_color = {0.56, 0.57, 0.58}, .metallic = 1, .roughness = 0.32}; }
-MaterialSpec dark() { return {.name = "piezo ceramic", .base_color = {0.055, 0.060, 0.070}, .roughness = 0.45}; }
+MaterialSpec dark() { return {.name = "piezo ceramic", .base_color = {0.10, 0.105, 0.115}, .roughness = 0.45}; }
 MaterialSpec brass() {
-  return {.name = "electrode", .base_color = {0.80, 0.58, 0.30}, .metallic = 1, .roughness = 0.35};
+  return {.name = "electrode", .base_color = {0.34, 0.23, 0.12}, .metallic = 0.4, .roughness = 0.45};
 }
 
 Surface puck() {

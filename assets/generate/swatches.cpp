@@ -107,7 +107,7 @@ Model gold() {
   const V3 along{0.96, 0, -0.28};  // turned by 16 degrees
   add_placed(pile, bar, {{0, kPlinthHeight + height, kTopMiddle}, along, {-0.28, 0, -0.96}, {0, 1, 0}});
   return swatch("swatch-gold", std::move(pile),
-                {.name = "gold", .base_color = {1.0, 0.77, 0.34}, .metallic = 1, .roughness = 0.24});
+                {.name = "gold", .base_color = {1.0, 0.72, 0.28}, .metallic = 1, .roughness = 0.24});
 }
 
 void add_arc(Outline& outline, V2 center, double radius, V2 from, V2 to, int halvings) {
