@@ -55,7 +55,7 @@ FigurePlan::FigurePlan(const std::vector<RecordedSession>& sessions, const std::
   curves_.emplace_back();
   for (const RecordedSession& session : sessions)
     curves_.back().push_back(curve_until(session, session.samples.back().time_ns));
-  Moment finale = moment_of(shown, shown_material, shown.samples.back().time_ns, curves_.back());
+  Moment finale = moment_of(shown, shown_material, plans.back().time_ns, curves_.back());
   finale.compare_all = true;
   for (const Measurement& m : measurements) {
     finale.felt.push_back({m.title, m.measured.f_attr_n, m.measured.f_ad_n, m.measured.z_jtc_m, m.measured.z_joc_m});

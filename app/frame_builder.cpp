@@ -46,7 +46,11 @@ StateSign sign_of(scene::ServoState state) {
 }
 
 // "33.1 nm": how much one metre of the wall shows.
-std::string scale_text(double m_per_m) { return format_quantity(physics::Length(m_per_m), physics::kLengthUnits, 3); }
+std::string scale_text(double m_per_m) {
+  std::string text = format_quantity(physics::Length(m_per_m), physics::kLengthUnits, 3);
+  if (const std::size_t micro = text.find("um"); micro != std::string::npos) text.replace(micro, 1, "\u00b5");
+  return text;
+}
 
 }  // namespace
 
@@ -193,8 +197,7 @@ render::Banner FrameBuilder::banner(const Moment& moment) const {
   if (!moment.realtime) banner.warning = "not real-time";
   const DrawnScale scale = wall_scene_->drawn_scale(moment.material.value_or(0));
   banner.scale = fmt::format(
-      "sample and motion: 1 m = {}    lever: 1 m = {}    tip: 1 m = {}    deflection \u00d7 {:.0f} of the lever's "
-      "scale",
+      "sample and motion: 1 m = {}     lever: 1 m = {}     tip: 1 m = {}     deflection \u00d7{:.0f} against the lever",
       scale_text(scale.sample_m_per_m), scale_text(scale.lever_m_per_m), scale_text(scale.tip_m_per_m),
       scale.lever_m_per_m / scale.sample_m_per_m);
   return banner;

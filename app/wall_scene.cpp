@@ -29,8 +29,8 @@ constexpr double kPhotodiodeHalfSize = 0.0875;
 constexpr double kSpotReach = 0.8;  // of the half size, at the deflection of the pull-off
 constexpr double kBeamRadius = 0.007;
 constexpr double kSpotRadius = 0.022;
-constexpr glm::dvec3 kWandGrip(0.92, -0.55, 0.80);
-constexpr double kShelfY = -0.89;
+constexpr glm::dvec3 kWandGrip(0.66, -0.24, 1.00);
+constexpr double kShelfY = -0.85;
 constexpr double kShelfZ = 0.62;
 constexpr double kSwatchSpacing = 0.42;
 constexpr double kSwatchRadius = 0.16;

@@ -71,7 +71,7 @@ Model sample(std::string name, NodeSpec node) {
 Model mica() {
   constexpr double kLayer = 1.0 * kNm, kRiser = 2.0 * kNm;
   // nm along the direction of ascent; the steps upwards keep clear of a ball of 50 nm that stands in the middle
-  constexpr double kSteps[] = {-17.5, -8.5, 12.8, 18.4};
+  constexpr double kSteps[] = {-15.5, -7.5, 11.5, 16.5};
   constexpr int kLayersBelowCenter = 2;
   const auto layers = [&](double x, double y) {
     double count = -kLayersBelowCenter;
@@ -82,7 +82,7 @@ Model mica() {
     }
     return count;
   };
-  const HeightField field(90, 44 * kNm / 90, [&](double x, double y) { return layers(x, y) * kLayer; });
+  const HeightField field(90, 40 * kNm / 90, [&](double x, double y) { return layers(x, y) * kLayer; });
 
   const V3 even{0.80, 0.74, 0.74}, odd{0.60, 0.54, 0.56};
   std::vector<WallBand> bands;
@@ -105,7 +105,7 @@ Model mica() {
 Model gold() {
   constexpr double kHeight = 8 * kNm;
   const Grains grains{.cell = 42 * kNm, .smallest = 0.62, .radius_low = 0.62, .radius_high = 0.86, .seed = 21};
-  HeightField field(90, 316 * kNm / 90, [&](double x, double y) {
+  HeightField field(90, 288 * kNm / 90, [&](double x, double y) {
     return kHeight * grains.height(x, y) + 0.25 * kNm * noise(x / (11 * kNm), y / (11 * kNm), 31);
   });
   field.level_at_center();
@@ -131,7 +131,7 @@ Model gold() {
 Model silicon_nitride() {
   constexpr double kRoughness = 0.4 * kNm;
   const Grains grains{.cell = 3.4 * kNm, .smallest = 0.35, .radius_low = 0.7, .radius_high = 1.05, .seed = 41};
-  HeightField field(90, 53 * kNm / 90, [&](double x, double y) {
+  HeightField field(90, 48 * kNm / 90, [&](double x, double y) {
     return grains.height(x, y) + 0.22 * noise(x / (13 * kNm), y / (13 * kNm), 51);
   });
   field.scale(kRoughness / field.roughness());

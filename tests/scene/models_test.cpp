@@ -203,7 +203,7 @@ TEST(Samples, AreTouchedByTheBallInTheirMiddleFirst) {
 }
 
 TEST(Samples, HaveTheSizesOfTheirMaterials) {
-  const std::map<std::string, double> sides{{"sample-mica", 44e-9}, {"sample-gold", 316e-9}, {"sample-si3n4", 53e-9}};
+  const std::map<std::string, double> sides{{"sample-mica", 40e-9}, {"sample-gold", 288e-9}, {"sample-si3n4", 48e-9}};
   for (const auto& [name, side] : sides) {
     const Scene scene = load(name);
     const std::vector<Vertex>& grid = grid_of(scene);
