@@ -148,6 +148,10 @@ Image Renderer::read_composed(Layout layout) {
   return parts_->composer.compose(layout);
 }
 
+bool Renderer::ready() const {
+  return parts_->timeline.getCounterValue() >= parts_->slots[parts_->frames % kFramesInFlight].finished_at;
+}
+
 void Renderer::wait() { parts_->wait_for(parts_->frames); }
 
 }  // namespace afm::render

@@ -44,6 +44,9 @@ class Renderer {
   // `frame.room_from_node` and, unless empty, `frame.visible` have one entry per node of the scene.
   void render(const FrameState& frame);
 
+  // Whether render() would return without waiting for an earlier frame. Does not wait.
+  bool ready() const;
+
   // The newest frame; waits for it. At least one frame has been rendered.
   Image read_eye(scene::Eye eye);
   Image read_composed(Layout layout);
