@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
+#include <thread>
 
 #include "app/interruption.h"
 
@@ -13,6 +15,7 @@ namespace afm::app {
 namespace {
 
 constexpr double kPatienceSeconds = 20.0;  // beyond the time that the step itself takes
+constexpr std::int64_t kLongestFrameNs = 2'000'000'000;
 constexpr int kMostRestarts = 5;
 constexpr double kTurnM = 0.2e-9;  // Z must rise this far above its lowest before it counts as retracting
 
@@ -111,7 +114,20 @@ core::Result<void> Demonstration::feel(std::size_t material, DemoResult& result,
   return {};
 }
 
+// A slow picture is no reason to let go of the hand, a picture that has stopped is: the loop beats while it waits for a
+// frame, but not for ever.
+void Demonstration::wait_for_renderer() {
+  const std::int64_t start_ns = clock_.now_ns();
+  while (!renderer_.ready()) {
+    const std::int64_t now_ns = clock_.now_ns();
+    if (now_ns - start_ns < kLongestFrameNs) servo_.beat(now_ns);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
 core::Result<void> Demonstration::step(DemoResult& result) {
+  const std::int64_t start_ns = clock_.now_ns();
+  wait_for_renderer();
   const std::int64_t now_ns = clock_.now_ns();
   if (auto taken = take_news(now_ns); !taken) return taken;
 
@@ -129,8 +145,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   servo_.place(transforms);
 
   renderer_.render(frames_.build(now));
-  servo_.beat(clock_.now_ns());
-  result.frame_ms.push_back(static_cast<double>(clock_.now_ns() - now_ns) * 1e-6);
+  result.frame_ms.push_back(static_cast<double>(clock_.now_ns() - start_ns) * 1e-6);
   return {};
 }
 

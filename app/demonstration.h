@@ -30,6 +30,7 @@ class Demonstration {
 
  private:
   core::Result<void> feel(std::size_t material, DemoResult& result, const Progress& progress);
+  void wait_for_renderer();
   core::Result<void> step(DemoResult& result);
   core::Result<void> take_news(std::int64_t now_ns);
   void begin_session(std::size_t material);

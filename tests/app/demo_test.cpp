@@ -10,8 +10,8 @@
 #include "app/session_file.h"
 #include "app/whole_file.h"
 #include "physics/contact.h"
-#include "render/image_file.h"
 #include "scene/material_library.h"
+#include "support/read_png.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
@@ -26,17 +26,13 @@ class Demo : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new support::ScratchFolder;
-    result_ = new support::ProgramResult(support::run_program(AFM_PROGRAM " demo --out " + folder_->path() +
-                                                              " --hand-speed 120mm/s --eye-width 320" + extra()));
+    result_ = new support::ProgramResult(
+        support::run_program(AFM_PROGRAM " demo --out " + folder_->path() +
+                             " --hand-speed 120mm/s --eye-width 320 --servo " AFM_SERVO_MODE));
   }
   static void TearDownTestSuite() {
     delete result_;
     delete folder_;
-  }
-
-  // ThreadSanitizer sees both sides only when the servo is a thread.
-  static std::string extra() {
-    return AFM_SERVO_MODE[0] != '\0' ? std::string(" --servo ") + AFM_SERVO_MODE : std::string();
   }
 
   static nlohmann::json summary() { return nlohmann::json::parse(read_file(folder_->file("summary.json")).value()); }
@@ -80,17 +76,18 @@ TEST_F(Demo, TellsTheServosTimingAndTheFrames) {
 
 TEST_F(Demo, DrawsEveryPictureSideBySideAndNoneIsEmpty) {
   for (const char* name : {"fig5a.png", "fig5b.png", "fig5c.png", "fig5d.png", "fig5e.png"}) {
-    const auto image = render::read_png(folder_->file(name));
-    ASSERT_TRUE(image.has_value()) << image.error().message;
+    const auto image = support::read_png(folder_->file(name));
+    ASSERT_TRUE(image.has_value()) << name;
     EXPECT_EQ(image->width, 2U * 1440U);
     EXPECT_EQ(image->height, 1080U);
     // a picture has dark and bright pixels, and the eyes differ
     std::size_t bright = 0, differing = 0;
     for (std::uint32_t y = 0; y < image->height; ++y) {
       for (std::uint32_t x = 0; x < 1440; ++x) {
-        const std::size_t left = 4 * (std::size_t{y} * image->width + x), right = left + 4 * 1440;
-        bright += image->rgba[left + 1] > 128 ? 1 : 0;
-        differing += image->rgba[left] != image->rgba[right] ? 1 : 0;
+        const std::size_t left = 4 * (std::size_t{y} * image->width + x);
+        const std::size_t right = left + std::size_t{4} * 1440;
+        bright += image->rgba[left + 1] > 128 ? 1U : 0U;
+        differing += image->rgba[left] != image->rgba[right] ? 1U : 0U;
       }
     }
     EXPECT_GT(bright, 1000U) << name;
@@ -132,7 +129,7 @@ TEST_F(Demo, TheReportStandsAlone) {
 
 TEST_F(Demo, LeavesNothingElse) {
   std::size_t files = 0;
-  for (const auto& entry : fs::directory_iterator(folder_->path())) files += entry.is_regular_file() ? 1 : 100;
+  for (const auto& entry : fs::directory_iterator(folder_->path())) files += entry.is_regular_file() ? 1U : 100U;
   EXPECT_EQ(files, 5U + 3U + 3U + 2U);
 }
 
@@ -141,7 +138,7 @@ TEST_F(Demo, ASessionIsDrawnAgain) {
   const auto again = support::run_program(AFM_PROGRAM " render --session " + folder_->file("session-gold.afms") +
                                           " --at 1.5 --stereo left --eye-width 200 --out " + picture);
   ASSERT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_EQ(render::read_png(picture)->width, 200U);
+  EXPECT_EQ(support::read_png(picture)->width, 200U);
   fs::remove(picture);
 }
 
