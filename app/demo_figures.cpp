@@ -11,7 +11,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kAfterJumpInNs = 60'000'000;
+constexpr std::int64_t kAfterJumpInNs = 5'000'000;
 constexpr std::int64_t kBeforeJumpOffNs = 1'000'000;
 constexpr std::int64_t kAfterJumpOffNs = 400'000'000;
 

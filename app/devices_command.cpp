@@ -25,6 +25,7 @@ core::Result<void> list() {
 void add_devices_command(CLI::App& app, CommandContext& context) {
   CLI::App* command =
       app.add_subcommand("devices", "list the Vulkan devices, haptic devices and wands that this program can use");
+  command->footer("example: touchafm devices");
   command->callback([&context] { context.chosen = list; });
 }
 

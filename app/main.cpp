@@ -27,6 +27,13 @@ int fail(ExitCode code, const std::string& message) {
   return static_cast<int>(code);
 }
 
+// CLI11 would only say that a subcommand is missing.
+bool names_unknown_command(const CLI::App& app, int count, char** arguments) {
+  if (count < 2 || arguments[1][0] == '-') return false;
+  const std::string name = arguments[1];
+  return app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; }).empty();
+}
+
 int run(int count, char** arguments) {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -45,6 +52,9 @@ int run(int count, char** arguments) {
   afm::app::add_wall_command(app, context);
   afm::app::add_devices_command(app, context);
 
+  if (names_unknown_command(app, count, arguments)) {
+    return fail(ExitCode::WrongUsage, "there is no command \"" + std::string(arguments[1]) + "\"; see touchafm --help");
+  }
   try {
     app.parse(count, arguments);
   } catch (const CLI::Success& success) {  // --help, --version
