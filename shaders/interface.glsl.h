@@ -8,6 +8,10 @@
 #define AFM_BINDING_FRAME 0
 #define AFM_BINDING_DRAW 1
 #define AFM_BINDING_SHADOW 2
+
+// texels each way
+#define AFM_SHADOW_MAP_SIZE 2048
+
 // set 1 of the panels, set 0 of the canvas and of the compose pass: what they sample
 #define AFM_BINDING_TEXTURE 0
 #define AFM_BINDING_RIGHT_EYE 1

@@ -14,24 +14,19 @@ layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map
 layout(location = 0) in vec3 room_position;
 layout(location = 1) in vec3 room_normal;
 layout(location = 2) in vec4 vertex_color;
+layout(location = 3) in vec3 shadow_place;  // texture coordinates and depth in the shadow map
 
 layout(location = 0) out vec4 out_color;
 
 // Share of the key light that arrives: four bilinear comparisons half a texel off the middle, which weigh 3x3 texels like
 // a tent. Outside the map everything is lit; what faces away is dark without asking.
 float key_light_visibility(vec3 normal) {
-  vec2 texel = 1.0 / vec2(textureSize(shadow_map, 0));
-
-  // step off the surface along its normal by about one texel of the map, more where light grazes
-  float grazing = 1.0 - max(dot(normal, frame.light_direction.xyz), 0.0);
-  vec3 from = room_position + normal * frame.light_radiance.w * (0.5 + 1.5 * grazing);
-  vec3 place = (frame.shadow_from_room * vec4(from, 1.0)).xyz;
-  vec2 uv = place.xy * 0.5 + 0.5;
+  const float half_texel = 0.5 / float(AFM_SHADOW_MAP_SIZE);
   int taps = dot(normal, frame.light_direction.xyz) > 0.0 ? 4 : 0;
   float lit = 0.0;
   for (int tap = 0; tap < taps; ++tap) {
-    vec2 offset = vec2(tap & 1, tap >> 1) - 0.5;
-    lit += textureLod(shadow_map, vec3(uv + offset * texel, place.z), 0.0);
+    vec2 offset = half_texel * (vec2(tap & 1, tap >> 1) * 2.0 - 1.0);
+    lit += textureLod(shadow_map, shadow_place + vec3(offset, 0.0), 0.0);
   }
   return 0.25 * lit;
 }

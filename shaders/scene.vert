@@ -16,6 +16,16 @@ layout(location = 2) in vec4 color;
 layout(location = 0) out vec3 room_position;
 layout(location = 1) out vec3 room_normal;
 layout(location = 2) out vec4 vertex_color;
+layout(location = 3) out vec3 shadow_place;
+
+// The light is far away, so that this is linear across a triangle. A step off the surface by about a texel of the map, more
+// where light grazes, keeps it from shadowing itself.
+vec3 place_in_shadow_map(vec3 place, vec3 normal) {
+  float grazing = 1.0 - max(dot(normal, frame.light_direction.xyz), 0.0);
+  vec3 from = place + normal * frame.light_radiance.w * (0.5 + 1.5 * grazing);
+  vec3 clip = (frame.shadow_from_room * vec4(from, 1.0)).xyz;
+  return vec3(0.5 * clip.xy + 0.5, clip.z);
+}
 
 void main() {
   vec4 bend = draw.bend;
@@ -29,5 +39,6 @@ void main() {
                 draw.normal_column[1].xyz * bent_normal.y +
                 draw.normal_column[2].xyz * bent_normal.z;
   vertex_color = color * draw.base_color;
+  shadow_place = place_in_shadow_map(room_position, normalize(room_normal));
   gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
 }

@@ -10,7 +10,7 @@
 
 namespace afm::render {
 
-inline constexpr std::uint32_t kShadowMapSize = 2048;
+inline constexpr std::uint32_t kShadowMapSize = AFM_SHADOW_MAP_SIZE;
 
 // Clip space of the shadow map from the room: an orthographic view along the light that covers its sphere, depth 0 at
 // the side nearest to the light.

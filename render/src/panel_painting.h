@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec2.hpp>
-#include <span>
-#include <vector>
-
 #include "canvas.h"
 #include "render/frame.h"
 
@@ -14,15 +10,5 @@ void paint(Canvas& canvas, const ForcePanel& panel);
 void paint(Canvas& canvas, const DataPanel& panel);
 void paint(Canvas& canvas, const Banner& banner);
 void paint(Canvas& canvas, const Label& label);
-
-// Distance of axis ticks: 1, 2 or 5 times a power of ten, at most `most` ticks in `range` (> 0).
-double tick_step(double range, int most);
-
-// A tick's or marker's number with as many decimals as `step` needs and a typographic minus.
-std::string tick_text(double value, double step);
-
-// A line that looks the same at this resolution: for every column of `column_mm` its first, lowest, highest and last
-// point, in their order. Points are in millimetres of the canvas, and need not advance in x.
-std::vector<glm::vec2> thin_out(std::span<const glm::vec2> points, float column_mm);
 
 }  // namespace afm::render

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+
+#include "render/frame.h"
+
+// What tests ask of pictures.
+namespace afm::test {
+
+struct Pixel {
+  int r = 0, g = 0, b = 0;
+};
+Pixel pixel(const render::Image& image, std::uint32_t x, std::uint32_t y);
+
+// Middle of the pixels weighted by `weight`, in pixels from the top left corner; nothing if no pixel weighs anything.
+std::optional<glm::dvec2> centroid(const render::Image& image, const std::function<double(const Pixel&)>& weight);
+
+// Brightness above `floor`, of grey things before the background.
+std::function<double(const Pixel&)> brighter_than(int floor);
+
+std::size_t count(const render::Image& image, const std::function<bool(const Pixel&)>& wanted);
+
+struct Difference {
+  int largest = 0;          // of any channel, in 255ths
+  double share_beyond = 0;  // of pixels with a channel that differs by more than the tolerance
+};
+Difference difference(const render::Image& a, const render::Image& b, int tolerance);
+
+render::Image read_png(const std::string& path);  // throws std::runtime_error
+
+// Compares with tests/golden/<name>.png: no more than 0.1 % of the pixels may differ by more than 5/255 in a channel,
+// and none by more than 64/255. On failure <name>-actual.png, -expected.png and -difference.png are left in the build
+// tree's golden/ folder, and the text says so; empty if alike. With AFM_UPDATE_GOLDEN=1 it writes the golden picture
+// instead.
+std::string compare_with_golden(const render::Image& actual, const std::string& name);
+
+}  // namespace afm::test

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Linked into programs that use Vulkan when they are built with a sanitizer. The driver and the validation layer are
+// not ours to mend: their leaks are suppressed by the library's name, and ThreadSanitizer looks at instrumented code
+// only (a race in our own is still reported; `race:` suppressions leave reports with the validation layer).
+
+extern "C" {
+
+const char* __lsan_default_suppressions();
+const char* __tsan_default_options();
+int dlclose(void* library);
+
+const char* __lsan_default_suppressions() {
+  return "leak:libVkLayer_khronos_validation\n"
+         "leak:libvulkan_lvp\n"
+         "leak:libLLVM\n";
+}
+
+const char* __tsan_default_options() { return "ignore_noninstrumented_modules=1"; }
+
+// LeakSanitizer cannot name, and so cannot suppress, what a library leaked that was unloaded before its report.
+int dlclose(void* /*library*/) { return 0; }
+
+}  // extern "C"

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "render/renderer.h"
+#include "support/test_scene.h"
+
+namespace afm::test {
+
+// A Vulkan device with validation and synchronisation validation. Any message fails the test; so does a missing device.
+class VulkanTest : public testing::Test {
+ protected:
+  VulkanTest() : context_(open()) {}
+  ~VulkanTest() override {
+    for (const auto& message : context_.take_validation_messages()) {
+      ADD_FAILURE() << message;
+    }
+  }
+
+  render::Renderer make_renderer(const scene::Scene& scene, const render::RendererOptions& options) {
+    auto renderer = render::Renderer::create(context_, scene, options);
+    if (!renderer) {
+      throw std::runtime_error(renderer.error().message);
+    }
+    return std::move(*renderer);
+  }
+
+  struct Pair {
+    render::Image left, right;
+  };
+  Pair draw(const scene::Scene& scene, const render::FrameState& frame, const render::RendererOptions& options) {
+    auto renderer = make_renderer(scene, options);
+    renderer.render(frame);
+    return {renderer.read_eye(scene::Eye::Left), renderer.read_eye(scene::Eye::Right)};
+  }
+
+  render::Context context_;
+
+ private:
+  static render::Context open() {
+    auto context = render::Context::open(render::Validation::On);
+    if (!context) {
+      throw std::runtime_error(context.error().message);
+    }
+    return std::move(*context);
+  }
+};
+
+// Small enough for a CPU device under sanitizers; the proportions of the paper's wall.
+inline render::RendererOptions small(std::uint32_t samples = 4,
+                                     render::PassMode pass_mode = render::PassMode::Multiview) {
+  return {.eye_width = 256, .eye_height = 192, .samples = samples, .pass_mode = pass_mode, .panel_texels_per_m = 320.0};
+}
+
+}  // namespace afm::test
