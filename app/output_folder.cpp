@@ -2,7 +2,6 @@
 #include "app/output_folder.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <system_error>
@@ -24,9 +23,10 @@ core::Result<OutputFolder> OutputFolder::open(const std::string& path) {
   if (error) return failed(error.message());
   if (!fs::is_directory(path, error)) return failed("it is not a folder");
 
-  // inside the folder, so that the moves of commit() stay on one file system
-  const std::string staging = path + "/.touchafm-" + std::to_string(::getpid());
-  fs::create_directory(staging, error);
+  // inside the folder, so that the moves of commit() stay on one file system; a killed run may have left one behind
+  const std::string staging = path + "/.unfinished";
+  fs::remove_all(staging, error);
+  if (!error) fs::create_directory(staging, error);
   if (error) return failed(error.message());
   return OutputFolder(path, staging);
 }

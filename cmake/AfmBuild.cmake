@@ -14,8 +14,10 @@ option(AFM_BUILD_FUZZERS "build the libFuzzer targets (clang only)" OFF)
 
 find_program(AFM_CCACHE ccache)
 if(AFM_CCACHE)
-  # precompiled headers are cacheable only when time macros and pch defines are declared harmless
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${AFM_CCACHE})
+  # precompiled headers are cacheable only when time macros and pch defines are declared harmless; paths below the source
+  # folder are hashed relative to it, so that a fresh clone finds what another has compiled
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+      CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${AFM_CCACHE})
 endif()
 
 add_library(afm_build_flags INTERFACE)

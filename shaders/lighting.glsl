@@ -27,28 +27,37 @@ float softbox(vec3 direction, vec3 axis, vec2 half_size, float roughness) {
 
 const vec3 kFillAxis = vec3(0.7346, 0.1130, 0.6690);
 const vec3 kRimAxis = vec3(0.5298, 0.3974, -0.7492);
-const vec3 kKeyTint = vec3(1.00, 0.95, 0.87);
-const vec3 kRimTint = vec3(0.62, 0.80, 1.00);
+const vec3 kKeyTint = vec3(1.00, 0.94, 0.85);
+const vec3 kRimTint = vec3(0.55, 0.77, 1.00);
+const vec3 kFillTint = vec3(1.00, 0.97, 0.93);
+
+// The key light and its softbox: where it is, and how much of it is seen from the surface. A shadow takes most of the
+// softbox away too, which gives depth to what lies in it.
+struct Key {
+  vec3 axis;
+  float visibility;
+};
 
 // Radiance that arrives from `direction`, averaged over the lobe of a surface of that roughness.
-vec3 studio_radiance(vec3 direction, vec3 key_axis, float roughness) {
-  float blur = 0.12 + 0.8 * roughness;
-  vec3 sky = mix(vec3(0.20, 0.22, 0.26), vec3(0.34, 0.38, 0.46), smoothstep(0.0, 1.0, direction.y));
-  vec3 radiance = mix(vec3(0.045, 0.045, 0.05), sky, smoothstep(-blur, blur, direction.y));
-  radiance += kKeyTint * 2.6 * softbox(direction, key_axis, vec2(0.75, 0.42), roughness);
-  radiance += kRimTint * 1.9 * softbox(direction, kRimAxis, vec2(0.30, 1.10), roughness);
-  radiance += vec3(0.30, 0.31, 0.33) * softbox(direction, kFillAxis, vec2(0.50, 0.80), roughness);
+vec3 studio_radiance(vec3 direction, Key key, float roughness) {
+  float blur = 0.10 + 0.8 * roughness;
+  vec3 sky = mix(vec3(0.20, 0.205, 0.215), vec3(0.30, 0.32, 0.36), smoothstep(0.0, 1.0, direction.y));
+  vec3 radiance = mix(vec3(0.050, 0.046, 0.042), sky, smoothstep(-blur, blur, direction.y));
+  radiance += kKeyTint * (0.6 + 2.6 * key.visibility) * softbox(direction, key.axis, vec2(0.75, 0.42), roughness);
+  radiance += kRimTint * 2.0 * softbox(direction, kRimAxis, vec2(0.30, 1.10), roughness);
+  radiance += kFillTint * 0.45 * softbox(direction, kFillAxis, vec2(0.50, 0.80), roughness);
   return radiance;
 }
 
 // The same studio averaged over the cosine lobe of a diffuse surface. The squared wrapped cosine of a far softbox stays
 // within a few percent of the integral for boxes of this size.
-vec3 studio_irradiance(vec3 normal, vec3 key_axis) {
-  vec3 light = mix(vec3(0.070, 0.072, 0.080), vec3(0.27, 0.30, 0.35), 0.5 + 0.5 * normal.y);
-  float key = 0.5 + 0.5 * dot(normal, key_axis);
-  float rim = 0.5 + 0.5 * dot(normal, kRimAxis);
-  float fill = 0.5 + 0.5 * dot(normal, kFillAxis);
-  return light + kKeyTint * 0.26 * key * key + kRimTint * 0.13 * rim * rim + vec3(0.05) * fill * fill;
+vec3 studio_irradiance(vec3 normal, Key key) {
+  vec3 light = mix(vec3(0.055, 0.053, 0.052), vec3(0.195, 0.205, 0.225), 0.5 + 0.5 * normal.y);
+  float toward_key = 0.5 + 0.5 * dot(normal, key.axis);
+  float toward_rim = 0.5 + 0.5 * dot(normal, kRimAxis);
+  float toward_fill = 0.5 + 0.5 * dot(normal, kFillAxis);
+  return light + kKeyTint * (0.10 + 0.20 * key.visibility) * toward_key * toward_key +
+         kRimTint * 0.13 * toward_rim * toward_rim + kFillTint * 0.06 * toward_fill * toward_fill;
 }
 
 // Directional albedo of GGX by B. Karis's fit ("Physically Based Shading on Mobile", 2014) of D. Lazarov's.
@@ -80,9 +89,9 @@ vec3 key_reflection(Surface s, vec3 to_light) {
   return ((1.0 - fresnel) * s.diffuse / kPi + min(distribution * visibility, 12.0) * fresnel) * n_dot_l;
 }
 
-vec3 studio_reflection(Surface s, vec3 key_axis) {
+vec3 studio_reflection(Surface s, Key key) {
   float n_dot_v = max(dot(s.normal, s.to_eye), 0.0);
   vec3 reflected = reflect(-s.to_eye, s.normal);
-  return s.diffuse * studio_irradiance(s.normal, key_axis) +
-         specular_albedo(s.specular, s.roughness, n_dot_v) * studio_radiance(reflected, key_axis, s.roughness);
+  return s.diffuse * studio_irradiance(s.normal, key) +
+         specular_albedo(s.specular, s.roughness, n_dot_v) * studio_radiance(reflected, key, s.roughness);
 }

@@ -47,9 +47,8 @@ void main() {
   float metallic = parameters.x;
   Surface s = Surface(normal, to_eye, vertex_color.rgb * (1.0 - metallic), mix(vec3(0.04), vertex_color.rgb, metallic),
                       parameters.y);
-  vec3 light = frame.light_direction.xyz;
-  vec3 radiance = studio_reflection(s, light) +
-                  key_reflection(s, light) * frame.light_radiance.rgb * key_light_visibility(normal);
+  Key key = Key(frame.light_direction.xyz, key_light_visibility(normal));
+  vec3 radiance = studio_reflection(s, key) + key_reflection(s, key.axis) * frame.light_radiance.rgb * key.visibility;
   radiance = mix(radiance, vertex_color.rgb, parameters.z) + emissive.rgb + highlight_glow(s, emissive.a);
 
   // premultiplied, so that opaque and blended primitives share this shader

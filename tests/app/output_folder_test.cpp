@@ -54,6 +54,18 @@ TEST(OutputFolder, ReplacesItsOwnFilesAndKeepsTheOthers) {
   EXPECT_EQ(entries(scratch.path()), 2U);
 }
 
+TEST(OutputFolder, ClearsWhatAKilledRunHasLeft) {
+  const support::ScratchFolder scratch;
+  fs::create_directory(scratch.file(".unfinished"));
+  scratch.write(".unfinished/a.txt", "half");
+  {
+    auto out = OutputFolder::open(scratch.path());
+    ASSERT_TRUE(out.has_value());
+    ASSERT_TRUE(out->commit().has_value());
+  }
+  EXPECT_EQ(entries(scratch.path()), 0U);
+}
+
 TEST(OutputFolder, ThatIsAFileIsRefusedAtOnce) {
   const support::ScratchFolder scratch;
   const auto out = OutputFolder::open(scratch.write("file", "x"));

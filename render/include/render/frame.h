@@ -29,7 +29,7 @@ struct BeamBend {
 // One key light with a shadow; the rest is the procedural environment.
 struct KeyLight {
   glm::vec3 direction_to_light{0.3F, 0.8F, 0.5F};  // room frame, any length
-  glm::vec3 radiance{3.0F};
+  glm::vec3 radiance{2.9F, 2.7F, 2.45F};
   glm::vec3 shadow_center_m{0.0F};  // the shadow covers a sphere of this centre and radius
   float shadow_radius_m = 2.5F;
 };

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/memory_file.h"
+#include "physics/contact.h"
+#include "scene/material_library.h"
+
+// Whatever the bytes: materials that the closed forms accept, or an error. They throw on what is unphysical.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  const afm::fuzz::MemoryFile file(bytes, size);
+  const auto library = afm::scene::load_materials(file.path());
+  if (!library) return 0;
+  for (const afm::scene::MaterialEntry& material : library->materials) {
+    static_cast<void>(afm::physics::approach_retract_events(material.interaction));
+  }
+  return 0;
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+
+#include "fuzz/memory_file.h"
+#include "scene/wall.h"
+
+// Whatever the bytes: a wall that both eyes of every viewer can be drawn for, or an error.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  using namespace afm::scene;
+  const afm::fuzz::MemoryFile file(bytes, size);
+  const auto wall = load_wall(file.path());
+  if (!wall) return 0;
+  for (const Viewer& viewer : wall->viewers) {
+    for (const Eye eye : kEyes) {
+      const auto view = off_axis_view(wall->screens.front(), eye_position(viewer.sweet_spot, eye, viewer.ipd_m),
+                                      DepthConvention::VulkanReversedInfinite, kNearM, 0.0);
+      if (!view) std::abort();
+    }
+  }
+  return 0;
+}
