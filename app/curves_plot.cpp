@@ -10,20 +10,28 @@ namespace afm::app {
 
 namespace {
 
-std::vector<SvgPoint> points_within(const std::vector<render::PlotPoint>& points, double z_max_nm,
-                                    double force_min_nn) {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Window {
+  double z_min_nm = -kInfinity;
+  double z_max_nm = kInfinity;
+  double force_min_nn = -kInfinity;
+};
+
+// What lies outside breaks the line.
+std::vector<SvgPoint> points_within(const std::vector<render::PlotPoint>& points, const Window& window) {
   constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
   std::vector<SvgPoint> result;
   result.reserve(points.size());
   for (const render::PlotPoint& p : points) {
-    const bool inside = p.z_nm <= z_max_nm && p.force_nn >= force_min_nn;
+    const bool inside = p.z_nm >= window.z_min_nm && p.z_nm <= window.z_max_nm && p.force_nn >= window.force_min_nn;
     result.push_back(inside ? SvgPoint{p.z_nm, p.force_nn} : SvgPoint{kBreak, kBreak});
   }
   return result;
 }
 
 SvgPlot plot_within(const std::vector<RecordedSession>& sessions, const scene::MaterialLibrary& materials,
-                    std::string title, double z_max_nm, double force_min_nn) {
+                    std::string title, const Window& window) {
   SvgPlot plot;
   plot.title = std::move(title);
   plot.x_label = "Z, piezo displacement (nm)";
@@ -34,9 +42,9 @@ SvgPlot plot_within(const std::vector<RecordedSession>& sessions, const scene::M
     const scene::MaterialEntry* material = materials.find(session.material);
     const std::string name = material != nullptr ? material->title : session.material;
     plot.lines.push_back({name + ", approach", std::string(distinct_color(i)), LineStyle::Dashed,
-                          points_within(curve.approach, z_max_nm, force_min_nn)});
-    plot.lines.push_back({name + ", retract", std::string(distinct_color(i)), LineStyle::Solid,
-                          points_within(curve.retract, z_max_nm, force_min_nn)});
+                          points_within(curve.approach, window)});
+    plot.lines.push_back(
+        {name + ", retract", std::string(distinct_color(i)), LineStyle::Solid, points_within(curve.retract, window)});
   }
   return plot;
 }
@@ -44,10 +52,10 @@ SvgPlot plot_within(const std::vector<RecordedSession>& sessions, const scene::M
 }  // namespace
 
 std::string curves_svg(const std::vector<RecordedSession>& sessions, const scene::MaterialLibrary& materials) {
-  constexpr double kEverything = std::numeric_limits<double>::infinity();
-  constexpr double kNearNm = 22.0, kNearNn = -1.8;  // mica and silicon nitride whole, gold's jump to contact
-  return svg(plot_within(sessions, materials, "Approach and retract", kEverything, -kEverything)) + "\n" +
-         svg(plot_within(sessions, materials, "The same, near the surface", kNearNm, kNearNn));
+  // mica and silicon nitride whole, gold's jump to contact
+  constexpr Window kNear{.z_min_nm = -7.0, .z_max_nm = 22.0, .force_min_nn = -1.8};
+  return svg(plot_within(sessions, materials, "Approach and retract", {})) + "\n" +
+         svg(plot_within(sessions, materials, "The same, near the surface", kNear));
 }
 
 }  // namespace afm::app

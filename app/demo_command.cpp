@@ -17,6 +17,7 @@
 #include "core/log.h"
 #include "physics/quantity_text.h"
 #include "render/context.h"
+#include "render/image_file.h"
 
 namespace afm::app {
 
@@ -118,6 +119,12 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   }
   say("drawing the figures");
   std::vector<ReportPicture> pictures;
+  if (result.choosing) {
+    const auto png = render::encode_png(*result.choosing);
+    if (!png) return tl::unexpected(png.error());
+    pictures.push_back(
+        {"The wand's ray chooses the sample: a frame of the live run.", std::string(png->begin(), png->end())});
+  }
   if (auto drawn = draw_figures(*context, *stage, result, *out, pictures); !drawn) return drawn;
   result.seconds = static_cast<double>(clock.now_ns() - start_ns) * 1e-9;
   if (auto written = write_results(result, stage->materials, pictures, *out); !written) return written;

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/measurement.h"
 #include "app/session_file.h"
+#include "render/frame.h"
 #include "scene/shared_blocks.h"
 
 namespace afm::app {
@@ -19,6 +21,7 @@ struct DemoResult {
   scene::ServoTiming servo;
   std::uint64_t lost_samples = 0;
   std::vector<double> frame_ms;
+  std::optional<render::Image> choosing;  // the live frame in which the wand first chose
   double seconds = 0;
   std::string vulkan_device;
   std::string haptic_device;

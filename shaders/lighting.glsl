@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface and the studio that it stands in. The studio is analytic (a gradient sky and two softboxes), because texture
+// The surface and the studio that it stands in. The studio is analytic (a gradient sky and three softboxes), because texture
 // filtering, not arithmetic, is what costs time on a CPU device.
 
 const float kPi = 3.14159265;
@@ -28,7 +28,7 @@ float softbox(vec3 direction, vec3 axis, vec2 half_size, float roughness) {
 const vec3 kFillAxis = vec3(0.7346, 0.1130, 0.6690);
 const vec3 kRimAxis = vec3(0.5298, 0.3974, -0.7492);
 const vec3 kKeyTint = vec3(1.00, 0.94, 0.85);
-const vec3 kRimTint = vec3(0.55, 0.77, 1.00);
+const vec3 kRimTint = vec3(0.88, 0.94, 1.00);
 const vec3 kFillTint = vec3(1.00, 0.97, 0.93);
 
 // The key light and its softbox: where it is, and how much of it is seen from the surface. A shadow takes most of the
@@ -41,10 +41,10 @@ struct Key {
 // Radiance that arrives from `direction`, averaged over the lobe of a surface of that roughness.
 vec3 studio_radiance(vec3 direction, Key key, float roughness) {
   float blur = 0.10 + 0.8 * roughness;
-  vec3 sky = mix(vec3(0.20, 0.205, 0.215), vec3(0.30, 0.32, 0.36), smoothstep(0.0, 1.0, direction.y));
+  vec3 sky = mix(vec3(0.56, 0.51, 0.46), vec3(0.20, 0.21, 0.235), smoothstep(-0.1, 0.75, direction.y));
   vec3 radiance = mix(vec3(0.050, 0.046, 0.042), sky, smoothstep(-blur, blur, direction.y));
   radiance += kKeyTint * (0.6 + 2.6 * key.visibility) * softbox(direction, key.axis, vec2(0.75, 0.42), roughness);
-  radiance += kRimTint * 2.0 * softbox(direction, kRimAxis, vec2(0.30, 1.10), roughness);
+  radiance += kRimTint * 1.5 * softbox(direction, kRimAxis, vec2(0.22, 1.10), roughness);
   radiance += kFillTint * 0.45 * softbox(direction, kFillAxis, vec2(0.50, 0.80), roughness);
   return radiance;
 }

@@ -12,7 +12,7 @@ layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock dra
 layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map;
 
 layout(location = 0) in vec3 room_position;
-layout(location = 1) in vec3 room_normal;
+layout(location = 1) centroid in vec3 room_normal;
 layout(location = 2) in vec4 vertex_color;
 layout(location = 3) in vec3 shadow_place;  // texture coordinates and depth in the shadow map
 

@@ -14,7 +14,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 color;
 
 layout(location = 0) out vec3 room_position;
-layout(location = 1) out vec3 room_normal;
+layout(location = 1) centroid out vec3 room_normal;  // a thin triangle seldom covers the pixel's middle
 layout(location = 2) out vec4 vertex_color;
 layout(location = 3) out vec3 shadow_place;
 

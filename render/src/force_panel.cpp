@@ -92,7 +92,15 @@ void paint_axes(Canvas& canvas, const Plot& plot, double z_step, double force_st
   if (plot.force_min < 0.0 && plot.force_max > 0.0) {
     canvas.line({plot.top_left.x, plot.y(0.0)}, {plot.bottom_right.x, plot.y(0.0)}, 3.0F, palette::kAxis);
   }
-  canvas.text({plot.top_left.x + 14.0F, plot.top_left.y - 4.0F}, TextStyle::Body, palette::kInk, "F (nN)");
+}
+
+// What the axes show, over the curves.
+void paint_captions(Canvas& canvas, const Plot& plot) {
+  const char* const force = "F (nN)";
+  const glm::vec2 place = plot.top_left + glm::vec2(8.0F, -2.0F);
+  const glm::vec2 size(canvas.text_width_mm(TextStyle::Body, force) + 16.0F, text_height_mm(TextStyle::Body) + 6.0F);
+  canvas.rectangle(place, place + size, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
+  canvas.text(place + glm::vec2(8.0F, 1.0F), TextStyle::Body, palette::kInk, force);
   canvas.text({plot.bottom_right.x, plot.bottom_right.y + 54.0F}, TextStyle::Body, palette::kInk, "Z (nm)",
               Align::Right);
 }
@@ -160,8 +168,9 @@ void paint_marker(Canvas& canvas, const Plot& plot, const PlotMarker& marker, st
     position = free_place(taken, position, size, {0.0F, size.y + 4.0F});
   } else {
     const bool upper_half = from.y < 0.5F * (plot.top_left.y + plot.bottom_right.y);
-    position = {plot.bottom_right.x - size.x - 4.0F, from.y + (upper_half ? 4.0F : -size.y - 4.0F)};
-    position = free_place(taken, position, size, {-size.x - 8.0F, 0.0F});
+    // at the left, where an approach-retract curve leaves room below zero
+    position = {plot.top_left.x + 8.0F, from.y + (upper_half ? 4.0F : -size.y - 4.0F)};
+    position = free_place(taken, position, size, {size.x + 8.0F, 0.0F});
   }
   canvas.rectangle(position, position + size, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
   canvas.text(position + glm::vec2(6.0F, 2.0F), TextStyle::Small, palette::kInk, marker.label);
@@ -209,6 +218,7 @@ void paint(Canvas& canvas, const ForcePanel& panel) {
     }
   }
   canvas.pop_clip();
+  paint_captions(canvas, plot);
   std::vector<Box> taken;
   for (const auto& marker : panel.markers) {
     paint_marker(canvas, plot, marker, taken);
