@@ -206,9 +206,8 @@ std::string Demonstration::guidance() const {
   using Step = SimulatedPerson::Step;
   switch (person_.step()) {
     case Step::PointAtSwatch:
-      return "Point at a sample and press";
     case Step::PressSelect:
-      return "This is what the tip will touch";
+      return "Point at a sample and press";
     case Step::Lift:
       return "Lift the pen to its top";
     case Step::PressTurnOn:

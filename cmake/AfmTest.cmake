@@ -2,6 +2,9 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# What the tsan preset builds and runs: the tests in which more than one thread or process takes part.
+add_custom_target(threaded_tests)
+
 # afm_test(NAME folder.unit SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT seconds] [WHOLE])
 # One executable test_folder_unit; every TEST in it becomes a CTest case named folder.Suite.Case. With WHOLE the executable is
 # one case, for suites whose set-up is dear, and nothing runs beside it.
@@ -17,6 +20,9 @@ function(afm_test)
   target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   target_compile_definitions(${target} PRIVATE AFM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" AFM_BINARY_DIR="${CMAKE_BINARY_DIR}")
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  if(T_LABELS MATCHES "^(threads|realtime)$")
+    add_dependencies(threaded_tests ${target})
+  endif()
   if(T_WHOLE)
     add_test(NAME ${T_NAME} COMMAND ${target})
     set_tests_properties(${T_NAME} PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL TRUE)
