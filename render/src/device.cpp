@@ -250,14 +250,17 @@ core::Result<std::unique_ptr<Device>> Device::open(Validation validation) {
 
 std::uint32_t Device::memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags wanted) const {
   const auto properties = physical_.getMemoryProperties();
-  for (std::uint32_t i = 0; i < properties.memoryTypeCount; ++i) {
-    if ((type_bits & (1U << i)) != 0 && (properties.memoryTypes[i].propertyFlags & wanted) == wanted) {
-      return i;
-    }
+  const auto suits = [&](std::uint32_t type) {
+    return (type_bits & (1U << type)) != 0 && (properties.memoryTypes[type].propertyFlags & wanted) == wanted;
+  };
+  std::uint32_t type = 0;
+  while (type < properties.memoryTypeCount && !suits(type)) {
+    ++type;
   }
+
   // the specification promises host-visible coherent and device-local memory for every resource used here
-  AFM_CHECK(!"no such memory type");
-  return 0;
+  AFM_CHECK(type < properties.memoryTypeCount);
+  return type;
 }
 
 void Device::run_once(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {

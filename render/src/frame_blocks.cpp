@@ -19,7 +19,7 @@ glm::mat4 shadow_from_room(const KeyLight& light) {
   const glm::dvec3 helper = std::abs(to_light.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
   const glm::dvec3 right = glm::normalize(glm::cross(helper, to_light));
   const glm::dvec3 up = glm::cross(to_light, right);
-  const double radius = light.shadow_radius_m;
+  const auto radius = static_cast<double>(light.shadow_radius_m);
   const glm::dvec3 center(light.shadow_center_m);
 
   // rows of the matrix: x and y span -1..1 across the sphere, z 0..1 along the light
@@ -35,7 +35,7 @@ glm::mat4 shadow_from_room(const KeyLight& light) {
 }
 
 FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, const glm::vec2& size, float guard_band) {
-  const double shrink = 1.0 / double{guard_band};
+  const double shrink = 1.0 / static_cast<double>(guard_band);
   const glm::dmat4 guarded(glm::dvec4(shrink, 0, 0, 0), glm::dvec4(0, shrink, 0, 0), glm::dvec4(0, 0, 1, 0),
                            glm::dvec4(0, 0, 0, 1));
   FrameBlock block{};

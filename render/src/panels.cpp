@@ -164,8 +164,9 @@ vk::raii::DescriptorSet Panels::create_set(const vk::raii::DescriptorPool& pool,
 
 // Gives the panel a texture of its placement's size; true if it is a new one.
 bool Panels::resize(Panel& panel) {
-  const glm::dvec2 texels = glm::clamp(glm::ceil(size_m(panel.placement) * 1000.0 * double{fonts_.texels_per_mm}),
-                                       glm::dvec2(1.0), glm::dvec2(kLargestTexture));
+  const glm::dvec2 texels =
+      glm::clamp(glm::ceil(size_m(panel.placement) * 1000.0 * static_cast<double>(fonts_.texels_per_mm)),
+                 glm::dvec2(1.0), glm::dvec2(kLargestTexture));
   const vk::Extent2D extent{static_cast<std::uint32_t>(texels.x), static_cast<std::uint32_t>(texels.y)};
   if (panel.texture.extent == extent) {
     return false;
