@@ -44,8 +44,11 @@ void main() {
                       parameters.y);
   Key key = Key(frame.light_direction.xyz, key_light_visibility());
   vec3 radiance = studio_reflection(s, key) + key_reflection(s, key.axis) * frame.light_radiance.rgb * key.visibility;
-  radiance = mix(radiance, vertex_color.rgb, parameters.z) + emissive.rgb + highlight_glow(s, emissive.a);
+  vec3 own_light = emissive.rgb + highlight_glow(s, emissive.a);
+
+  // what is unlit shows its colour as it is
+  vec3 shown = mix(tone_map(radiance + own_light), vertex_color.rgb + own_light, parameters.z);
 
   // premultiplied, so that opaque and blended primitives share this shader
-  out_color = vec4(srgb_from_linear(tone_map(radiance)) * vertex_color.a, vertex_color.a);
+  out_color = vec4(srgb_from_linear(shown) * vertex_color.a, vertex_color.a);
 }

@@ -206,6 +206,11 @@ void paint(Canvas& canvas, const ForcePanel& panel) {
   plot.bottom_right = canvas.size_mm() - glm::vec2(kMargin, 112.0F);
   paint_axes(canvas, plot, z_step, force_step);
 
+  // markers before the curves: no label hides what was measured
+  std::vector<Box> taken;
+  for (const auto& marker : panel.markers) {
+    paint_marker(canvas, plot, marker, taken);
+  }
   canvas.push_clip(plot.top_left, plot.bottom_right);
   for (const auto& curve : panel.curves) {
     if (curve.faded) {
@@ -219,10 +224,6 @@ void paint(Canvas& canvas, const ForcePanel& panel) {
   }
   canvas.pop_clip();
   paint_captions(canvas, plot);
-  std::vector<Box> taken;
-  for (const auto& marker : panel.markers) {
-    paint_marker(canvas, plot, marker, taken);
-  }
   if (panel.cursor) {
     paint_cursor(canvas, plot, *panel.cursor);
   }
