@@ -45,6 +45,13 @@ StateSign sign_of(scene::ServoState state) {
   return {"FORCE OFF", render::StateShape::Square, {0.70F, 0.74F, 0.80F}};
 }
 
+// With a typographic minus, and no sign on what rounds to zero.
+std::string signed_text(double value, int decimals, const char* unit) {
+  const double tiny = 0.5 * std::pow(10.0, -decimals);
+  const char* sign = value >= tiny ? "+" : value <= -tiny ? "\u2212" : "";
+  return fmt::format("{}{:.{}f} {}", sign, std::abs(value), decimals, unit);
+}
+
 // "33.1 nm": how much one metre of the wall shows.
 std::string scale_text(double m_per_m) {
   std::string text = format_quantity(physics::Length(m_per_m), physics::kLengthUnits, 3);
@@ -176,14 +183,13 @@ render::DataPanel FrameBuilder::data_panel(const Moment& moment) const {
   };
   panel.title = material.title;
   panel.subtitle = fmt::format("{} tip, in {}", material.tip, material.medium);
-  panel.rows = {
-      {"Tip radius R", format_quantity(in.tip_radius, physics::kLengthUnits, 3), source("tip_radius")},
-      {"Spring constant k", fmt::format("{:g} N/m", in.spring_constant.si), source("spring_constant")},
-      {"Hamaker constant A", format_quantity(in.hamaker, physics::kEnergyUnits, 3), source("hamaker")},
-      {"Surface energy \u221a(\u03b3\u03b3)", format_quantity(in.mean_surface_energy, physics::kSurfaceEnergyUnits, 5),
-       source("mean_surface_energy")},
-      {"Lever deflection", fmt::format("{:+.2f} nm", moment.tip.deflection_m * kNmPerM), ""},
-      {"Force on the tip", fmt::format("{:+.3f} nN", moment.force_n * kNnPerN), ""}};
+  panel.rows = {{"Tip radius R", format_quantity(in.tip_radius, physics::kLengthUnits, 3), source("tip_radius")},
+                {"Spring constant k", fmt::format("{:g} N/m", in.spring_constant.si), source("spring_constant")},
+                {"Hamaker constant A", format_quantity(in.hamaker, physics::kEnergyUnits, 3), source("hamaker")},
+                {"Surface energy \u221a(\u03b3\u03b3)",
+                 fmt::format("{:.3f} mJ/m\u00b2", in.mean_surface_energy.si * 1e3), source("mean_surface_energy")},
+                {"Lever deflection", signed_text(moment.tip.deflection_m * kNmPerM, 2, "nm"), ""},
+                {"Force on the tip", signed_text(moment.force_n * kNnPerN, 3, "nN"), ""}};
   return panel;
 }
 
