@@ -12,6 +12,7 @@
 #include "physics/force_model.h"
 #include "physics/quantity_text.h"
 #include "scene/shared_blocks.h"
+#include "toml_fault.h"
 
 namespace afm::scene {
 namespace {
@@ -20,13 +21,6 @@ constexpr std::array<std::string_view, 5> kTextKeys{"name", "title", "tip", "med
 constexpr std::array<std::string_view, 7> kQuantityKeys{"tip_radius",     "spring_constant",     "sample_stiffness",
                                                         "hamaker",        "mean_surface_energy", "experiment_f_attr",
                                                         "experiment_f_ad"};
-
-// A fault in the file, turned into an Error at the end of load_materials; never leaves this file.
-struct Fault {
-  toml::source_region where;
-  std::string key;
-  std::string what;
-};
 
 template <std::size_t Count>
 bool contains(const std::array<std::string_view, Count>& keys, std::string_view key) {
@@ -173,18 +167,7 @@ core::Result<const MaterialEntry*> MaterialLibrary::require(std::string_view nam
 }
 
 core::Result<MaterialLibrary> load_materials(const std::string& path) {
-  const auto bad = [&](const std::string& what) {
-    return core::failure(core::ErrorCategory::BadInputFile, fmt::format("material file {}: {}", path, what));
-  };
-  try {
-    return read_library(toml::parse_file(path));
-  } catch (const Fault& fault) {
-    return bad(
-        fmt::format("line {}: {}: {}", std::max<std::uint32_t>(1, fault.where.begin.line), fault.key, fault.what));
-  } catch (const toml::parse_error& error) {
-    if (error.source().begin.line == 0) return bad("cannot be read; check the path and its rights");
-    return bad(fmt::format("line {}: {}", error.source().begin.line, error.description()));
-  }
+  return read_toml("material file", path, read_library);
 }
 
 }  // namespace afm::scene

@@ -11,6 +11,7 @@
 
 #include "physics/quantity_text.h"
 #include "scene/wall.h"
+#include "toml_fault.h"
 
 namespace afm::scene {
 
@@ -19,13 +20,6 @@ namespace {
 // Dodgson 2004: 45 to 80 mm covers nearly all adults, children from 40 mm. Beyond it, it is a slip of the unit.
 constexpr double kSmallestIpdM = 0.030;
 constexpr double kLargestIpdM = 0.090;
-
-// A fault in the file, turned into an Error at the end of load_wall; never leaves this file.
-struct Fault {
-  toml::source_region where;
-  std::string key;
-  std::string what;
-};
 
 class Reader {
  public:
@@ -165,19 +159,6 @@ Wall read_wall(const toml::table& root) {
 
 }  // namespace
 
-core::Result<Wall> load_wall(const std::string& path) {
-  const auto bad = [&](const std::string& what) {
-    return core::failure(core::ErrorCategory::BadInputFile, fmt::format("wall file {}: {}", path, what));
-  };
-  try {
-    return read_wall(toml::parse_file(path));
-  } catch (const Fault& fault) {
-    return bad(
-        fmt::format("line {}: {}: {}", std::max<std::uint32_t>(1, fault.where.begin.line), fault.key, fault.what));
-  } catch (const toml::parse_error& error) {
-    if (error.source().begin.line == 0) return bad("cannot be read; check the path and its rights");
-    return bad(fmt::format("line {}: {}", error.source().begin.line, error.description()));
-  }
-}
+core::Result<Wall> load_wall(const std::string& path) { return read_toml("wall file", path, read_wall); }
 
 }  // namespace afm::scene
