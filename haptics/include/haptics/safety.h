@@ -51,7 +51,7 @@ class SafetyGovernor {
   static constexpr std::int64_t kArmingNs = 500'000'000;
   static constexpr std::int64_t kQuickFadeNs = 20'000'000;
   static constexpr std::int64_t kFadeNs = 90'000'000;  // with kHangNs less than 350 ms from the last heartbeat to zero
-  static constexpr double kArmingMarginM = 0.005;  // above the height at which the tip lets go
+  static constexpr double kArmingMarginM = 0.005;      // above the height at which the tip lets go
   static constexpr double kArmingForceN = 0.05;
   static constexpr double kArmingSpeedMPerS = 0.1;
   static constexpr double kTripSpeedMPerS = 0.8;  // a relaxed hand reaches 0.6 m/s after pull-off
