@@ -163,15 +163,16 @@ core::Result<CurveRun> run_curve(const CurveOptions& options) {
 }
 
 std::string curve_csv(const CurveRun& run) {
-  const auto& [radius, k_c, k_s, hamaker, surface_energy] = run.material.interaction;
+  const physics::Interaction& in = run.material.interaction;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out,
                  "# TouchAFM force-displacement curve\n# model: {}\n# material: {}\n# tip: {}\n# medium: {}\n"
                  "# tip_radius_m: {}\n# spring_constant_N_per_m: {}\n# sample_stiffness_N_per_m: {}\n# hamaker_J: {}\n"
                  "# work_of_adhesion_J_per_m2: {}\n# from_m: {}\n# to_m: {}\n# step_m: {}\n",
-                 run.model, run.material.name, run.material.tip, run.material.medium, radius.si, k_c.si, k_s.si,
-                 hamaker.si, 2.0 * surface_energy.si, run.plan.from.si, run.plan.to.si, run.plan.step.si);
+                 run.model, run.material.name, run.material.tip, run.material.medium, in.tip_radius.si,
+                 in.spring_constant.si, in.sample_stiffness.si, in.hamaker.si, 2.0 * in.mean_surface_energy.si,
+                 run.plan.from.si, run.plan.to.si, run.plan.step.si);
   for (const auto& sourced : run.material.sources) {
     if (sourced.key.starts_with("experiment")) continue;
     fmt::format_to(out, "# source of {}: {}, {}\n", sourced.key, sourced.value, sourced.source);
@@ -192,24 +193,25 @@ std::string curve_csv(const CurveRun& run) {
 
 nlohmann::ordered_json curve_json(const CurveRun& run) {
   using json = nlohmann::ordered_json;
-  const auto& [radius, k_c, k_s, hamaker, surface_energy] = run.material.interaction;
-  json result{{"model", run.model},
-              {"parameters",
-               {{"material", run.material.name},
-                {"tip_radius_m", radius.si},
-                {"spring_constant_N_per_m", k_c.si},
-                {"sample_stiffness_N_per_m", std::isinf(k_s.si) ? json() : json(k_s.si)},
-                {"hamaker_J", hamaker.si},
-                {"work_of_adhesion_J_per_m2", 2.0 * surface_energy.si},
-                {"from_m", run.plan.from.si},
-                {"to_m", run.plan.to.si},
-                {"step_m", run.plan.step.si}}},
-              {"snap_in", nullptr},
-              {"pull_off", nullptr},
-              {"loop_energy_J", nullptr},
-              // the paper's model has no modulus, hence neither
-              {"tabor_parameter", nullptr},
-              {"regime", nullptr}};
+  const physics::Interaction& in = run.material.interaction;
+  json result{
+      {"model", run.model},
+      {"parameters",
+       {{"material", run.material.name},
+        {"tip_radius_m", in.tip_radius.si},
+        {"spring_constant_N_per_m", in.spring_constant.si},
+        {"sample_stiffness_N_per_m", std::isinf(in.sample_stiffness.si) ? json() : json(in.sample_stiffness.si)},
+        {"hamaker_J", in.hamaker.si},
+        {"work_of_adhesion_J_per_m2", 2.0 * in.mean_surface_energy.si},
+        {"from_m", run.plan.from.si},
+        {"to_m", run.plan.to.si},
+        {"step_m", run.plan.step.si}}},
+      {"snap_in", nullptr},
+      {"pull_off", nullptr},
+      {"loop_energy_J", nullptr},
+      // the paper's model has no modulus, hence neither
+      {"tabor_parameter", nullptr},
+      {"regime", nullptr}};
   if (const auto* event = find_event(run.curve, physics::EventKind::JumpToContact)) {
     result["snap_in"] = {{"z_m", event->z.si},
                          {"force_before_N", event->force_before.si + 0.0},

@@ -15,14 +15,12 @@ Stiffness effective_stiffness(const Interaction& interaction) {
 }
 
 Length jump_to_contact_gap(const Interaction& interaction) {
-  const auto& [R, k_c, k_s, A_H, gamma] = interaction;
-  return cbrt(alpha(interaction) * A_H * R / (3.0 * k_c));
+  return cbrt(alpha(interaction) * interaction.hamaker * interaction.tip_radius / (3.0 * interaction.spring_constant));
 }
 
 Length jump_to_contact_deflection(const Interaction& interaction) {
-  const auto& [R, k_c, k_s, A_H, gamma] = interaction;
   const double a = alpha(interaction);
-  return 0.5 * cbrt(A_H * R / (3.0 * a * a * k_c));
+  return 0.5 * cbrt(interaction.hamaker * interaction.tip_radius / (3.0 * a * a * interaction.spring_constant));
 }
 
 Length jump_to_contact_z(const Interaction& interaction) {

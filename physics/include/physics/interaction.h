@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -9,13 +10,16 @@
 
 namespace afm::physics {
 
-// What one choice of tip, lever, sample and medium is to the paper's force law (Liu & Peng, Table 1).
+// What one choice of tip, lever, sample and medium is to the force laws. The paper's law (Liu & Peng, Table 1) needs
+// the first five alone.
 struct Interaction {
   Length tip_radius;                  // R
   Stiffness spring_constant;          // k_c, of the cantilever
-  Stiffness sample_stiffness;         // k_s, infinite for a rigid sample
+  Stiffness sample_stiffness;         // k_s of an elastic support beneath the contact, infinite for a rigid one
   Energy hamaker;                     // A_H, of tip and sample across the medium
   SurfaceEnergy mean_surface_energy;  // sqrt(gamma_s gamma_t), half of the work of adhesion (3.3)
+  Pressure reduced_modulus{std::numeric_limits<double>::infinity()};  // E*, 1/E* = (1-nu_t^2)/E_t + (1-nu_s^2)/E_s
+  Length atomic_distance{0.3e-9};                                     // z0, of the surface Lennard-Jones potential
 };
 
 // A value that no force microscope has; the message quotes it with its unit and the legal range.

@@ -82,6 +82,22 @@ using Force = Quantity<1, 1, -2>;
 using Energy = Quantity<1, 2, -2>;
 using Stiffness = Quantity<1, 0, -2>;      // N/m
 using SurfaceEnergy = Quantity<1, 0, -2>;  // J/m^2
+using Pressure = Quantity<1, -1, -2>;
+using Frequency = Quantity<0, 0, -1>;  // cycles per second
+using Density = Quantity<1, -3, 0>;
+using Viscosity = Quantity<1, -1, -1>;  // dynamic
+
+// Kelvin. Of its own kind: no other unit here is made of it.
+struct Temperature {
+  double si = 0.0;
+
+  constexpr Temperature() = default;
+  constexpr explicit Temperature(double kelvin) : si(kelvin) {}
+  constexpr auto operator<=>(const Temperature&) const = default;
+};
+
+// k_B T, by the exact Boltzmann constant of the SI.
+constexpr Energy thermal_energy(Temperature temperature) { return Energy(1.380649e-23 * temperature.si); }
 
 // 50.0_nm, 0.1_N_per_m, 24.5_zJ; both floating and whole numbers. They divide by a power of ten, which a double holds
 // exactly where it does not hold the small factor, so that 1000_nm == 1_um.
@@ -109,6 +125,11 @@ AFM_UNIT_LITERAL(aJ, Energy, 1e18)
 AFM_UNIT_LITERAL(zJ, Energy, 1e21)
 AFM_UNIT_LITERAL(J_per_m2, SurfaceEnergy, 1.0)
 AFM_UNIT_LITERAL(mJ_per_m2, SurfaceEnergy, 1e3)
+AFM_UNIT_LITERAL(Pa, Pressure, 1.0)
+AFM_UNIT_LITERAL(GPa, Pressure, 1e-9)
+AFM_UNIT_LITERAL(Hz, Frequency, 1.0)
+AFM_UNIT_LITERAL(kHz, Frequency, 1e-3)
+AFM_UNIT_LITERAL(K, Temperature, 1.0)
 
 #undef AFM_UNIT_LITERAL
 

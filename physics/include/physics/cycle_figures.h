@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "physics/units.h"
+
+namespace afm::physics {
+
+// What one approach-retract cycle of a law comes to, solved when its tables are built and not read off them. Forces are
+// signed as in physics/contact.h and are the lever's; heights are of the apex above the undeformed surface.
+struct CycleFigures {
+  bool hysteretic =
+      false;  // false: the lever is so stiff that the branches are one curve, and the jumps below are none
+
+  Length z_jtc;  // jump to contact; without hysteresis, where contact begins
+  Force force_before_jtc;
+  Force force_after_jtc;
+  Length tip_height_before_jtc;
+  Length tip_height_after_jtc;
+
+  Length z_joc;            // jump off contact
+  Force force_before_joc;  // the pull-off force, -F_ad
+  Force force_after_joc;
+  Length tip_height_before_joc;
+  Length tip_height_after_joc;
+
+  Energy lost_at_jtc;  // the drop of the potential of lever and law at the jump
+  Energy lost_at_joc;
+  Energy loop_energy;  // what one whole cycle dissipates: the area of the loop
+
+  Stiffness critical_stiffness;  // k_c at and above which the hysteresis vanishes; infinite if it never does
+};
+
+}  // namespace afm::physics
