@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case_table.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -35,9 +40,38 @@ std::map<std::string, std::string> read_inputs(const std::string& text) {
   return inputs;
 }
 
+double tolerance(const std::string& text) { return text.empty() ? 0.0 : std::stod(text); }
+
+CaseProgram program_of(const std::string& id) {
+  static const std::set<std::string> kContactCases{"vdw_01", "dmt_04", "jkr_01", "md_01", "md_02", "md_03",
+                                                   "md_04",  "md_05",  "md_07",  "md_08", "cap_01"};
+  if (kContactCases.contains(id)) return CaseProgram::Contact;
+  const std::string family = id.substr(0, id.find('_'));
+  if (family == "thermal" || family == "dyn" || family == "beam") return CaseProgram::Lever;
+  return CaseProgram::Cycle;
+}
+
 }  // namespace
 
-std::vector<Case> read_cases(const std::string& path) {
+double Case::allowed_error(double expected_value) const {
+  return std::max(relative_tolerance * std::abs(expected_value), absolute_tolerance);
+}
+
+void expect_agrees(const Case& row, double actual) {
+  const double expected = std::stod(row.expected);
+  EXPECT_NEAR(actual, expected, row.allowed_error(expected));
+}
+
+std::vector<double> numbers(const std::string& text) {
+  std::vector<double> values;
+  std::istringstream stream(text);
+  for (double value; stream >> value;) values.push_back(value);
+  if (!stream.eof()) throw std::runtime_error("not numbers: " + text);
+  return values;
+}
+
+std::vector<Case> read_cases() {
+  const std::string path = AFM_SOURCE_DIR "/tests/physics/data/physics_cases.csv";
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   std::string line;
@@ -46,11 +80,21 @@ std::vector<Case> read_cases(const std::string& path) {
     throw std::runtime_error("unknown columns in " + path);
   }
   std::vector<Case> cases;
+  std::map<std::string, int> rows_of_name;
   while (std::getline(file, line)) {
     const auto fields = split_row(line);
     if (fields.size() != 11) throw std::runtime_error("not 11 fields: " + line);
-    cases.push_back({fields[0], read_inputs(fields[4]), fields[5], fields[6], std::stod(fields[8])});
+    std::string name = fields[0] + "_" + fields[5];
+    if (const int rows = ++rows_of_name[name]; rows > 1) name += "_" + std::to_string(rows);
+    cases.push_back(
+        {fields[0], name, read_inputs(fields[4]), fields[5], fields[6], tolerance(fields[8]), tolerance(fields[9])});
   }
+  return cases;
+}
+
+std::vector<Case> cases_of(CaseProgram program) {
+  std::vector<Case> cases = read_cases();
+  std::erase_if(cases, [program](const Case& row) { return program_of(row.id) != program; });
   return cases;
 }
 

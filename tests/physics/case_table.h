@@ -7,16 +7,42 @@
 
 namespace afm::physics {
 
-// One row of data/paper_cases.csv.
+// One row of data/physics_cases.csv: what one output must be for given inputs, found by solvers that are not this
+// program's. SI.
 struct Case {
-  std::string id;
+  std::string id;                             // "jkr_04"; several rows share it
+  std::string name;                           // of the row's test: "jkr_04_z_out_2", unique in the table
   std::map<std::string, std::string> inputs;  // "A=2.45e-20;R=5e-08" by name
   std::string output;
-  std::string expected;
+  std::string expected;  // a number, or several between blanks
   double relative_tolerance = 0.0;
+  double absolute_tolerance = 0.0;
+
+  // An input as a number ("inf" is one); throws std::out_of_range if the row has no such input.
+  double input(const std::string& key) const { return std::stod(inputs.at(key)); }
+  double input_or(const std::string& key, double otherwise) const {
+    return inputs.contains(key) ? input(key) : otherwise;
+  }
+
+  // How far a result may lie from `expected_value`: the larger of the two tolerances.
+  double allowed_error(double expected_value) const;
 };
 
+// Passes if `actual` is what a row with one number expects, within its tolerance.
+void expect_agrees(const Case& row, double actual);
+
+// The numbers of a field that holds several.
+std::vector<double> numbers(const std::string& text);
+
 // All rows; throws std::runtime_error if the file is missing or a row is not as expected.
-std::vector<Case> read_cases(const std::string& path);
+std::vector<Case> read_cases();
+
+// Which test program answers for a row.
+enum class CaseProgram {
+  Cycle,    // cycle_cases: whole cycles and their folds, through lever and support
+  Contact,  // contact_cases: the laws of force by themselves
+  Lever,    // lever_cases: thermal noise, dynamics, beams
+};
+std::vector<Case> cases_of(CaseProgram program);
 
 }  // namespace afm::physics
