@@ -24,6 +24,16 @@ constexpr std::array kSurfaceEnergies{Unit{"J/m2", 1.0, true}, Unit{"J/m^2", 1.0
                                       Unit{"mJ/m\u00b2", 1e3, false},
                                       // surface tension is written so
                                       Unit{"N/m", 1.0, false}, Unit{"mN/m", 1e3, false}};
+constexpr std::array kPressures{Unit{"TPa", 1e-12, true}, Unit{"GPa", 1e-9, true}, Unit{"MPa", 1e-6, true},
+                                Unit{"kPa", 1e-3, true}, Unit{"Pa", 1.0, true}};
+constexpr std::array kFrequencies{Unit{"MHz", 1e-6, true}, Unit{"kHz", 1e-3, true}, Unit{"Hz", 1.0, true}};
+constexpr std::array kTemperatures{Unit{"K", 1.0, true}};
+constexpr std::array kDensities{Unit{"kg/m3", 1.0, true}, Unit{"kg/m^3", 1.0, false}, Unit{"kg/m\u00b3", 1.0, false}};
+
+// By a power of ten above one, which a double holds exactly up to 1e22 where it does not hold the small factor.
+double in_si(double number, double per_si) {
+  return per_si >= 1.0 ? number / per_si : number * std::round(1.0 / per_si);
+}
 
 std::string_view trim(std::string_view text) {
   constexpr std::string_view kBlanks = " \t";
@@ -64,6 +74,10 @@ constinit const UnitList<Velocity> kVelocityUnits{"a velocity", kVelocities};
 constinit const UnitList<Energy> kEnergyUnits{"an energy", kEnergies};
 constinit const UnitList<Stiffness> kStiffnessUnits{"a stiffness", kStiffnesses};
 constinit const UnitList<SurfaceEnergy> kSurfaceEnergyUnits{"a surface energy", kSurfaceEnergies};
+constinit const UnitList<Pressure> kPressureUnits{"a pressure", kPressures};
+constinit const UnitList<Frequency> kFrequencyUnits{"a frequency", kFrequencies};
+constinit const UnitList<Temperature> kTemperatureUnits{"a temperature", kTemperatures};
+constinit const UnitList<Density> kDensityUnits{"a density", kDensities};
 
 std::variant<double, std::string> parse_si(std::string_view text, std::string_view sort, std::span<const Unit> units,
                                            Infinity infinity) {
@@ -83,7 +97,7 @@ std::variant<double, std::string> parse_si(std::string_view text, std::string_vi
   if (std::isinf(number) && infinity == Infinity::Refused) {
     return refusal(text, sort, units, "it may not be infinite");
   }
-  return number / unit->per_si;
+  return in_si(number, unit->per_si);
 }
 
 std::string format_si(double si, std::span<const Unit> units, int digits) {

@@ -42,6 +42,18 @@ TEST(QuantityText, ReadsANumberAndItsUnit) {
   EXPECT_DOUBLE_EQ(parsed(".5um", kLengthUnits), 5e-7);
 }
 
+TEST(QuantityText, ReadsLargeUnitsExactly) {
+  EXPECT_EQ(parsed("169 GPa", kPressureUnits), 1.69e11);
+  EXPECT_EQ(parsed("1.2 TPa", kPressureUnits), 1.2e12);
+  EXPECT_EQ(parsed("2.6 MPa", kPressureUnits), 2.6e6);
+  EXPECT_EQ(parsed("3 kPa", kPressureUnits), 3e3);
+  EXPECT_EQ(parsed("12.3 kHz", kFrequencyUnits), 12300.0);
+  EXPECT_EQ(parsed("298.15 K", kTemperatureUnits), 298.15);
+  EXPECT_EQ(parsed("2329 kg/m^3", kDensityUnits), 2329.0);
+  EXPECT_EQ(format_quantity(Pressure(5.15e10), kPressureUnits), "51.5 GPa");
+  EXPECT_EQ(format_quantity(Frequency(12000.0), kFrequencyUnits), "12 kHz");
+}
+
 TEST(QuantityText, RefusesABareNumberAndListsTheUnits) {
   EXPECT_EQ(refused("50", kLengthUnits),
             "cannot read \"50\" as a length: it has no unit; write a number and one of the units m, mm, um, nm, pm");

@@ -14,7 +14,7 @@ namespace afm::physics {
 
 struct Unit {
   std::string_view symbol;
-  double per_si;  // how many are one SI unit: 1e9 for nm; a power of ten up to 1e22, which a double holds exactly
+  double per_si;  // how many are one SI unit, a power of ten: 1e9 for nm, 1e-9 for GPa
   bool shown;     // offered in messages and used for output; the others are spellings that are understood as well
 };
 
@@ -32,6 +32,10 @@ extern const UnitList<Energy> kEnergyUnits;                // J aJ zJ
 extern const UnitList<Stiffness> kStiffnessUnits;          // N/m mN/m
 extern const UnitList<Velocity> kVelocityUnits;            // m/s mm/s um/s
 extern const UnitList<SurfaceEnergy> kSurfaceEnergyUnits;  // J/m2 mJ/m2, also mN/m
+extern const UnitList<Pressure> kPressureUnits;            // TPa GPa MPa kPa Pa
+extern const UnitList<Frequency> kFrequencyUnits;          // MHz kHz Hz
+extern const UnitList<Temperature> kTemperatureUnits;      // K
+extern const UnitList<Density> kDensityUnits;              // kg/m3
 
 enum class Infinity { Refused, Allowed };
 
