@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "physics/force_curve.h"
 #include "physics/units.h"
@@ -24,5 +27,68 @@ struct CurveSummary {
 
 // For samples in the order of the cycle. The loop is closed only if the first and the last sample share their Z.
 CurveSummary summarise(std::span<const CurveSample> samples);
+
+// One point of any curve, simulated or measured: the height of the lever's base, which falls while the tip approaches
+// and is known only up to a constant if an instrument measured it, and the lever's force, positive away from the
+// sample.
+struct CurvePoint {
+  Length z;
+  Force force;
+  Branch branch = Branch::Approach;
+};
+
+// The curve of a model as an instrument would have recorded it.
+std::vector<CurvePoint> points_of(std::span<const CurveSample> samples);
+
+// The force that the instrument shows where nothing acts ("baseline" in nanite, AtomicJ and SPM-Kit): a straight line
+// F = level + tilt (Z - z_far).
+struct Baseline {
+  Length z_far;  // the outermost point of the approach
+  Force level;
+  Stiffness tilt;
+  Force noise;  // standard deviation around the line, from the median absolute deviation
+
+  Force at(Length z) const { return level + tilt * (z - z_far); }
+};
+
+// A sudden change of the force: the last point before it and the hardest pull after it. Forces are above the baseline.
+struct CurveJump {
+  Length z;
+  Force force_before;
+  Force force_after;
+};
+
+// What users of force microscopes read off a curve. All forces are above the baseline; a feature that does not stand
+// out of the noise is absent.
+//
+// - contact_point: where the lever is unbent and the tip is on the surface: the first zero of the approach's force,
+// from
+//   the deepest point outwards. With adhesion this is the "contact line's zero", not the jump; nanite's and AtomicJ's
+//   contact point of a curve without adhesion.
+// - snap_in: the jump to contact ("jump-in", "pull-on"). Only a fall that is sudden at the curve's own step counts.
+// - pull_off: the hardest pull of the retract branch ("adhesion force", "pull-off", SPM-Kit's "adhesion").
+// - contact_slope: -dF/dZ of the approach's upper half, by least squares: the lever's stiffness where the sample is
+// much
+//   stiffer ("InvOLS" is its inverse, in volts).
+// - loop_energy: the area between the branches over the Z that both cover ("hysteresis area").
+// - adhesion_energy: the area between the retract branch and the baseline while the tip is pulled ("work of
+//   separation").
+struct CurveFeatures {
+  Baseline baseline;
+  Force greatest_push;
+  std::optional<Length> contact_point;
+  std::optional<CurveJump> snap_in;
+  std::optional<Extreme> pull_off;
+  std::optional<Stiffness> contact_slope;
+  Energy loop_energy;
+  Energy adhesion_energy;
+};
+
+// The least number of points that an approach must have to be analysed; a retract may be missing.
+inline constexpr std::size_t kFewestApproachPoints = 10;
+
+// For points in the order of the cycle, of any number of samples a branch. Throws std::invalid_argument if the approach
+// has fewer than kFewestApproachPoints, a point is not finite, or all points share their Z. O(n log n), allocates.
+CurveFeatures analyse(std::span<const CurvePoint> points);
 
 }  // namespace afm::physics

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "physics/curve_analysis.h"
+#include "physics/law_tables.h"
+
+namespace afm::physics {
+
+// A measured curve ready to be felt (measured_law_tables): smoothed, along rising Z, with Z = 0 at the contact point
+// and the baseline taken away.
+struct MeasuredBranches {
+  std::vector<MeasuredPoint> approach;
+  std::vector<MeasuredPoint> retract;
+};
+
+// Each branch is cut into bins of equal width along Z, from its deepest point to a half beyond the farthest jump; a bin
+// becomes one point, the mean of its Z and the median of its forces. The median leaves a jump as sharp as the bins are
+// and throws out single outliers; Z that an instrument's sensor reports out of order ends in the right bin. At most
+// `most_points` a branch. Throws std::invalid_argument as analyse() does, and if there is no contact point or no
+// retract.
+MeasuredBranches measured_branches(std::span<const CurvePoint> points, std::size_t most_points = 512);
+
+}  // namespace afm::physics
