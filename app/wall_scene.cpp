@@ -8,6 +8,7 @@
 
 #include "app/model_builder.h"
 #include "core/check.h"
+#include "physics/beam_shape.h"
 #include "physics/contact.h"
 
 namespace afm::app {
@@ -185,7 +186,7 @@ void WallScene::place_probe(const Pose& pose, std::vector<dmat4>& local, render:
   const double deflection = pose.tip.deflection_m * per_m;
   double end = -deflection, angle = 0.0;
   for (int i = 0; i < 4; ++i) {
-    angle = std::atan(1.5 * end / kLeverDrawnLength);
+    angle = std::atan(physics::beam_slope(1.0) * end / kLeverDrawnLength);
     end = -deflection - kTipDrawnLength * (1.0 - std::cos(angle));
   }
   const double base_height = pose.tip.z_m * per_m + kTipDrawnLength;

@@ -3,6 +3,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <vector>
 
+#include "physics/beam_shape.h"
 #include "support/pictures.h"
 #include "support/vulkan_fixture.h"
 
@@ -81,7 +82,7 @@ TEST_F(Stereo, TheNearerOfTwoSurfacesIsSeen) {
   }
 }
 
-// The clamped beam's shape of render/frame.h, in a lever that lies in the wall's plane and bends in it.
+// The shape of physics/beam_shape.h, in a lever that lies in the wall's plane and bends in it.
 TEST_F(Stereo, ABentLeverLiesWhereTheFormulaSays) {
   scene::Scene scene;
   const auto white = add_material(scene, {.name = "white", .unlit = true});
@@ -95,7 +96,7 @@ TEST_F(Stereo, ABentLeverLiesWhereTheFormulaSays) {
   frame.bends = {{.node = node, .length = 1.0F, .end_deflection = static_cast<float>(kDeflection / kLength)}};
   const auto eyes = draw(scene, frame, small());
   for (const double xi : {0.1, 0.25, 0.5, 0.75, 0.95}) {
-    const double deflection = kDeflection * 0.5 * xi * xi * (3.0 - xi);
+    const double deflection = kDeflection * physics::beam_deflection(xi);
     const auto column = static_cast<std::uint32_t>((-1.0 + kLength * xi + 0.5 * kWallWidth) * kPixelsPerMetre);
     const auto weight = brighter_than(120);
     double sum = 0.0, total = 0.0;

@@ -80,6 +80,7 @@ using Time = Quantity<0, 0, 1>;
 using Velocity = Quantity<0, 1, -1>;
 using Force = Quantity<1, 1, -2>;
 using Energy = Quantity<1, 2, -2>;
+using Torque = Quantity<1, 2, -2>;
 using Stiffness = Quantity<1, 0, -2>;      // N/m
 using SurfaceEnergy = Quantity<1, 0, -2>;  // J/m^2
 using Pressure = Quantity<1, -1, -2>;

@@ -17,9 +17,8 @@
 // What a frame shows, as plain data: everything that the renderer needs beside the constant Scene. No Vulkan types.
 namespace afm::render {
 
-// Bends the mesh of one node like an end-loaded beam, w(x)/w(L) = (3 xi^2 - xi^3)/2 with xi = x/L, clamped at x = 0 and
-// loaded at x = L, along the node's +x; displacement along the node's +z, in the node's units. Normals follow the
-// slope.
+// Bends the mesh of one node like an end-loaded beam (physics/beam_shape.h), clamped at x = 0 and loaded at x = L,
+// along the node's +x; displacement along the node's +z, in the node's units. Normals follow the slope.
 struct BeamBend {
   scene::NodeIndex node = 0;
   float length = 1.0F;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "physics/units.h"
+
+// Spring constants and resonances of cantilevers from their geometry. All functions take valid levers and may be called
+// from any thread; the validate() functions throw UnphysicalValue with the member's name.
+namespace afm::physics {
+
+struct RectangularLever {
+  Length length;
+  Length width;
+  Length thickness;
+  Pressure young_modulus;
+  Density density;
+};
+
+// Two arms that meet at the tip.
+struct VShapedLever {
+  Length length;      // from the base to the tip
+  Length base_width;  // b, outer distance of the arms at the base
+  Length arm_width;   // d, of each arm, parallel to the base
+  Length thickness;
+  Pressure young_modulus;
+};
+
+// Lengths 10 nm to 10 mm, E 1 MPa to 10 TPa, density 1 to 30000 kg/m^3; the arms of a V narrower than half its base.
+void validate(const RectangularLever& lever);
+void validate(const VShapedLever& lever);
+
+// k = E w t^3/(4 L^3) (Euler-Bernoulli, load at the end).
+Stiffness spring_constant(const RectangularLever& lever);
+
+// The parallel-beam approximation of Sader 1995: k = E t^3 d/(2 L^3) cos(th) [1 + (4 d^3/b^3)(3 cos(th) - 2)]^-1 with
+// tan(th) = b/(2 L). Within some per cent of a bending and twisting frame for th from 15 to 35 degrees.
+Stiffness spring_constant(const VShapedLever& lever);
+
+Mass mass(const RectangularLever& lever);
+
+// f_i = alpha_i^2/(2 pi) sqrt(E I/(rho A L^4)) in vacuum; alpha_i of physics/flexural_modes.h.
+Frequency vacuum_resonance(const RectangularLever& lever, int mode = 1);
+
+// The mass that makes a point on the spring k resonate at the lever's first frequency: 3 m/alpha_1^4 = 0.243 m.
+Mass effective_mass(const RectangularLever& lever);
+
+// The torque at the clamp that holds a force at the end, F L. Signed as the force.
+Torque clamp_moment(Force force, Length lever_length);
+
+// What a lever of spring constant k is to a force along the sample's normal when it is mounted at an angle to the
+// sample: k/cos^2(tilt) (Heim, Kappl & Butt 2004; without the tip's own length and without friction). Tilt below 90
+// degrees.
+Stiffness tilted_spring_constant(Stiffness spring_constant, double tilt_rad);
+
+}  // namespace afm::physics

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "physics/units.h"
+
+namespace afm::physics {
+
+// What a lever needs beside its spring constant to move as a point mass: m z'' + (k/(w0 Q)) z' + k (z - Z) = F, with
+// w0 = 2 pi f0 and m = k/w0^2.
+struct LeverDynamics {
+  Frequency resonance;          // f0, in the medium
+  double quality_factor = 1.0;  // Q
+  Temperature temperature;      // 0 K: no thermal noise
+};
+
+// Throws UnphysicalValue unless f0 is within 1 Hz to 100 MHz, Q within 0.01 to 1e7 and T within 0 to 2000 K.
+void validate(const LeverDynamics& lever);
+
+}  // namespace afm::physics
