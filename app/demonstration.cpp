@@ -180,7 +180,7 @@ void Demonstration::begin_session(std::size_t material) {
   current_ = material;
   session_ = {};
   session_.material = materials_.materials[material].name;
-  session_.interaction = shared_material(materials_.materials[material]);
+  session_.parameters = shared_material(materials_.materials[material]);
   curves_[material] = {};
   deepest_z_m_ = std::numeric_limits<double>::infinity();
 }

@@ -164,14 +164,14 @@ std::string report_html(const DemoResult& result, const std::vector<ReportPictur
 }
 
 std::string session_csv(const RecordedSession& session) {
-  const scene::SharedMaterial& m = session.interaction;
+  const physics::Interaction& in = session.parameters.interaction;
   fmt::memory_buffer csv;
   const auto out = std::back_inserter(csv);
   fmt::format_to(out, "# TouchAFM {}: one approach-retract cycle as the servo recorded it\n", kVersion);
   fmt::format_to(out, "# material: {}\n# model: {}\n", session.material, session.model);
-  fmt::format_to(out, "# tip_radius_m: {}\n# spring_constant_N_per_m: {}\n", m.tip_radius_m, m.spring_constant_n_per_m);
-  fmt::format_to(out, "# sample_stiffness_N_per_m: {}\n# hamaker_J: {}\n", m.sample_stiffness_n_per_m, m.hamaker_j);
-  fmt::format_to(out, "# mean_surface_energy_J_per_m2: {}\n", m.mean_surface_energy_j_per_m2);
+  fmt::format_to(out, "# tip_radius_m: {}\n# spring_constant_N_per_m: {}\n", in.tip_radius.si, in.spring_constant.si);
+  fmt::format_to(out, "# sample_stiffness_N_per_m: {}\n# hamaker_J: {}\n", in.sample_stiffness.si, in.hamaker.si);
+  fmt::format_to(out, "# mean_surface_energy_J_per_m2: {}\n", in.mean_surface_energy.si);
   fmt::format_to(out, "# servo_rate_Hz: {}\n# hand_m_per_m: {}\n# hand_N_per_N: {}\n", session.rate_hz,
                  session.hand_m_per_m, session.hand_n_per_n);
   fmt::format_to(out, "# force on the tip, positive away from the sample; Z is the piezo displacement\n");

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/check.h"
+
 namespace afm::app {
 
 namespace {
@@ -20,14 +22,9 @@ void set_name(scene::Name& name, std::string_view text) {
 }  // namespace
 
 scene::SharedMaterial shared_material(const scene::MaterialEntry& material) {
-  const physics::Interaction& in = material.interaction;
   scene::SharedMaterial shared;
   set_name(shared.name, material.name);
-  shared.tip_radius_m = in.tip_radius.si;
-  shared.spring_constant_n_per_m = in.spring_constant.si;
-  shared.sample_stiffness_n_per_m = in.sample_stiffness.si;
-  shared.hamaker_j = in.hamaker.si;
-  shared.mean_surface_energy_j_per_m2 = in.mean_surface_energy.si;
+  shared.interaction = material.interaction;
   return shared;
 }
 
@@ -95,6 +92,12 @@ core::Result<ServoLink::News> ServoLink::poll(std::int64_t now_ns) {
                                      servo_->exit_status().value_or(-1)));
   }
   return news;
+}
+
+std::uint32_t ServoLink::change(std::size_t material, const scene::SharedMaterial& parameters) {
+  AFM_CHECK(material < segment_.model().material_count);
+  side_.store(scene::MaterialEdit{.material = parameters, .revision = ++edits_}, static_cast<std::uint32_t>(material));
+  return edits_;
 }
 
 void ServoLink::choose(std::int32_t material) {

@@ -51,6 +51,12 @@ class ServoLink {
   std::uint64_t lost_samples() const { return side_.lost_samples(); }
 
   void choose(std::int32_t material);
+
+  // Other parameters for a material, by its index in the shared model; returns the revision of the edit. It takes
+  // effect as a choice does: once the tip is off the sample, with the force taken away first, so that the hand has to
+  // lift and Turn-On has to be pressed again. tip().edit_revision says when, tip().edit_refused if these cannot be felt
+  // (the servo's log line says why). Edits may come as fast as they like: of each material the newest counts.
+  std::uint32_t change(std::size_t material, const scene::SharedMaterial& parameters);
   void place(const scene::SceneTransforms& transforms) { side_.store(transforms); }
   void script(const scene::HandScript& script) { side_.store(script); }
 
@@ -60,6 +66,7 @@ class ServoLink {
   scene::SharedSegment segment_;
   scene::RendererSide side_;
   scene::Selection selection_;
+  std::uint32_t edits_ = 0;
   scene::TipState tip_;
   std::uint64_t beats_ = 0;
   std::unique_ptr<haptics::Servo> servo_;  // last: it ends before its segment goes

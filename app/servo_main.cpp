@@ -24,7 +24,8 @@
 #include "haptics/simulated_device.h"
 #include "scene/shared_segment.h"
 
-// touchafm-servo: the process that holds the hand. Its main thread is the servo; a second thread watches the renderer.
+// touchafm-servo: the process that holds the hand. Its main thread is the servo; a second thread watches the renderer,
+// a third, which is not real-time, builds what a visitor changes.
 namespace {
 
 using namespace std::string_view_literals;
@@ -125,6 +126,7 @@ ExitCode run(const Options& options) {
   const afm::core::MonotonicClock clock;
   afm::haptics::ServoExit exit{};
   {
+    const afm::haptics::EditThread edits((*loop)->edits());
     const Monitor monitor(**loop, parent_socket.get(), signals.get());
     const auto grant = afm::haptics::enter_realtime(afm::haptics::kServoPriority, afm::haptics::PageLock::Lock);
     for (const std::string& note : grant.notes) afm::core::log_line(note);

@@ -20,7 +20,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "session records are little-endian");
 
 constexpr std::string_view kMagic = "AFMS";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 using scene::TipEvent;
 using scene::TipSample;
@@ -71,13 +71,13 @@ bool finite(const TipEvent& e) {
 }
 
 nlohmann::json header_of(const RecordedSession& session) {
-  const scene::SharedMaterial& m = session.interaction;
-  nlohmann::json interaction{{"tip_radius_m", m.tip_radius_m},
-                             {"spring_constant_N_per_m", m.spring_constant_n_per_m},
-                             {"hamaker_J", m.hamaker_j},
-                             {"mean_surface_energy_J_per_m2", m.mean_surface_energy_j_per_m2}};
+  const physics::Interaction& in = session.parameters.interaction;
+  nlohmann::json interaction{{"tip_radius_m", in.tip_radius.si},
+                             {"spring_constant_N_per_m", in.spring_constant.si},
+                             {"hamaker_J", in.hamaker.si},
+                             {"mean_surface_energy_J_per_m2", in.mean_surface_energy.si}};
   // JSON has no infinity: a rigid sample has no stiffness entry
-  if (std::isfinite(m.sample_stiffness_n_per_m)) interaction["sample_stiffness_N_per_m"] = m.sample_stiffness_n_per_m;
+  if (physics::isfinite(in.sample_stiffness)) interaction["sample_stiffness_N_per_m"] = in.sample_stiffness.si;
   return {{"material", session.material},         {"model", session.model},
           {"interaction", interaction},           {"rate_hz", session.rate_hz},
           {"realtime", session.realtime},         {"hand_m_per_m", session.hand_m_per_m},
@@ -95,14 +95,14 @@ RecordedSession session_of(const nlohmann::json& header) {
   session.hand_m_per_m = header.at("hand_m_per_m").get<double>();
   session.hand_n_per_n = header.at("hand_N_per_N").get<double>();
   const nlohmann::json& interaction = header.at("interaction");
-  scene::SharedMaterial& m = session.interaction;
-  m.tip_radius_m = interaction.at("tip_radius_m").get<double>();
-  m.spring_constant_n_per_m = interaction.at("spring_constant_N_per_m").get<double>();
-  m.sample_stiffness_n_per_m = interaction.value("sample_stiffness_N_per_m", HUGE_VAL);
-  m.hamaker_j = interaction.at("hamaker_J").get<double>();
-  m.mean_surface_energy_j_per_m2 = interaction.at("mean_surface_energy_J_per_m2").get<double>();
-  const std::size_t length = std::min(session.material.size(), m.name.size() - 1);
-  std::copy_n(session.material.begin(), length, m.name.begin());
+  physics::Interaction& in = session.parameters.interaction;
+  in.tip_radius.si = interaction.at("tip_radius_m").get<double>();
+  in.spring_constant.si = interaction.at("spring_constant_N_per_m").get<double>();
+  in.sample_stiffness.si = interaction.value("sample_stiffness_N_per_m", HUGE_VAL);
+  in.hamaker.si = interaction.at("hamaker_J").get<double>();
+  in.mean_surface_energy.si = interaction.at("mean_surface_energy_J_per_m2").get<double>();
+  scene::Name& name = session.parameters.name;
+  std::copy_n(session.material.begin(), std::min(session.material.size(), name.size() - 1), name.begin());
   return session;
 }
 

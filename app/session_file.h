@@ -14,7 +14,7 @@ namespace afm::app {
 struct RecordedSession {
   std::string material;  // name in the material file
   std::string model = "paper";
-  scene::SharedMaterial interaction;  // what the force law was made of
+  scene::SharedMaterial parameters;  // what the force law was made of
   double rate_hz = 0;
   bool realtime = false;
   double hand_m_per_m = 0;  // position scale

@@ -9,7 +9,8 @@
 #include <ctime>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <stdexcept>
+#include <span>
+#include <utility>
 
 namespace afm::haptics {
 
@@ -32,14 +33,6 @@ ContactPhase shared_phase(physics::Phase phase) {
       break;
   }
   return ContactPhase::WaitForLift;
-}
-
-physics::Interaction interaction(const scene::SharedMaterial& material) {
-  return {.tip_radius = physics::Length(material.tip_radius_m),
-          .spring_constant = physics::Stiffness(material.spring_constant_n_per_m),
-          .sample_stiffness = physics::Stiffness(material.sample_stiffness_n_per_m),
-          .hamaker = physics::Energy(material.hamaker_j),
-          .mean_surface_energy = physics::SurfaceEnergy(material.mean_surface_energy_j_per_m2)};
 }
 
 void count(std::array<std::uint32_t, scene::kHistogramBins>& bins, std::uint32_t& largest, std::uint32_t us) {
@@ -69,30 +62,27 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
   // a copy, because what has been checked in shared memory may change there
   const scene::SharedModel shared = segment.model();
   if (auto valid = scene::validate(shared); !valid) return tl::unexpected(valid.error());
-  std::vector<Encounter> encounters;
+  std::vector<std::unique_ptr<Encounter>> encounters;
   encounters.reserve(shared.material_count);
   for (std::uint32_t i = 0; i < shared.material_count; ++i) {
-    try {
-      physics::ApproachRetractModel model(interaction(shared.materials[i]));
-      auto scaling = FitScaling::create(model.events(), device.spec());
-      if (!scaling) return tl::unexpected(scaling.error());
-      encounters.push_back({.model = model, .scaling = *scaling});
-    } catch (const std::invalid_argument& error) {
-      return core::failure(core::ErrorCategory::Failed, fmt::format("cannot make material {} felt: {}",
-                                                                    shared.materials[i].name.data(), error.what()));
-    }
+    auto encounter =
+        Encounter::create(shared.materials[i], 0, std::span(shared.curves).first(shared.curve_count), device.spec());
+    if (!encounter) return tl::unexpected(encounter.error());
+    encounters.push_back(std::move(*encounter));
   }
   const auto period_ns = static_cast<std::int64_t>(std::llround(1e9 / rate_hz));
   return std::unique_ptr<ServoLoop>(new ServoLoop(segment, shared, device, period_ns, std::move(encounters)));
 }
 
 ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
-                     std::int64_t period_ns, std::vector<Encounter> encounters)
+                     std::int64_t period_ns, std::vector<std::unique_ptr<Encounter>> encounters)
     : shared_(segment.servo_side()),
       device_(device),
       period_ns_(period_ns),
       sample_node_(model.sample_node),
-      encounters_(std::move(encounters)),
+      exchange_(std::move(encounters)),
+      edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count}, device.spec(),
+             exchange_),
       governor_(period_ns, force_cap_n(device.spec()), FitScaling::kStrokeM),
       hand_position_m_(device.spec().contact_point_m) {
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns);
@@ -100,6 +90,8 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
   std::array<double, 16> room_from_sample{};
   std::copy_n(glm::value_ptr(rest), room_from_sample.size(), room_from_sample.begin());
   turn_sample(room_from_sample);
+  // a successor goes on with what was changed before it
+  edits_.build();
 }
 
 void ServoLoop::note_grant(const RealtimeGrant& grant) noexcept {
@@ -118,14 +110,14 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
     hand_position_m_ = hand.position_m;
     hand_height_m_ = glm::dot(hand.position_m - device_.spec().contact_point_m, normal_);
   } else if (encounter_ != nullptr) {
-    encounter_->model.wait_for_lift();
+    encounter_->wait_for_lift();
   }
 
   physics::TipResponse response;
   double wanted_n = 0;
   if (encounter_ != nullptr) {
-    response = encounter_->model.step(physics::Length(encounter_->scaling.z_m(hand_height_m_)));
-    wanted_n = encounter_->scaling.hand_force_n(response.force.si);
+    response = encounter_->step(physics::Length(encounter_->scaling().z_m(hand_height_m_)));
+    wanted_n = encounter_->scaling().hand_force_n(response.force.si);
   }
   bool pulled_off = false;
   for (std::uint32_t i = 0; i < response.event_count; ++i) {
@@ -142,7 +134,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                       .device_healthy = hand.healthy,
                                       .renderer = renderer_link(now_ns)});
   device_.write(output.command);
-  if (output.dropped && encounter_ != nullptr) encounter_->model.wait_for_lift();
+  if (output.dropped && encounter_ != nullptr) encounter_->wait_for_lift();
 
   const glm::dvec3& force_n = output.command.force_n();
   state_.hand_force_n = {force_n.x, force_n.y, force_n.z};
@@ -150,7 +142,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   publish_events(now_ns, response);
   publish(now_ns, wake_us, response);
   previous_ns_ = now_ns;
-  change_material();
+  change_encounter();
 }
 
 void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
@@ -177,21 +169,32 @@ void ServoLoop::turn_sample(const std::array<double, 16>& room_from_sample) noex
 }
 
 // The paper's procedure: choose, lift, press Turn-On. A choice waits until the tip is off the sample, then the force is
-// taken away, and only without force does the law change.
-void ServoLoop::change_material() noexcept {
-  const auto index = static_cast<std::size_t>(chosen_.material);
-  if (chosen_.material < 0 || index >= encounters_.size() || chosen_.revision == state_.selection_revision) return;
-  if (chosen_.material != state_.material) {
-    if (encounter_ != nullptr && encounter_->model.phase() == physics::Phase::Attached) return;
+// taken away, and only without force does the law change. An edit of the material under the tip does the same; no hand
+// feels that of another.
+void ServoLoop::change_encounter() noexcept {
+  for (std::size_t i = 0; i < exchange_.size(); ++i) {
+    if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.take(i);
+  }
+  const bool valid = chosen_.material >= 0 && static_cast<std::size_t>(chosen_.material) < exchange_.size();
+  const bool other = valid && chosen_.revision != state_.selection_revision && chosen_.material != state_.material;
+  const bool edited = encounter_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
+  if (other || edited) {
+    if (encounter_ != nullptr && encounter_->phase() == physics::Phase::Attached) return;
     governor_.disarm();
     if (!governor_.released()) return;
-    encounter_ = &encounters_[index];
-    encounter_->model.wait_for_lift();
-    state_.material = chosen_.material;
-    state_.hand_m_per_m = encounter_->scaling.hand_m_per_m();
-    state_.hand_n_per_n = encounter_->scaling.hand_n_per_n();
+    if (edited) exchange_.take(static_cast<std::size_t>(state_.material));
+    feel(static_cast<std::size_t>(other ? chosen_.material : state_.material));
   }
-  state_.selection_revision = chosen_.revision;
+  if (valid) state_.selection_revision = chosen_.revision;
+}
+
+void ServoLoop::feel(std::size_t material) noexcept {
+  encounter_ = &exchange_.current(material);
+  encounter_->wait_for_lift();
+  state_.material = static_cast<std::int32_t>(material);
+  state_.hand_m_per_m = encounter_->scaling().hand_m_per_m();
+  state_.hand_n_per_n = encounter_->scaling().hand_n_per_n();
+  state_.edit_revision = encounter_->edit_revision();
 }
 
 RendererLink ServoLoop::renderer_link(std::int64_t now_ns) const noexcept {
@@ -219,7 +222,7 @@ void ServoLoop::publish_events(std::int64_t now_ns, const physics::TipResponse& 
 void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physics::TipResponse& response) noexcept {
   ++state_.tick;
   state_.time_ns = now_ns;
-  state_.z_m = encounter_ != nullptr ? encounter_->scaling.z_m(hand_height_m_) : 0.0;
+  state_.z_m = encounter_ != nullptr ? encounter_->scaling().z_m(hand_height_m_) : 0.0;
   state_.tip_height_m = response.tip_height.si;
   state_.deflection_m = response.cantilever_deflection.si;
   state_.sample_deformation_m = response.sample_deformation.si;
@@ -228,6 +231,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physic
   state_.servo_state = governor_.state();
   state_.phase = shared_phase(response.phase);
   state_.fault = governor_.fault();
+  state_.edit_refused = edits_.refused();
   state_.garbage_blocks = shared_.refused_blocks() + refused_transforms_;
   shared_.store(state_);
 
@@ -246,7 +250,8 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physic
                                 .servo_state = state_.servo_state,
                                 .phase = state_.phase,
                                 .material = state_.material,
-                                .wake_us = wake_us});
+                                .wake_us = wake_us,
+                                .edit_revision = state_.edit_revision});
 }
 
 bool ServoLoop::finished() const noexcept {

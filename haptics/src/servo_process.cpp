@@ -153,7 +153,7 @@ core::Result<std::unique_ptr<ServoThread>> ServoThread::start(scene::SharedSegme
 
 ServoThread::ServoThread(std::unique_ptr<HapticDevice> device, std::unique_ptr<ServoLoop> loop,
                          scene::RendererSide& side)
-    : device_(std::move(device)), loop_(std::move(loop)), side_(side), thread_([this] {
+    : device_(std::move(device)), loop_(std::move(loop)), edits_(loop_->edits()), side_(side), thread_([this] {
         const RealtimeGrant grant = enter_realtime(kServoPriority, PageLock::Leave);
         for (const std::string& note : grant.notes) core::log_line(note);
         loop_->note_grant(grant);

@@ -14,10 +14,10 @@ namespace afm::scene {
 inline constexpr std::uint64_t kSegmentMagic = 0x314D46414D464154;  // "TAFMAFM1" in memory
 
 // The sizes of the blocks in this build, in the order of SegmentLayout: two builds that disagree refuse each other.
-using BlockSizes = std::array<std::uint32_t, 9>;
-inline constexpr BlockSizes kBlockSizes{sizeof(SharedModel), sizeof(SceneTransforms),   sizeof(Selection),
-                                        sizeof(HandScript),  sizeof(RendererHeartbeat), sizeof(TipState),
-                                        sizeof(TipSample),   sizeof(TipEvent),          sizeof(ServoTiming)};
+using BlockSizes = std::array<std::uint32_t, 10>;
+inline constexpr BlockSizes kBlockSizes{
+    sizeof(SharedModel),       sizeof(SceneTransforms), sizeof(Selection), sizeof(MaterialEdit), sizeof(HandScript),
+    sizeof(RendererHeartbeat), sizeof(TipState),        sizeof(TipSample), sizeof(TipEvent),     sizeof(ServoTiming)};
 
 struct SegmentHeader {
   std::uint64_t magic = kSegmentMagic;
@@ -36,6 +36,7 @@ struct SegmentLayout {
   // written by touchafm
   alignas(4096) core::LatestValue<SceneTransforms> transforms;
   core::LatestValue<Selection> selection;
+  std::array<core::LatestValue<MaterialEdit>, kMaxMaterials> edits;  // of every material the newest
   core::LatestValue<HandScript> hand_script;
   core::LatestValue<RendererHeartbeat> heartbeat;
 

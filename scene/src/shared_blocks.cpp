@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <span>
+#include <stdexcept>
 
 #include "core/check.h"
 #include "scene/shared_segment.h"
@@ -39,18 +41,61 @@ bool within(std::int32_t material, const SharedModel& model) {
 
 auto refusal(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
 
-core::Result<void> validate(const SharedMaterial& material, std::uint32_t index) {
-  if (!terminated(material.name)) return refusal(fmt::format("shared material {} has a name without an end", index));
-  const bool rigid = std::isinf(material.sample_stiffness_n_per_m) && material.sample_stiffness_n_per_m > 0;
-  if (!positive(material.tip_radius_m) || !positive(material.spring_constant_n_per_m) ||
-      !(rigid || positive(material.sample_stiffness_n_per_m)) || !positive(material.hamaker_j) ||
-      !positive(material.mean_surface_energy_j_per_m2)) {
-    return refusal(fmt::format("shared material {} has a parameter that is not a positive number", index));
+bool rising_and_sane(std::span<const SharedCurvePoint> branch) {
+  for (std::size_t i = 0; i < branch.size(); ++i) {
+    if (!sane(branch[i].z_m) || !sane(branch[i].force_n)) return false;
+    if (i > 0 && !(branch[i].z_m > branch[i - 1].z_m)) return false;
+  }
+  return true;
+}
+
+bool plausible(const SharedMeasuredCurve& curve) {
+  const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxMeasuredPoints; };
+  return counted(curve.approach_count) && counted(curve.retract_count) &&
+         rising_and_sane(std::span(curve.approach).first(curve.approach_count)) &&
+         rising_and_sane(std::span(curve.retract).first(curve.retract_count));
+}
+
+}  // namespace
+
+core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count) {
+  if (!terminated(material.name)) return refusal("it has a name without an end");
+  try {
+    physics::validate(material.interaction);
+  } catch (const std::invalid_argument& error) {
+    return refusal(error.what());
+  }
+  if (material.law > physics::Law::Measured || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
+      material.dynamic > 1) {
+    return refusal("it has a law or an option that is not known");
+  }
+  if (material.law == physics::Law::Measured && (material.measured_curve >= curve_count || material.dynamic != 0)) {
+    return refusal("it has no measured curve, or a dynamic one");
+  }
+  if (!sane(material.retardation_wavelength_m) || material.retardation_wavelength_m < 0) {
+    return refusal("its retardation wavelength is not a length");
+  }
+  const physics::Meniscus& meniscus = material.meniscus;
+  if (material.has_meniscus != 0 && !(positive(meniscus.surface_tension.si) && sane(meniscus.contact_angle_rad) &&
+                                      meniscus.relative_humidity >= 0 && meniscus.relative_humidity <= 1)) {
+    return refusal("its meniscus has a number that no liquid has");
+  }
+  if (material.dynamic != 0 && !(positive(material.resonance_hz) && positive(material.quality_factor) &&
+                                 sane(material.temperature_k) && material.temperature_k >= 0)) {
+    return refusal("its lever has a resonance, a quality factor or a temperature that is not a positive number");
   }
   return {};
 }
 
-}  // namespace
+physics::LawOptions law_options(const SharedMaterial& material) {
+  physics::LawOptions options;
+  options.exact_hamaker_sphere = material.exact_hamaker_sphere != 0;
+  if (material.retardation_wavelength_m > 0) {
+    options.retardation_wavelength = physics::Length(material.retardation_wavelength_m);
+  }
+  if (material.has_meniscus != 0) options.meniscus = material.meniscus;
+  return options;
+}
 
 core::Result<void> validate(const SharedModel& model) {
   if (model.node_count == 0 || model.node_count > kMaxNodes) {
@@ -70,8 +115,17 @@ core::Result<void> validate(const SharedModel& model) {
     }
     if (!all_sane(node.parent_from_node)) return refusal(fmt::format("shared node {} has a transform of no use", i));
   }
+  if (model.curve_count > kMaxMeasuredCurves) {
+    return refusal(
+        fmt::format("the shared scene has {} measured curves: {} fit", model.curve_count, kMaxMeasuredCurves));
+  }
+  for (std::uint32_t i = 0; i < model.curve_count; ++i) {
+    if (!plausible(model.curves[i])) return refusal(fmt::format("measured curve {} is not along rising Z", i));
+  }
   for (std::uint32_t i = 0; i < model.material_count; ++i) {
-    if (auto valid = validate(model.materials[i], i); !valid) return valid;
+    if (auto valid = validate(model.materials[i], model.curve_count); !valid) {
+      return refusal(fmt::format("material {} of the shared scene: {}", i, valid.error().message));
+    }
   }
   return {};
 }
@@ -93,8 +147,8 @@ bool plausible(const RendererHeartbeat& heartbeat) { return heartbeat.leaving <=
 bool plausible(const TipState& state, const SharedModel& model) {
   return sane(state.z_m) && sane(state.tip_height_m) && sane(state.deflection_m) && sane(state.sample_deformation_m) &&
          sane(state.force_n) && all_sane(state.hand_position_m) && all_sane(state.hand_force_n) &&
-         std::isfinite(state.hand_m_per_m) && std::isfinite(state.hand_n_per_n) && known(state.servo_state) &&
-         known(state.phase) && known(state.fault) && within(state.material, model);
+         std::isfinite(state.hand_m_per_m) && std::isfinite(state.hand_n_per_n) && positive(state.slow_motion) &&
+         known(state.servo_state) && known(state.phase) && known(state.fault) && within(state.material, model);
 }
 
 bool plausible(const TipSample& sample, const SharedModel& model) {

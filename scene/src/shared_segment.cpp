@@ -129,6 +129,10 @@ std::optional<T> next(core::SpscRing<T, Capacity>& ring, std::uint64_t& refused,
 
 void RendererSide::store(const SceneTransforms& transforms) noexcept { layout_->transforms.store(transforms); }
 void RendererSide::store(const Selection& selection) noexcept { layout_->selection.store(selection); }
+void RendererSide::store(const MaterialEdit& edit, std::uint32_t material) noexcept {
+  AFM_CHECK(material < kMaxMaterials);
+  layout_->edits[material].store(edit);
+}
 void RendererSide::store(const HandScript& script) noexcept { layout_->hand_script.store(script); }
 void RendererSide::store(const RendererHeartbeat& heartbeat) noexcept { layout_->heartbeat.store(heartbeat); }
 
@@ -158,6 +162,10 @@ std::optional<Selection> ServoSide::new_selection() noexcept {
   auto selection = layout_->selection.try_load_newer(seen_selection_);
   check(selection, refused_, layout_->model);
   return selection;
+}
+
+std::optional<MaterialEdit> EditSide::new_edit(std::uint32_t material) noexcept {
+  return layout_->edits[material].try_load_newer(seen_[material]);
 }
 
 std::optional<HandScript> ServoSide::new_hand_script() noexcept {

@@ -18,11 +18,11 @@ using ::testing::HasSubstr;
 RecordedSession example() {
   RecordedSession session;
   session.material = "mica";
-  session.interaction.tip_radius_m = 50e-9;
-  session.interaction.spring_constant_n_per_m = 0.1;
-  session.interaction.sample_stiffness_n_per_m = std::numeric_limits<double>::infinity();
-  session.interaction.hamaker_j = 24.5e-21;
-  session.interaction.mean_surface_energy_j_per_m2 = 2.228e-3;
+  session.parameters.interaction.tip_radius.si = 50e-9;
+  session.parameters.interaction.spring_constant.si = 0.1;
+  session.parameters.interaction.sample_stiffness.si = std::numeric_limits<double>::infinity();
+  session.parameters.interaction.hamaker.si = 24.5e-21;
+  session.parameters.interaction.mean_surface_energy.si = 2.228e-3;
   session.rate_hz = 1000.0;
   session.realtime = true;
   session.hand_m_per_m = 3.57e6;
@@ -56,8 +56,8 @@ TEST(SessionFile, ComesBackAsItWasSaved) {
   const auto loaded = load_session(folder.file("s.afms"));
   ASSERT_TRUE(loaded.has_value()) << loaded.error().message;
   EXPECT_EQ(loaded->material, "mica");
-  EXPECT_EQ(loaded->interaction.hamaker_j, 24.5e-21);
-  EXPECT_TRUE(std::isinf(loaded->interaction.sample_stiffness_n_per_m));
+  EXPECT_EQ(loaded->parameters.interaction.hamaker.si, 24.5e-21);
+  EXPECT_TRUE(std::isinf(loaded->parameters.interaction.sample_stiffness.si));
   EXPECT_EQ(loaded->hand_n_per_n, 1.43e9);
   ASSERT_EQ(loaded->samples.size(), 1000U);
   EXPECT_EQ(loaded->samples[999].z_m, example().samples[999].z_m);
@@ -96,7 +96,7 @@ TEST(SessionFile, AlteredInAnyByteIsRefused) {
 TEST(SessionFile, OfAnotherVersionNamesBoth) {
   const support::ScratchFolder folder;
   EXPECT_THAT(error_of(folder.write("new.afms", std::string("AFMS\x09\0\0\0", 8))),
-              HasSubstr("version 9, this program reads version 1"));
+              HasSubstr("version 9, this program reads version 2"));
 }
 
 TEST(SessionFile, WithNumbersThatAreNotFiniteIsRefused) {

@@ -15,7 +15,8 @@ TEST(ServoTick, DoesNotAllocateOverACycleWithAChangeOfMaterial) {
   ServoBench bench;
   bench.arm(afm::test::kMica);
 
-  // everything a tick may meet: both jumps, a choice, a new orientation, a hang, garbage; 10,000 ticks in all
+  // everything a tick may meet: both jumps, a choice, edits of this material and another, a new orientation, a hang,
+  // garbage; 10,000 ticks in all
   afm::scene::SceneTransforms transforms;
   transforms.count = 2;
   transforms.room_from_node[1][9] = 1.0;
@@ -37,9 +38,11 @@ TEST(ServoTick, DoesNotAllocateOverACycleWithAChangeOfMaterial) {
           break;
         case 4:
           bench.aim(-0.02, 0.5);
+          bench.edit(afm::test::kMica, bench.segment.model().materials[afm::test::kGold]);
           break;
         case 5:
           bench.renderer.store(transforms);
+          bench.edit(afm::test::kGold, bench.segment.model().materials[afm::test::kMica]);
           break;
         case 6:
           bench.choose(99);

@@ -46,6 +46,13 @@ class ServoBench {
     renderer.store(scene::Selection{.material = material, .revision = ++selection});
   }
 
+  // Sends other parameters for a material and lets the builder work.
+  void edit(std::int32_t material, const scene::SharedMaterial& parameters) {
+    renderer.store(scene::MaterialEdit{.material = parameters, .revision = ++edits},
+                   static_cast<std::uint32_t>(material));
+    loop->edits().build();
+  }
+
   // Aims the hand at this height above the contact point; the button is `pressed` from then on.
   void aim(double height_m, double seconds, bool pressed = false) {
     renderer.store(scene::HandScript{.target_m = {0.0, height_m, 0.0},
@@ -94,6 +101,7 @@ class ServoBench {
   bool heartbeats = true;
   std::uint64_t frame = 0;
   std::uint32_t selection = 0;
+  std::uint32_t edits = 0;
   std::uint32_t script = 0;
 
  private:

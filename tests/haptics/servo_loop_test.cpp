@@ -27,13 +27,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 afm::physics::ApproachRetractEvents calculated(std::int32_t material) {
-  const SharedMaterial m = paper_model().materials[static_cast<std::size_t>(material)];
-  return afm::physics::approach_retract_events(
-      {.tip_radius = afm::physics::Length(m.tip_radius_m),
-       .spring_constant = afm::physics::Stiffness(m.spring_constant_n_per_m),
-       .sample_stiffness = afm::physics::Stiffness(m.sample_stiffness_n_per_m),
-       .hamaker = afm::physics::Energy(m.hamaker_j),
-       .mean_surface_energy = afm::physics::SurfaceEnergy(m.mean_surface_energy_j_per_m2)});
+  return afm::physics::approach_retract_events(paper_model().materials[static_cast<std::size_t>(material)].interaction);
 }
 
 // Material, and the highest speed of the hand's aim.
@@ -335,7 +329,8 @@ TEST(ServoLoop, RefusesARateThatNoServoCanKeep) {
 
 TEST(ServoLoop, RefusesAMaterialWithoutAForceLaw) {
   SharedModel model = paper_model();
-  model.materials[kGold].tip_radius_m = 1e6;
+  // an adhesion too weak to hold what the van der Waals force pulls in
+  model.materials[kGold].interaction.mean_surface_energy.si = 1e-6;
   auto segment = SharedSegment::create(model, 0);
   SimulatedDevice device;
   EXPECT_THAT(ServoLoop::create(*segment, device, 1000.0).error().message, testing::HasSubstr("gold"));

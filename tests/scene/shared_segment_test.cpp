@@ -12,6 +12,7 @@
 #include <limits>
 #include <random>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "support/paper_model.h"
@@ -20,6 +21,7 @@ namespace {
 
 using namespace afm::scene;
 using afm::core::FileDescriptor;
+using afm::physics::Law;
 using afm::test::paper_model;
 using testing::HasSubstr;
 
@@ -123,8 +125,8 @@ TEST(SharedSegment, IsSealedAgainstResizing) {
 TEST(SharedSegment, PrintsBothVersionsWhenTheyDiffer) {
   const SharedSegment segment = create_segment();
   overwrite(segment, kVersionOffset, std::uint32_t{kSegmentVersion + 41});
-  EXPECT_THAT(attach_error(segment), HasSubstr("version 42"));
-  EXPECT_THAT(attach_error(segment), HasSubstr("version 1"));
+  EXPECT_THAT(attach_error(segment), HasSubstr("version 43"));
+  EXPECT_THAT(attach_error(segment), HasSubstr("version 2"));
 }
 
 TEST(SharedSegment, RefusesOtherBlockSizes) {
@@ -154,6 +156,19 @@ TEST(SharedSegment, RefusesACopyThatCouldShrink) {
   EXPECT_THAT(SharedSegment::attach(std::move(unsealed)).error().message, HasSubstr("not sealed"));
 }
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A loop of ten points a branch.
+void add_measured_curve(SharedModel& model) {
+  SharedMeasuredCurve& curve = model.curves[model.curve_count++];
+  curve.approach_count = curve.retract_count = 10;
+  for (std::size_t i = 0; i < 10; ++i) {
+    curve.approach[i] = {.z_m = 1e-9 * static_cast<double>(i), .force_n = 0};
+    curve.retract[i] = {.z_m = 1e-9 * static_cast<double>(i), .force_n = -1e-10 * static_cast<double>(i)};
+  }
+}
+
 struct BadModel {
   const char* message;
   void (*spoil)(SharedModel&);
@@ -170,26 +185,83 @@ TEST_P(SharedModelWith, IsRefusedWithAReason) {
   EXPECT_THAT(created.error().message, HasSubstr(GetParam().message));
 }
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 INSTANTIATE_TEST_SUITE_P(
     Defects, SharedModelWith,
     testing::Values(BadModel{"0 nodes", [](SharedModel& m) { m.node_count = 0; }},
                     BadModel{"129 nodes", [](SharedModel& m) { m.node_count = 129; }},
                     BadModel{"0 materials", [](SharedModel& m) { m.material_count = 0; }},
-                    BadModel{"17 materials", [](SharedModel& m) { m.material_count = 17; }},
+                    BadModel{"33 materials", [](SharedModel& m) { m.material_count = 33; }},
                     BadModel{"sample is node 2", [](SharedModel& m) { m.sample_node = 2; }},
                     BadModel{"node 1 stands before its parent 1", [](SharedModel& m) { m.nodes[1].parent = 1; }},
                     BadModel{"node 0 stands before its parent 5", [](SharedModel& m) { m.nodes[0].parent = 5; }},
                     BadModel{"transform", [](SharedModel& m) { m.nodes[1].parent_from_node[3] = kNan; }},
                     BadModel{"name without an end", [](SharedModel& m) { m.nodes[0].name.fill('x'); }},
                     BadModel{"name without an end", [](SharedModel& m) { m.materials[0].name.fill('x'); }},
-                    BadModel{"material 2", [](SharedModel& m) { m.materials[2].hamaker_j = kNan; }},
-                    BadModel{"material 1", [](SharedModel& m) { m.materials[1].tip_radius_m = 0; }},
-                    BadModel{"material 0", [](SharedModel& m) { m.materials[0].spring_constant_n_per_m = -1; }},
+                    BadModel{"material 2", [](SharedModel& m) { m.materials[2].interaction.hamaker.si = kNan; }},
+                    BadModel{"material 1", [](SharedModel& m) { m.materials[1].interaction.tip_radius.si = 0; }},
+                    BadModel{"material 0", [](SharedModel& m) { m.materials[0].interaction.spring_constant.si = -1; }},
                     BadModel{"material 0",
-                             [](SharedModel& m) { m.materials[0].sample_stiffness_n_per_m = -kInfinity; }}));
+                             [](SharedModel& m) { m.materials[0].interaction.sample_stiffness.si = -kInfinity; }},
+                    BadModel{"law", [](SharedModel& m) { m.materials[0].law = static_cast<Law>(8); }},
+                    BadModel{"option", [](SharedModel& m) { m.materials[1].exact_hamaker_sphere = 2; }},
+                    BadModel{"option", [](SharedModel& m) { m.materials[1].dynamic = 7; }},
+                    BadModel{"retardation", [](SharedModel& m) { m.materials[0].retardation_wavelength_m = kNan; }},
+                    BadModel{"meniscus",
+                             [](SharedModel& m) {
+                               m.materials[0].has_meniscus = 1;
+                               m.materials[0].meniscus.relative_humidity = 1.5;
+                             }},
+                    BadModel{"resonance", [](SharedModel& m) { m.materials[0].dynamic = 1; }},
+                    BadModel{"no measured curve", [](SharedModel& m) { m.materials[0].law = Law::Measured; }},
+                    BadModel{"5 measured curves", [](SharedModel& m) { m.curve_count = 5; }},
+                    BadModel{"measured curve 0", [](SharedModel& m) { m.curve_count = 1; }},
+                    BadModel{"measured curve 0",
+                             [](SharedModel& m) {
+                               add_measured_curve(m);
+                               std::swap(m.curves[0].approach[3], m.curves[0].approach[4]);
+                             }},
+                    BadModel{"measured curve 0",
+                             [](SharedModel& m) {
+                               add_measured_curve(m);
+                               m.curves[0].retract[5].force_n = kNan;
+                             }},
+                    BadModel{"measured curve 0", [](SharedModel& m) {
+                               add_measured_curve(m);
+                               m.curves[0].retract_count = kMaxMeasuredPoints + 1;
+                             }}));
+
+TEST(SharedModel, TakesAMaterialThatWasMeasured) {
+  SharedModel model = paper_model();
+  add_measured_curve(model);
+  model.materials[1].law = Law::Measured;
+  model.materials[1].measured_curve = 0;
+  EXPECT_TRUE(validate(model));
+}
+
+TEST(SharedMaterial, KeepsTheOptionsOfItsLaw) {
+  SharedMaterial material = paper_model().materials[0];
+  EXPECT_FALSE(law_options(material).retardation_wavelength || law_options(material).meniscus);
+  material.exact_hamaker_sphere = 1;
+  material.retardation_wavelength_m = 100e-9;
+  material.has_meniscus = 1;
+  material.meniscus.relative_humidity = 0.3;
+  EXPECT_TRUE(law_options(material).exact_hamaker_sphere);
+  EXPECT_EQ(law_options(material).retardation_wavelength->si, 100e-9);
+  EXPECT_EQ(law_options(material).meniscus->relative_humidity, 0.3);
+}
+
+TEST(SharedSegment, HandsOverTheNewestEditOfEachMaterialOnce) {
+  SharedSegment segment = create_segment();
+  RendererSide renderer = segment.renderer_side();
+  EditSide edits = segment.edit_side();
+  EXPECT_FALSE(edits.new_edit(0) || edits.new_edit(2));
+  renderer.store(MaterialEdit{.material = paper_model().materials[0], .revision = 1}, 0);
+  renderer.store(MaterialEdit{.material = paper_model().materials[2], .revision = 2}, 2);
+  renderer.store(MaterialEdit{.material = paper_model().materials[0], .revision = 3}, 0);
+  EXPECT_EQ(edits.new_edit(0)->revision, 3U);
+  EXPECT_EQ(edits.new_edit(2)->revision, 2U);
+  EXPECT_FALSE(edits.new_edit(0) || edits.new_edit(1) || edits.new_edit(2));
+}
 
 TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   SharedSegment segment = create_segment();
@@ -230,10 +302,12 @@ TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
   for (int round = 0; round < 20; ++round) {
     for (auto& word : noise) word = random();
     // everything but the header and the model, which attach() has validated
-    constexpr std::size_t kConstantPart = 32768;
+    constexpr std::size_t kPage = 4096;
+    constexpr std::size_t kConstantPart = (1 + (sizeof(SharedModel) + kPage - 1) / kPage) * kPage;
     ASSERT_GT(::pwrite(segment.descriptor(), noise.data(), size - kConstantPart, kConstantPart), 0);
     RendererSide renderer = segment.renderer_side();
     ServoSide servo = segment.servo_side();
+    EditSide edits = segment.edit_side();
     for (int i = 0; i < 3; ++i) {
       const auto selection = servo.new_selection();
       EXPECT_TRUE(!selection || selection->material < 3);
@@ -242,6 +316,8 @@ TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
       servo.new_transforms();
       servo.new_hand_script();
       servo.new_heartbeat();
+      const auto edit = edits.new_edit(0);
+      EXPECT_FALSE(edit && validate(edit->material, 0));
       while (renderer.pop_sample()) {
       }
       while (renderer.pop_event()) {

@@ -19,11 +19,11 @@ inline scene::Name name_of(std::string_view text) {
 inline scene::SharedMaterial material(std::string_view name, double spring_constant, double hamaker,
                                       double surface_energy) {
   return {.name = name_of(name),
-          .tip_radius_m = 50e-9,
-          .spring_constant_n_per_m = spring_constant,
-          .sample_stiffness_n_per_m = std::numeric_limits<double>::infinity(),
-          .hamaker_j = hamaker,
-          .mean_surface_energy_j_per_m2 = surface_energy};
+          .interaction = {.tip_radius = physics::Length(50e-9),
+                          .spring_constant = physics::Stiffness(spring_constant),
+                          .sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity()),
+                          .hamaker = physics::Energy(hamaker),
+                          .mean_surface_energy = physics::SurfaceEnergy(surface_energy)}};
 }
 
 inline constexpr std::int32_t kMica = 0, kGold = 1, kSiliconNitride = 2;

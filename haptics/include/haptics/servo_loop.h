@@ -11,10 +11,10 @@
 #include "core/clock.h"
 #include "core/result.h"
 #include "haptics/device.h"
+#include "haptics/edit_builder.h"
+#include "haptics/encounter_exchange.h"
 #include "haptics/realtime.h"
 #include "haptics/safety.h"
-#include "haptics/scaling.h"
-#include "physics/force_model.h"
 #include "scene/shared_segment.h"
 
 namespace afm::haptics {
@@ -25,7 +25,8 @@ enum class ServoExit { RendererLeft, RendererDied, Stopped };
 // renderer shares but never waits for it.
 //
 // tick() and run() belong to one thread; they do not allocate, lock, log, throw or make a system call except to read
-// the clock and, in run(), to sleep. renderer_died() and stop() may be called from any thread.
+// the clock and, in run(), to sleep. renderer_died() and stop() may be called from any thread. Edits take effect as
+// long as an EditThread serves edits().
 class ServoLoop {
  public:
   // Builds the force law and the scaling of every material, so that a tick never has to. Fails on materials without
@@ -44,6 +45,9 @@ class ServoLoop {
   void renderer_died() noexcept { renderer_died_.store(true, std::memory_order_relaxed); }
   void stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
 
+  // For one thread beside the servo's (EditThread), as long as the loop is there.
+  EditBuilder& edits() noexcept { return edits_; }
+
   // What enter_realtime() granted, for the record. Before run().
   void note_grant(const RealtimeGrant& grant) noexcept;
 
@@ -51,18 +55,13 @@ class ServoLoop {
   const scene::ServoTiming& timing() const noexcept { return timing_; }
 
  private:
-  // What the hand meets with one material under the tip.
-  struct Encounter {
-    physics::ApproachRetractModel model;
-    FitScaling scaling;
-  };
-
   ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
-            std::int64_t period_ns, std::vector<Encounter> encounters);
+            std::int64_t period_ns, std::vector<std::unique_ptr<Encounter>> encounters);
 
   void read_shared_blocks(std::int64_t now_ns) noexcept;
   void turn_sample(const std::array<double, 16>& room_from_sample) noexcept;
-  void change_material() noexcept;
+  void change_encounter() noexcept;
+  void feel(std::size_t material) noexcept;
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
   void publish(std::int64_t now_ns, std::uint32_t wake_us, const physics::TipResponse& response) noexcept;
   void publish_events(std::int64_t now_ns, const physics::TipResponse& response) noexcept;
@@ -72,10 +71,11 @@ class ServoLoop {
   HapticDevice& device_;
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
-  std::vector<Encounter> encounters_;  // one per material; never resized after construction
+  EncounterExchange exchange_;
+  EditBuilder edits_;
   SafetyGovernor governor_;
 
-  Encounter* encounter_ = nullptr;  // the material under the tip, null before the first choice
+  Encounter* encounter_ = nullptr;  // of the material under the tip, null before the first choice
   scene::Selection chosen_;         // the newest choice, perhaps not in effect yet
   glm::dvec3 normal_{0.0, 1.0, 0.0};
   glm::dvec3 hand_position_m_;

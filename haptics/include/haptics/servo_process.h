@@ -78,6 +78,7 @@ class ServoThread final : public Servo {
 
   std::unique_ptr<HapticDevice> device_;
   std::unique_ptr<ServoLoop> loop_;
+  EditThread edits_;
   scene::RendererSide& side_;
   std::atomic<int> exit_status_{kRunning};
   std::thread thread_;

@@ -4,14 +4,21 @@
 #include <array>
 #include <cstdint>
 
+#include "physics/interaction.h"
+#include "physics/law.h"
+
 // The blocks of the shared scene: trivially copyable, without pointers, SI units, and each with exactly one writer, the
-// process named in its comment. A reader believes nothing unchecked: indices are compared with counts, numbers with ranges.
+// process named in its comment. A reader believes nothing unchecked: indices are compared with counts, numbers with
+// ranges.
 namespace afm::scene {
 
 inline constexpr std::uint32_t kMaxNodes = 128;
-inline constexpr std::uint32_t kMaxMaterials = 16;
+inline constexpr std::uint32_t kMaxMaterials = 32;
+inline constexpr std::uint32_t kMaxMeasuredCurves = 4;
+inline constexpr std::uint32_t kMaxMeasuredPoints = 512;  // of one branch
 inline constexpr std::uint32_t kNameLength = 48;
 inline constexpr std::uint32_t kNoParent = 0xFFFFFFFFU;
+inline constexpr std::uint32_t kNoMeasuredCurve = 0xFFFFFFFFU;
 
 using Name = std::array<char, kNameLength>;  // zero-terminated UTF-8
 
@@ -24,23 +31,44 @@ struct SharedNode {
   std::array<double, 16> parent_from_node{};  // column-major rest transform
 };
 
-// What the force law needs of one choice of tip, lever, sample and medium.
+// What is felt: one choice of tip, lever, sample and medium, and the law of force that they are given. The options of
+// the law lie flat, because nobody can check the bytes of a std::optional.
 struct SharedMaterial {
   Name name{};
-  double tip_radius_m = 0;
-  double spring_constant_n_per_m = 0;
-  double sample_stiffness_n_per_m = 0;  // may be infinite: a rigid sample
-  double hamaker_j = 0;
-  double mean_surface_energy_j_per_m2 = 0;  // sqrt(gamma_s gamma_t)
+  physics::Interaction interaction{};
+  physics::Law law = physics::Law::Paper;
+  std::uint32_t measured_curve = kNoMeasuredCurve;  // index into SharedModel::curves, of Law::Measured alone
+  std::uint32_t exact_hamaker_sphere = 0;           // 0 or 1
+  std::uint32_t has_meniscus = 0;                   // 0 or 1
+  double retardation_wavelength_m = 0;              // 0: not retarded
+  physics::Meniscus meniscus{};
+  std::uint32_t dynamic = 0;  // 1: the lever has inertia, damping and thermal noise, as the next three say
+  std::uint32_t padding = 0;
+  double resonance_hz = 0;
+  double quality_factor = 0;
+  double temperature_k = 0;
+};
+
+// A curve that an instrument recorded, to be felt: each branch along rising z.
+struct SharedCurvePoint {
+  double z_m = 0;
+  double force_n = 0;
+};
+struct SharedMeasuredCurve {
+  std::uint32_t approach_count = 0;
+  std::uint32_t retract_count = 0;
+  std::array<SharedCurvePoint, kMaxMeasuredPoints> approach{};
+  std::array<SharedCurvePoint, kMaxMeasuredPoints> retract{};
 };
 
 struct SharedModel {
   std::uint32_t node_count = 0;
   std::uint32_t material_count = 0;
   std::uint32_t sample_node = 0;  // its orientation turns the force: +z of this node is the outward normal
-  std::uint32_t padding = 0;
+  std::uint32_t curve_count = 0;
   std::array<SharedNode, kMaxNodes> nodes{};
   std::array<SharedMaterial, kMaxMaterials> materials{};
+  std::array<SharedMeasuredCurve, kMaxMeasuredCurves> curves{};
 };
 
 // ---- written by touchafm ----
@@ -58,8 +86,17 @@ struct Selection {
   std::uint32_t revision = 0;
 };
 
-// What the simulated person does with the simulated hand; ignored by real devices. A new `revision` starts a minimum-jerk
-// path of the hand's aim from where it is now to `target_m` (device frame, +y up, metres) in `duration_s`.
+// Other parameters for one material while the servo runs. `revision` grows by one with every edit, of whichever
+// material. It takes effect as a choice of a material does: once the tip is off the sample, without force, in the wait
+// state.
+struct MaterialEdit {
+  SharedMaterial material{};
+  std::uint32_t revision = 0;
+  std::uint32_t padding = 0;
+};
+
+// What the simulated person does with the simulated hand; ignored by real devices. A new `revision` starts a
+// minimum-jerk path of the hand's aim from where it is now to `target_m` (device frame, +y up, metres) in `duration_s`.
 struct HandScript {
   std::array<double, 3> target_m{};
   double duration_s = 0;
@@ -78,8 +115,8 @@ struct RendererHeartbeat {
 
 enum class ServoState : std::uint32_t { Disarmed = 0, Arming = 1, Running = 2, Fading = 3, Fault = 4 };
 
-// The latch of the force law (design, section 3) and its wait state: after start, a material change or a dropout no force
-// is given until the tip has been lifted above Z_joc.
+// The latch of the force law (design, section 3) and its wait state: after start, a material change or a dropout no
+// force is given until the tip has been lifted above Z_joc.
 enum class ContactPhase : std::uint32_t { WaitForLift = 0, Free = 1, Attached = 2 };
 
 enum class FaultCode : std::uint32_t {
@@ -107,11 +144,14 @@ struct TipState {
   std::array<double, 3> hand_force_n{};  // after the safety governor: what the device got
   double hand_m_per_m = 0;               // position scale: metres of hand per metre of Z
   double hand_n_per_n = 0;               // force scale: newtons on the hand per newton on the tip
+  double slow_motion = 1;                // seconds of the lever's physics in a second; below 1 only for a dynamic lever
   ServoState servo_state = ServoState::Disarmed;
   ContactPhase phase = ContactPhase::WaitForLift;
   FaultCode fault = FaultCode::None;
   std::int32_t material = -1;
   std::uint32_t selection_revision = 0;  // the newest Selection that took effect
+  std::uint32_t edit_revision = 0;       // the MaterialEdit that the material under the tip is felt with, 0: as loaded
+  std::uint32_t edit_refused = 0;        // the newest MaterialEdit that cannot be felt
   std::uint32_t hand_revision = 0;       // the newest HandScript that was finished
   std::uint32_t realtime = 0;            // 1: SCHED_FIFO and locked pages were granted
   std::uint32_t garbage_blocks = 0;      // shared blocks refused as out of range
@@ -126,12 +166,14 @@ struct TipSample {
   double tip_height_m = 0;
   double deflection_m = 0;
   double sample_deformation_m = 0;
-  double hand_height_m = 0;   // along the sample's normal, device frame
-  double hand_force_n = 0;    // along the sample's normal, positive away from the sample, after the governor
+  double hand_height_m = 0;  // along the sample's normal, device frame
+  double hand_force_n = 0;   // along the sample's normal, positive away from the sample, after the governor
   ServoState servo_state = ServoState::Disarmed;
   ContactPhase phase = ContactPhase::WaitForLift;
   std::int32_t material = -1;
-  std::uint32_t wake_us = 0;  // how late this tick woke
+  std::uint32_t wake_us = 0;        // how late this tick woke
+  std::uint32_t edit_revision = 0;  // as in TipState
+  std::uint32_t padding = 0;
 };
 
 enum class TipEventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2 };

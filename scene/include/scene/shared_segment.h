@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <memory>
@@ -15,15 +16,21 @@
 namespace afm::scene {
 
 // Raised whenever the meaning of a block changes; a change of a block's size is noticed by itself.
-inline constexpr std::uint32_t kSegmentVersion = 1;
+inline constexpr std::uint32_t kSegmentVersion = 2;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;
 
 struct SegmentLayout;
 
-// Counts in range, parents before children, names terminated, numbers finite, and positive where physics needs it.
+// Counts in range, parents before children, names terminated, numbers finite, materials and curves as below.
 core::Result<void> validate(const SharedModel& model);
+
+// A material that physics::validate() accepts, of a law and with options that are known; `curve_count` as in
+// SharedModel. Whether it can be felt as well, only building it can tell.
+core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count);
+
+physics::LawOptions law_options(const SharedMaterial& material);
 
 // Whether a block is worth believing: indices within counts, enumerators known, numbers finite.
 bool plausible(const SceneTransforms& transforms, const SharedModel& model);
@@ -44,6 +51,7 @@ class RendererSide {
  public:
   void store(const SceneTransforms& transforms) noexcept;
   void store(const Selection& selection) noexcept;
+  void store(const MaterialEdit& edit, std::uint32_t material) noexcept;  // material < material_count
   void store(const HandScript& script) noexcept;
   void store(const RendererHeartbeat& heartbeat) noexcept;
 
@@ -95,6 +103,20 @@ class ServoSide {
   std::uint32_t refused_ = 0;
 };
 
+// The end for whoever builds what the servo feels, one thread beside the servo's.
+class EditSide {
+ public:
+  // The newest edit of this material, once; unchecked. `material` < kMaxMaterials.
+  std::optional<MaterialEdit> new_edit(std::uint32_t material) noexcept;
+
+ private:
+  friend class SharedSegment;
+  explicit EditSide(SegmentLayout& layout) : layout_(&layout) {}
+
+  SegmentLayout* layout_;
+  std::array<std::uint64_t, kMaxMaterials> seen_{};
+};
+
 // One anonymous memory file, sealed against resizing and mapped. It has no name: a process gets it by inheriting the
 // descriptor, and it is gone when the last of them ends, in whatever way. Also serves two threads of one process.
 class SharedSegment {
@@ -112,6 +134,7 @@ class SharedSegment {
   // Call each once per process that plays the side; the segment must outlive it (moving the segment is harmless).
   RendererSide renderer_side() noexcept { return RendererSide(*layout_); }
   ServoSide servo_side() noexcept { return ServoSide(*layout_); }
+  EditSide edit_side() noexcept { return EditSide(*layout_); }
 
  private:
   struct Unmap {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "haptics/device.h"
+#include "haptics/encounter_exchange.h"
+#include "scene/shared_segment.h"
+
+namespace afm::haptics {
+
+// Makes encounters of the edits that arrive while the servo runs, and offers them to it. One thread, which is not the
+// servo's: building allocates and takes milliseconds.
+class EditBuilder {
+ public:
+  // `curves` as in SharedModel; `exchange` must outlive it.
+  EditBuilder(scene::EditSide edits, std::vector<scene::SharedMeasuredCurve> curves, const DeviceSpec& device,
+              EncounterExchange& exchange)
+      : edits_(edits), curves_(std::move(curves)), device_(device), exchange_(exchange) {}
+
+  // Builds what is new and frees what the servo has put aside. An edit that cannot be felt is logged and refused.
+  void build();
+
+  // Revision of the newest edit that cannot be felt, 0 for none. Any thread, wait-free.
+  std::uint32_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
+
+ private:
+  scene::EditSide edits_;
+  std::vector<scene::SharedMeasuredCurve> curves_;
+  DeviceSpec device_;
+  EncounterExchange& exchange_;
+  std::atomic<std::uint32_t> refused_{0};
+};
+
+// A thread that builds as long as this lives. It has the scheduling of the thread that makes it: make it before that
+// one becomes real-time.
+class EditThread {
+ public:
+  explicit EditThread(EditBuilder& builder);
+
+ private:
+  std::jthread thread_;
+};
+
+}  // namespace afm::haptics

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/edit_builder.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cstddef>
+
+#include "core/log.h"
+
+namespace afm::haptics {
+
+namespace {
+// Soon enough for a hand that turns a knob; a look costs less than a microsecond.
+constexpr auto kLookEvery = std::chrono::milliseconds(5);
+}  // namespace
+
+void EditBuilder::build() {
+  exchange_.bury();
+  for (std::size_t i = 0; i < exchange_.size(); ++i) {
+    const auto edit = edits_.new_edit(static_cast<std::uint32_t>(i));
+    if (!edit) continue;
+    auto encounter = Encounter::create(edit->material, edit->revision, curves_, device_);
+    if (encounter) {
+      exchange_.offer(i, std::move(*encounter));
+    } else {
+      core::log_line(fmt::format("the material stays as it was: {}", encounter.error().message));
+      refused_.store(edit->revision, std::memory_order_relaxed);
+    }
+  }
+}
+
+EditThread::EditThread(EditBuilder& builder)
+    : thread_([&builder](const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+          builder.build();
+          std::this_thread::sleep_for(kLookEvery);
+        }
+      }) {}
+
+}  // namespace afm::haptics

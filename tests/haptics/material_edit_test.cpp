@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/edit_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <limits>
+#include <thread>
+
+#include "servo_bench.h"
+
+namespace {
+
+using namespace afm::scene;
+using afm::test::kGold;
+using afm::test::kMica;
+using afm::test::paper_model;
+using afm::test::ServoBench;
+
+SharedMaterial mica_on_a_lever_of(double newton_per_metre) {
+  SharedMaterial mica = paper_model().materials[kMica];
+  mica.interaction.spring_constant.si = newton_per_metre;
+  return mica;
+}
+
+// Z_joc of the paper's law: F_ad/k_c on a rigid sample.
+double pull_off_m(const SharedMaterial& material) {
+  const double adhesion_n =
+      4.0 * 3.14159265358979323846 * material.interaction.tip_radius.si * material.interaction.mean_surface_energy.si;
+  return adhesion_n / material.interaction.spring_constant.si;
+}
+
+double pull_off_m(const ServoBench& bench, std::uint32_t revision) {
+  double z_m = 0;
+  for (const TipSample& sample : bench.samples) {
+    if (sample.edit_revision == revision && sample.phase == ContactPhase::Attached) z_m = std::max(z_m, sample.z_m);
+  }
+  return z_m;
+}
+
+TEST(MaterialEdit, IsFeltOnceTheForceIsReleased) {
+  ServoBench bench;
+  bench.arm(kMica);
+  bench.edit(kMica, mica_on_a_lever_of(0.2));
+  bench.run(0.1);
+  EXPECT_EQ(bench.state().edit_revision, 1U);
+  EXPECT_EQ(bench.state().edit_refused, 0U);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
+  EXPECT_EQ(bench.state().material, kMica);
+
+  bench.arm(kMica);
+  bench.move(-0.010, 0.5);
+  bench.move(0.072, 2.0);
+  ASSERT_EQ(bench.events.size(), 2U);
+  EXPECT_NEAR(bench.events[1].z_m, pull_off_m(mica_on_a_lever_of(0.2)), 1e-9 * bench.events[1].z_m);
+  EXPECT_NEAR(pull_off_m(bench, 1), bench.events[1].z_m, 0.1e-9);
+  EXPECT_NEAR(bench.state().hand_m_per_m, 0.050 / bench.events[1].z_m, 1.0);
+}
+
+TEST(MaterialEdit, TakesEffectOnlyAfterTheForceIsGone) {
+  ServoBench bench;
+  bench.arm(kMica);
+  bench.move(0.045, 0.3);
+  bench.edit(kMica, mica_on_a_lever_of(0.2));
+  while (bench.state().edit_revision == 0) {
+    bench.tick();
+    ASSERT_LT(bench.now_ns, 10'000'000'000);
+  }
+  EXPECT_EQ(bench.hand_force_n(), 0.0);
+  bench.tick();
+  EXPECT_EQ(bench.state().phase, ContactPhase::WaitForLift);
+}
+
+TEST(MaterialEdit, WaitsUntilTheTipIsOff) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  const double force_n = bench.hand_force_n();
+  bench.edit(kMica, mica_on_a_lever_of(0.2));
+  bench.run(0.3);
+  EXPECT_EQ(bench.state().edit_revision, 0U);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Running);
+  EXPECT_NEAR(bench.hand_force_n(), force_n, 1e-3);
+
+  bench.move(0.072, 0.5);
+  bench.run(0.2);
+  EXPECT_EQ(bench.state().edit_revision, 1U);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
+}
+
+TEST(MaterialEdit, OfAnotherMaterialLeavesTheHandAlone) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  SharedMaterial gold = paper_model().materials[kGold];
+  gold.interaction.spring_constant.si = 0.3;
+  bench.edit(kGold, gold);
+  bench.run(0.1);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Running);
+  EXPECT_EQ(bench.state().edit_revision, 0U);
+
+  bench.move(0.072, 0.5);
+  bench.arm(kGold);
+  EXPECT_EQ(bench.state().edit_revision, 1U);
+  EXPECT_NEAR(bench.state().hand_m_per_m, 0.050 / pull_off_m(gold), 1.0);
+}
+
+TEST(MaterialEdit, ThatCannotBeFeltIsRefusedAndChangesNothing) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  const double force_n = bench.hand_force_n();
+  SharedMaterial nonsense = mica_on_a_lever_of(std::numeric_limits<double>::quiet_NaN());
+  bench.edit(kMica, nonsense);
+  bench.run(0.01);
+  EXPECT_EQ(bench.state().edit_refused, 1U);
+  nonsense = mica_on_a_lever_of(0.1);
+  nonsense.law = static_cast<afm::physics::Law>(99);
+  nonsense.name.fill('x');
+  bench.edit(kMica, nonsense);
+  bench.run(0.01);
+  EXPECT_EQ(bench.state().edit_refused, 2U);
+  // an adhesion too weak to hold what was pulled in: valid numbers, but no law
+  nonsense = mica_on_a_lever_of(0.1);
+  nonsense.interaction.mean_surface_energy.si = 1e-6;
+  bench.edit(kMica, nonsense);
+  bench.run(0.01);
+  EXPECT_EQ(bench.state().edit_refused, 3U);
+  EXPECT_EQ(bench.state().edit_revision, 0U);
+  EXPECT_NEAR(bench.hand_force_n(), force_n, 1e-3);
+}
+
+TEST(MaterialEdit, OfAThousandInAStormTheNewestIsFelt) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  for (int i = 1; i <= 1000; ++i) {
+    bench.edit(kMica, mica_on_a_lever_of(0.05 + 0.0002 * i));
+    bench.tick();
+  }
+  EXPECT_EQ(bench.state().edit_revision, 0U);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Running);
+  bench.move(0.072, 0.5);
+  bench.run(0.2);
+  EXPECT_EQ(bench.state().edit_revision, 1000U);
+  EXPECT_NEAR(bench.state().hand_m_per_m, 0.050 / pull_off_m(mica_on_a_lever_of(0.25)), 1.0);
+
+  // and again with a tip that is free all the time, where every edit is taken as it comes
+  for (int i = 1; i <= 1000; ++i) {
+    bench.edit(kMica, mica_on_a_lever_of(0.25 - 0.0002 * i));
+    bench.tick();
+  }
+  bench.run(0.1);
+  EXPECT_EQ(bench.state().edit_revision, 2000U);
+}
+
+TEST(MaterialEdit, IsFeltByTheSuccessorOfAServoThatDied) {
+  ServoBench bench;
+  bench.arm(kMica);
+  bench.edit(kMica, mica_on_a_lever_of(0.2));
+  afm::haptics::SimulatedDevice device;
+  auto successor = afm::haptics::ServoLoop::create(bench.segment, device, 1000.0);
+  ASSERT_TRUE(successor);
+  for (int i = 0; i < 50; ++i) {
+    bench.renderer.store(RendererHeartbeat{});
+    (*successor)->tick(bench.now_ns += 1'000'000, 0);
+  }
+  EXPECT_EQ(bench.state().edit_revision, 1U);
+}
+
+// The three threads as they are in the program: one draws and edits, one builds, one ticks.
+TEST(MaterialEdit, CrossesBetweenThreads) {
+  ServoBench bench;
+  std::atomic<bool> done{false};
+  const afm::haptics::EditThread builder(bench.loop->edits());
+  std::thread servo([&] {
+    std::int64_t now_ns = 0;
+    while (!done.load()) {
+      bench.loop->tick(now_ns += 1'000'000, 0);
+      std::this_thread::yield();
+    }
+  });
+  bench.renderer.store(Selection{.material = kMica, .revision = 1});
+  std::uint32_t revision = 0;
+  while (revision < 300) {
+    bench.renderer.store(RendererHeartbeat{});
+    bench.renderer.store(MaterialEdit{.material = mica_on_a_lever_of(0.1 + 0.001 * revision), .revision = ++revision},
+                         kMica);
+    std::this_thread::yield();
+  }
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (std::chrono::steady_clock::now() < end) {
+    const auto state = bench.renderer.tip_state();
+    if (state && state->edit_revision == revision) break;
+    std::this_thread::yield();
+  }
+  done = true;
+  servo.join();
+  EXPECT_EQ(bench.state().edit_revision, revision);
+}
+
+}  // namespace
