@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/interaction.h"
 
-#include <algorithm>
 #include <limits>
-#include <string>
 
-#include "physics/quantity_text.h"
+#include "require_range.h"
 
 namespace afm::physics {
-namespace {
 
 using namespace literals;
-
-// `field` is the member's name; with blanks for underscores it is what a person reads.
-template <class Q>
-void require_range(const std::string& field, Q value, Q smallest, Q largest, const UnitList<Q>& units) {
-  // written so that NaN fails
-  if (value >= smallest && value <= largest) return;
-  std::string words = field;
-  std::replace(words.begin(), words.end(), '_', ' ');
-  throw UnphysicalValue(field, words + " " + format_quantity(value, units) + " is not within " +
-                                   format_quantity(smallest, units) + " to " + format_quantity(largest, units));
-}
-
-}  // namespace
 
 void validate(const Interaction& interaction) {
   const Stiffness infinite(std::numeric_limits<double>::infinity());
@@ -33,6 +17,9 @@ void validate(const Interaction& interaction) {
   require_range("hamaker", interaction.hamaker, 1e-24_J, 1e-16_J, kEnergyUnits);
   require_range("mean_surface_energy", interaction.mean_surface_energy, 1e-9_J_per_m2, 100_J_per_m2,
                 kSurfaceEnergyUnits);
+  const bool rigid = interaction.reduced_modulus == Pressure(std::numeric_limits<double>::infinity());
+  if (!rigid) require_range("reduced_modulus", interaction.reduced_modulus, 1_Pa, 10000_GPa, kPressureUnits);
+  require_range("atomic_distance", interaction.atomic_distance, 0.05_nm, 5_nm, kLengthUnits);
 }
 
 }  // namespace afm::physics

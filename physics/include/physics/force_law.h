@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "physics/units.h"
@@ -29,12 +30,19 @@ struct LawBranch {
 };
 
 // A law of force between tip and sample: the branch of a tip that does not touch, h falling from far away to where
-// contact begins, and the branch of one that does, from deep inside to where no contact can be held. They meet where
-// the law is single-valued (DMT, Lennard-Jones, Hertz) and need not otherwise (JKR, Maugis-Dugdale).
+// contact begins, and the branch of one that does, from deep inside to where no contact can be held. A law that is
+// single-valued in h (DMT, Lennard-Jones, Hertz) has an attached branch that goes on through contact to far away, so
+// that each branch holds the fold that ends it, however stiff the lever. Where the bodies are rigid h may stand still
+// while F falls.
 struct ForceLaw {
   LawBranch free;
   LawBranch attached;
   Length contact_gap;  // D while attached: 0, or a0 where the law keeps an atomic distance
+
+  // The potential of the law at the attached branch's last point, zero for a tip infinitely far away: with F = -dU/dh
+  // along each branch it fixes both, and so what each jump dissipates. None: the law has no potential (Hao's attached
+  // tip rests on a wall whose well nobody has given), and only its loop has an area.
+  std::optional<Energy> attached_end_potential;
 };
 
 }  // namespace afm::physics

@@ -36,8 +36,8 @@ class UnphysicalValue : public std::invalid_argument {
 };
 
 // Throws UnphysicalValue unless every value is a number within: R 0.1 nm to 1 mm, k_c 1 uN/m to 1 MN/m, k_s 1 uN/m to
-// infinity, A_H 1e-24 J to 1e-16 J, sqrt(gamma_s gamma_t) 1 nJ/m^2 to 100 J/m^2: what force microscopes are made of,
-// with room to spare.
+// infinity, A_H 1e-24 J to 1e-16 J, sqrt(gamma_s gamma_t) 1 nJ/m^2 to 100 J/m^2, E* 1 Pa to 10 TPa or infinite, z0
+// 0.05 nm to 5 nm: what force microscopes are made of, with room to spare.
 void validate(const Interaction& interaction);
 
 }  // namespace afm::physics

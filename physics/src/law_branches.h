@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "physics/force_law.h"
+
+// Parameters for branches, spread so that equal steps resolve both the atomic scale and the millimetre. They rise from
+// a branch's first point to its last.
+namespace afm::physics {
+
+// How far out a branch goes, how deep into the sample, and with what force against a wall: beyond what any lever that
+// validate() accepts reaches within a millimetre of travel.
+inline constexpr double kFarthest = 1e-3;     // m
+inline constexpr double kDeepest = 1e-3;      // m
+inline constexpr double kHardestPress = 1e3;  // N
+
+// A force and its slope dF/dh.
+struct ForceAndSlope {
+  double force;
+  double slope;
+};
+
+// Heights about `origin`: h = origin + scale sinh(s), near it even, far from it by equal factors.
+struct Heights {
+  double origin;
+  double scale;
+
+  double parameter(double above_origin) const { return std::asinh(above_origin / scale); }
+
+  // The point at s of a law that gives its force for the height above the origin, which is exact where the height
+  // itself would lose it in rounding.
+  template <class ForceAbove>
+  LawPoint point(double s, ForceAbove force_above) const {
+    const double above = scale * std::sinh(s);
+    const double dh_ds = scale * std::cosh(s);
+    const ForceAndSlope f = force_above(above);
+    return {Length(origin + above), Force(f.force), dh_ds, f.slope * dh_ds};
+  }
+
+  // From far away down to the origin.
+  template <class ForceAbove>
+  LawBranch inwards(ForceAbove force_above) const {
+    const Heights heights = *this;
+    const auto at = [heights, force_above](double s) {
+      LawPoint point = heights.point(-s, force_above);
+      point.dh_ds = -point.dh_ds;
+      point.dforce_ds = -point.dforce_ds;
+      return point;
+    };
+    return {-parameter(kFarthest), 0.0, at, {}};
+  }
+};
+
+}  // namespace afm::physics

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/lennard_jones.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace afm::physics {
+namespace {
+
+constexpr double kEightPiThirds = 8.0 * std::numbers::pi / 3.0;
+
+}  // namespace
+
+LennardJones LennardJones::from_hamaker(Energy hamaker, Length tip_radius, Length sigma) noexcept {
+  const Length z0 = sigma * std::pow(7.5, -1.0 / 6.0);
+  return {hamaker / (16.0 * std::numbers::pi * z0 * z0), tip_radius, z0};
+}
+
+Energy LennardJones::potential(Length gap) const noexcept {
+  const double x = z0_ / gap;
+  const double x2 = x * x;
+  return -kEightPiThirds * force_scale_ * z0_ * (x * (1.0 - x2 * x2 * x2 / 28.0));
+}
+
+Force LennardJones::force(Length gap) const noexcept {
+  const double x = z0_ / gap;
+  const double x2 = x * x;
+  return -kEightPiThirds * force_scale_ * (x2 * (1.0 - x2 * x2 * x2 / 4.0));
+}
+
+Stiffness LennardJones::gradient(Length gap) const noexcept {
+  const double x = z0_ / gap;
+  const double x2 = x * x;
+  return kEightPiThirds * force_scale_ / z0_ * (2.0 * x * x2 * (1.0 - x2 * x2 * x2));
+}
+
+Stiffness LennardJones::steepest_attraction() const noexcept { return gradient(std::pow(3.0, 1.0 / 6.0) * z0_); }
+
+}  // namespace afm::physics
