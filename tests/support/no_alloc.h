@@ -29,8 +29,9 @@ inline void refuse_allocation(const char* what) {
 
 }  // namespace afm::test
 
-// The plain forms reach these; the standard library's array and nothrow forms are defined by them.
-void* operator new(std::size_t size) {
+// The plain forms reach these; the standard library's array and nothrow forms are defined by them. Not inlined, because
+// gcc 12 then takes the pair of operator new and free() for a mistake.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   afm::test::refuse_allocation("operator new");
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
@@ -43,7 +44,7 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
   throw std::bad_alloc();
 }
 
-void operator delete(void* memory) noexcept {
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
   if (memory != nullptr) afm::test::refuse_allocation("operator delete");
   std::free(memory);
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <string>
 
 #include "scene/shared_blocks.h"
@@ -13,9 +14,11 @@ namespace afm::haptics {
 
 struct DeviceSpec {
   std::string name;
-  double max_force_n = 0;             // nominal peak
-  double max_continuous_force_n = 0;  // what the motors stand for ever
-  double max_stiffness_n_per_m = 0;   // stable at the servo's rate
+  double max_force_n = 0;                                              // nominal peak
+  double max_continuous_force_n = 0;                                   // what the motors stand for ever
+  double max_stiffness_n_per_m = 0;                                    // stable at the servo's rate
+  double max_slew_n_per_s = std::numeric_limits<double>::infinity();   // beyond it the driver cuts the force
+  double max_speed_m_per_s = std::numeric_limits<double>::infinity();  // likewise
   glm::dvec3 workspace_min_m{0.0};
   glm::dvec3 workspace_max_m{0.0};
   glm::dvec3 contact_point_m{0.0};  // where the hand is when the tip touches the undeformed sample (Z = 0)
@@ -24,6 +27,9 @@ struct DeviceSpec {
 // The force that the servo lets a device have at most: 2.0 N, the default of careful drivers for hands
 // (sawSensablePhantom), and less for a device whose nominal peak leaves no reserve of a tenth.
 double force_cap_n(const DeviceSpec& spec);
+
+// What a device's limits of slew and speed leave for use: a driver that sees its own limit exceeded cuts the force.
+inline constexpr double kUsableLimitShare = 0.8;
 
 // Finite and not absurdly far: what a hand's position must be before anything is computed from it.
 bool is_within_reach(const glm::dvec3& position_m) noexcept;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace afm::haptics {
+
+// How a device that is driven through HDAPI is. In every state but Ready its force output is off and the servo is told
+// that the device is not healthy.
+enum class HdapiHealth : std::uint32_t {
+  Starting,  // the scheduler has not called yet
+  Ready,
+  Calibrating,
+  NeedsInkwell,  // a person has to put the pen into the inkwell
+  WarmMotors,
+  ForceExceeded,
+  ImpulseExceeded,
+  VelocityExceeded,
+  ImplausiblePosition,  // not a number, far outside the workspace, or a leap
+  SchedulerStalled,     // no callback for HdapiDevice::kStallNs
+  ConnectionLost,
+  DeviceFault,  // and every error that has no name here
+};
+
+// The state that an error of the library (not 0) leads to.
+HdapiHealth health_after(std::uint32_t error_code) noexcept;
+
+// How long a fault must not have come again until the device counts as healthy. Empty: only a restart of the servo ends
+// it. Calibration and a stall end when their cause does and have no such time.
+std::optional<std::int64_t> recovery_ns(HdapiHealth fault) noexcept;
+
+// What is wrong and what to do, for the log: lower case, no full stop.
+std::string_view describe(HdapiHealth health) noexcept;
+
+}  // namespace afm::haptics

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+// The vendor's library of the PHANTOM Omni and Touch ("HDAPI"), which a lab installs by itself and which is found at
+// run time. Names, types and numbers are our own, made from the facts of the interface alone (x86-64 SysV, plain C): no
+// header, binary or text of the vendor is used, and none may enter this tree.
+namespace afm::haptics {
+
+using HdapiHandle = std::uint32_t;           // a device
+using HdapiSchedulerHandle = unsigned long;  // a callback that was scheduled
+using HdapiCallback = std::uint32_t (*)(void*);
+
+// The newest entry of the library's stack of errors. Returned by value in two registers.
+struct HdapiError {
+  std::uint32_t code = 0;  // 0: the stack is empty
+  std::int32_t internal_code = 0;
+  HdapiHandle device = 0;
+};
+static_assert(sizeof(HdapiError) == 12);
+
+// Those of the library's functions that TouchAFM calls. Position and force belong to the scheduler's thread and lie
+// between begin_frame() and end_frame(); properties may be asked from any thread.
+struct HdapiFunctions {
+  HdapiHandle (*init_device)(const char* name) = nullptr;  // a null name: the default device
+  void (*disable_device)(HdapiHandle device) = nullptr;
+  void (*make_current_device)(HdapiHandle device) = nullptr;
+  void (*begin_frame)(HdapiHandle device) = nullptr;
+  void (*end_frame)(HdapiHandle device) = nullptr;
+  HdapiError (*get_error)() = nullptr;
+  const char* (*get_error_string)(std::uint32_t code) = nullptr;
+  void (*enable)(std::uint32_t capability) = nullptr;
+  void (*disable)(std::uint32_t capability) = nullptr;
+  void (*get_integers)(std::uint32_t property, std::int32_t* values) = nullptr;
+  void (*get_doubles)(std::uint32_t property, double* values) = nullptr;
+  void (*set_doubles)(std::uint32_t property, const double* values) = nullptr;
+  const char* (*get_string)(std::uint32_t property) = nullptr;
+  std::uint32_t (*check_calibration)() = nullptr;
+  void (*update_calibration)(std::uint32_t style) = nullptr;
+  void (*start_scheduler)() = nullptr;
+  void (*stop_scheduler)() = nullptr;
+  void (*set_scheduler_rate)(unsigned long hz) = nullptr;
+  HdapiSchedulerHandle (*schedule_asynchronous)(HdapiCallback, void* context, std::uint16_t priority) = nullptr;
+  void (*unschedule)(HdapiSchedulerHandle callback) = nullptr;
+};
+
+// A library that was tried. `refusal` says why it was not taken: what the dynamic linker said, or which function it
+// lacks; empty for the one that was taken.
+struct LibraryAttempt {
+  std::string name;
+  std::string refusal;
+};
+
+struct HdapiSearch {
+  std::optional<HdapiFunctions> functions;
+  std::vector<LibraryAttempt> attempts;  // in order; the last one was taken if `functions` is there
+};
+
+// Loads `configured` if it is not empty, and nothing else; otherwise the first of libHD.so.3.4, libHD.so.3.0 and
+// libHD.so that can be loaded and has every function of HdapiFunctions. What was loaded stays loaded for the life of
+// the process: the driver does not survive being unloaded and loaded again (CHAI3D, CPhantomDevices). Any thread, not a
+// servo tick.
+HdapiSearch load_hdapi(const std::string& configured);
+
+}  // namespace afm::haptics

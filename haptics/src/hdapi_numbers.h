@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+// Numbers of the vendor's interface, under names of our own. Positions are millimetres, velocities mm/s, forces N; the
+// device frame is right +x, up +y, towards the user +z.
+namespace afm::haptics::hdapi {
+
+// errors
+inline constexpr std::uint32_t kWarmMotors = 0x0200;
+inline constexpr std::uint32_t kExceededForce = 0x0201;
+inline constexpr std::uint32_t kExceededForceImpulse = 0x0202;
+inline constexpr std::uint32_t kExceededVelocity = 0x0203;
+inline constexpr std::uint32_t kForceError = 0x0204;
+inline constexpr std::uint32_t kDeviceFault = 0x0300;
+inline constexpr std::uint32_t kAlreadyInitiated = 0x0301;
+inline constexpr std::uint32_t kCommunicationError = 0x0302;
+inline constexpr std::uint32_t kCommunicationSetupError = 0x0303;
+inline constexpr std::uint32_t kTimerError = 0x0304;
+inline constexpr std::uint32_t kSchedulerFull = 0x0501;
+
+// properties
+inline constexpr std::uint32_t kButtons = 0x2000;       // one integer, a bit a button
+inline constexpr std::uint32_t kPosition = 0x2050;      // three doubles
+inline constexpr std::uint32_t kModel = 0x2501;         // text
+inline constexpr std::uint32_t kSerialNumber = 0x2504;  // text
+inline constexpr std::uint32_t kMaxWorkspace = 0x2550;  // six doubles: smallest x, y, z, largest x, y, z
+inline constexpr std::uint32_t kUsableWorkspace = 0x2551;
+inline constexpr std::uint32_t kCalibrationStyle = 0x2555;  // one integer, a bit a style
+inline constexpr std::uint32_t kNominalStiffness = 0x2602;  // N/mm
+inline constexpr std::uint32_t kNominalForce = 0x2603;
+inline constexpr std::uint32_t kNominalContinuousForce = 0x2604;
+inline constexpr std::uint32_t kVelocityLimit = 0x2606;      // mm/s
+inline constexpr std::uint32_t kForceImpulseLimit = 0x2607;  // N/ms
+inline constexpr std::uint32_t kForce = 0x2700;              // three doubles
+
+// capabilities
+inline constexpr std::uint32_t kForceOutput = 0x4000;
+inline constexpr std::uint32_t kForceClamping = 0x4001;
+
+// calibration
+inline constexpr std::uint32_t kCalibrated = 0x5000;
+inline constexpr std::uint32_t kNeedsUpdate = 0x5001;
+inline constexpr std::uint32_t kNeedsManualInput = 0x5002;
+inline constexpr std::uint32_t kStyleAuto = 2;
+inline constexpr std::uint32_t kStyleInkwell = 4;
+
+inline constexpr std::uint32_t kFirstButton = 1;
+
+// scheduler
+inline constexpr std::uint32_t kContinue = 1;  // what a callback returns to be called again
+inline constexpr std::uint16_t kHighestPriority = 65535;
+inline constexpr HdapiSchedulerHandle kInvalidCallback = 0xFFFFFFFF;
+inline constexpr HdapiHandle kInvalidDevice = 0xFFFFFFFF;
+
+// More than any property's values, so that a driver that writes more than it should stays inside.
+inline constexpr int kRoomForValues = 32;
+
+}  // namespace afm::haptics::hdapi

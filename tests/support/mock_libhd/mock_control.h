@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What a test does to the mock of the vendor's haptic library. The mock is a shared library of our own that exports the
+// 36 functions of the interface and drives a stylus that exists only in memory; a test loads it as a user's library is
+// loaded and links it for these functions.
+//
+// A program that is started by a test is told by its environment: MOCK_HD_FAULT is missing, busy or uncalibrated;
+// MOCK_HD_SCRIPT names a file of lines "seconds x_mm y_mm z_mm buttons", which the stylus follows by straight paths
+// from the start of the scheduler, and rests at its end. Both imply a scheduler thread.
+extern "C" {
+
+// Everything as if the library had just been loaded, with a scheduler that runs only in mock_hd_tick(). Any scheduler
+// thread must have been stopped.
+void mock_hd_reset(void);
+
+// From the next start of the scheduler on it is a thread of 1 kHz.
+void mock_hd_use_thread(void);
+
+// One period of the scheduler, in the caller's thread: the callbacks run once if the scheduler runs and does not stall.
+void mock_hd_tick(void);
+
+void mock_hd_set_position(double x_mm, double y_mm, double z_mm);
+void mock_hd_set_buttons(int buttons);
+
+// The next `times` calls of hdInitDevice with this name (null: the default) fail with this error; with "*" any name's.
+void mock_hd_fail_init(const char* name, unsigned error, int times);
+
+// hdGetError will give this error; a device that is lost stays as it is.
+void mock_hd_push_error(unsigned error);
+
+// What hdCheckCalibration returns. hdUpdateCalibration ends a needed update.
+void mock_hd_set_calibration(unsigned status);
+
+// What hdGetDoublev gives first for this property.
+void mock_hd_set_limit(unsigned property, double value);
+
+// The scheduler's callbacks are no longer called, as if the driver hung.
+void mock_hd_stall(int stalled);
+
+// The force on the hand now, as a real driver gives it: the last one that was set, nothing while the output is off or
+// the scheduler stopped.
+void mock_hd_force(double newtons[3]);
+
+// Calls that shape the life of a device, in order: "init", "start", "stop", "unschedule", "disable_device",
+// "output_on", "output_off", "update_calibration". Null past the end.
+const char* mock_hd_call(int index);
+
+// The first use of the interface that the real library forbids, and null while there is none: a place or a force
+// outside a frame or the scheduler's thread, unpaired frames, a force that is no number, a calibration with the force
+// on, a device that is released while its scheduler runs.
+const char* mock_hd_violation(void);
+}
