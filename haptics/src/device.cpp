@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace afm::haptics {
 
@@ -11,6 +12,17 @@ constexpr double kDefaultCapN = 2.0;
 constexpr double kUsableShare = 0.9;
 constexpr double kFarthestM = 1e3;
 }  // namespace
+
+// Force and stability: vendor's sheet and CHAI3D's table.
+DeviceSpec omni_like(std::string name) {
+  return {.name = std::move(name),
+          .max_force_n = 3.3,
+          .max_continuous_force_n = 0.88,
+          .max_stiffness_n_per_m = 700.0,
+          .workspace_min_m = glm::dvec3(-0.080, -0.040, -0.035),
+          .workspace_max_m = glm::dvec3(0.080, 0.080, 0.035),
+          .contact_point_m = glm::dvec3(0.0)};
+}
 
 double force_cap_n(const DeviceSpec& spec) { return std::min(kDefaultCapN, kUsableShare * spec.max_force_n); }
 

@@ -10,25 +10,13 @@ namespace afm::haptics {
 
 namespace {
 
-// An Omni: 160 x 120 x 70 mm, of which 60 mm above and 40 mm below the contact point are for use and the uppermost
-// 20 mm are for the recoil after pull-off. Force and stability figures: vendor's sheet and CHAI3D's table.
-DeviceSpec omni_like() {
-  return {.name = "simulated hand",
-          .max_force_n = 3.3,
-          .max_continuous_force_n = 0.88,
-          .max_stiffness_n_per_m = 700.0,
-          .workspace_min_m = glm::dvec3(-0.080, -0.040, -0.035),
-          .workspace_max_m = glm::dvec3(0.080, 0.080, 0.035),
-          .contact_point_m = glm::dvec3(0.0)};
-}
-
 // 0 to 1 with no velocity or acceleration at either end (Flash & Hogan 1985).
 double minimum_jerk(double t) { return t * t * t * (10.0 + t * (6.0 * t - 15.0)); }
 
 }  // namespace
 
 SimulatedDevice::SimulatedDevice(const glm::dvec3& start_m, const HandImpedance& hand)
-    : spec_(omni_like()),
+    : spec_(omni_like("simulated hand")),
       hand_(hand),
       path_from_m_(start_m),
       path_to_m_(start_m),

@@ -24,6 +24,11 @@ struct DeviceSpec {
   glm::dvec3 contact_point_m{0.0};  // where the hand is when the tip touches the undeformed sample (Z = 0)
 };
 
+// An Omni, whose vendor's sheet most devices of this class follow: what the simulated and the recorded hand hold. 60 mm
+// above and 40 mm below the contact point are for use, the uppermost 20 mm for the recoil after pull-off. Z = 0 lies at
+// the origin.
+DeviceSpec omni_like(std::string name);
+
 // The force that the servo lets a device have at most: 2.0 N, the default of careful drivers for hands
 // (sawSensablePhantom), and less for a device whose nominal peak leaves no reserve of a tenth.
 double force_cap_n(const DeviceSpec& spec);

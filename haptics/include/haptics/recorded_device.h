@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/result.h"
+#include "haptics/device.h"
+
+namespace afm::haptics {
+
+// What one tick of a recording says of the hand.
+struct RecordedHand {
+  glm::dvec3 from_contact_m{0.0};  // device frame, from the place where Z = 0
+  bool turn_on = false;
+};
+
+// A hand that was recorded, played again one entry a read, whatever the time: the tip's force is then the same bit for
+// bit, and the hand's too if the ticks come at the same times. Its contact point is the origin. It feels nothing; after
+// the last entry it rests there with the button released.
+class RecordedDevice final : public HapticDevice {
+ public:
+  // BadInputFile if there is no entry, or one that is no number or out of reach. `name` is what the
+  // recording is called.
+  static core::Result<std::unique_ptr<RecordedDevice>> create(const std::string& name, std::vector<RecordedHand> hand);
+
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  DeviceSample read(std::int64_t now_ns) noexcept override;
+  void write(const ForceCommand& /*command*/) noexcept override {}
+
+  bool finished() const noexcept { return next_ >= hand_.size(); }
+
+ private:
+  RecordedDevice(DeviceSpec spec, std::vector<RecordedHand> hand) : spec_(std::move(spec)), hand_(std::move(hand)) {}
+
+  DeviceSpec spec_;
+  std::vector<RecordedHand> hand_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace afm::haptics

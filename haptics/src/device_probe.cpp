@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/device_probe.h"
+
+#include <fmt/core.h>
+
+#include <optional>
+#include <utility>
+
+#include "haptics/hdapi_device.h"
+#include "haptics/hdapi_library.h"
+#include "haptics/simulated_device.h"
+
+namespace afm::haptics {
+
+namespace {
+
+constexpr const char* kSimulatedHand = "simulated hand";
+
+// The dynamic linker repeats the name that it was given.
+std::string without_name(const LibraryAttempt& attempt) {
+  const std::string prefix = attempt.name + ": ";
+  return attempt.refusal.starts_with(prefix) ? attempt.refusal.substr(prefix.size()) : attempt.refusal;
+}
+
+// The library, or nothing; what was tried is added to `lines`.
+std::optional<HdapiFunctions> find_library(const ProbeSettings& settings, std::vector<ProbeLine>& lines) {
+  const HdapiSearch search = load_hdapi(settings.hd_library);
+  for (const LibraryAttempt& attempt : search.attempts) {
+    const bool taken = attempt.refusal.empty();
+    lines.push_back({"hdapi library " + attempt.name, taken, taken ? "loaded" : without_name(attempt)});
+  }
+  return search.functions;
+}
+
+std::string joined(const std::vector<ProbeLine>& lines) {
+  std::string text;
+  for (const ProbeLine& line : lines)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", line.subject, line.said);
+  return text;
+}
+
+core::Result<std::unique_ptr<HapticDevice>> open_hdapi(const ProbeSettings& settings, const core::Clock& clock,
+                                                       std::vector<ProbeLine>& lines) {
+  const auto functions = find_library(settings, lines);
+  if (!functions) {
+    return core::failure(
+        core::ErrorCategory::DeviceMissing,
+        fmt::format("no hdapi device: {}; install the device's driver, or set {} to the path of its library",
+                    joined(lines), kHdLibraryVariable));
+  }
+  auto device = HdapiDevice::open(*functions, clock, settings.hd_device);
+  if (!device) {
+    lines.push_back({"hdapi device", false, device.error().message});
+    return tl::unexpected(device.error());
+  }
+  lines.push_back({"hdapi device", true, (*device)->spec().name});
+  return std::unique_ptr<HapticDevice>(std::move(*device));
+}
+
+}  // namespace
+
+core::Result<OpenedDevice> open_device(DeviceChoice choice, const ProbeSettings& settings, const core::Clock& clock) {
+  OpenedDevice opened;
+  if (choice != DeviceChoice::Simulated) {
+    auto device = open_hdapi(settings, clock, opened.lines);
+    if (device) {
+      opened.device = std::move(*device);
+      return opened;
+    }
+    if (choice == DeviceChoice::Hdapi) return tl::unexpected(device.error());
+  }
+  opened.device = std::make_unique<SimulatedDevice>();
+  opened.lines.push_back({kSimulatedHand, true, "needs no device"});
+  return opened;
+}
+
+std::vector<ProbeLine> probe_devices(const ProbeSettings& settings) {
+  std::vector<ProbeLine> lines;
+  if (const auto functions = find_library(settings, lines)) {
+    const auto spec = HdapiDevice::query(*functions, settings.hd_device);
+    lines.push_back({"hdapi device", spec.has_value(),
+                     spec ? fmt::format("{}: {:.2g} N at most, {:.2g} N for ever, {:.0f} x {:.0f} x {:.0f} mm",
+                                        spec->name, spec->max_force_n, spec->max_continuous_force_n,
+                                        1e3 * (spec->workspace_max_m.x - spec->workspace_min_m.x),
+                                        1e3 * (spec->workspace_max_m.y - spec->workspace_min_m.y),
+                                        1e3 * (spec->workspace_max_m.z - spec->workspace_min_m.z))
+                          : spec.error().message});
+  }
+  lines.push_back({kSimulatedHand, true, "needs no device"});
+  return lines;
+}
+
+}  // namespace afm::haptics
