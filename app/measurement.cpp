@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "physics/contact.h"
@@ -50,8 +51,9 @@ core::Result<Measurement> measure(const RecordedSession& session, const scene::M
   m.title = material.title;
   m.measured = {std::abs(in->force_after_n), std::abs(out->force_before_n), in->z_m, out->z_m};
   m.calculation = {events.f_attr.si, events.f_ad.si, events.z_jtc.si, events.z_joc.si};
-  m.experiment_f_attr_n = material.experiment_f_attr.si;
-  m.experiment_f_ad_n = material.experiment_f_ad.si;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  m.experiment_f_attr_n = material.experiment_f_attr ? material.experiment_f_attr->si : kNone;
+  m.experiment_f_ad_n = material.experiment_f_ad ? material.experiment_f_ad->si : kNone;
 
   const auto first_attached =
       std::find_if(session.samples.begin(), session.samples.end(),

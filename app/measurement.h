@@ -29,7 +29,7 @@ struct Measurement {
   CycleEvents calculation;      // equations (3.4) to (3.10)
   double sampled_f_attr_n = 0;  // from the ticks alone: the first one in contact, the strongest pull of the retract
   double sampled_f_ad_n = 0;
-  double experiment_f_attr_n = 0;
+  double experiment_f_attr_n = 0;  // NaN where none is known, as are its errors
   double experiment_f_ad_n = 0;
 
   CycleEvents error_vs_calculation() const;  // relative

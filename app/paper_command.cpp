@@ -18,21 +18,27 @@ namespace afm::app {
 core::Result<void> write_paper(const PaperOptions& options) {
   const auto library = scene::load_materials(options.materials_file);
   if (!library) return tl::unexpected(library.error());
+  const auto samples = library->only(scene::kPaperMaterials);
+  if (!samples) {
+    return core::failure(core::ErrorCategory::BadInputFile,
+                         fmt::format("material file {} lacks a sample of the paper: {}", options.materials_file,
+                                     samples.error().message));
+  }
   MeasuredEvents measured;
   if (!options.summary_file.empty()) {
     auto loaded = load_measured_events(options.summary_file);
     if (!loaded) return tl::unexpected(loaded.error());
     measured = std::move(*loaded);
   }
-  const auto tables = paper_tables(*library, measured);
+  const auto tables = paper_tables(*samples, measured);
   if (!tables) return tl::unexpected(tables.error());
 
   const std::array<std::pair<const char*, std::string>, 6> files{{{"paper.md", paper_markdown(*tables)},
                                                                   {"paper.json", paper_json(*tables)},
                                                                   {"table1.csv", table1_csv(*tables)},
                                                                   {"table2.csv", table2_csv(*tables)},
-                                                                  {"fig2.svg", figure2_svg(library->materials.front())},
-                                                                  {"fig5e.svg", figure5e_svg(*library)}}};
+                                                                  {"fig2.svg", figure2_svg(samples->materials.front())},
+                                                                  {"fig5e.svg", figure5e_svg(*samples)}}};
   auto folder = OutputFolder::open(options.out);
   if (!folder) return tl::unexpected(folder.error());
   for (const auto& [name, bytes] : files) {

@@ -213,7 +213,14 @@ core::Result<PaperTables> paper_tables(const scene::MaterialLibrary& library, co
     cell.printed = row.calculation;
     cell.exact = exact_si(events[row.material], row.quantity) * kNewtons;
     cell.measured = measured_in(measured, row.material, row.quantity, kNewtons);
-    cell.experiment = (row.quantity == "F_attr" ? entry.experiment_f_attr : entry.experiment_f_ad).si * kNewtons;
+    const auto& experiment = row.quantity == "F_attr" ? entry.experiment_f_attr : entry.experiment_f_ad;
+    if (!experiment) {
+      return core::failure(
+          core::ErrorCategory::BadInputFile,
+          fmt::format("the material file lacks the experiments of \"{}\", which the paper's Table 2 holds",
+                      row.material));
+    }
+    cell.experiment = experiment->si * kNewtons;
     cell.printed_simulation = row.simulation;
     cell.erratum = row.erratum;
     tables.table2.push_back(std::move(cell));

@@ -2,7 +2,9 @@
 #include "app/stage_setup.h"
 
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "app/frame_builder.h"
 
@@ -17,9 +19,28 @@ render::RendererOptions Stage::renderer_options(std::uint32_t eye_width) const {
   return options;
 }
 
+namespace {
+
+// Those that were asked for; else all of the user's own file, or the paper's three.
+core::Result<scene::MaterialLibrary> shown_materials(const StageFiles& files) {
+  auto library = scene::load_materials(files.assets_dir + "/materials.toml");
+  if (!library) return library;
+  std::vector<std::string> names = files.shown;
+  if (!files.materials.empty()) {
+    auto own = scene::load_materials(files.materials);
+    if (!own) return own;
+    if (names.empty()) {
+      for (const scene::MaterialEntry& entry : own->materials) names.push_back(entry.name);
+    }
+    library->add(std::move(*own));
+  }
+  return library->only(names.empty() ? std::span<const std::string>(scene::kPaperMaterials) : names);
+}
+
+}  // namespace
+
 core::Result<Stage> load_stage(const StageFiles& files) {
-  auto materials =
-      scene::load_materials(files.materials.empty() ? files.assets_dir + "/materials.toml" : files.materials);
+  auto materials = shown_materials(files);
   if (!materials) return tl::unexpected(materials.error());
   auto wall = scene::load_wall(files.wall.empty() ? files.assets_dir + "/walls/powerwall.toml" : files.wall);
   if (!wall) return tl::unexpected(wall.error());
@@ -39,7 +60,7 @@ void add_stage_options(CLI::App& command, StageFiles& files, const CommandContex
       ->type_name("FILE");
   command
       .add_option("--materials", files.materials,
-                  "material file (TOML); default: mica, gold and silicon nitride of the paper")
+                  "material file (TOML) of your own, shown instead of mica, gold and silicon nitride of the paper")
       ->type_name("FILE");
   command.add_option("--assets", files.assets_dir, "folder of the models, walls and materials")->type_name("DIR");
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "app/command.h"
 #include "app/wall_scene.h"
@@ -18,8 +19,9 @@ namespace afm::app {
 // The files that a picture of the wall is made of.
 struct StageFiles {
   std::string assets_dir;
-  std::string wall;       // empty: the paper's wall in the assets
-  std::string materials;  // empty: the paper's three in the assets
+  std::string wall;                // empty: the paper's wall in the assets
+  std::string materials;           // a file of the user's own; empty: none
+  std::vector<std::string> shown;  // names; empty: those of the user's file, or the paper's three
 };
 
 // All that is loaded before anything moves.

@@ -8,139 +8,170 @@
 #include <array>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 
-#include "physics/force_model.h"
+#include "named_entries.h"
 #include "physics/quantity_text.h"
 #include "scene/shared_blocks.h"
+#include "sourced_table.h"
 #include "toml_fault.h"
 
 namespace afm::scene {
 namespace {
 
-constexpr std::array<std::string_view, 5> kTextKeys{"name", "title", "tip", "medium", "note"};
-constexpr std::array<std::string_view, 7> kQuantityKeys{"tip_radius",     "spring_constant",     "sample_stiffness",
-                                                        "hamaker",        "mean_surface_energy", "experiment_f_attr",
-                                                        "experiment_f_ad"};
-
-template <std::size_t Count>
-bool contains(const std::array<std::string_view, Count>& keys, std::string_view key) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
+constexpr std::array<std::string_view, 23> kKeys{"name",
+                                                 "title",
+                                                 "tip",
+                                                 "medium",
+                                                 "note",
+                                                 "look",
+                                                 "tip_radius",
+                                                 "spring_constant",
+                                                 "hamaker",
+                                                 "sample_stiffness",
+                                                 "atomic_distance",
+                                                 "mean_surface_energy",
+                                                 "work_of_adhesion",
+                                                 "reduced_modulus",
+                                                 "tip_modulus",
+                                                 "tip_poisson_ratio",
+                                                 "sample_modulus",
+                                                 "sample_poisson_ratio",
+                                                 "resonance",
+                                                 "quality_factor",
+                                                 "temperature",
+                                                 "experiment_f_attr",
+                                                 "experiment_f_ad"};
 
 // One [[material]].
 class MaterialReader {
  public:
-  explicit MaterialReader(const toml::table& table) : table_(table) {}
+  explicit MaterialReader(const toml::table& table) : table_(table, "material") {}
 
   MaterialEntry read() {
-    for (const auto& [key, node] : table_) {
-      if (contains(kTextKeys, key.str()) || contains(kQuantityKeys, key.str())) continue;
-      throw Fault{
-          node.source(), name(key.str()),
-          fmt::format("unknown key; known are {}, {}", fmt::join(kTextKeys, ", "), fmt::join(kQuantityKeys, ", "))};
-    }
-
-    entry_.name = text(table_, "name", "");
-    entry_.title = text(table_, "title", "");
-    entry_.tip = text(table_, "tip", "");
-    entry_.medium = text(table_, "medium", "");
-    if (table_.contains("note")) entry_.note = text(table_, "note", "");
+    table_.refuse_keys_other_than(kKeys);
+    entry_.name = table_.text("name");
+    entry_.title = table_.text("title");
+    entry_.tip = table_.text("tip");
+    entry_.medium = table_.text("medium");
+    entry_.note = table_.text_or_empty("note");
+    entry_.look = table_.has("look") ? table_.text("look") : entry_.name;
     if (entry_.name.size() >= kNameLength) {
-      throw Fault{node_of("name").source(), name("name"), fmt::format("is longer than {} bytes", kNameLength - 1)};
+      table_.refuse("name", fmt::format("is longer than {} bytes", kNameLength - 1));
     }
 
     physics::Interaction& interaction = entry_.interaction;
-    interaction.tip_radius = quantity("tip_radius", physics::kLengthUnits);
-    interaction.spring_constant = quantity("spring_constant", physics::kStiffnessUnits);
-    interaction.sample_stiffness = quantity("sample_stiffness", physics::kStiffnessUnits, physics::Infinity::Allowed);
-    interaction.hamaker = quantity("hamaker", physics::kEnergyUnits);
-    interaction.mean_surface_energy = quantity("mean_surface_energy", physics::kSurfaceEnergyUnits);
+    interaction.tip_radius = table_.quantity("tip_radius", physics::kLengthUnits);
+    interaction.spring_constant = table_.quantity("spring_constant", physics::kStiffnessUnits);
+    interaction.sample_stiffness =
+        table_.quantity("sample_stiffness", physics::kStiffnessUnits, physics::Infinity::Allowed);
+    interaction.hamaker = table_.quantity("hamaker", physics::kEnergyUnits);
+    read_adhesion();
+    read_elasticity();
+    read_atomic_distance();
+    read_dynamics();
     entry_.experiment_f_attr = magnitude("experiment_f_attr");
     entry_.experiment_f_ad = magnitude("experiment_f_ad");
     check_physics();
+    entry_.sources = std::move(table_.sources());
     return std::move(entry_);
   }
 
  private:
-  static std::string name(std::string_view key) { return "material." + std::string(key); }
-
-  const toml::node& node_of(std::string_view key) const {
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) throw Fault{table_.source(), name(key), "is missing"};
-    return *node;
+  void read_adhesion() {
+    if (table_.has("mean_surface_energy") == table_.has("work_of_adhesion")) {
+      table_.refuse("mean_surface_energy", "is missing; give either it or work_of_adhesion, its double, and not both");
+    }
+    physics::SurfaceEnergy& mean = entry_.interaction.mean_surface_energy;
+    if (table_.has("mean_surface_energy")) {
+      mean = table_.quantity("mean_surface_energy", physics::kSurfaceEnergyUnits);
+    } else {
+      mean = 0.5 * table_.quantity("work_of_adhesion", physics::kSurfaceEnergyUnits);  // (3.3)
+    }
   }
 
-  // `outer` is the key of the inline table that `table` is, with its dot, or empty for the material itself.
-  static std::string text(const toml::table& table, std::string_view key, const std::string& outer) {
-    const toml::node* node = table.get(key);
-    if (node == nullptr) throw Fault{table.source(), name(outer + std::string(key)), "is missing"};
-    const auto value = node->value_exact<std::string>();
-    if (!value || value->empty()) {
-      throw Fault{node->source(), name(outer + std::string(key)), "must be a text that is not empty"};
+  // Both bodies, or E* itself, or nothing: rigid.
+  void read_elasticity() {
+    constexpr std::array<const char*, 4> kBodies{"tip_modulus", "tip_poisson_ratio", "sample_modulus",
+                                                 "sample_poisson_ratio"};
+    const auto given = std::count_if(kBodies.begin(), kBodies.end(), [&](const char* key) { return table_.has(key); });
+    if (table_.has("reduced_modulus")) {
+      if (given > 0)
+        table_.refuse("reduced_modulus", "is given beside the moduli of tip and sample; give one or other");
+      entry_.interaction.reduced_modulus = table_.quantity("reduced_modulus", physics::kPressureUnits);
+      return;
     }
-    return *value;
+    if (given == 0) return;
+    const physics::Elasticity tip{table_.quantity("tip_modulus", physics::kPressureUnits),
+                                  table_.number("tip_poisson_ratio")};
+    const physics::Elasticity sample{table_.quantity("sample_modulus", physics::kPressureUnits),
+                                     table_.number("sample_poisson_ratio")};
+    entry_.tip_elasticity = tip;
+    entry_.sample_elasticity = sample;
+    try {
+      entry_.interaction.reduced_modulus = physics::reduced_modulus(tip, sample);
+    } catch (const physics::UnphysicalValue& error) {
+      table_.refuse(error.field(), error.what());
+    }
   }
 
-  template <class Q>
-  Q quantity(std::string_view key, const physics::UnitList<Q>& units,
-             physics::Infinity infinity = physics::Infinity::Refused) {
-    const toml::node& node = node_of(key);
-    const toml::table* pair = node.as_table();
-    if (pair == nullptr) {
-      throw Fault{node.source(), name(key), "must be written { value = \"number unit\", source = \"citation\" }"};
+  void read_atomic_distance() {
+    if (table_.has("atomic_distance")) {
+      entry_.interaction.atomic_distance = table_.quantity("atomic_distance", physics::kLengthUnits);
+      return;
     }
-    const std::string outer = std::string(key) + ".";
-    for (const auto& [inner, inner_node] : *pair) {
-      if (inner.str() == "value" || inner.str() == "source") continue;
-      throw Fault{inner_node.source(), name(outer + std::string(inner.str())), "unknown key; known are value, source"};
-    }
-    const std::string value = text(*pair, "value", outer);
-    const auto parsed = physics::parse_quantity(value, units, infinity);
-    if (!parsed.value) throw Fault{pair->get("value")->source(), name(key), parsed.error};
-    entry_.sources.push_back({std::string(key), value, text(*pair, "source", outer)});
-    return *parsed.value;
+    table_.add_source({"atomic_distance",
+                       physics::format_quantity(entry_.interaction.atomic_distance, physics::kLengthUnits),
+                       "default: z0 of most solids lies within 0.2 nm to 0.4 nm", true});
   }
 
-  physics::Force magnitude(std::string_view key) {
-    const physics::Force force = quantity(key, physics::kForceUnits);
-    if (force <= physics::Force()) {
-      throw Fault{
-          node_of(key).source(), name(key),
-          fmt::format("is {}; it must be a positive magnitude", physics::format_quantity(force, physics::kForceUnits))};
+  void read_dynamics() {
+    constexpr const char* kDefault = "default: a soft lever in a liquid";
+    physics::LeverDynamics& lever = entry_.lever;
+    lever = {physics::Frequency(12e3), 2.5, physics::Temperature(298.15)};
+    if (table_.has("resonance")) {
+      lever.resonance = table_.quantity("resonance", physics::kFrequencyUnits);
+    } else {
+      table_.add_source({"resonance", "12 kHz", kDefault, true});
+    }
+    if (table_.has("quality_factor")) {
+      lever.quality_factor = table_.number("quality_factor");
+    } else {
+      table_.add_source({"quality_factor", "2.5", kDefault, true});
+    }
+    if (table_.has("temperature")) {
+      lever.temperature = table_.quantity("temperature", physics::kTemperatureUnits);
+    } else {
+      table_.add_source({"temperature", "298.15 K", "default: 25 degrees Celsius", true});
+    }
+  }
+
+  std::optional<physics::Force> magnitude(std::string_view key) {
+    const auto force = table_.optional_quantity(key, physics::kForceUnits);
+    if (force && *force <= physics::Force()) {
+      table_.refuse(key, fmt::format("is {}; it must be a positive magnitude",
+                                     physics::format_quantity(*force, physics::kForceUnits)));
     }
     return force;
   }
 
   void check_physics() const {
     try {
-      physics::ApproachRetractModel{entry_.interaction};
+      physics::validate(entry_.interaction);
+      physics::validate(entry_.lever);
     } catch (const physics::UnphysicalValue& error) {
-      throw Fault{node_of(error.field()).source(), name(error.field()), error.what()};
-    } catch (const std::invalid_argument& error) {
-      throw Fault{node_of("mean_surface_energy").source(), name("mean_surface_energy"), error.what()};
+      const bool by_work = error.field() == "mean_surface_energy" && table_.has("work_of_adhesion");
+      table_.refuse(by_work ? "work_of_adhesion" : error.field(), error.what());
     }
   }
 
-  const toml::table& table_;
+  SourcedTable table_;
   MaterialEntry entry_;
 };
 
 MaterialLibrary read_library(const toml::table& root) {
-  for (const auto& [key, node] : root) {
-    if (key.str() != "material") throw Fault{node.source(), std::string(key.str()), "unknown key; known is material"};
-  }
-  const toml::node* node = root.get("material");
-  if (node == nullptr) throw Fault{root.source(), "material", "is missing; the file needs at least one [[material]]"};
-  const toml::array* tables = node->as_array();
-  if (tables == nullptr || tables->empty()) throw Fault{node->source(), "material", "must be written [[material]]"};
-
   MaterialLibrary library;
-  for (const toml::node& element : *tables) {
-    const toml::table* table = element.as_table();
-    if (table == nullptr) throw Fault{element.source(), "material", "must be written [[material]]"};
-    if (library.materials.size() == kMaxMaterials) {
-      throw Fault{table->source(), "material", fmt::format("the file has more than {} materials", kMaxMaterials)};
-    }
+  for (const toml::table* table : tables_of(root, "material")) {
     MaterialEntry entry = MaterialReader(*table).read();
     if (library.find(entry.name) != nullptr) {
       throw Fault{table->get("name")->source(), "material.name", fmt::format("\"{}\" is used twice", entry.name)};
@@ -152,22 +183,36 @@ MaterialLibrary read_library(const toml::table& root) {
 
 }  // namespace
 
-const MaterialEntry* MaterialLibrary::find(std::string_view name) const {
-  const auto entry =
-      std::find_if(materials.begin(), materials.end(), [&](const MaterialEntry& m) { return m.name == name; });
-  return entry == materials.end() ? nullptr : &*entry;
-}
+const MaterialEntry* MaterialLibrary::find(std::string_view name) const { return find_named(materials, name); }
 
 core::Result<const MaterialEntry*> MaterialLibrary::require(std::string_view name) const {
-  if (const MaterialEntry* entry = find(name)) return entry;
-  std::string known;
-  for (const MaterialEntry& entry : materials) known += (known.empty() ? "" : ", ") + entry.name;
-  return core::failure(core::ErrorCategory::WrongUsage,
-                       fmt::format("unknown material \"{}\"; known are {}", name, known));
+  return require_named(materials, "material", name);
 }
+
+core::Result<MaterialLibrary> MaterialLibrary::only(std::span<const std::string> names) const {
+  MaterialLibrary chosen;
+  for (const std::string& name : names) {
+    const auto entry = require(name);
+    if (!entry) return tl::unexpected(entry.error());
+    chosen.materials.push_back(**entry);
+  }
+  return chosen;
+}
+
+void MaterialLibrary::add(MaterialLibrary other) { add_named(materials, std::move(other.materials)); }
 
 core::Result<MaterialLibrary> load_materials(const std::string& path) {
   return read_toml("material file", path, read_library);
+}
+
+core::Result<MaterialLibrary> load_materials(std::span<const std::string> paths) {
+  MaterialLibrary library;
+  for (const std::string& path : paths) {
+    auto loaded = load_materials(path);
+    if (!loaded) return loaded;
+    library.add(std::move(*loaded));
+  }
+  return library;
 }
 
 }  // namespace afm::scene

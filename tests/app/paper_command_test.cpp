@@ -66,7 +66,7 @@ TEST_F(PaperCommand, PutsThePrintedAndTheExactNumberBesideEachOther) {
 }
 
 TEST_F(PaperCommand, AgreesWithThePrintWhereNoErratumIsNamed) {
-  const auto library = scene::load_materials(options_.materials_file);
+  const auto library = scene::load_materials(options_.materials_file).value().only(scene::kPaperMaterials);
   ASSERT_TRUE(library.has_value());
   const auto tables = paper_tables(*library, {});
   ASSERT_TRUE(tables.has_value());

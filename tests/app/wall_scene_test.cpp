@@ -15,7 +15,8 @@ namespace {
 class WallSceneTest : public ::testing::Test {
  protected:
   const std::string assets_ = AFM_SOURCE_DIR "/assets";
-  const scene::MaterialLibrary materials_ = scene::load_materials(assets_ + "/materials.toml").value();
+  const scene::MaterialLibrary materials_ =
+      scene::load_materials(assets_ + "/materials.toml").value().only(scene::kPaperMaterials).value();
   const scene::Wall wall_ = scene::load_wall(assets_ + "/walls/powerwall.toml").value();
   const scene::Screen& screen_ = wall_.screens.front();
   const glm::dvec3 viewer_ = wall_.viewers.front().sweet_spot.position_m;

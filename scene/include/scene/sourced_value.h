@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace afm::scene {
+
+// A number as it was written ("50 nm") and where it comes from.
+struct SourcedValue {
+  std::string key;  // as files name it: "tip_radius"
+  std::string value;
+  std::string source;
+  bool estimated = false;  // not measured for this very system; to be said wherever the number is shown
+};
+
+// Null if none has the key.
+const SourcedValue* find_source(std::span<const SourcedValue> sources, std::string_view key);
+
+}  // namespace afm::scene
