@@ -15,31 +15,7 @@ namespace afm::app {
 namespace {
 
 constexpr double kPatienceSeconds = 20.0;  // beyond the time that the step itself takes
-constexpr std::int64_t kLongestFrameNs = 2'000'000'000;
 constexpr int kMostRestarts = 5;
-constexpr double kTurnM = 0.2e-9;  // Z must rise this far above its lowest before it counts as retracting
-
-const char* reason(scene::FaultCode fault) {
-  switch (fault) {
-    case scene::FaultCode::None:
-      return "no fault";
-    case scene::FaultCode::RendererDied:
-      return "the renderer died";
-    case scene::FaultCode::RendererHung:
-      return "the renderer gave no frame for 250 ms";
-    case scene::FaultCode::NotFinite:
-      return "a position or force was not finite";
-    case scene::FaultCode::LateTick:
-      return "a servo tick came more than 20 ms late";
-    case scene::FaultCode::VelocityTrip:
-      return "the hand was faster than is safe";
-    case scene::FaultCode::DeviceError:
-      return "the haptic device failed";
-    case scene::FaultCode::BadSharedData:
-      return "the shared data was damaged";
-  }
-  return "an unknown fault";
-}
 
 }  // namespace
 
@@ -114,13 +90,10 @@ core::Result<void> Demonstration::feel(std::size_t material, DemoResult& result,
   return {};
 }
 
-// A slow picture is no reason to let go of the hand, a picture that has stopped is: the loop beats while it waits for a
-// frame, but not for ever.
 void Demonstration::wait_for_renderer() {
-  const std::int64_t start_ns = clock_.now_ns();
+  const FrameBeat beat(servo_, clock_);
   while (!renderer_.ready()) {
-    const std::int64_t now_ns = clock_.now_ns();
-    if (now_ns - start_ns < kLongestFrameNs) servo_.beat(now_ns);
+    beat();
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
 }
@@ -154,25 +127,22 @@ core::Result<void> Demonstration::take_news(std::int64_t now_ns) {
   auto news = servo_.poll(now_ns);
   if (!news) return tl::unexpected(news.error());
 
-  // an event may arrive a moment before the sample of its tick
-  pending_events_.insert(pending_events_.end(), news->events.begin(), news->events.end());
-  auto event = pending_events_.begin();
-  for (const scene::TipSample& sample : news->samples) {
-    if (sample.material < 0) continue;
-    const auto material = static_cast<std::size_t>(sample.material);
-    if (current_ != material) {
-      // a new material has taken effect: a new session begins
-      begin_session(material);
-    }
-    for (; event != pending_events_.end() && event->time_ns <= sample.time_ns; ++event) {
-      session_.events.push_back(*event);
-      curves_[material].add(*event);
-    }
-    session_.samples.push_back(sample);
-    curves_[material].add(sample);
-    deepest_z_m_ = std::min(deepest_z_m_, sample.z_m);
-  }
-  pending_events_.erase(pending_events_.begin(), event);
+  const auto follow = [&](std::int32_t material) {
+    const auto index = static_cast<std::size_t>(material);
+    if (current_ != index) begin_session(index);  // a new material has taken effect
+    return index;
+  };
+  stream_.take(
+      *news,
+      [&](const scene::TipSample& sample) {
+        curves_[follow(sample.material)].add(sample);
+        session_.samples.push_back(sample);
+        deepest_z_m_ = std::min(deepest_z_m_, sample.z_m);
+      },
+      [&](const scene::TipEvent& event) {
+        curves_[follow(event.material)].add(event);
+        session_.events.push_back(event);
+      });
   return {};
 }
 
@@ -186,15 +156,7 @@ void Demonstration::begin_session(std::size_t material) {
 }
 
 Moment Demonstration::moment(const input::WandState& wand, const input::Selector::Result& pointing) const {
-  const scene::TipState& tip = servo_.tip();
-  Moment now;
-  if (tip.material >= 0) now.material = static_cast<std::size_t>(tip.material);
-  now.tip = {.z_m = tip.z_m, .deflection_m = tip.deflection_m};
-  now.force_n = tip.force_n;
-  now.servo_state = tip.servo_state;
-  now.phase = tip.phase;
-  now.retracting = tip.z_m > deepest_z_m_ + kTurnM;
-  now.realtime = tip.realtime != 0;
+  Moment now = moment_of(servo_.tip(), deepest_z_m_);
   now.hovered = pointing.hovered;
   now.wand = wand;
   now.guidance = guidance();
@@ -237,7 +199,7 @@ Moment moment_of(const RecordedSession& session, std::size_t material, std::int6
   then.force_n = sample.force_n;
   then.servo_state = sample.servo_state;
   then.phase = sample.phase;
-  then.retracting = lowest != after && sample.z_m > lowest->z_m + kTurnM;
+  then.retracting = lowest != after && is_retracting(sample.z_m, lowest->z_m);
   then.realtime = session.realtime;
   then.curves = curves;
   return then;

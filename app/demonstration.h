@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/frame_builder.h"
+#include "app/live_servo.h"
 #include "app/report.h"
 #include "app/servo_link.h"
 #include "app/simulated_person.h"
@@ -51,7 +52,7 @@ class Demonstration {
   std::optional<std::size_t> current_;  // whose session is being recorded
   RecordedSession session_;
   double deepest_z_m_ = 0;
-  std::vector<scene::TipEvent> pending_events_;
+  TipStream stream_;
   std::vector<CycleCurve> curves_;
 };
 
