@@ -10,11 +10,17 @@ layout(push_constant) uniform Compose { ComposeBlock compose; };
 layout(location = 0) out vec4 out_color;
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec2 place = (gl_FragCoord.xy - compose.placement.xy) * compose.placement.zw;
   bool right = compose.mode.x == AFM_LAYOUT_RIGHT;
-  if (compose.mode.x == AFM_LAYOUT_SIDE_BY_SIDE && pixel.x >= compose.mode.y) {
+  if (compose.mode.x == AFM_LAYOUT_SIDE_BY_SIDE && place.x >= float(compose.mode.y)) {
     right = true;
-    pixel.x -= compose.mode.y;
+    place.x -= float(compose.mode.y);
   }
-  out_color = right ? texelFetch(right_eye, pixel, 0) : texelFetch(left_eye, pixel, 0);
+  if (compose.placement.z == 1.0 && compose.placement.w == 1.0) {
+    ivec2 pixel = ivec2(place);
+    out_color = right ? texelFetch(right_eye, pixel, 0) : texelFetch(left_eye, pixel, 0);
+  } else {
+    vec2 uv = place / vec2(compose.mode.yz);
+    out_color = right ? textureLod(right_eye, uv, 0.0) : textureLod(left_eye, uv, 0.0);
+  }
 }

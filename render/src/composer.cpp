@@ -48,10 +48,6 @@ std::int32_t shader_mode(Layout layout) {
   return AFM_LAYOUT_SIDE_BY_SIDE;
 }
 
-vk::Extent2D composed_extent(Layout layout, vk::Extent2D eye) {
-  return layout == Layout::SideBySide ? vk::Extent2D{eye.width * 2, eye.height} : eye;
-}
-
 }  // namespace
 
 Composer::Composer(const Device& device, const EyeTargets& eyes)
@@ -61,21 +57,24 @@ Composer::Composer(const Device& device, const EyeTargets& eyes)
       layout_(create_pipeline_layout(device, {.sets = {&*set_layout_, 1},
                                               .push_stages = vk::ShaderStageFlagBits::eFragment,
                                               .push_size = sizeof(ComposeBlock)})),
-      pipeline_(create_pipeline(device, {.name = "compose",
-                                         .vertex_code = shaders::fullscreen_vert,
-                                         .fragment_code = shaders::compose_frag,
-                                         .layout = *layout_,
-                                         .topology = vk::PrimitiveTopology::eTriangleStrip,
-                                         .color_format = kEyeFormat})),
-      sampler_(*device, vk::SamplerCreateInfo{}),
+      pipeline_(create_pipeline_for(kEyeFormat)),
+      sampler_(*device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
+                                              .minFilter = vk::Filter::eLinear,
+                                              .addressModeU = vk::SamplerAddressMode::eClampToEdge,
+                                              .addressModeV = vk::SamplerAddressMode::eClampToEdge}),
       pool_(create_pool(device)) {
   set_ = std::move(vk::raii::DescriptorSets(
                        *device, {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &*set_layout_})
                        .front());
+  eyes_changed();
+}
+
+void Composer::eyes_changed() {
+  targets_.clear();
   for (const auto eye : scene::kEyes) {
     const vk::DescriptorImageInfo image{
-        .sampler = *sampler_, .imageView = eyes.eye(eye).view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
-    device->updateDescriptorSets(
+        .sampler = *sampler_, .imageView = eyes_.eye(eye).view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+    device_->updateDescriptorSets(
         vk::WriteDescriptorSet{
             .dstSet = *set_,
             .dstBinding = eye == scene::Eye::Left ? std::uint32_t{AFM_BINDING_TEXTURE} : AFM_BINDING_RIGHT_EYE,
@@ -86,6 +85,37 @@ Composer::Composer(const Device& device, const EyeTargets& eyes)
   }
 }
 
+vk::Extent2D Composer::extent(Layout layout) const {
+  const vk::Extent2D eye = eyes_.extent();
+  return layout == Layout::SideBySide ? vk::Extent2D{eye.width * 2, eye.height} : eye;
+}
+
+vk::raii::Pipeline Composer::create_pipeline_for(vk::Format format) const {
+  return create_pipeline(device_, {.name = "compose",
+                                   .vertex_code = shaders::fullscreen_vert,
+                                   .fragment_code = shaders::compose_frag,
+                                   .layout = *layout_,
+                                   .topology = vk::PrimitiveTopology::eTriangleStrip,
+                                   .color_format = format});
+}
+
+void Composer::record(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, Layout layout, vk::Extent2D target,
+                      const vk::Rect2D& place) const {
+  const vk::Extent2D eye = eyes_.extent();
+  const vk::Extent2D picture = extent(layout);
+  const ComposeBlock block{
+      .mode = glm::ivec4(shader_mode(layout), static_cast<int>(eye.width), static_cast<int>(eye.height), 0),
+      .placement = glm::vec4(place.offset.x, place.offset.y,
+                             static_cast<float>(picture.width) / static_cast<float>(place.extent.width),
+                             static_cast<float>(picture.height) / static_cast<float>(place.extent.height))};
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+  set_viewport(command, target);
+  command.setScissor(0, place);
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
+  command.pushConstants<ComposeBlock>(*layout_, vk::ShaderStageFlagBits::eFragment, 0, block);
+  command.draw(4, 1, 0, 0);
+}
+
 const Composer::Target& Composer::target(Layout layout) {
   const auto found = targets_.find(layout);
   if (found != targets_.end()) {
@@ -94,7 +124,7 @@ const Composer::Target& Composer::target(Layout layout) {
   Target target;
   target.image = create_image(device_, "composed",
                               {.format = kEyeFormat,
-                               .extent = composed_extent(layout, eyes_.extent()),
+                               .extent = extent(layout),
                                .usage = vk::ImageUsageFlagBits::eColorAttachment |
                                         vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eSampled});
   target.view = create_view(device_, target.image, kColor, 0, 1);
@@ -108,7 +138,6 @@ Image Composer::compose(Layout layout) {
                        vk::ImageLayout::eColorAttachmentOptimal};
   const ImageUse shown{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
                        vk::ImageLayout::eShaderReadOnlyOptimal};
-  const ComposeBlock block{.mode = glm::ivec4(shader_mode(layout), static_cast<int>(eyes_.extent().width), 0, 0)};
   device_.run_once([&](const vk::raii::CommandBuffer& command) {
     record_barriers(command, {image_barrier(*composed.image.image, kColor, discarded, drawn)});
     const vk::RenderingAttachmentInfo color{.imageView = *composed.view,
@@ -119,11 +148,7 @@ Image Composer::compose(Layout layout) {
                             .layerCount = 1,
                             .colorAttachmentCount = 1,
                             .pColorAttachments = &color});
-    command.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
-    set_viewport(command, composed.image.extent);
-    command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
-    command.pushConstants<ComposeBlock>(*layout_, vk::ShaderStageFlagBits::eFragment, 0, block);
-    command.draw(4, 1, 0, 0);
+    record(command, *pipeline_, layout, composed.image.extent, {.extent = composed.image.extent});
     command.endRendering();
     record_barriers(command, {image_barrier(*composed.image.image, kColor, drawn, shown)});
   });

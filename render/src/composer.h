@@ -9,13 +9,28 @@
 
 namespace afm::render {
 
-// Puts the two eye images into one picture, byte for byte. Every layout is a mode of one full-screen shader.
+// Puts the two eye images into one picture: byte for byte where it is drawn at its own size. Every layout is a mode of
+// one full-screen shader.
 class Composer {
  public:
   Composer(const Device& device, const EyeTargets& eyes);
 
   // The picture of the eyes' newest contents; waits for it.
   Image compose(Layout layout);
+
+  // To be called when the eye images have been made anew and nothing is in flight.
+  void eyes_changed();
+
+  // The picture's own size.
+  vk::Extent2D extent(Layout layout) const;
+
+  // For targets of another format than the eyes'.
+  vk::raii::Pipeline create_pipeline_for(vk::Format format) const;
+
+  // Draws the picture into `place` of a target of `target` pixels, scaled to fill it; inside a rendering of that
+  // target.
+  void record(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, Layout layout, vk::Extent2D target,
+              const vk::Rect2D& place) const;
 
  private:
   struct Target {

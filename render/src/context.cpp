@@ -12,8 +12,8 @@ Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
-core::Result<Context> Context::open(Validation validation) {
-  auto device = Device::open(validation);
+core::Result<Context> Context::open(Validation validation, Presentation presentation) {
+  auto device = Device::open(validation, presentation);
   if (!device) {
     return tl::unexpected(device.error());
   }

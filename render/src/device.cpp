@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "window_handle.h"
 
 namespace afm::render {
 namespace {
@@ -56,6 +57,15 @@ std::string missing_ability(const vk::raii::PhysicalDevice& physical) {
     return "it has no graphics queue";
   }
   return {};
+}
+
+bool shows_windows(const vk::raii::Instance& instance, const vk::raii::PhysicalDevice& physical) {
+  const auto extensions = physical.enumerateDeviceExtensionProperties();
+  const bool has_swapchain =
+      std::any_of(extensions.begin(), extensions.end(), [](const vk::ExtensionProperties& extension) {
+        return std::string_view(extension.extensionName) == VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+      });
+  return has_swapchain && can_present(instance, physical, *graphics_family(physical));
 }
 
 int preference(vk::PhysicalDeviceType type) {
@@ -136,7 +146,7 @@ std::vector<std::string> MessageSink::take() {
 }
 
 core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader, Validation validation,
-                                                 MessageSink& sink) {
+                                                 Presentation presentation, MessageSink& sink) {
   const bool validate = validation == Validation::On;
   if (validate && !has_validation_layer(loader)) {
     return core::failure(core::ErrorCategory::DeviceMissing,
@@ -144,7 +154,13 @@ core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader
   }
   const vk::ApplicationInfo application{.pApplicationName = "touchafm", .apiVersion = VK_API_VERSION_1_3};
   const std::array layers{kValidationLayer};
-  const std::array extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  std::vector<const char*> extensions;
+  if (presentation == Presentation::Window) {
+    extensions = surface_extensions();
+  }
+  if (validate) {
+    extensions.insert(extensions.end(), {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME});
+  }
   const std::array enabled{vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
   const auto messages = messenger_info(sink);
   const vk::ValidationFeaturesEXT features{.pNext = &messages,
@@ -155,7 +171,7 @@ core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader
       .pApplicationInfo = &application,
       .enabledLayerCount = validate ? static_cast<std::uint32_t>(layers.size()) : 0U,
       .ppEnabledLayerNames = layers.data(),
-      .enabledExtensionCount = validate ? static_cast<std::uint32_t>(extensions.size()) : 0U,
+      .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
       .ppEnabledExtensionNames = extensions.data(),
   };
   try {
@@ -180,7 +196,7 @@ DeviceDescription describe(const vk::raii::PhysicalDevice& physical) {
   return description;
 }
 
-core::Result<void> Device::choose_physical() {
+core::Result<void> Device::choose_physical(Presentation presentation) {
   auto candidates = physical_devices(instance_);
   if (!candidates) {
     return tl::unexpected(candidates.error());
@@ -189,7 +205,10 @@ core::Result<void> Device::choose_physical() {
   std::string reasons;
   for (auto& candidate : *candidates) {
     const auto properties = candidate.getProperties();
-    const std::string reason = missing_ability(candidate);
+    std::string reason = missing_ability(candidate);
+    if (reason.empty() && presentation == Presentation::Window && !shows_windows(instance_, candidate)) {
+      reason = "it cannot present to this display";
+    }
     if (!reason.empty()) {
       reasons += (reasons.empty() ? "" : "; ") + std::string(std::string_view(properties.deviceName)) + ": " + reason;
     } else if (preference(properties.deviceType) > best) {
@@ -206,28 +225,32 @@ core::Result<void> Device::choose_physical() {
   return {};
 }
 
-void Device::create_device() {
+void Device::create_device(Presentation presentation) {
+  const std::array extensions{VK_KHR_SWAPCHAIN_EXTENSION_NAME};
   const float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue_info{
       .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
   vk::PhysicalDeviceVulkan13Features features13{.synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE};
   vk::PhysicalDeviceVulkan12Features features12{.pNext = &features13, .timelineSemaphore = VK_TRUE};
   const vk::PhysicalDeviceVulkan11Features features11{.pNext = &features12, .multiview = VK_TRUE};
-  device_ =
-      vk::raii::Device(physical_, {.pNext = &features11, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue_info});
+  device_ = vk::raii::Device(physical_, {.pNext = &features11,
+                                         .queueCreateInfoCount = 1,
+                                         .pQueueCreateInfos = &queue_info,
+                                         .enabledExtensionCount = presentation == Presentation::Window ? 1U : 0U,
+                                         .ppEnabledExtensionNames = extensions.data()});
   queue_ = device_.getQueue(queue_family_, 0);
   pool_ = vk::raii::CommandPool(
       device_, {.flags = vk::CommandPoolCreateFlagBits::eTransient, .queueFamilyIndex = queue_family_});
 }
 
-core::Result<std::unique_ptr<Device>> Device::open(Validation validation) {
+core::Result<std::unique_ptr<Device>> Device::open(Validation validation, Presentation presentation) {
   auto loader = open_loader();
   if (!loader) {
     return tl::unexpected(loader.error());
   }
   std::unique_ptr<Device> device(new Device());
   device->loader_ = std::move(*loader);
-  auto instance = create_instance(*device->loader_, validation, *device->messages_);
+  auto instance = create_instance(*device->loader_, validation, presentation, *device->messages_);
   if (!instance) {
     return tl::unexpected(instance.error());
   }
@@ -236,11 +259,11 @@ core::Result<std::unique_ptr<Device>> Device::open(Validation validation) {
   if (validation == Validation::On) {
     device->messenger_ = vk::raii::DebugUtilsMessengerEXT(device->instance_, messenger_info(*device->messages_));
   }
-  if (auto chosen = device->choose_physical(); !chosen) {
+  if (auto chosen = device->choose_physical(presentation); !chosen) {
     return tl::unexpected(chosen.error());
   }
   try {
-    device->create_device();
+    device->create_device(presentation);
   } catch (const vk::SystemError& error) {
     return core::failure(core::ErrorCategory::DeviceMissing, "cannot open the Vulkan device " + device->name_ + " (" +
                                                                  error.what() + "): " + kInstallDriver);

@@ -27,17 +27,18 @@ class MessageSink {
 // The steps that Device::open() and list_devices() share; DeviceMissing with what to install.
 core::Result<std::unique_ptr<vk::raii::Context>> open_loader();
 core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader, Validation validation,
-                                                 MessageSink& sink);
+                                                 Presentation presentation, MessageSink& sink);
 core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::raii::Instance& instance);
 DeviceDescription describe(const vk::raii::PhysicalDevice& physical);
 
 // What Context hides: the Vulkan objects that every part of the renderer needs.
 class Device {
  public:
-  static core::Result<std::unique_ptr<Device>> open(Validation validation);
+  static core::Result<std::unique_ptr<Device>> open(Validation validation, Presentation presentation);
 
   const vk::raii::Device& operator*() const { return device_; }
   const vk::raii::Device* operator->() const { return &device_; }
+  const vk::raii::Instance& instance() const { return instance_; }
   const vk::raii::PhysicalDevice& physical() const { return physical_; }
   const vk::raii::Queue& queue() const { return queue_; }
   std::uint32_t queue_family() const { return queue_family_; }
@@ -64,8 +65,8 @@ class Device {
 
  private:
   Device() = default;
-  core::Result<void> choose_physical();
-  void create_device();
+  core::Result<void> choose_physical(Presentation presentation);
+  void create_device(Presentation presentation);
 
   std::unique_ptr<MessageSink> messages_ = std::make_unique<MessageSink>();
   std::unique_ptr<vk::raii::Context> loader_;

@@ -9,7 +9,7 @@ core::Result<std::vector<DeviceDescription>> list_devices() {
     return tl::unexpected(loader.error());
   }
   MessageSink sink;
-  auto instance = create_instance(**loader, Validation::Off, sink);
+  auto instance = create_instance(**loader, Validation::Off, Presentation::None, sink);
   if (!instance) {
     return tl::unexpected(instance.error());
   }

@@ -6,15 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "composer.h"
 #include "core/check.h"
-#include "eye_targets.h"
-#include "frame_slot.h"
-#include "panels.h"
 #include "readback.h"
-#include "scene_geometry.h"
-#include "scene_pass.h"
-#include "shadow_map.h"
+#include "renderer_parts.h"
 
 namespace afm::render {
 namespace {
@@ -43,47 +37,28 @@ core::Result<void> check_options(const Device& device, const RendererOptions& op
 
 }  // namespace
 
-// In the order of creation: what is declared later uses what stands before it.
-struct Renderer::Parts {
-  Parts(const Device& the_device, const scene::Scene& scene, const RendererOptions& options, PanelFonts fonts)
-      : device(the_device),
-        eyes(device, options),
-        geometry(device, scene),
-        node_count(scene.nodes.size()),
-        shadow_map(device),
-        frame_set_layout(create_frame_set_layout(device)),
-        scene_pass(device, eyes, *frame_set_layout),
-        panels(device, std::move(fonts), eyes, *frame_set_layout),
-        composer(device, eyes),
-        timeline(create_timeline(device)) {
-    for (std::size_t i = 0; i < kFramesInFlight; ++i) {
-      slots.emplace_back(device, *frame_set_layout, shadow_map, eyes.pass_count(), geometry.draws().size());
-    }
+Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, const RendererOptions& the_options,
+                       PanelFonts fonts)
+    : device(the_device),
+      options(the_options),
+      eyes(device, options),
+      geometry(device, scene),
+      node_count(scene.nodes.size()),
+      shadow_map(device),
+      frame_set_layout(create_frame_set_layout(device)),
+      scene_pass(device, eyes, *frame_set_layout),
+      panels(device, std::move(fonts), eyes, *frame_set_layout),
+      composer(device, eyes),
+      timeline(create_timeline(device)) {
+  for (std::size_t i = 0; i < kFramesInFlight; ++i) {
+    slots.emplace_back(device, *frame_set_layout, shadow_map, eyes.pass_count(), geometry.draws().size());
   }
-  Parts(const Parts&) = delete;
-  Parts& operator=(const Parts&) = delete;
-  ~Parts() { device->waitIdle(); }
+}
 
-  void wait_for(std::uint64_t value) const {
-    const vk::SemaphoreWaitInfo info{.semaphoreCount = 1, .pSemaphores = &*timeline, .pValues = &value};
-    AFM_CHECK(device->waitSemaphores(info, std::numeric_limits<std::uint64_t>::max()) == vk::Result::eSuccess);
-  }
-
-  void record(const vk::raii::CommandBuffer& command, FrameSlot& slot, std::size_t slot_index, const FrameState& frame);
-
-  const Device& device;
-  EyeTargets eyes;
-  SceneGeometry geometry;
-  std::size_t node_count;
-  ShadowMap shadow_map;
-  vk::raii::DescriptorSetLayout frame_set_layout;
-  ScenePass scene_pass;
-  Panels panels;
-  Composer composer;
-  std::vector<FrameSlot> slots;
-  vk::raii::Semaphore timeline;
-  std::uint64_t frames = 0;  // submitted
-};
+void Renderer::Parts::wait_for(std::uint64_t value) const {
+  const vk::SemaphoreWaitInfo info{.semaphoreCount = 1, .pSemaphores = &*timeline, .pValues = &value};
+  AFM_CHECK(device->waitSemaphores(info, std::numeric_limits<std::uint64_t>::max()) == vk::Result::eSuccess);
+}
 
 void Renderer::Parts::record(const vk::raii::CommandBuffer& command, FrameSlot& slot, std::size_t slot_index,
                              const FrameState& frame) {
@@ -128,6 +103,7 @@ void Renderer::render(const FrameState& frame) {
   command.end();
 
   slot.finished_at = ++parts.frames;
+  parts.eyes_drawn = true;
   const vk::CommandBufferSubmitInfo commands{.commandBuffer = *command};
   const vk::SemaphoreSubmitInfo signal{
       .semaphore = *parts.timeline, .value = slot.finished_at, .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
@@ -138,18 +114,33 @@ void Renderer::render(const FrameState& frame) {
 }
 
 Image Renderer::read_eye(scene::Eye eye) {
-  AFM_CHECK(parts_->frames > 0);
+  AFM_CHECK(parts_->eyes_drawn);
   const auto image = parts_->eyes.eye(eye);
   return read_back(parts_->device, image.image, image.layer, parts_->eyes.extent());
 }
 
 Image Renderer::read_composed(Layout layout) {
-  AFM_CHECK(parts_->frames > 0);
+  AFM_CHECK(parts_->eyes_drawn);
   return parts_->composer.compose(layout);
 }
 
 bool Renderer::ready() const {
   return parts_->timeline.getCounterValue() >= parts_->slots[parts_->frames % kFramesInFlight].finished_at;
+}
+
+core::Result<void> Renderer::resize(std::uint32_t eye_width, std::uint32_t eye_height) {
+  RendererOptions options = parts_->options;
+  options.eye_width = eye_width;
+  options.eye_height = eye_height;
+  if (auto checked = check_options(parts_->device, options); !checked) {
+    return checked;
+  }
+  parts_->device->waitIdle();
+  parts_->options = options;
+  parts_->eyes = EyeTargets(parts_->device, options);
+  parts_->composer.eyes_changed();
+  parts_->eyes_drawn = false;
+  return {};
 }
 
 void Renderer::wait() { parts_->wait_for(parts_->frames); }

@@ -14,6 +14,9 @@ class Device;
 // Off in the programs; on in every test, together with synchronisation validation.
 enum class Validation { Off, On };
 
+// Whether pictures are to be shown in a Window, which is then opened before the context, or only read back.
+enum class Presentation { None, Window };
+
 // One Vulkan device as the `devices` command lists it.
 struct DeviceDescription {
   std::string name;
@@ -30,7 +33,8 @@ class Context {
  public:
   // DeviceMissing: no loader, no driver, no device that can do what the renderer needs, or, with Validation::On, no
   // validation layer. The message says what to install.
-  static core::Result<Context> open(Validation validation = Validation::Off);
+  static core::Result<Context> open(Validation validation = Validation::Off,
+                                    Presentation presentation = Presentation::None);
 
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;

@@ -51,10 +51,15 @@ class Renderer {
   Image read_eye(scene::Eye eye);
   Image read_composed(Layout layout);
 
+  // Eye images of another size from the next frame on; waits until the device is idle. The panels keep their
+  // resolution. Failed, with nothing changed: a size that this device cannot do.
+  core::Result<void> resize(std::uint32_t eye_width, std::uint32_t eye_height);
+
   // Waits until everything submitted is done: for measuring, and before a pause.
   void wait();
 
  private:
+  friend class Presenter;
   struct Parts;
   explicit Renderer(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+namespace afm::render {
+
+// The keys that something is bound to, by their place on the keyboard.
+enum class Key {
+  Other,
+  Escape,
+  Space,
+  F1,
+  F2,
+  F11,
+  P,
+  R,
+  S,
+  T,
+  Digit1,
+  Digit2,
+  Digit3,
+  Digit4,
+  Digit5,
+  Digit6,
+  Digit7,
+  Digit8,
+  Digit9
+};
+enum class MouseButton { Left, Middle, Right };
+
+// What a person did, and where the cursor was then: pixels of the window's picture from its top left corner.
+struct WindowEvent {
+  enum class Kind { KeyDown, KeyUp, ButtonDown, ButtonUp, Scroll } kind = Kind::KeyDown;
+  Key key = Key::Other;
+  MouseButton button = MouseButton::Left;
+  double scroll = 0;  // steps of the wheel, positive away from the person
+  glm::dvec2 cursor_px{0.0};
+};
+
+struct WindowInput {
+  std::vector<WindowEvent> events;  // since the last poll, in their order
+  glm::dvec2 cursor_px{0.0};
+  bool close_requested = false;  // the window's own close button
+};
+
+struct WindowOptions {
+  std::string title;
+  std::uint32_t width = 1280;
+  std::uint32_t height = 960;
+  bool full_screen = false;
+};
+
+class WindowHandle;
+
+// A window on this machine's display, without anything in it: see Presenter. At most one at a time, on the main thread
+// only. Must outlive the Context that was opened to present to it.
+class Window {
+ public:
+  // DeviceMissing: no display, or a window system without Vulkan.
+  static core::Result<Window> open(const WindowOptions& options);
+
+  Window(Window&&) noexcept;
+  Window& operator=(Window&&) noexcept;
+  ~Window();
+
+  // What has happened since the last call. Does not wait.
+  WindowInput poll();
+
+  // Waits until something happens, but no longer than `seconds`: for a window that nobody sees.
+  void wait(double seconds);
+
+  // Of the picture, in pixels; 0 x 0 while minimised.
+  glm::uvec2 size_px() const;
+
+  bool full_screen() const;
+  void set_full_screen(bool full_screen);  // on the monitor that shows most of it
+
+  // Of the monitor; 60 where it does not say.
+  double refresh_hz() const;
+
+  WindowHandle& handle() { return *handle_; }
+
+ private:
+  explicit Window(std::unique_ptr<WindowHandle> handle);
+  std::unique_ptr<WindowHandle> handle_;
+};
+
+}  // namespace afm::render

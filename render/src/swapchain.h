@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "device.h"
+
+namespace afm::render {
+
+// 8-bit UNORM in sRGB, which takes the eyes' bytes as they are; eUndefined if the surface has none.
+vk::SurfaceFormatKHR choose_surface_format(const Device& device, vk::SurfaceKHR surface);
+
+// The images of one size that a surface shows in turn, first in first out. Made anew for every size.
+class Swapchain {
+ public:
+  // `wanted` counts where the surface leaves the size to us. `old` may be null; nothing of it is in flight, and it is
+  // not used afterwards. Throws as vkCreateSwapchainKHR fails.
+  Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
+            const Swapchain* old);
+
+  const vk::raii::SwapchainKHR& operator*() const { return swapchain_; }
+  const vk::raii::SwapchainKHR* operator->() const { return &swapchain_; }
+  vk::Extent2D extent() const { return extent_; }
+  vk::Image image(std::uint32_t index) const { return images_[index]; }
+  vk::ImageView view(std::uint32_t index) const { return *views_[index]; }
+
+  // Signalled when the picture in the image is drawn; what presents it waits for it.
+  vk::Semaphore drawn(std::uint32_t index) const { return *drawn_[index]; }
+
+ private:
+  vk::Extent2D extent_;
+  vk::raii::SwapchainKHR swapchain_{nullptr};
+  std::vector<vk::Image> images_;  // owned by the swapchain
+  std::vector<vk::raii::ImageView> views_;
+  std::vector<vk::raii::Semaphore> drawn_;
+};
+
+}  // namespace afm::render

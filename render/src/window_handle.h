@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "render/window.h"
+#include "vulkan.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+namespace afm::render {
+
+// What Window hides. Its place in memory is known to GLFW: never moved.
+class WindowHandle {
+ public:
+  static core::Result<std::unique_ptr<WindowHandle>> open(const WindowOptions& options);
+  WindowHandle(const WindowHandle&) = delete;
+  WindowHandle& operator=(const WindowHandle&) = delete;
+  ~WindowHandle();
+
+  // Throws vk::SystemError as vkCreate...SurfaceKHR fails.
+  vk::raii::SurfaceKHR create_surface(const vk::raii::Instance& instance) const;
+
+  WindowInput poll();
+  void wait(double seconds);
+  glm::uvec2 size_px() const;
+  bool full_screen() const { return glfwGetWindowMonitor(window_) != nullptr; }
+  void set_full_screen(bool full_screen);
+  double refresh_hz() const;
+
+ private:
+  WindowHandle() = default;
+  GLFWmonitor* monitor() const;
+  glm::dvec2 cursor_px() const;
+  void add(WindowEvent event);
+  static WindowHandle& of(GLFWwindow* window);
+  static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
+  static void on_button(GLFWwindow* window, int button, int action, int modifiers);
+  static void on_scroll(GLFWwindow* window, double x, double y);
+
+  GLFWwindow* window_ = nullptr;
+  std::vector<WindowEvent> events_;
+  int windowed_x_ = 0, windowed_y_ = 0, windowed_width_ = 0, windowed_height_ = 0;  // to come back from full screen
+};
+
+// Instance extensions that GLFW needs for surfaces. Empty before a window has been opened.
+std::vector<const char*> surface_extensions();
+
+// Whether this queue can present to this machine's windows.
+bool can_present(const vk::raii::Instance& instance, const vk::raii::PhysicalDevice& physical, std::uint32_t family);
+
+}  // namespace afm::render
