@@ -15,6 +15,7 @@
 #include "app/command.h"
 #include "app/whole_file.h"
 #include "core/log.h"
+#include "physics/contact.h"
 #include "physics/curve_analysis.h"
 #include "physics/quantity_text.h"
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/svg_plot.h"
+#include "physics/contact.h"
 #include "physics/force_curve.h"
 
 namespace afm::app {
@@ -127,7 +128,7 @@ SvgPlot empty_plot(std::string title) {
 // Approach dashed and retract solid, as everywhere in the program; the turn belongs to both.
 void add_cycle(SvgPlot& plot, const scene::MaterialEntry& material, std::string_view color, const Window& window) {
   const physics::ApproachRetractModel model(material.interaction);
-  const physics::Length from = 1.4 * model.events().z_joc;
+  const physics::Length from = 1.4 * model.figures().z_joc;
   const auto curve = physics::record_curve(model, {from, physics::Length(-5e-9), from / 1000.0});
   SvgLine approach{material.title + ", approach", std::string(color), LineStyle::Dashed, {}};
   SvgLine retract{material.title + ", retract", std::string(color), LineStyle::Solid, {}};

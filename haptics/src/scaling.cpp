@@ -12,7 +12,7 @@ namespace {
 constexpr double kKneeShare = 0.75;
 }
 
-core::Result<FitScaling> FitScaling::create(const physics::ApproachRetractEvents& events, const DeviceSpec& device) {
+core::Result<FitScaling> FitScaling::create(const physics::CycleFigures& figures, const DeviceSpec& device) {
   const double pull_n = force_cap_n(device);
   const double limit_n_per_m = std::min(kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
   if (!(pull_n > 0) || !(pull_n / kStrokeM <= limit_n_per_m)) {
@@ -30,7 +30,7 @@ core::Result<FitScaling> FitScaling::create(const physics::ApproachRetractEvents
                     "point",
                     1e3 * kStrokeM, device.name, 1e3 * above_m));
   }
-  return FitScaling(kStrokeM / events.z_joc.si, pull_n / events.f_ad.si, pull_n);
+  return FitScaling(kStrokeM / figures.z_joc.si, pull_n / -figures.force_before_joc.si, pull_n);
 }
 
 double FitScaling::hand_force_n(double tip_force_n) const noexcept {

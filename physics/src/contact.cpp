@@ -37,11 +37,6 @@ Force van_der_waals_attraction(const Interaction& interaction, Length gap) {
   return interaction.hamaker * interaction.tip_radius / (6.0 * gap * gap);
 }
 
-RestPose rest_pose(const Interaction& interaction, Length z, Force force) noexcept {
-  const Length deflection = -force / interaction.spring_constant;
-  return {z - deflection, deflection, -force / interaction.sample_stiffness};
-}
-
 ApproachRetractEvents approach_retract_events(const Interaction& interaction) {
   validate(interaction);
   ApproachRetractEvents events;

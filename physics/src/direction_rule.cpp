@@ -4,7 +4,7 @@
 namespace afm::physics {
 
 DirectionRuleModel::DirectionRuleModel(const Interaction& interaction)
-    : interaction_(interaction), events_(approach_retract_events(interaction)) {}
+    : tables_(build_law_tables(Law::Paper, interaction)) {}
 
 TipResponse DirectionRuleModel::step(Length z) noexcept {
   TipResponse response;
@@ -15,11 +15,11 @@ TipResponse DirectionRuleModel::step(Length z) noexcept {
     return response;
   }
 
-  const bool in_contact_region = z < events_.z_jtc;
-  const bool retracting_in_band = z < events_.z_joc && previous_z_ && z >= *previous_z_;
+  const bool in_contact_region = z < tables_->figures.z_jtc;
+  const bool retracting_in_band = z < tables_->figures.z_joc && previous_z_ && z >= *previous_z_;
   const Phase phase = in_contact_region || retracting_in_band ? Phase::Attached : Phase::Free;
 
-  const Force pull = -(events_.effective_stiffness * z);
+  const Force pull = tables_->attached.force(z);
   if (phase != phase_) {
     ModelEvent& event = response.events[response.event_count++];
     const bool to_contact = phase == Phase::Attached;
@@ -34,7 +34,7 @@ TipResponse DirectionRuleModel::step(Length z) noexcept {
 
   response.phase = phase_;
   response.force = phase_ == Phase::Attached ? pull : Force();
-  const RestPose pose = rest_pose(interaction_, z, response.force);
+  const Pose pose = pose_of(*tables_, phase_, z, response.force);
   response.tip_height = pose.tip_height;
   response.cantilever_deflection = pose.cantilever_deflection;
   response.sample_deformation = pose.sample_deformation;

@@ -35,15 +35,15 @@ std::uint64_t samples_one_way(const SweepPlan& plan) {
   return static_cast<std::uint64_t>(std::max(steps, 1.0)) + 1;
 }
 
-CurveSample row(const Interaction& interaction, Branch branch, Length z, Force force, Phase phase) {
-  const RestPose pose = rest_pose(interaction, z, force);
+CurveSample row(const LawTables& tables, Branch branch, Length z, Force force, Phase phase) {
+  const Pose pose = pose_of(tables, phase, z, force);
   return {z, force, pose.tip_height, pose.cantilever_deflection, pose.sample_deformation, branch, phase, std::nullopt};
 }
 
 template <class Model>
 ForceCurve record(Model model, const SweepPlan& plan) {
   const std::uint64_t count = sample_count(plan);
-  const ApproachRetractEvents& thresholds = model.events();
+  const CycleFigures& thresholds = model.figures();
   if (plan.from <= thresholds.z_jtc) {
     throw std::invalid_argument("a sweep from " + text(plan.from) + " begins below jump-to-contact at " +
                                 text(thresholds.z_jtc) + ": start above it");
@@ -62,15 +62,15 @@ ForceCurve record(Model model, const SweepPlan& plan) {
       const ModelEvent& event = response.events[e];
       const bool to_contact = event.kind == EventKind::JumpToContact;
       CurveSample before =
-          row(model.interaction(), branch, event.z, event.force_before, to_contact ? Phase::Free : Phase::Attached);
+          row(model.tables(), branch, event.z, event.force_before, to_contact ? Phase::Free : Phase::Attached);
       CurveSample after =
-          row(model.interaction(), branch, event.z, event.force_after, to_contact ? Phase::Attached : Phase::Free);
+          row(model.tables(), branch, event.z, event.force_after, to_contact ? Phase::Attached : Phase::Free);
       before.event = after.event = event.kind;
       curve.samples.push_back(before);
       curve.samples.push_back(after);
       curve.events.push_back(event);
     }
-    curve.samples.push_back(row(model.interaction(), branch, z, response.force, response.phase));
+    curve.samples.push_back(row(model.tables(), branch, z, response.force, response.phase));
   }
   return curve;
 }

@@ -2,33 +2,47 @@
 #include "physics/force_model.h"
 
 #include <algorithm>
-#include <stdexcept>
-
-#include "physics/quantity_text.h"
+#include <utility>
 
 namespace afm::physics {
+namespace {
 
-ApproachRetractModel::ApproachRetractModel(const Interaction& interaction)
-    : interaction_(interaction),
-      events_(approach_retract_events(interaction)),
-      attached_{Force(), -events_.effective_stiffness} {
-  if (events_.z_joc <= events_.z_jtc) {
-    throw std::invalid_argument(
-        "mean surface energy " + format_quantity(interaction.mean_surface_energy, kSurfaceEnergyUnits) +
-        " is too weak: jump-off-contact at " + format_quantity(events_.z_joc, kLengthUnits) +
-        " does not lie above jump-to-contact at " + format_quantity(events_.z_jtc, kLengthUnits));
-  }
+// Where on the straight path from `from` to `to` the threshold lies.
+double fraction_of(Length threshold, Length from, Length to) noexcept {
+  return std::clamp((threshold - from) / (to - from), 0.0, 1.0);
 }
 
-ModelEvent ApproachRetractModel::jump(EventKind kind, Length threshold, Length z) const noexcept {
-  const bool to_contact = kind == EventKind::JumpToContact;
-  ModelEvent event;
-  event.kind = kind;
-  event.z = threshold;
-  event.force_before = (to_contact ? free_ : attached_).force(threshold);
-  event.force_after = (to_contact ? attached_ : free_).force(threshold);
-  event.fraction = std::clamp((threshold - previous_z_) / (z - previous_z_), 0.0, 1.0);
-  return event;
+}  // namespace
+
+Pose pose_of(const LawTables& tables, Phase phase, Length z, Force force) noexcept {
+  const Length deflection = -force / tables.interaction.spring_constant;
+  const Length tip_height = z - deflection;
+  const Length deformation =
+      phase == Phase::Attached ? tip_height - tables.contact_gap : -force / tables.interaction.sample_stiffness;
+  return {tip_height, deflection, deformation};
+}
+
+ApproachRetractModel::ApproachRetractModel(std::shared_ptr<const LawTables> tables) : tables_(std::move(tables)) {}
+
+ApproachRetractModel::ApproachRetractModel(const Interaction& interaction)
+    : ApproachRetractModel(build_law_tables(Law::Paper, interaction)) {}
+
+void ApproachRetractModel::latch(Length z, TipResponse& response) noexcept {
+  const CycleFigures& figures = tables_->figures;
+  if (phase_ == Phase::WaitForLift) {
+    if (z > figures.z_joc) phase_ = Phase::Free;
+  } else if (!figures.hysteretic) {
+    phase_ = z <= figures.z_jtc ? Phase::Attached : Phase::Free;
+  } else if (phase_ == Phase::Free && z <= figures.z_jtc) {
+    // the path began above Z_jtc, or this would not be Free; so its lowest point is its end
+    phase_ = Phase::Attached;
+    response.events[response.event_count++] = {EventKind::JumpToContact, figures.z_jtc, figures.force_before_jtc,
+                                               figures.force_after_jtc, fraction_of(figures.z_jtc, previous_z_, z)};
+  } else if (phase_ == Phase::Attached && z >= figures.z_joc) {
+    phase_ = Phase::Free;
+    response.events[response.event_count++] = {EventKind::JumpOffContact, figures.z_joc, figures.force_before_joc,
+                                               figures.force_after_joc, fraction_of(figures.z_joc, previous_z_, z)};
+  }
 }
 
 TipResponse ApproachRetractModel::step(Length z) noexcept {
@@ -37,24 +51,14 @@ TipResponse ApproachRetractModel::step(Length z) noexcept {
     phase_ = Phase::WaitForLift;
     return response;
   }
-
-  if (phase_ == Phase::WaitForLift) {
-    if (z > events_.z_joc) phase_ = Phase::Free;
-  } else if (phase_ == Phase::Free) {
-    // the path began above Z_jtc, or this would not be Free; so its lowest point is its end
-    if (z <= events_.z_jtc) {
-      response.events[response.event_count++] = jump(EventKind::JumpToContact, events_.z_jtc, z);
-      phase_ = Phase::Attached;
-    }
-  } else if (z >= events_.z_joc) {
-    response.events[response.event_count++] = jump(EventKind::JumpOffContact, events_.z_joc, z);
-    phase_ = Phase::Free;
-  }
+  latch(z, response);
   previous_z_ = z;
 
   response.phase = phase_;
-  response.force = (phase_ == Phase::Attached ? attached_ : free_).force(z);
-  const RestPose pose = rest_pose(interaction_, z, response.force);
+  if (phase_ != Phase::WaitForLift) {
+    response.force = (phase_ == Phase::Attached ? tables_->attached : tables_->free).force(z);
+  }
+  const Pose pose = pose_of(*tables_, phase_, z, response.force);
   response.tip_height = pose.tip_height;
   response.cantilever_deflection = pose.cantilever_deflection;
   response.sample_deformation = pose.sample_deformation;

@@ -134,16 +134,6 @@ TEST(Contact, AdhesionScalesWithSurfaceEnergyAlone) {
   expect_ratio(after.z_jtc, before.z_jtc, 1.0);
 }
 
-TEST(Contact, RestPoseBalancesLeverAndSample) {
-  const Interaction interaction = mica(0.3_N_per_m);
-  for (const Force force : {-1_nN, 0_nN, 2_nN}) {
-    const RestPose pose = rest_pose(interaction, 4_nm, force);
-    EXPECT_DOUBLE_EQ((interaction.spring_constant * pose.cantilever_deflection).si, -force.si);
-    EXPECT_DOUBLE_EQ((interaction.sample_stiffness * pose.sample_deformation).si, -force.si);
-    EXPECT_DOUBLE_EQ((pose.tip_height + pose.cantilever_deflection).si, 4e-9);
-  }
-}
-
 std::string refusal(const Interaction& interaction, const std::string& field) {
   try {
     validate(interaction);

@@ -63,14 +63,14 @@ class Step : public testing::TestWithParam<double> {};
 TEST_P(Step, DoesNotChangeExtremesAndLoopEnergy) {
   for (const Interaction& interaction : {kMica, kSoft}) {
     const ApproachRetractModel model(interaction);
-    const auto& events = model.events();
-    const auto curve = record_curve(model, {1.1 * events.z_joc, -5_nm, Length(GetParam() * 1e-9)});
+    const CycleFigures& figures = model.figures();
+    const auto curve = record_curve(model, {1.1 * figures.z_joc, -5_nm, Length(GetParam() * 1e-9)});
     const CurveSummary summary = summarise(curve.samples);
-    EXPECT_NEAR(summary.approach.force / events.f_attr, -1.0, 1e-12);
-    EXPECT_NEAR(summary.approach.z / events.z_jtc, 1.0, 1e-12);
-    EXPECT_NEAR(summary.retract.force / events.f_ad, -1.0, 1e-12);
-    EXPECT_NEAR(summary.retract.z / events.z_joc, 1.0, 1e-12);
-    EXPECT_NEAR(summary.loop_energy / events.loop_energy, 1.0, 1e-9);
+    EXPECT_NEAR(summary.approach.force / figures.force_after_jtc, 1.0, 1e-12);
+    EXPECT_NEAR(summary.approach.z / figures.z_jtc, 1.0, 1e-12);
+    EXPECT_NEAR(summary.retract.force / figures.force_before_joc, 1.0, 1e-12);
+    EXPECT_NEAR(summary.retract.z / figures.z_joc, 1.0, 1e-12);
+    EXPECT_NEAR(summary.loop_energy / figures.loop_energy, 1.0, 1e-9);
     EXPECT_EQ(curve.events.size(), 2U);
   }
 }
@@ -120,7 +120,7 @@ TEST(ForceCurve, OfTheDirectionRuleLooksRightAndEndsOneStepEarly) {
   ASSERT_EQ(curve.events.size(), 2U);
   // its jumps lie at samples, so its extremes fall short: the defect of the paper's simulation column
   const CurveSummary summary = summarise(curve.samples);
-  EXPECT_LT(abs(summary.approach.force), rule.events().f_attr);
+  EXPECT_LT(abs(summary.approach.force), abs(rule.figures().force_after_jtc));
 }
 
 }  // namespace

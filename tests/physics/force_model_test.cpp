@@ -23,13 +23,13 @@ const Interaction kSoft{50_nm, 0.1_N_per_m, 0.2_N_per_m, 24.5_zJ, 2.228_mJ_per_m
 
 ApproachRetractModel lifted(const Interaction& interaction) {
   ApproachRetractModel model(interaction);
-  model.step(2.0 * model.events().z_joc);
+  model.step(2.0 * model.figures().z_joc);
   return model;
 }
 
 TEST(ApproachRetractModel, GivesNoForceBeforeTheTipWasLifted) {
   ApproachRetractModel model(kMica);
-  for (const Length z : {-3_nm, 1_nm, 10_nm, 13.99_nm, model.events().z_joc, 2_nm, -1_nm}) {
+  for (const Length z : {-3_nm, 1_nm, 10_nm, 13.99_nm, model.figures().z_joc, 2_nm, -1_nm}) {
     const TipResponse response = model.step(z);
     EXPECT_EQ(response.force, 0_nN);
     EXPECT_EQ(response.phase, Phase::WaitForLift);
@@ -75,26 +75,26 @@ TEST(JumpToContact, HappensBeforeTouch) {
   EXPECT_EQ(response.events[0].kind, EventKind::JumpToContact);
   EXPECT_GT(response.events[0].z, 0_nm);
   EXPECT_EQ(response.events[0].force_before, 0_nN);
-  EXPECT_EQ(response.events[0].force_after, -model.events().f_attr);
+  EXPECT_EQ(response.events[0].force_after, model.figures().force_after_jtc);
   EXPECT_EQ(response.phase, Phase::Attached);
 }
 
 TEST(JumpToContact, HappensAtItsThresholdAndNotAbove) {
   ApproachRetractModel model = lifted(kMica);
-  const Length z_jtc = model.events().z_jtc;
+  const Length z_jtc = model.figures().z_jtc;
   EXPECT_EQ(model.step(Length(std::nextafter(z_jtc.si, 1.0))).event_count, 0U);
   EXPECT_EQ(model.step(z_jtc).event_count, 1U);
 }
 
 TEST(JumpOffContact, HappensAtItsThresholdAndNotBelow) {
   ApproachRetractModel model = lifted(kMica);
-  const Length z_joc = model.events().z_joc;
+  const Length z_joc = model.figures().z_joc;
   model.step(0_nm);
   EXPECT_EQ(model.step(Length(std::nextafter(z_joc.si, 0.0))).event_count, 0U);
   const TipResponse response = model.step(z_joc);
   ASSERT_EQ(response.event_count, 1U);
   EXPECT_EQ(response.events[0].kind, EventKind::JumpOffContact);
-  EXPECT_NEAR(response.events[0].force_before / model.events().f_ad, -1.0, 1e-15);
+  EXPECT_EQ(response.events[0].force_before, model.figures().force_before_joc);
   EXPECT_EQ(response.events[0].force_after, 0_nN);
   EXPECT_EQ(response.force, 0_nN);
 }
@@ -130,6 +130,18 @@ TEST(ApproachRetractModel, SharesDeflectionBetweenLeverAndSample) {
 TEST(ApproachRetractModel, KeepsTheTipOnARigidSurface) {
   ApproachRetractModel model = lifted(kMica);
   for (const Length z : {1_nm, 10_nm, -4_nm}) EXPECT_NEAR(model.step(z).tip_height.si, 0.0, 1e-23);
+}
+
+TEST(Pose, BalancesLeverAndSample) {
+  const auto tables = build_law_tables(Law::Paper, kSoft);
+  for (const Force force : {-1_nN, 0_nN, 2_nN}) {
+    const Pose free = pose_of(*tables, Phase::Free, 4_nm, force);
+    EXPECT_DOUBLE_EQ((kSoft.spring_constant * free.cantilever_deflection).si, -force.si);
+    EXPECT_DOUBLE_EQ((kSoft.sample_stiffness * free.sample_deformation).si, -force.si);
+    EXPECT_DOUBLE_EQ((free.tip_height + free.cantilever_deflection).si, 4e-9);
+    // in contact whatever is not lever and gap is sample
+    EXPECT_EQ(pose_of(*tables, Phase::Attached, 4_nm, force).sample_deformation, free.tip_height);
+  }
 }
 
 TEST(ApproachRetractModel, HangsStraightWhileFree) {
@@ -177,11 +189,11 @@ TEST_P(SampleRate, DoesNotChangeTheJumps) {
   }
   ASSERT_EQ(events.size(), 2U);
   EXPECT_EQ(events[0].kind, EventKind::JumpToContact);
-  EXPECT_EQ(events[0].z, model.events().z_jtc);
-  EXPECT_EQ(events[0].force_after, -model.events().f_attr);
+  EXPECT_EQ(events[0].z, model.figures().z_jtc);
+  EXPECT_EQ(events[0].force_after, model.figures().force_after_jtc);
   EXPECT_EQ(events[1].kind, EventKind::JumpOffContact);
-  EXPECT_EQ(events[1].z, model.events().z_joc);
-  EXPECT_NEAR(events[1].force_before / model.events().f_ad, -1.0, 1e-15);
+  EXPECT_EQ(events[1].z, model.figures().z_joc);
+  EXPECT_EQ(events[1].force_before, model.figures().force_before_joc);
 }
 
 INSTANTIATE_TEST_SUITE_P(ApproachRetractModel, SampleRate, testing::Values(500, 1000, 2000, 4000, 8000),

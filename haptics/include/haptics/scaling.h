@@ -3,7 +3,7 @@
 
 #include "core/result.h"
 #include "haptics/device.h"
-#include "physics/contact.h"
+#include "physics/cycle_figures.h"
 
 namespace afm::haptics {
 
@@ -21,7 +21,7 @@ class FitScaling {
   static constexpr double kMaxStiffnessNPerM = 400.0;  // stable on every device of this class at 1 kHz
 
   // Fails if the device would have to be stiffer than it can be, or if the stroke does not fit above its contact point.
-  static core::Result<FitScaling> create(const physics::ApproachRetractEvents& events, const DeviceSpec& device);
+  static core::Result<FitScaling> create(const physics::CycleFigures& figures, const DeviceSpec& device);
 
   double hand_m_per_m() const noexcept { return hand_m_per_m_; }
   double hand_n_per_n() const noexcept { return hand_n_per_n_; }

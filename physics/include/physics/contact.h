@@ -43,15 +43,6 @@ Force adhesion_force(const Interaction& interaction);
 // (3.8) and (3.9) rest), as a magnitude.
 Force van_der_waals_attraction(const Interaction& interaction, Length gap);
 
-// Where apex, lever and surface come to rest at Z under a force on the tip, signed as above. It holds in contact, and
-// away from it with a force of zero.
-struct RestPose {
-  Length tip_height;             // of the apex above the undeformed surface, Z - delta_c
-  Length cantilever_deflection;  // delta_c = -F/k_c
-  Length sample_deformation;     // delta_s = -F/k_s
-};
-RestPose rest_pose(const Interaction& interaction, Length z, Force force) noexcept;
-
 // Everything that happens in one cycle, as magnitudes.
 struct ApproachRetractEvents {
   double alpha = 1.0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 
-#include "physics/contact.h"
 #include "physics/force_model.h"
 
 namespace afm::physics {
@@ -14,19 +14,19 @@ namespace afm::physics {
 // chatters under the noise of a sensor. Its jumps lie at samples, so that they depend on the sample rate.
 class DirectionRuleModel {
  public:
-  // Throws std::invalid_argument as validate() does.
+  // Throws as build_law_tables() does for the paper's law.
   explicit DirectionRuleModel(const Interaction& interaction);
 
   // As ApproachRetractModel::step, without a wait state: the first step counts as approaching.
   TipResponse step(Length z) noexcept;
 
   Phase phase() const noexcept { return phase_; }
-  const Interaction& interaction() const noexcept { return interaction_; }
-  const ApproachRetractEvents& events() const noexcept { return events_; }
+  const Interaction& interaction() const noexcept { return tables_->interaction; }
+  const CycleFigures& figures() const noexcept { return tables_->figures; }
+  const LawTables& tables() const noexcept { return *tables_; }
 
  private:
-  Interaction interaction_;
-  ApproachRetractEvents events_;
+  std::shared_ptr<const LawTables> tables_;  // shared, so that a copy of the model costs nothing
   Phase phase_ = Phase::Free;
   std::optional<Length> previous_z_;
 };

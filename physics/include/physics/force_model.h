@@ -3,9 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 
-#include "physics/contact.h"
 #include "physics/interaction.h"
+#include "physics/law_tables.h"
 #include "physics/units.h"
 
 namespace afm::physics {
@@ -37,21 +38,32 @@ struct TipResponse {
   std::uint32_t event_count = 0;
 };
 
-// The paper's approach-retract law as a two-state latch: Free until Z <= Z_jtc, Attached until Z >= Z_joc. The
-// direction of motion is never consulted.
+// How apex, lever and surface stand at one Z with one force on the tip; frames and signs as in physics/contact.h.
+struct Pose {
+  Length tip_height;             // of the apex above the undeformed surface, Z - delta_c
+  Length cantilever_deflection;  // delta_c = -F/k_c
+  Length sample_deformation;     // delta_s: of the support alone while free, tip height less the contact gap in contact
+};
+Pose pose_of(const LawTables& tables, Phase phase, Length z, Force force) noexcept;
+
+// A law of force as a two-state latch: Free until Z <= Z_jtc, Attached until Z >= Z_joc. The direction of motion is
+// never consulted.
 //
-// - F = 0 while free, F = -k' Z while attached: pulled towards the sample for Z > 0, pushed away for Z < 0.
+// - F is that of the free or of the attached branch of the law's tables, and no other.
 // - The thresholds are looked for on the whole path between two steps, taken as straight, and the jump's place and
-//   forces are those of the threshold itself: they do not depend on where the samples fell.
+//   forces are the law's figures: they do not depend on where the samples fell.
 // - No jump happens inside (Z_jtc, Z_joc); a wiggle there costs no work, and no closed path gives work.
 // - A straight path holds at most one jump, since Z_jtc < Z_joc.
+// - A law without hysteresis goes between Free and Attached where contact begins, without a jump.
 // - A Z that is not finite gives zero force and the wait state.
 //
 // step() and wait_for_lift() do not allocate, lock or throw: they are for one servo thread.
 class ApproachRetractModel {
  public:
-  // Starts in WaitForLift. Throws std::invalid_argument as validate() does, and if Z_joc <= Z_jtc: an adhesion too weak
-  // to hold what the van der Waals force has pulled in leaves this law no loop.
+  // Starts in WaitForLift. `tables` must not be null; shared, because a curve, a panel and the servo may hold the same.
+  explicit ApproachRetractModel(std::shared_ptr<const LawTables> tables);
+
+  // The paper's law. Throws as build_law_tables() does.
   explicit ApproachRetractModel(const Interaction& interaction);
 
   // The response at Z after the straight path from the Z of the step before, if there was one since the tip was lifted.
@@ -61,23 +73,15 @@ class ApproachRetractModel {
   void wait_for_lift() noexcept { phase_ = Phase::WaitForLift; }
 
   Phase phase() const noexcept { return phase_; }
-  const Interaction& interaction() const noexcept { return interaction_; }
-  const ApproachRetractEvents& events() const noexcept { return events_; }
+  Law law() const noexcept { return tables_->law; }
+  const Interaction& interaction() const noexcept { return tables_->interaction; }
+  const CycleFigures& figures() const noexcept { return tables_->figures; }
+  const LawTables& tables() const noexcept { return *tables_; }
 
  private:
-  // F(Z) = force_at_zero + slope Z on one side of the latch.
-  struct Branch {
-    Force force_at_zero;
-    Stiffness slope;
-    Force force(Length z) const noexcept { return force_at_zero + slope * z; }
-  };
+  void latch(Length z, TipResponse& response) noexcept;
 
-  ModelEvent jump(EventKind kind, Length threshold, Length z) const noexcept;
-
-  Interaction interaction_;
-  ApproachRetractEvents events_;
-  Branch free_;
-  Branch attached_;
+  std::shared_ptr<const LawTables> tables_;
   Phase phase_ = Phase::WaitForLift;
   Length previous_z_;  // of the step before; meaningless in WaitForLift
 };
