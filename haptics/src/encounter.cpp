@@ -30,7 +30,7 @@ core::Result<std::unique_ptr<Encounter>> Encounter::create(const scene::SharedMa
   }
   try {
     const physics::ApproachRetractModel model(material.interaction);
-    auto scaling = FitScaling::create(model.events(), device);
+    auto scaling = FitScaling::create(model.figures(), device);
     if (!scaling) return refusal(material, scaling.error());
     return std::unique_ptr<Encounter>(new Encounter(model, *scaling, edit_revision));
   } catch (const std::exception& error) {
