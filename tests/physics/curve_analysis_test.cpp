@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 
+#include "physics/contact.h"
 #include "physics/measured_branches.h"
 
 namespace afm::physics {
