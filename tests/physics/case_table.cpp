@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <ostream>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -56,6 +57,8 @@ CaseProgram program_of(const std::string& id) {
 double Case::allowed_error(double expected_value) const {
   return std::max(relative_tolerance * std::abs(expected_value), absolute_tolerance);
 }
+
+void PrintTo(const Case& row, std::ostream* out) { *out << row.name << ", expected " << row.expected; }
 
 void expect_agrees(const Case& row, double actual) {
   const double expected = std::stod(row.expected);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <iosfwd>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,6 +28,9 @@ struct Case {
   // How far a result may lie from `expected_value`: the larger of the two tolerances.
   double allowed_error(double expected_value) const;
 };
+
+// For the messages of failing tests.
+void PrintTo(const Case& row, std::ostream* out);
 
 // Passes if `actual` is what a row with one number expects, within its tolerance.
 void expect_agrees(const Case& row, double actual);
