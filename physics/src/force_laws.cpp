@@ -10,18 +10,11 @@
 #include "physics/hertz.h"
 #include "physics/jkr.h"
 #include "physics/lennard_jones.h"
+#include "physics/meniscus.h"
 #include "physics/van_der_waals.h"
 
 namespace afm::physics {
 namespace {
-
-// Van der Waals attraction by the height above a gap.
-auto attraction_above(const VanDerWaals& van_der_waals, Length gap) {
-  return [van_der_waals, gap](double above) {
-    const Length d = gap + Length(above);
-    return ForceAndSlope{van_der_waals.force(d).si, van_der_waals.gradient(d).si};
-  };
-}
 
 ForceAndSlope no_force(double) { return {0.0, 0.0}; }
 
@@ -151,7 +144,9 @@ ForceLaw lennard_jones_law(const Interaction& interaction, const LawOptions&) {
           .attached_end_potential = surfaces.potential(z0 * std::exp(farthest))};
 }
 
-ForceLaw force_law(Law law, const Interaction& interaction, const LawOptions& options) {
+namespace {
+
+ForceLaw dry_law(Law law, const Interaction& interaction, const LawOptions& options) {
   switch (law) {
     case Law::Hao:
       return hao_law(interaction, options);
@@ -164,11 +159,20 @@ ForceLaw force_law(Law law, const Interaction& interaction, const LawOptions& op
     case Law::LennardJones:
       return lennard_jones_law(interaction, options);
     case Law::MaugisDugdale:
+      return maugis_law(interaction, options);
     case Law::Paper:
     case Law::Measured:
       break;
   }
   throw std::invalid_argument("the law \"" + std::string(name_of(law)) + "\" is not given by a curve of force");
+}
+
+}  // namespace
+
+ForceLaw force_law(Law law, const Interaction& interaction, const LawOptions& options) {
+  validate(options);
+  ForceLaw dry = dry_law(law, interaction, options);
+  return options.meniscus ? with_meniscus(dry, *options.meniscus, interaction.tip_radius) : dry;
 }
 
 }  // namespace afm::physics

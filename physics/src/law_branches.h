@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/force_law.h"
+#include "physics/van_der_waals.h"
 
 // Parameters for branches, spread so that equal steps resolve both the atomic scale and the millimetre. They rise from
 // a branch's first point to its last.
@@ -20,6 +21,14 @@ struct ForceAndSlope {
   double force;
   double slope;
 };
+
+// Van der Waals attraction by the height above a gap.
+inline auto attraction_above(const VanDerWaals& van_der_waals, Length gap) {
+  return [van_der_waals, gap](double above) {
+    const Length d = gap + Length(above);
+    return ForceAndSlope{van_der_waals.force(d).si, van_der_waals.gradient(d).si};
+  };
+}
 
 // Heights about `origin`: h = origin + scale sinh(s), near it even, far from it by equal factors.
 struct Heights {
@@ -51,5 +60,8 @@ struct Heights {
     return {-parameter(kFarthest), 0.0, at, {}};
   }
 };
+
+// The integral of F dh along a branch from one parameter to a larger one.
+Energy work_along(const LawBranch& branch, double from, double to);
 
 }  // namespace afm::physics

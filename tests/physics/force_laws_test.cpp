@@ -22,7 +22,7 @@ namespace {
 using namespace literals;
 using std::numbers::pi;
 
-constexpr std::array kLaws{Law::Hao, Law::Hertz, Law::Dmt, Law::Jkr, Law::LennardJones};
+constexpr std::array kLaws{Law::Hao, Law::Hertz, Law::Dmt, Law::Jkr, Law::LennardJones, Law::MaugisDugdale};
 constexpr int kMaterials = 10'000;
 // central differences over a step of 1e-5 in a parameter whose natural scale is 1
 constexpr double kStep = 1e-5;

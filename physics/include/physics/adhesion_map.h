@@ -22,6 +22,11 @@ double tabor_parameter(const Interaction& interaction);
 // K = 4 E*/3: 1.1570 mu (Maugis 1992).
 double maugis_parameter(const Interaction& interaction);
 
+// The regime at a Tabor parameter and a load in units of pi W R, in which DMT pulls off at -2 and JKR at -1.5. Johnson
+// & Greenwood's borders: Hertz where adhesion adds less than 5 % to the load, Rigid where the contact flattens by less
+// than 5 % of the range of the attraction, and of the others DMT below a Tabor parameter of 0.1, JKR above 5.
+Regime regime_of(double tabor, double load);
+
 // Where a contact lies on the adhesion map, and the law that suits it.
 struct LawChoice {
   Law law = Law::Dmt;
@@ -31,8 +36,9 @@ struct LawChoice {
   std::string reason;  // one sentence for people, with the numbers
 };
 
-// By the Tabor parameter: DMT for a stiff contact, Maugis-Dugdale between, JKR for a soft one; thresholds and sources
-// stand in the definition. Throws as validate() does.
+// By the regime at zero load, where adhesion alone presses the bodies together: JKR for JKR, Maugis-Dugdale for Maugis,
+// and DMT for the stiffer ones, Rigid included, whose pull-off is the same. (At zero load the regime is never Hertz: no
+// contact is chosen to be without adhesion.) Throws as validate() does.
 LawChoice choose_law(const Interaction& interaction);
 
 }  // namespace afm::physics

@@ -10,8 +10,8 @@
 // for which a law has no place are ignored. They allocate, and their branches refer to nothing outside themselves.
 namespace afm::physics {
 
-// Any law but Paper, whose tables are closed forms, and Measured, which is not computed: for these
-// std::invalid_argument.
+// The law of that name, with the liquid bridge of the options (physics/meniscus.h), which the ones below leave to this.
+// Throws std::invalid_argument for Paper, whose tables are closed forms, and for Measured, which is not computed.
 ForceLaw force_law(Law law, const Interaction& interaction, const LawOptions& options = {});
 
 // Van der Waals attraction down to a wall at h = 0, which holds with up to F_ad.
@@ -26,6 +26,24 @@ ForceLaw dmt_law(const Interaction& interaction, const LawOptions& options = {})
 
 // No force down to h = 0, where the surfaces jump into contact; JKR's contact down to the end of its neck.
 ForceLaw jkr_law(const Interaction& interaction, const LawOptions& options = {});
+
+// Maugis-Dugdale's contact, with the cohesive stress of surfaces that attract by the 3-9 law, joined to van der Waals
+// attraction. In contact h = a0 - delta. Van der Waals force and that of the contact, which goes on as a cohesive zone
+// without contact where lambda is below 0.95, are two laws of one attraction, and meet like this:
+//
+// - Where the contact's, followed to its end under fixed grips, pulls harder there, the law has a loop of its own: the
+//   tip is free until van der Waals' force is the contact's, and attached until the end.
+// - Where van der Waals' becomes the stronger one on the way out through the cohesive zone, it takes over there, and
+// the
+//   law is single-valued.
+// - Where it is so already at the end of the contact (attraction of a long range and little adhesion), the contact gap
+//   is taken larger than a0, so much that it takes over at that end without a step.
+//
+// So forces are continuous where contact forms, no jump weakens the attraction on the way in, and every value changes
+// continuously with the parameters. For lambda -> 0 the contact is DMT's, with its jump from afar and its pull-off, but
+// just outside of a0 the attraction rises with Maugis' constant stress rather than van der Waals'; for
+// lambda -> infinity it is JKR's at a0.
+ForceLaw maugis_law(const Interaction& interaction, const LawOptions& options = {});
 
 // Bradley's rigid sphere with W and z0 (physics/lennard_jones.h).
 ForceLaw lennard_jones_law(const Interaction& interaction, const LawOptions& options = {});

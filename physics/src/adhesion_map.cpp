@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/adhesion_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "physics/adhesive_contact.h"
+#include "physics/contact.h"
+#include "physics/maugis_dugdale.h"
+
+namespace afm::physics {
+namespace {
+
+// Johnson & Greenwood 1997 draw the borders of DMT and JKR by what each leaves out; in the Tabor parameter, at loads of
+// the order of the adhesion, they come to these (Maugis 1992 puts them at the same values of lambda = 1.157 mu).
+constexpr double kDmtBelow = 0.1;
+constexpr double kJkrAbove = 5.0;
+
+// Their Hertz: adhesion adds less than this to the load.
+constexpr double kNegligibleAdhesion = 0.05;
+
+// Their Rigid (Bradley): the contact flattens by less than this part of the range of the attraction, W/sigma0.
+constexpr double kNegligibleFlattening = 0.05;
+
+// lambda/mu: 2 (16/(9 sqrt3)) cbrt(9/(16 pi)).
+const double kLambdaPerTabor = 32.0 / (9.0 * std::numbers::sqrt3) * std::cbrt(9.0 / (16.0 * std::numbers::pi));
+
+// DMT's indentation in units of the range of attraction: cbrt((9/16) (P + 2 pi W R)^2/(R E*^2)) over
+// W/sigma0 = (9 sqrt3/16) z0.
+double flattening(double tabor, double load) {
+  const double indentation = tabor * std::cbrt(9.0 / 16.0 * std::pow(std::numbers::pi * (load + 2.0), 2.0));
+  return indentation / (9.0 * std::numbers::sqrt3 / 16.0);
+}
+
+// What adhesion adds to the load: Hertz' load for the contact's radius, a^3 in Maugis' units, less the load.
+double adhesive_load(double tabor, double load) {
+  // beyond these his contact is DMT's or JKR's to the last digit that matters
+  const double lambda = std::clamp(kLambdaPerTabor * tabor, 1e-3, 1e3);
+  const double radius = maugis_point(lambda, maugis_at_load(lambda, load)).contact_radius;
+  return radius * radius * radius - load;
+}
+
+template <class... Arguments>
+std::string text(const char* format, Arguments... arguments) {
+  std::array<char, 256> line{};
+  const int length = std::snprintf(line.data(), line.size(), format, arguments...);
+  return std::string(line.data(), static_cast<std::size_t>(length));
+}
+
+}  // namespace
+
+std::string_view name_of(Regime regime) {
+  switch (regime) {
+    case Regime::Rigid:
+      return "rigid";
+    case Regime::Hertz:
+      return "hertz";
+    case Regime::Dmt:
+      return "dmt";
+    case Regime::Maugis:
+      return "maugis";
+    case Regime::Jkr:
+      return "jkr";
+  }
+  return "unknown";
+}
+
+double tabor_parameter(const Interaction& interaction) {
+  if (!isfinite(interaction.reduced_modulus)) return 0.0;
+  const double w = work_of_adhesion(interaction).si / interaction.reduced_modulus.si;
+  const double z0 = interaction.atomic_distance.si;
+  return std::cbrt(interaction.tip_radius.si * w * w) / z0;
+}
+
+double maugis_parameter(const Interaction& interaction) {
+  if (!isfinite(interaction.reduced_modulus)) return 0.0;
+  const SurfaceEnergy w = work_of_adhesion(interaction);
+  return maugis_lambda({interaction.tip_radius, interaction.reduced_modulus, w},
+                       cohesive_stress(w, interaction.atomic_distance));
+}
+
+Regime regime_of(double tabor, double load) {
+  if (load > 0.0 && adhesive_load(tabor, load) < kNegligibleAdhesion * load) return Regime::Hertz;
+  if (flattening(tabor, std::fmax(load, 0.0)) < kNegligibleFlattening) return Regime::Rigid;
+  if (tabor < kDmtBelow) return Regime::Dmt;
+  return tabor > kJkrAbove ? Regime::Jkr : Regime::Maugis;
+}
+
+LawChoice choose_law(const Interaction& interaction) {
+  validate(interaction);
+  LawChoice choice;
+  choice.tabor = tabor_parameter(interaction);
+  choice.maugis = maugis_parameter(interaction);
+  choice.regime = regime_of(choice.tabor, 0.0);
+  switch (choice.regime) {
+    case Regime::Jkr:
+      choice.law = Law::Jkr;
+      choice.reason = text("Tabor parameter %.3g > %g: the contact is soft enough to be drawn out into a neck, so JKR",
+                           choice.tabor, kJkrAbove);
+      break;
+    case Regime::Maugis:
+      choice.law = Law::MaugisDugdale;
+      choice.reason = text(
+          "Tabor parameter %.3g between %g and %g (Maugis' lambda %.3g): neither DMT nor JKR holds, so "
+          "Maugis-Dugdale",
+          choice.tabor, kDmtBelow, kJkrAbove, choice.maugis);
+      break;
+    case Regime::Rigid:
+    case Regime::Dmt:
+    case Regime::Hertz:
+      choice.law = Law::Dmt;
+      choice.reason =
+          choice.tabor > 0.0
+              ? text("Tabor parameter %.2g < %g: the contact is too stiff to be drawn out into a neck, so DMT",
+                     choice.tabor, kDmtBelow)
+              : "no modulus is given: the contact is rigid, so DMT";
+      break;
+  }
+  return choice;
+}
+
+}  // namespace afm::physics
