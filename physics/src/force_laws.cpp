@@ -130,16 +130,11 @@ ForceLaw lennard_jones_law(const Interaction& interaction, const LawOptions&) {
     const Length d = z0 * std::exp(s);
     return LawPoint{d, surfaces.force(d), d.si, (surfaces.gradient(d) * d).si};
   };
-  const auto inwards = [outwards](double s) {
-    LawPoint point = outwards(-s);
-    point.dh_ds = -point.dh_ds;
-    point.dforce_ds = -point.dforce_ds;
-    return point;
-  };
   const double farthest = std::log(kFarthest / z0.si);
   const double hardest = std::log(kHardestPress / adhesion_force(interaction).si) / 8.0;
-  return {.free = {-farthest, 0.0, inwards, {}},
-          .attached = {-hardest, farthest, outwards, {}},
+  const LawBranch attached{-hardest, farthest, outwards, {}};
+  return {.free = reversed(attached, 0.0),
+          .attached = attached,
           .contact_gap = z0,
           .attached_end_potential = surfaces.potential(z0 * std::exp(farthest))};
 }

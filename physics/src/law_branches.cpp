@@ -30,6 +30,19 @@ double smooth_work(const LawBranch& branch, double from, double to) {
 
 }  // namespace
 
+LawBranch reversed(const LawBranch& branch, double to) {
+  const auto at = [forwards = branch.at](double s) {
+    LawPoint point = forwards(-s);
+    point.dh_ds = -point.dh_ds;
+    point.dforce_ds = -point.dforce_ds;
+    return point;
+  };
+  LawBranch back{-branch.last, -to, at, {}};
+  for (auto kink = branch.kinks.rbegin(); kink != branch.kinks.rend() && *kink > to; ++kink)
+    back.kinks.push_back(-*kink);
+  return back;
+}
+
 Energy work_along(const LawBranch& branch, double from, double to) {
   double sum = 0.0;
   for (const double kink : branch.kinks) {

@@ -61,6 +61,9 @@ struct Heights {
   }
 };
 
+// A branch the other way round, from its last point back to the one at `to`.
+LawBranch reversed(const LawBranch& branch, double to);
+
 // The integral of F dh along a branch from one parameter to a larger one.
 Energy work_along(const LawBranch& branch, double from, double to);
 

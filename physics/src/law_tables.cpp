@@ -52,7 +52,9 @@ class Builder {
     // a law that is single-valued in h says so by an attached branch that goes on to far away
     const bool single_valued = law_.attached.at(law_.attached.last).h > 0.5 * law_.free.at(law_.free.first).h;
     CycleFigures& figures = tables_.figures;
-    figures.hysteretic = !single_valued || (free_.folded() && attached_.folded());
+    // of a loop narrower than rounding nothing is left
+    figures.hysteretic = !single_valued || (free_.folded() && attached_.folded() &&
+                                            attached_.at(attached_.end()).z > free_.at(free_.end()).z);
     figures.critical_stiffness = critical_stiffness(single_valued);
     if (figures.hysteretic) {
       solve_jumps();

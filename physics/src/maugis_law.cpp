@@ -69,14 +69,16 @@ ForceLaw maugis_law(const Interaction& interaction, const LawOptions& options) {
   const double end = maugis_fixed_grips_end(lambda);
   const double contact_end = std::min(end, 0.0);
 
-  // van der Waals force takes over from the contact at the parameter `joint`, and the law is single-valued
+  // van der Waals force takes over from the contact at the parameter `joint`, and the law is single-valued: both
+  // branches are one curve, the free one as far in as it can have a fold, to the largest attraction
   const auto joined_at = [&](double joint, std::vector<double> kinks) {
     const Length height = contact.at(joint).h;
     const Heights heights{height.si, a0.si};
     const auto attraction = attraction_above(van_der_waals, height);
-    const auto attached = [=](double s) { return s < joint ? contact.at(s) : heights.point(s - joint, attraction); };
-    return ForceLaw{.free = heights.inwards(attraction),
-                    .attached = {deepest, joint + heights.parameter(kFarthest), attached, std::move(kinks)},
+    const auto curve = [=](double s) { return s < joint ? contact.at(s) : heights.point(s - joint, attraction); };
+    const LawBranch attached{deepest, joint + heights.parameter(kFarthest), curve, std::move(kinks)};
+    return ForceLaw{.free = reversed(attached, maugis_pull_off(lambda)),
+                    .attached = attached,
                     .contact_gap = contact.gap,
                     .attached_end_potential = van_der_waals.potential(height + Length(kFarthest))};
   };

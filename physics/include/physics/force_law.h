@@ -31,8 +31,9 @@ struct LawBranch {
 
 // A law of force between tip and sample: the branch of a tip that does not touch, h falling from far away to where
 // contact begins, and the branch of one that does, from deep inside to where no contact can be held. A law that is
-// single-valued in h (DMT, Lennard-Jones, Hertz) has an attached branch that goes on through contact to far away, so
-// that each branch holds the fold that ends it, however stiff the lever. Where the bodies are rigid h may stand still
+// single-valued in h (DMT, Lennard-Jones, Hertz, Maugis-Dugdale for stiff contacts) has an attached branch that goes on
+// through contact to far away, and a free one that reaches to its largest attraction, so that each branch holds the
+// fold that ends it, however stiff the lever. Where the bodies are rigid h may stand still
 // while F falls.
 struct ForceLaw {
   LawBranch free;
