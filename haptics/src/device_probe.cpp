@@ -50,10 +50,10 @@ core::Result<std::unique_ptr<HapticDevice>> open_hdapi(const ProbeSettings& sett
   }
   auto device = HdapiDevice::open(*functions, clock, settings.hd_device);
   if (!device) {
-    lines.push_back({"hdapi device", false, device.error().message});
+    lines.push_back({kHdapiDevice, false, device.error().message});
     return tl::unexpected(device.error());
   }
-  lines.push_back({"hdapi device", true, (*device)->spec().name});
+  lines.push_back({kHdapiDevice, true, (*device)->spec().name});
   return std::unique_ptr<HapticDevice>(std::move(*device));
 }
 
@@ -78,7 +78,7 @@ std::vector<ProbeLine> probe_devices(const ProbeSettings& settings) {
   std::vector<ProbeLine> lines;
   if (const auto functions = find_library(settings, lines)) {
     const auto spec = HdapiDevice::query(*functions, settings.hd_device);
-    lines.push_back({"hdapi device", spec.has_value(),
+    lines.push_back({kHdapiDevice, spec.has_value(),
                      spec ? fmt::format("{}: {:.2g} N at most, {:.2g} N for ever, {:.0f} x {:.0f} x {:.0f} mm",
                                         spec->name, spec->max_force_n, spec->max_continuous_force_n,
                                         1e3 * (spec->workspace_max_m.x - spec->workspace_min_m.x),

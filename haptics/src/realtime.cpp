@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
+#include <ctime>
 
 namespace afm::haptics {
 
@@ -53,6 +54,12 @@ RealtimeGrant enter_realtime(int priority, PageLock lock) {
   }
   prefault_stack();
   return grant;
+}
+
+void sleep_until(std::int64_t deadline_ns) noexcept {
+  const timespec deadline{.tv_sec = deadline_ns / 1'000'000'000, .tv_nsec = deadline_ns % 1'000'000'000};
+  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
+  }
 }
 
 }  // namespace afm::haptics

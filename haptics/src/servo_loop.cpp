@@ -4,9 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <ctime>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <span>
@@ -42,12 +40,6 @@ void count(std::array<std::uint32_t, scene::kHistogramBins>& bins, std::uint32_t
 
 std::uint32_t microseconds(std::int64_t ns) {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(ns / 1000, 0, UINT32_MAX));
-}
-
-void sleep_until(std::int64_t deadline_ns) {
-  const timespec deadline{.tv_sec = deadline_ns / 1'000'000'000, .tv_nsec = deadline_ns % 1'000'000'000};
-  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
-  }
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ struct ProbeSettings {
 };
 
 // One thing that was looked for and what came of it: lower case, no full stop.
+inline constexpr const char* kHdapiDevice = "hdapi device";  // a subject
 struct ProbeLine {
   std::string subject;
   bool usable = false;

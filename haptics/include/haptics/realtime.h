@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,8 @@ struct RealtimeGrant {
 // Asks for SCHED_FIFO at `priority` for the calling thread, a timer slack of 1 ns, locked pages, and a stack whose next
 // pages are there already. Everything that is refused is noted; nothing is fatal.
 RealtimeGrant enter_realtime(int priority, PageLock lock);
+
+// Until this time of CLOCK_MONOTONIC, signals or not.
+void sleep_until(std::int64_t deadline_ns) noexcept;
 
 }  // namespace afm::haptics

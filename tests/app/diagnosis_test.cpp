@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/diagnosis.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace afm::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A machine of a lab that lacks nothing.
+MachineFacts good_machine() {
+  MachineFacts facts;
+  facts.kernel = "6.1.0, PREEMPT_RT";
+  facts.priority_limit = 80;
+  facts.pages_can_be_locked = true;
+  facts.jitter.grant.priority = 80;
+  facts.jitter.ticks = 2000;
+  facts.jitter.late_us[30] = 2000;
+  facts.jitter.max_us = 30;
+  facts.graphics = {{"A GPU", "discrete GPU", "its driver 1.0", true, ""}};
+  facts.display = "DISPLAY=:0";
+  facts.render_nodes = {{"/dev/dri/renderD128", true}};
+  facts.hid_nodes = {{"/dev/hidraw0", true}};
+  facts.serial_nodes = {{"/dev/ttyACM0", true}};
+  facts.haptics = {{"hdapi library libHD.so.3.4", true, "loaded"}, {haptics::kHdapiDevice, true, "Touch"}};
+  facts.servo_program = "/usr/bin/touchafm-servo";
+  facts.servo_program_runs = true;
+  return facts;
+}
+
+Finding finding(const MachineFacts& facts, const std::string& check) {
+  const auto all = diagnose(facts);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Finding& f) { return f.check == check; });
+  return found == all.end() ? Finding{} : *found;
+}
+
+TEST(Diagnosis, FindsNothingToMendOnAGoodMachine) {
+  for (const Finding& f : diagnose(good_machine())) {
+    EXPECT_EQ(f.verdict, Verdict::Good) << f.check;
+    EXPECT_EQ(f.mend, "") << f.check;
+    EXPECT_NE(f.found, "") << f.check;
+  }
+}
+
+TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
+  struct Case {
+    const char* check;
+    Verdict verdict;
+    const char* mend;
+    void (*spoil)(MachineFacts&);
+  };
+  const Case cases[] = {
+      {"real-time priority", Verdict::Limited, "- rtprio 80\" | sudo tee -a /etc/security/limits.d/touchafm.conf",
+       [](MachineFacts& m) { m.jitter.grant.priority = 0; }},
+      {"locked memory", Verdict::Limited, "- memlock unlimited\" | sudo tee",
+       [](MachineFacts& m) { m.pages_can_be_locked = false; }},
+      {"wake-up at 1 kHz", Verdict::Limited, "linux-image-rt-amd64", [](MachineFacts& m) { m.jitter.missed = 1; }},
+      {"wake-up at 1 kHz", Verdict::Limited, "linux-image-rt-amd64",
+       [](MachineFacts& m) {
+         m.jitter.late_us[500] = 10;
+         m.jitter.max_us = 500;
+       }},
+      {"servo program", Verdict::Missing, "touchafm-servo", [](MachineFacts& m) { m.servo_program_runs = false; }},
+      {"graphics", Verdict::Limited, "Vulkan driver", [](MachineFacts& m) { m.graphics[0].kind = "CPU"; }},
+      {"graphics", Verdict::Limited, "sudo usermod -aG render,video",
+       [](MachineFacts& m) {
+         m.graphics[0].kind = "CPU";
+         m.render_nodes[0].accessible = false;
+       }},
+      {"graphics", Verdict::Missing, "Vulkan driver", [](MachineFacts& m) { m.graphics.clear(); }},
+      {"display", Verdict::Missing, "DISPLAY=:0", [](MachineFacts& m) { m.display.clear(); }},
+      {"haptic device", Verdict::Limited, "TOUCHAFM_HD_LIBRARY", [](MachineFacts& m) { m.haptics.clear(); }},
+      {"haptic device", Verdict::Limited, "switch it on", [](MachineFacts& m) { m.haptics[1].usable = false; }},
+      {"haptic port (USB)", Verdict::Missing, "sudo usermod -aG dialout",
+       [](MachineFacts& m) { m.serial_nodes[0].accessible = false; }},
+      {"wands (HID)", Verdict::Missing, "/etc/udev/rules.d/70-touchafm.rules",
+       [](MachineFacts& m) { m.hid_nodes[0].accessible = false; }},
+  };
+  for (const Case& c : cases) {
+    MachineFacts facts = good_machine();
+    c.spoil(facts);
+    const Finding f = finding(facts, c.check);
+    EXPECT_EQ(f.verdict, c.verdict) << c.check;
+    EXPECT_THAT(f.mend, HasSubstr(c.mend)) << c.check;
+    const auto all = diagnose(facts);
+    EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const Finding& any) { return any.verdict != Verdict::Good; }), 1)
+        << c.check;
+  }
+}
+
+TEST(Diagnosis, TakesNoDeviceForNoLackOfRights) {
+  MachineFacts facts = good_machine();
+  facts.hid_nodes.clear();
+  facts.serial_nodes.clear();
+  facts.render_nodes.clear();
+  for (const Finding& f : diagnose(facts)) EXPECT_EQ(f.verdict, Verdict::Good) << f.check;
+}
+
+}  // namespace
+}  // namespace afm::app
