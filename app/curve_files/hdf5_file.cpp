@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
-#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -54,13 +53,15 @@ Handle access_to_memory() {
   return access;
 }
 
+// Of variable length: h5py gives texts of fixed length as bytes, which afmformats does not know again.
 void put_attribute(hid_t at, const std::string& name, const std::string& text) {
   const Handle type = must(H5Tcopy(H5T_C_S1), "make a type"), space = must(H5Screate(H5S_SCALAR), "make a space");
-  must_do(H5Tset_size(type.get(), std::max<std::size_t>(1, text.size())), "size a text");
+  must_do(H5Tset_size(type.get(), H5T_VARIABLE), "size a text");
   must_do(H5Tset_cset(type.get(), H5T_CSET_UTF8), "encode a text");
   const Handle attribute =
       must(H5Acreate2(at, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), "make an attribute");
-  must_do(H5Awrite(attribute.get(), type.get(), text.data()), "write an attribute");
+  const char* characters = text.c_str();
+  must_do(H5Awrite(attribute.get(), type.get(), static_cast<const void*>(&characters)), "write an attribute");
 }
 
 void put_attribute(hid_t at, const std::string& name, double number) {

@@ -111,9 +111,8 @@ Wave read_wave(std::string_view bytes) {
 }
 
 std::string_view note_value(std::string_view note, std::string_view key) {
-  std::vector<std::string_view> lines;
-  split(note, '\r', lines);
-  for (const std::string_view line : lines) {
+  std::string_view line;
+  for (Lines lines(note); lines.next(line);) {
     if (line.size() > key.size() && line.starts_with(key) && line[key.size()] == ':') {
       return trimmed(line.substr(key.size() + 1));
     }

@@ -52,6 +52,16 @@ physics::Branch branch_in(std::string_view field, const Lines& lines) {
                                field.substr(0, 40)));
 }
 
+void check_count(const nlohmann::json& metadata, std::size_t points, std::string_view bytes) {
+  const auto count = metadata.find("point count");
+  if (count == metadata.end() || !count->is_number()) return;
+  const double expected = count->get<double>();
+  // a last line without its end may have lost digits
+  if (static_cast<double>(points) < expected || !bytes.ends_with('\n')) {
+    throw CurveFault(fmt::format("it is cut short: {} of {} points are whole", points, expected));
+  }
+}
+
 }  // namespace
 
 std::string tab_bytes(const RecordedCurve& curve) {
@@ -78,8 +88,9 @@ RecordedCurve read_tab(std::string_view bytes) {
   Lines lines(bytes);
   std::string_view line;
   const Heading heading = read_heading(lines, line);
+  const nlohmann::json metadata = nlohmann::json::parse(heading.metadata);
   RecordedCurve curve;
-  read_afmformats_metadata(nlohmann::json::parse(heading.metadata), curve.metadata);
+  read_afmformats_metadata(metadata, curve.metadata);
 
   std::vector<std::string_view> names, fields;
   split(heading.columns, '\t', names);
@@ -100,6 +111,7 @@ RecordedCurve read_tab(std::string_view bytes) {
                             branch_in(fields[segment], lines)});
     if (time < fields.size()) curve.time_s.push_back(number_in(fields[time], "time", lines));
   }
+  check_count(metadata, curve.points.size(), bytes);
   return curve;
 }
 

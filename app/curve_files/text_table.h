@@ -8,7 +8,7 @@
 
 namespace afm::app {
 
-// The lines of a text, one after the other, without their LF or CRLF.
+// The lines of a text, one after the other, without their LF, CRLF or CR.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text) {}

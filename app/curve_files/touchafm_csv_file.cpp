@@ -49,6 +49,10 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
                             physics::Force(number_in(fields[force], "force_N", lines)),
                             fields[branch] == "approach" ? physics::Branch::Approach : physics::Branch::Retract});
   }
+  // a whole cycle comes back up, and its last line is ended
+  if (curve.points.empty() || curve.points.back().branch != physics::Branch::Retract || !bytes.ends_with('\n')) {
+    throw CurveFault("it is cut short");
+  }
   return curve;
 }
 

@@ -11,7 +11,7 @@ ZipArchive::ZipArchive(std::string_view bytes) : archive_(nullptr, &zip_discard)
   zip_error_t error;
   zip_error_init(&error);
   zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
-  if (source != nullptr) archive_.reset(zip_open_from_source(source, ZIP_RDONLY | ZIP_CHECKCONS, &error));
+  if (source != nullptr) archive_.reset(zip_open_from_source(source, ZIP_RDONLY, &error));
   if (archive_) return;  // and owns the source
   const std::string why = zip_error_strerror(&error);
   if (source != nullptr) zip_source_free(source);

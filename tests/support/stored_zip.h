@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace afm::test {
+
+inline std::uint32_t crc32_of(std::string_view bytes) {
+  std::uint32_t crc = 0xFFFFFFFFU;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ (0xEDB88320U & (0U - (crc & 1U)));
+  }
+  return ~crc;
+}
+
+// A zip archive of uncompressed entries. With `claimed_size` each entry says that it would unpack to so much.
+inline std::string stored_zip(const std::map<std::string, std::string>& entries,
+                              std::optional<std::uint32_t> claimed_size = {}) {
+  std::string archive, directory;
+  const auto put = [](std::string& to, int size, std::uint64_t value) {
+    for (int i = 0; i < size; ++i) to.push_back(static_cast<char>(value >> (8 * i)));
+  };
+  for (const auto& [name, content] : entries) {
+    const std::size_t offset = archive.size();
+    const auto put_description = [&](std::string& to) {
+      put(to, 2, 20);  // version
+      put(to, 2, 0);   // flags
+      put(to, 2, 0);   // stored
+      put(to, 4, 0);   // time
+      put(to, 4, crc32_of(content));
+      put(to, 4, content.size());
+      put(to, 4, claimed_size ? *claimed_size : content.size());
+      put(to, 2, name.size());
+      put(to, 2, 0);  // extra
+    };
+    archive += "PK\x03\x04";
+    put_description(archive);
+    archive += name + content;
+    directory += "PK\x01\x02";
+    put(directory, 2, 20);
+    put_description(directory);
+    put(directory, 2, 0);  // comment
+    put(directory, 8, 0);  // disk and attributes
+    put(directory, 4, offset);
+    directory += name;
+  }
+  const std::size_t start = archive.size();
+  archive += directory + "PK\x05\x06";
+  put(archive, 4, 0);
+  put(archive, 2, entries.size());
+  put(archive, 2, entries.size());
+  put(archive, 4, directory.size());
+  put(archive, 4, start);
+  put(archive, 2, 0);
+  return archive;
+}
+
+}  // namespace afm::test
