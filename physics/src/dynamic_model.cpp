@@ -32,6 +32,9 @@ std::shared_ptr<const DynamicModel::Setup> DynamicModel::build(Law law, const In
     throw std::invalid_argument("the law " + std::string(name_of(law)) +
                                 " has no dynamics: take hertz, dmt, jkr, maugis or lj");
   }
+  if (law != Law::LennardJones && std::isinf(interaction.reduced_modulus.si)) {
+    throw UnphysicalValue("reduced_modulus", "a rigid contact has no dynamics: give it a finite reduced modulus");
+  }
   validate(lever);
   Interaction fixed_grips = interaction;
   fixed_grips.spring_constant = Stiffness(std::numeric_limits<double>::infinity());

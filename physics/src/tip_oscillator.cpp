@@ -26,7 +26,7 @@ TipOscillator::TipOscillator(std::shared_ptr<const TipForce> force, Stiffness sp
   const double w0 = angular_frequency(lever);
   const double mass = spring_constant_ / (w0 * w0);
   const double decay = w0 * sub_step_ / lever.quality_factor;
-  kick_ = 0.5 * sub_step_ / mass;
+  kick_ = std::tan(0.5 * w0 * sub_step_) / (mass * w0);
   damping_ = std::exp(-decay);
   noise_ = std::sqrt(-std::expm1(-2.0 * decay) * thermal_energy(lever.temperature).si / mass);
 

@@ -18,10 +18,12 @@ namespace afm::physics {
 // The integrator is the BAOAB splitting of Leimkuhler & Matthews 2013 with the lever's spring moved from the kick B to
 // the drift A, which becomes the exact swing of the undamped lever about its moving base:
 //
-//   B  half a kick by the surface, v += F dt/(2 m)
+//   B  half a kick by the surface, v += F tan(w0 dt/2)/(m w0); that is F dt/(2 m), and lets a tip rest exactly where
+//      F + k (Z - z) = 0
 //   A  half a swing of (z - Z, v - Z') by the angle w0 dt/2
-//   O  the exact Ornstein-Uhlenbeck step of damping and noise, v = c v + sqrt((1 - c^2) k_B T/m) N(0,1), c = exp(-w0
-//   dt/Q) A, B  once more.
+//   O  the exact Ornstein-Uhlenbeck step of damping and noise, v = c v + sqrt((1 - c^2) k_B T/m) N(0,1) with
+//      c = exp(-w0 dt/Q)
+//   A  and B once more
 //
 // - Every step is exact for what it covers and time-reversible at T = 0 without damping: second order in dt.
 // - Without a surface both A and O keep the canonical distribution: <(z - Z)^2> = k_B T/k exactly, for every dt.
@@ -85,7 +87,7 @@ class TipOscillator {
 
   double spring_constant_;
   double sub_step_;
-  double kick_;     // dt/(2 m)
+  double kick_;     // of half a B, m/s a newton
   double damping_;  // c
   double noise_;    // of one O, m/s; 0 at 0 K
   Swing swing_;

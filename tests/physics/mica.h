@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+
+#include "physics/interaction.h"
+#include "physics/law_tables.h"
+
+namespace afm::physics {
+
+// The paper's mica with the contact of silicon nitride on mica (docs/physics.md), as the reference cases have it:
+// a0 = 0.3819 nm.
+inline Interaction elastic_mica() {
+  using namespace literals;
+  Interaction mica;
+  mica.tip_radius = 50_nm;
+  mica.spring_constant = 0.1_N_per_m;
+  mica.sample_stiffness = Stiffness(std::numeric_limits<double>::infinity());
+  mica.hamaker = 24.5_zJ;
+  mica.mean_surface_energy = 2.228_mJ_per_m2;
+  mica.reduced_modulus = Pressure(51.5e9);
+  return mica;
+}
+
+// The law under fixed grips.
+inline std::shared_ptr<const LawTables> fixed_grips(Law law, Interaction interaction) {
+  interaction.spring_constant = Stiffness(std::numeric_limits<double>::infinity());
+  return build_law_tables(law, interaction);
+}
+
+}  // namespace afm::physics
