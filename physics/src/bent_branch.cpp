@@ -180,33 +180,68 @@ std::optional<double> BentBranch::at_z(double z) const {
   return solve(z, 0.5 * (low + high), low, high, solution);
 }
 
-BranchTable BentBranch::table(double reach) const {
+BranchTable::Piece BentBranch::piece(double from, double to, double end_z, double reach) const {
   // below this fraction of the end's own Z rounding hides what the branch does
   constexpr double kNearest = 0x1p-36;
   constexpr double kSmallestScale = 1e-10;  // m, for a branch that ends at Z = 0
-  const Point end = at(end_);
-  const int octave =
-      static_cast<int>(std::floor(0.5 * std::log2(kNearest * std::max(std::abs(end.z), kSmallestScale))));
-  const double farthest = std::abs(at(branch_.first).z - end.z);
+  const Point start = at(from);
+  const double last_distance = std::min(reach, std::abs(at(to).z - start.z));
+  BranchTable::Piece piece;
+  piece.start = std::abs(start.z - end_z);
+  piece.last_u = std::sqrt(last_distance);
+  const double nearest = std::min(kNearest * std::max(std::abs(start.z), kSmallestScale), 0.01 * last_distance);
+  piece.first_octave = static_cast<int>(std::floor(0.5 * std::log2(nearest)));
 
-  std::vector<BranchTable::Node> nodes{{end.force, 0.0}};
-  double s = end_, ds_du = 0.0;
-  bool forceless = end.force == 0.0;
-  for (std::size_t i = 1; nodes.size() < 4 || BranchTable::node_u(octave, i - 1) < std::sqrt(reach); ++i) {
-    const double u = BranchTable::node_u(octave, i);
-    if (u * u > farthest) break;
+  piece.nodes.push_back({start.force, 0.0});
+  // at a kink the law's slope may be that of its other side
+  const double last = to + 1e-12 * (from - to);
+  double s = from, ds_du = 0.0, last_u = 0.0;
+  for (std::size_t i = 1; last_u < piece.last_u; ++i) {
+    const double u = std::min(BranchTable::node_u(piece.first_octave, i), piece.last_u);
     Point point;
-    const double guess = s + ds_du * (u - BranchTable::node_u(octave, i - 1));
-    s = solve(end.z - sign_ * u * u, std::clamp(guess, branch_.first, s), branch_.first, s, point);
+    const double guess = std::max(s + ds_du * (u - last_u), last);
+    s = solve(start.z - sign_ * u * u, guess, last, s, point);
     ds_du = -sign_ * 2.0 * u / point.dz_ds;
-    nodes.push_back({point.force, ds_du * point.dforce_ds});
-    forceless = forceless && point.force == 0.0;
+    piece.nodes.push_back({point.force, ds_du * point.dforce_ds});
+    last_u = u;
   }
-  if (forceless) return {};
   // a parabola over the first cell: with a fold the slope at its end is finite but not to be had from dF/dZ
-  nodes[0].slope = 2.0 * (nodes[1].force_n - nodes[0].force_n) / BranchTable::node_u(octave, 1) - nodes[1].slope;
+  BranchTable::Node &first = piece.nodes[0], &second = piece.nodes[1];
+  first.slope = 2.0 * (second.force_n - first.force_n) / BranchTable::node_u(piece.first_octave, 1) - second.slope;
+  return piece;
+}
+
+BranchTable BentBranch::table(double reach) const {
+  const double end_z = at(end_).z;
+  std::vector<BranchTable::Piece> pieces;
+  bool forceless = true;
+  double from = end_;
+  const auto add = [&](double to) {
+    const double left = reach - std::abs(at(from).z - end_z);
+    if (!(left > 0.0) || at(to).z == at(from).z) return;
+    pieces.push_back(piece(from, to, end_z, left));
+    for (const BranchTable::Node& node : pieces.back().nodes) forceless = forceless && node.force_n == 0.0;
+    from = to;
+  };
+  for (auto kink = branch_.kinks.rbegin(); kink != branch_.kinks.rend(); ++kink) {
+    if (*kink < end_) add(*kink);
+  }
+  add(branch_.first);
+  if (forceless) return {};
   const auto side = sign_ > 0.0 ? BranchTable::Side::Below : BranchTable::Side::Above;
-  return BranchTable(Length(end.z), side, octave, std::move(nodes));
+  return BranchTable(Length(end_z), side, std::move(pieces));
+}
+
+LawBranch reversed(const LawBranch& branch) {
+  LawBranch other{-branch.last, -branch.first, {}, {branch.kinks.rbegin(), branch.kinks.rend()}};
+  for (double& kink : other.kinks) kink = -kink;
+  other.at = [at = branch.at](double s) {
+    LawPoint point = at(-s);
+    point.dh_ds = -point.dh_ds;
+    point.dforce_ds = -point.dforce_ds;
+    return point;
+  };
+  return other;
 }
 
 double steepest_attraction(const LawBranch& branch) {

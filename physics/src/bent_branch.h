@@ -47,6 +47,8 @@ class BentBranch {
   double rate(double s) const;
   double fold_between(double stable, double unstable) const;
   void find_end();
+  // The table between two places without a kink in between, the first nearer to the branch's end.
+  BranchTable::Piece piece(double from, double to, double end_z, double reach) const;
   double solve(double z, double guess, double low, double high, Point& solution) const;
 
   const LawBranch& branch_;
@@ -55,6 +57,9 @@ class BentBranch {
   double end_ = 0.0;
   bool folded_ = false;
 };
+
+// The same curve the other way.
+LawBranch reversed(const LawBranch& branch);
 
 // The largest dF/dh of a branch, above zero: the stiffness at and above which no lever folds it. Infinite if h turns
 // back along it.

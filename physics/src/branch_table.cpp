@@ -4,17 +4,40 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace afm::physics {
 namespace {
 
-// The top bits of a positive double count sixty-fourths of octaves: exponent and the first six bits of the mantissa.
-constexpr int kDroppedBits = 46;
-static_assert(BranchTable::kNodesPerOctave == std::size_t{1} << (52 - kDroppedBits));
+// The top bits of a positive double count the nodes of its octave: the exponent and the first bits of the mantissa.
+constexpr int kDroppedBits = 52 - std::countr_zero(BranchTable::kNodesPerOctave);
 
 std::uint64_t octave_bits(double u) { return std::bit_cast<std::uint64_t>(u) >> kDroppedBits; }
 double from_octave_bits(std::uint64_t bits) { return std::bit_cast<double>(bits << kDroppedBits); }
+std::uint64_t first_bits(int octave) { return static_cast<std::uint64_t>(octave + 1023) << (52 - kDroppedBits); }
+
+double cubic(const BranchTable::Node& from, const BranchTable::Node& to, double width, double t) {
+  const double rise = to.force_n - from.force_n;
+  const double bend_from = from.slope * width - rise;
+  const double bend_to = rise - to.slope * width;
+  return from.force_n + t * (rise + (1.0 - t) * (bend_from * (1.0 - t) + bend_to * t));
+}
+
+double in_graded(const BranchTable::Piece& piece, double distance) {
+  const double u = std::sqrt(distance);
+  const std::uint64_t bits = octave_bits(u), first = first_bits(piece.first_octave);
+  const std::size_t cell = bits < first ? 0 : std::min<std::size_t>(bits - first + 1, piece.nodes.size() - 2);
+  const double left = cell == 0 ? 0.0 : from_octave_bits(first + cell - 1);
+  const double right = std::min(from_octave_bits(first + cell), piece.last_u);
+  return cubic(piece.nodes[cell], piece.nodes[cell + 1], right - left, (u - left) / (right - left));
+}
+
+double in_even(const BranchTable::Piece& piece, double spacing, double distance) {
+  const double cells = distance / spacing;
+  const std::size_t cell = std::min(static_cast<std::size_t>(cells), piece.nodes.size() - 2);
+  return cubic(piece.nodes[cell], piece.nodes[cell + 1], spacing, cells - static_cast<double>(cell));
+}
 
 }  // namespace
 
@@ -26,52 +49,46 @@ BranchTable BranchTable::straight(Force force_at_zero, Stiffness slope) {
 }
 
 double BranchTable::node_u(int first_octave, std::size_t index) noexcept {
-  return index == 0 ? 0.0 : from_octave_bits(octave_bits(std::ldexp(1.0, first_octave)) + index - 1);
+  return index == 0 ? 0.0 : from_octave_bits(first_bits(first_octave) + index - 1);
 }
 
-BranchTable::BranchTable(Length end, Side side, int first_octave, std::vector<Node> nodes)
-    : end_z_(end.si),
-      side_(side == Side::Above ? 1.0 : -1.0),
-      first_octave_bits_(octave_bits(std::ldexp(1.0, first_octave))),
-      nodes_(std::move(nodes)) {
-  const Node& last = nodes_.back();
-  const double last_u = node_u(first_octave, nodes_.size() - 1);
-  reach_ = last_u * last_u;
-  const double slope_outwards = last.slope / (2.0 * last_u);  // dF/d|Z - Z_end|
-  if (side == Side::Above) {
-    if (last.force_n == 0.0) return;
-    // a force that does not fall where the table ends is made to, as slowly as 1/distance
-    tail_exponent_ = std::max(1.0, -reach_ * slope_outwards / last.force_n);
-  } else {
+BranchTable::BranchTable(Length end, Side side, std::vector<Piece> pieces)
+    : end_z_(end.si), side_(side == Side::Above ? 1.0 : -1.0), pieces_(std::move(pieces)) {
+  const Piece& last = pieces_.back();
+  continue_from(last.start + last.last_u * last.last_u, last.nodes.back(),
+                last.nodes.back().slope / (2.0 * last.last_u));
+}
+
+BranchTable::BranchTable(Length end, Side side, Length spacing, std::vector<Node> nodes)
+    : end_z_(end.si), side_(side == Side::Above ? 1.0 : -1.0), spacing_(spacing.si) {
+  continue_from(spacing_ * static_cast<double>(nodes.size() - 1), nodes.back(), nodes.back().slope);
+  pieces_.push_back({0.0, 0, 0.0, std::move(nodes)});
+}
+
+void BranchTable::continue_from(double distance, const Node& last, double slope_outwards) {
+  reach_ = distance;
+  last_force_ = last.force_n;
+  if (side_ < 0.0) {
     line_slope_ = -slope_outwards;
-    line_force_at_zero_ = last.force_n - line_slope_ * (end_z_ - reach_);
+    line_force_at_zero_ = last_force_ - line_slope_ * (end_z_ - reach_);
+  } else if (last_force_ != 0.0) {
+    // a force that does not fall where the table ends is made to, as slowly as 1/distance
+    tail_exponent_ = std::max(1.0, -reach_ * slope_outwards / last_force_);
   }
 }
 
 Force BranchTable::force_beyond(double z, double distance) const noexcept {
-  if (tail_exponent_ > 0.0) return Force(nodes_.back().force_n * std::pow(distance / reach_, -tail_exponent_));
+  if (tail_exponent_ > 0.0) return Force(last_force_ * std::pow(distance / reach_, -tail_exponent_));
   return Force(line_force_at_zero_ + line_slope_ * z);
 }
 
 Force BranchTable::force(Length z) const noexcept {
-  const double distance = (z.si - end_z_) * side_;
-  if (nodes_.empty() || distance >= reach_) return force_beyond(z.si, distance);
-
-  const double u = std::sqrt(std::max(0.0, distance));
-  const std::uint64_t bits = octave_bits(u);
-  const std::size_t cell = bits < first_octave_bits_
-                               ? 0
-                               : std::min(static_cast<std::size_t>(bits - first_octave_bits_) + 1, nodes_.size() - 2);
-  const double left = cell == 0 ? 0.0 : from_octave_bits(first_octave_bits_ + cell - 1);
-  const double width = from_octave_bits(first_octave_bits_ + cell) - left;
-
-  const Node& from = nodes_[cell];
-  const Node& to = nodes_[cell + 1];
-  const double t = (u - left) / width;
-  const double rise = to.force_n - from.force_n;
-  const double bend_from = from.slope * width - rise;
-  const double bend_to = rise - to.slope * width;
-  return Force(from.force_n + t * (rise + (1.0 - t) * (bend_from * (1.0 - t) + bend_to * t)));
+  const double distance = std::max(0.0, (z.si - end_z_) * side_);
+  if (distance >= reach_) return force_beyond(z.si, distance);
+  if (spacing_ > 0.0) return Force(in_even(pieces_.front(), spacing_, distance));
+  std::size_t piece = pieces_.size() - 1;
+  while (piece > 0 && distance < pieces_[piece].start) --piece;
+  return Force(in_graded(pieces_[piece], distance - pieces_[piece].start));
 }
 
 }  // namespace afm::physics

@@ -40,8 +40,10 @@ class Builder {
  public:
   Builder(Law name, const ForceLaw& law, const Interaction& interaction)
       : law_(law),
+        single_valued_(law.attached.at(law.attached.last).h > 0.5 * law.free.at(law.free.first).h),
+        free_curve_(single_valued_ ? reversed(law.attached) : law.free),
         compliance_(compliance(interaction)),
-        free_(law.free, compliance_, BentBranch::Direction::Inwards),
+        free_(free_curve_, compliance_, BentBranch::Direction::Inwards),
         attached_(law.attached, compliance_, BentBranch::Direction::Outwards) {
     tables_.law = name;
     tables_.interaction = interaction;
@@ -49,13 +51,11 @@ class Builder {
   }
 
   LawTables build() {
-    // a law that is single-valued in h says so by an attached branch that goes on to far away
-    const bool single_valued = law_.attached.at(law_.attached.last).h > 0.5 * law_.free.at(law_.free.first).h;
     CycleFigures& figures = tables_.figures;
     // of a loop narrower than rounding nothing is left
-    figures.hysteretic = !single_valued || (free_.folded() && attached_.folded() &&
-                                            attached_.at(attached_.end()).z > free_.at(free_.end()).z);
-    figures.critical_stiffness = critical_stiffness(single_valued);
+    figures.hysteretic = !single_valued_ || (free_.folded() && attached_.folded() &&
+                                             attached_.at(attached_.end()).z > free_.at(free_.end()).z);
+    figures.critical_stiffness = critical_stiffness();
     if (figures.hysteretic) {
       solve_jumps();
     } else {
@@ -72,19 +72,21 @@ class Builder {
     return {point.z, point.force, s};
   }
 
-  Stiffness critical_stiffness(bool single_valued) const {
+  Stiffness critical_stiffness() const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    if (!single_valued) return Stiffness(kInfinity);
-    const double steepest = steepest_attraction(law_.free);
+    if (!single_valued_) return Stiffness(kInfinity);
+    const double steepest = std::max(steepest_attraction(law_.free), steepest_attraction(law_.attached));
     if (steepest <= 0.0) return Stiffness();
     const double lever_compliance = 1.0 / steepest - 1.0 / tables_.interaction.sample_stiffness.si;
     return Stiffness(lever_compliance > 0.0 ? 1.0 / lever_compliance : kInfinity);
   }
 
   void meet_at_contact() {
-    free_.cut_at(law_.free.last);
-    const Rest contact = rest(free_, law_.free.last);
-    attached_.cut_at(attached_.at_z(contact.z).value_or(attached_.end()));
+    const LawPoint touch = law_.free.at(law_.free.last);
+    const double z = touch.h.si - compliance_ * touch.force.si;
+    free_.cut_at(free_.at_z(z).value_or(free_.end()));
+    attached_.cut_at(attached_.at_z(z).value_or(attached_.end()));
+    const Rest contact{z, touch.force.si, 0.0};
     CycleFigures& figures = tables_.figures;
     figures.z_jtc = figures.z_joc = Length(contact.z);
     figures.force_before_jtc = figures.force_after_jtc = Force(contact.force);
@@ -102,7 +104,7 @@ class Builder {
     }
     const Rest in_to = rest(attached_, *in_to_s);
     // a lever so soft that it lets go beyond the law's end springs back to where there is no force
-    const Rest off_to = rest(free_, free_.at_z(off_from.z).value_or(law_.free.first));
+    const Rest off_to = rest(free_, free_.at_z(off_from.z).value_or(free_curve_.first));
 
     CycleFigures& figures = tables_.figures;
     figures.z_jtc = Length(in_from.z);
@@ -112,7 +114,7 @@ class Builder {
     figures.force_before_joc = Force(off_from.force);
     figures.force_after_joc = Force(off_to.force);
 
-    const double fall_of_free = potential_rise(law_.free, off_to.s, in_from.s);
+    const double fall_of_free = potential_rise(free_curve_, off_to.s, in_from.s);
     const double rise_of_attached = potential_rise(law_.attached, in_to.s, off_from.s);
     const double loop =
         fall_of_free + rise_of_attached + stored(in_from) - stored(in_to) + stored(off_from) - stored(off_to);
@@ -126,14 +128,14 @@ class Builder {
   // Without a potential nothing tells the two jumps apart: the well is taken to be just deep enough for the first one.
   Energy lost_at_jtc(const Rest& from, const Rest& to) const {
     if (!law_.attached_end_potential) return Energy();
-    const double u_from = potential_far_away() + potential_rise(law_.free, law_.free.first, from.s);
+    const double u_from = potential_far_away() + potential_rise(free_curve_, free_curve_.first, from.s);
     const double u_to = law_.attached_end_potential->si - potential_rise(law_.attached, to.s, law_.attached.last);
     return Energy(u_from + stored(from) - u_to - stored(to));
   }
 
   // U at the first point of the free branch, as of a force that goes on as the power of h that it is there.
   double potential_far_away() const {
-    const LawPoint far = law_.free.at(law_.free.first);
+    const LawPoint far = free_curve_.at(free_curve_.first);
     if (far.force.si == 0.0) return 0.0;
     const double exponent = -far.dforce_ds / far.dh_ds * far.h.si / far.force.si;
     return far.force.si * far.h.si / (exponent - 1.0);
@@ -157,6 +159,10 @@ class Builder {
   }
 
   const ForceLaw& law_;
+  // A law that is single-valued in h says so by an attached branch that goes on to far away: then a tip that comes in
+  // follows that same curve until it folds, be it before contact or after.
+  bool single_valued_;
+  LawBranch free_curve_;
   double compliance_;
   BentBranch free_;
   BentBranch attached_;

@@ -75,12 +75,10 @@ TEST_P(PaperCase, Agrees) {
 INSTANTIATE_TEST_SUITE_P(Research, PaperCase, testing::ValuesIn(closed_form_cases()),
                          [](const auto& test) { return test.param.name; });
 
-// The rows of laws that go through tables. Those of Maugis and Dugdale wait for their law.
+// The rows of laws that go through tables.
 std::vector<Case> table_cases() {
   std::vector<Case> cases = cases_of(CaseProgram::Cycle);
-  std::erase_if(cases, [](const Case& row) {
-    return row.id.starts_with("paper_") || row.id.starts_with("hao_") || row.id.starts_with("md_");
-  });
+  std::erase_if(cases, [](const Case& row) { return row.id.starts_with("paper_") || row.id.starts_with("hao_"); });
   return cases;
 }
 

@@ -34,8 +34,16 @@ std::shared_ptr<const LawTables> build_law_tables(Law law, const Interaction& in
 // The same for a law that is given as its two branches.
 std::shared_ptr<const LawTables> build_law_tables(Law name, const ForceLaw& law, const Interaction& interaction);
 
-// A recorded curve as a law. Points along rising Z, each branch monotone in Z and finite; where the branches meet the
-// jumps are looked for. `interaction` says what is known of lever and tip. Throws std::invalid_argument.
+// A recorded curve as a law: two branches of points along rising Z, smoothed by the caller. Each holds one jump, the
+// step between two neighbours at which F rises most steeply with Z. Above its jump the approach is the free branch,
+// and Z_jtc is the last of its points; below its jump the retract is the attached one, and Z_joc the last of its
+// points. The rest of both is not used: an instrument records there how its lever swings. Between points F is a
+// monotone cubic. A recorded curve has no potential, so that its jump off contact is said to lose what the loop does,
+// and no critical stiffness but infinity. `interaction` is that of lever, tip and sample as far as they are known.
+//
+// Throws std::invalid_argument as validate() does, if a branch has fewer than eight points or more than 65536, or
+// points that are not finite or do not rise in Z, and if the curve has no loop: Z_joc not above Z_jtc, or no pull on
+// the tip before it jumps off.
 struct MeasuredPoint {
   Length z;
   Force force;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "physics/law_tables.h"
+#include "physics/quantity_text.h"
+
+namespace afm::physics {
+namespace {
+
+constexpr std::size_t kFewestPoints = 8;
+constexpr std::size_t kMostPoints = 65536;
+
+void check(std::span<const MeasuredPoint> branch, const std::string& name) {
+  if (branch.size() < kFewestPoints || branch.size() > kMostPoints) {
+    throw std::invalid_argument("the " + name + " of the curve has " + std::to_string(branch.size()) +
+                                " points; it needs " + std::to_string(kFewestPoints) + " to " +
+                                std::to_string(kMostPoints));
+  }
+  for (std::size_t i = 0; i < branch.size(); ++i) {
+    if (!isfinite(branch[i].z) || !isfinite(branch[i].force)) {
+      throw std::invalid_argument("point " + std::to_string(i + 1) + " of the curve's " + name + " is not finite");
+    }
+    if (i > 0 && branch[i].z <= branch[i - 1].z) {
+      throw std::invalid_argument("point " + std::to_string(i + 1) + " of the curve's " + name + " at " +
+                                  format_quantity(branch[i].z, kLengthUnits) + " does not lie above the one before");
+    }
+  }
+}
+
+// The index of the last point below the jump.
+std::size_t jump_in(std::span<const MeasuredPoint> branch) {
+  std::size_t jump = 0;
+  double steepest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
+    const double slope = ((branch[i + 1].force - branch[i].force) / (branch[i + 1].z - branch[i].z)).si;
+    if (slope > steepest) {
+      steepest = slope;
+      jump = i;
+    }
+  }
+  return jump;
+}
+
+double line_between(std::span<const MeasuredPoint> branch, double z) {
+  const auto right = std::clamp(std::upper_bound(branch.begin(), branch.end(), z,
+                                                 [](double value, const MeasuredPoint& p) { return value < p.z.si; }),
+                                branch.begin() + 1, branch.end() - 1);
+  const MeasuredPoint &from = *(right - 1), &to = *right;
+  const double t = std::clamp((z - from.z.si) / (to.z - from.z).si, 0.0, 1.0);
+  return from.force.si + t * (to.force - from.force).si;
+}
+
+// Equally spaced nodes, as close as the points on average; between them monotone cubics, whose slope at a node is the
+// harmonic mean of its two neighbours' (Fritsch & Butland 1984).
+BranchTable table(std::span<const MeasuredPoint> branch, BranchTable::Side side) {
+  const bool above = side == BranchTable::Side::Above;
+  const Length end = above ? branch.front().z : branch.back().z;
+  const double sign = above ? 1.0 : -1.0;
+  const std::size_t cells = 2 * branch.size();
+  const Length spacing = (branch.back().z - branch.front().z) / static_cast<double>(cells);
+
+  std::vector<BranchTable::Node> nodes(cells + 1);
+  for (std::size_t i = 0; i <= cells; ++i) {
+    nodes[i].force_n = line_between(branch, end.si + sign * spacing.si * static_cast<double>(i));
+  }
+  const auto secant = [&](std::size_t i) { return (nodes[i + 1].force_n - nodes[i].force_n) / spacing.si; };
+  for (std::size_t i = 1; i < cells; ++i) {
+    const double before = secant(i - 1), after = secant(i);
+    if (before * after > 0.0) nodes[i].slope = 2.0 * before * after / (before + after);
+  }
+  nodes.front().slope = secant(0);
+  nodes.back().slope = secant(cells - 1);
+  return BranchTable(end, side, spacing, std::move(nodes));
+}
+
+// The area between the branches, by trapezoids of a quarter of a node's distance.
+Energy area(const LawTables& tables, std::size_t points) {
+  const CycleFigures& figures = tables.figures;
+  const std::size_t steps = 8 * points;
+  const Length width = (figures.z_joc - figures.z_jtc) / static_cast<double>(steps);
+  Energy sum;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const Length z = figures.z_jtc + width * static_cast<double>(i);
+    const double weight = i == 0 || i == steps ? 0.5 : 1.0;
+    sum = sum + weight * (tables.free.force(z) - tables.attached.force(z)) * width;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoint> approach,
+                                                     std::span<const MeasuredPoint> retract,
+                                                     const Interaction& interaction) {
+  validate(interaction);
+  check(approach, "approach");
+  check(retract, "retract");
+  const auto free = approach.subspan(std::min(jump_in(approach) + 1, approach.size() - 2));
+  const auto attached = retract.first(std::max<std::size_t>(jump_in(retract) + 1, 2));
+  const MeasuredPoint in = free.front(), off = attached.back();
+  if (off.z <= in.z || off.force >= Force() || attached.front().z >= in.z) {
+    throw std::invalid_argument("the curve has no loop that could be felt: it jumps to contact at " +
+                                format_quantity(in.z, kLengthUnits) + " and off contact at " +
+                                format_quantity(off.z, kLengthUnits) + " under " +
+                                format_quantity(off.force, kForceUnits));
+  }
+
+  LawTables tables;
+  tables.law = Law::Measured;
+  tables.interaction = interaction;
+  tables.free = table(free, BranchTable::Side::Above);
+  tables.attached = table(attached, BranchTable::Side::Below);
+  CycleFigures& figures = tables.figures;
+  figures.hysteretic = true;
+  figures.z_jtc = in.z;
+  figures.force_before_jtc = in.force;
+  figures.force_after_jtc = tables.attached.force(in.z);
+  figures.z_joc = off.z;
+  figures.force_before_joc = off.force;
+  figures.force_after_joc = tables.free.force(off.z);
+  figures.tip_height_before_jtc = in.z + figures.force_before_jtc / interaction.spring_constant;
+  figures.tip_height_after_jtc = in.z + figures.force_after_jtc / interaction.spring_constant;
+  figures.tip_height_before_joc = off.z + figures.force_before_joc / interaction.spring_constant;
+  figures.tip_height_after_joc = off.z + figures.force_after_joc / interaction.spring_constant;
+  figures.loop_energy = figures.lost_at_joc = area(tables, std::max(approach.size(), retract.size()));
+  figures.critical_stiffness = Stiffness(std::numeric_limits<double>::infinity());
+  return std::make_shared<const LawTables>(std::move(tables));
+}
+
+}  // namespace afm::physics
