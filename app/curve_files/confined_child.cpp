@@ -22,7 +22,7 @@ namespace afm::app {
 namespace {
 
 constexpr rlim_t kMoreMemory = rlim_t{512} << 20U;
-constexpr rlim_t kMoreSeconds = 10;
+constexpr rlim_t kMoreSeconds = 3;
 
 void confine() {
   // in pages; the limit is relative, because a sanitizer maps terabytes to begin with
