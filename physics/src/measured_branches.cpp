@@ -9,6 +9,9 @@ namespace afm::physics {
 
 namespace {
 
+// On average at least: single samples that happen to lie close together would make a jump out of noise.
+constexpr std::size_t kSamplesABin = 4;
+
 struct Window {
   Length bottom;
   Length top;
@@ -22,9 +25,10 @@ std::vector<MeasuredPoint> binned(std::span<const CurvePoint> points, Branch bra
   }
   std::stable_sort(rising.begin(), rising.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
 
+  const std::size_t bins = std::clamp<std::size_t>(rising.size() / kSamplesABin, 1, most_points);
   const auto bin_of = [&](const CurvePoint& point) {
     const double place = (point.z - window.bottom) / (window.top - window.bottom);
-    return std::min(most_points - 1, static_cast<std::size_t>(place * static_cast<double>(most_points)));
+    return std::min(bins - 1, static_cast<std::size_t>(place * static_cast<double>(bins)));
   };
   std::vector<MeasuredPoint> result;
   for (std::size_t first = 0, last = 0; first < rising.size(); first = last) {

@@ -180,6 +180,23 @@ TEST(MeasuredBranches, AreShortRisingAndKeepTheJumps) {
   EXPECT_NEAR(branches.retract.back().force / 0.01_nN, 0.0, 1.0);
 }
 
+TEST(MeasuredBranches, AreFeltWithTheJumpsThatWereRecorded) {
+  for (const Interaction& interaction : {kMica, kGold, kSiliconNitride}) {
+    const auto expected = approach_retract_events(interaction);
+    const Length step = 0.005 * expected.z_jtc;
+    const auto recording = as_measured(simulated(interaction, step), 2_um, -3_nN, 0.01 * expected.effective_stiffness,
+                                       0.002 * expected.f_ad);
+    const auto branches = measured_branches(recording);
+    const auto tables = measured_law_tables(branches.approach, branches.retract, interaction);
+    // a jump lies somewhere in one of the bins, and in the two beside it their medians
+    const Length bin = 1.9 * expected.z_joc / static_cast<double>(branches.approach.size());
+    EXPECT_NEAR((tables->figures.z_jtc - expected.z_jtc) / bin, 0.0, 2.0);
+    EXPECT_NEAR((tables->figures.z_joc - expected.z_joc) / bin, 0.0, 2.0);
+    EXPECT_NEAR(tables->figures.force_before_joc / expected.f_ad, -1.0, 0.02);
+    EXPECT_NEAR(tables->figures.loop_energy / expected.loop_energy, 1.0, 0.02);
+  }
+}
+
 TEST(MeasuredBranches, RefuseACurveThatTouchesNothing) {
   std::vector<CurvePoint> flat;
   for (int i = 0; i < 100; ++i) flat.push_back({Length(-i * 1e-9), Force(), Branch::Approach});

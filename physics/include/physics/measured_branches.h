@@ -19,7 +19,8 @@ struct MeasuredBranches {
 
 // Each branch is cut into bins of equal width along Z, from its deepest point to a half beyond the farthest jump; a bin
 // becomes one point, the mean of its Z and the median of its forces. The median leaves a jump as sharp as the bins are
-// and throws out single outliers; Z that an instrument's sensor reports out of order ends in the right bin. At most
+// and throws out single outliers; Z that an instrument's sensor reports out of order ends in the right bin. Four
+// samples fall into a bin on average, or more. At most
 // `most_points` a branch. Throws std::invalid_argument as analyse() does, and if there is no contact point or no
 // retract.
 MeasuredBranches measured_branches(std::span<const CurvePoint> points, std::size_t most_points = 512);
