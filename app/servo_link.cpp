@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "app/exit_code.h"
+#include "app/haptic_choice.h"
 #include "core/check.h"
 
 namespace afm::app {
@@ -17,6 +19,20 @@ namespace {
 // Names are for people; a longer one is cut.
 void set_name(scene::Name& name, std::string_view text) {
   std::copy_n(text.begin(), std::min(text.size(), name.size() - 1), name.begin());
+}
+
+// Why a servo ended that was not asked to; it has said more on stderr.
+core::Error ended(int status) {
+  switch (static_cast<ExitCode>(status)) {
+    case ExitCode::DeviceMissing:
+      return {core::ErrorCategory::DeviceMissing,
+              "the haptic device is missing: the line above says what was tried; use --haptics sim without one"};
+    case ExitCode::BadInputFile:
+      return {core::ErrorCategory::BadInputFile, "the servo cannot replay that session: the line above says why"};
+    default:
+      return {core::ErrorCategory::Failed,
+              fmt::format("the servo ended unexpectedly (status {}): no force reaches the hand; start again", status)};
+  }
 }
 
 }  // namespace
@@ -56,18 +72,23 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
 }
 
 core::Result<std::unique_ptr<ServoLink>> ServoLink::start(const scene::SharedModel& model, std::uint64_t scene_digest,
-                                                          ServoMode mode, const std::string& program) {
+                                                          ServoMode mode, const std::string& program,
+                                                          const std::string& haptic_device) {
+  const auto choice = parse_haptic_choice(haptic_device);
+  if (!choice) return tl::unexpected(choice.error());
   auto segment = scene::SharedSegment::create(model, scene_digest);
   if (!segment) return tl::unexpected(segment.error());
   std::unique_ptr<ServoLink> link(new ServoLink(std::move(*segment)));
 
   if (mode == ServoMode::Process) {
     const std::string servo = std::filesystem::path(program).replace_filename("touchafm-servo").string();
-    auto process = haptics::ServoProcess::spawn(servo, link->segment_, link->side_, kServoRateHz);
+    auto process = haptics::ServoProcess::spawn(servo, link->segment_, link->side_, kServoRateHz, haptic_device);
     if (!process) return tl::unexpected(process.error());
     link->servo_ = std::move(*process);
   } else {
-    auto thread = haptics::ServoThread::start(link->segment_, link->side_, kServoRateHz);
+    auto opened = open_haptic_device(*choice, link->clock_);
+    if (!opened) return tl::unexpected(opened.error());
+    auto thread = haptics::ServoThread::start(link->segment_, link->side_, kServoRateHz, std::move(opened->device));
     if (!thread) return tl::unexpected(thread.error());
     link->servo_ = std::move(*thread);
   }
@@ -87,9 +108,7 @@ core::Result<ServoLink::News> ServoLink::poll(std::int64_t now_ns) {
   while (const auto event = side_.pop_event()) news.events.push_back(*event);
 
   if (!servo_->alive()) {
-    return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("the servo ended unexpectedly (status {}): no force reaches the hand; start again",
-                                     servo_->exit_status().value_or(-1)));
+    return tl::unexpected(ended(servo_->exit_status().value_or(-1)));
   }
   return news;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/clock.h"
 #include "core/result.h"
 #include "haptics/servo_process.h"
 #include "scene/material_library.h"
@@ -30,9 +31,11 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
 // are, and takes every sample and event. One thread.
 class ServoLink {
  public:
-  // `program` is the running touchafm; touchafm-servo lies beside it.
+  // `program` is the running touchafm; touchafm-servo lies beside it. `haptic_device` is what parse_haptic_choice()
+  // takes.
   static core::Result<std::unique_ptr<ServoLink>> start(const scene::SharedModel& model, std::uint64_t scene_digest,
-                                                        ServoMode mode, const std::string& program);
+                                                        ServoMode mode, const std::string& program,
+                                                        const std::string& haptic_device = "sim");
 
   struct News {
     std::vector<scene::TipSample> samples;
@@ -63,6 +66,7 @@ class ServoLink {
  private:
   explicit ServoLink(scene::SharedSegment segment) : segment_(std::move(segment)), side_(segment_.renderer_side()) {}
 
+  core::MonotonicClock clock_;  // of a device in a thread of this process
   scene::SharedSegment segment_;
   scene::RendererSide side_;
   scene::Selection selection_;

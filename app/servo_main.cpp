@@ -15,13 +15,13 @@
 #include <string_view>
 #include <thread>
 
+#include "app/exit_code.h"
+#include "app/haptic_choice.h"
 #include "core/clock.h"
 #include "core/file_descriptor.h"
 #include "core/log.h"
-#include "exit_code.h"
 #include "haptics/realtime.h"
 #include "haptics/servo_loop.h"
-#include "haptics/simulated_device.h"
 #include "scene/shared_segment.h"
 
 // touchafm-servo: the process that holds the hand. Its main thread is the servo; a second thread watches the renderer,
@@ -37,6 +37,7 @@ struct Options {
   int segment = -1;
   int parent_socket = -1;
   double rate_hz = kDefaultRateHz;
+  std::string_view haptics = "sim";
 };
 
 template <class Number>
@@ -53,7 +54,8 @@ std::optional<Options> parse_options(int count, char** arguments) {
     const std::string_view value = arguments[i + 1];
     const bool parsed = (name == "--segment"sv && parse(value, options.segment)) ||
                         (name == "--parent-socket"sv && parse(value, options.parent_socket)) ||
-                        (name == "--rate"sv && parse(value, options.rate_hz));
+                        (name == "--rate"sv && parse(value, options.rate_hz)) || name == "--haptics"sv;
+    if (name == "--haptics"sv) options.haptics = value;
     if (!parsed) return std::nullopt;
   }
   if (options.segment < 0 || options.parent_socket < 0) return std::nullopt;
@@ -115,15 +117,21 @@ ExitCode run(const Options& options) {
     afm::core::log_line(segment.error().message);
     return afm::app::exit_code(segment.error().category);
   }
-  afm::haptics::SimulatedDevice device;
-  auto loop = afm::haptics::ServoLoop::create(*segment, device, options.rate_hz);
+  // a device may bring threads of its own, which must leave the signals to the monitor
+  const afm::core::FileDescriptor signals = catch_signals();
+  const afm::core::MonotonicClock clock;
+  const auto choice = afm::app::parse_haptic_choice(options.haptics);
+  auto opened = choice ? afm::app::open_haptic_device(*choice, clock) : tl::unexpected(choice.error());
+  if (!opened) {
+    afm::core::log_line(opened.error().message);
+    return afm::app::exit_code(opened.error().category);
+  }
+  auto loop = afm::haptics::ServoLoop::create(*segment, *opened->device, options.rate_hz);
   if (!loop) {
     afm::core::log_line(loop.error().message);
     return afm::app::exit_code(loop.error().category);
   }
 
-  const afm::core::FileDescriptor signals = catch_signals();
-  const afm::core::MonotonicClock clock;
   afm::haptics::ServoExit exit{};
   {
     const afm::haptics::EditThread edits((*loop)->edits());

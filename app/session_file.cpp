@@ -63,7 +63,9 @@ bool take_all(std::string_view& bytes, std::vector<T>& values) {
 bool finite(const TipSample& s) {
   return std::isfinite(s.z_m) && std::isfinite(s.force_n) && std::isfinite(s.tip_height_m) &&
          std::isfinite(s.deflection_m) && std::isfinite(s.sample_deformation_m) && std::isfinite(s.hand_height_m) &&
-         std::isfinite(s.hand_force_n);
+         std::isfinite(s.hand_force_n) &&
+         std::all_of(s.hand_from_contact_m.begin(), s.hand_from_contact_m.end(),
+                     [](double m) { return std::isfinite(m); });
 }
 
 bool finite(const TipEvent& e) {

@@ -26,6 +26,10 @@ DeviceSpec omni_like(std::string name) {
 
 double force_cap_n(const DeviceSpec& spec) { return std::min(kDefaultCapN, kUsableShare * spec.max_force_n); }
 
+double usable_slew_n_per_s(const DeviceSpec& spec, double wanted_n_per_s) {
+  return std::min(wanted_n_per_s, kUsableLimitShare * spec.max_slew_n_per_s);
+}
+
 bool is_within_reach(const glm::dvec3& position_m) noexcept {
   // a NaN compares false
   return std::abs(position_m.x) <= kFarthestM && std::abs(position_m.y) <= kFarthestM &&

@@ -34,9 +34,9 @@ double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
 }  // namespace
 
-SafetyGovernor::SafetyGovernor(std::int64_t period_ns, double cap_n, double release_height_m)
-    : period_ns_(period_ns), cap_n_(cap_n), release_height_m_(release_height_m) {
-  AFM_CHECK(period_ns > 0 && cap_n > 0 && std::isfinite(cap_n) && release_height_m > 0);
+SafetyGovernor::SafetyGovernor(std::int64_t period_ns, double cap_n, double release_height_m, double slew_n_per_s)
+    : period_ns_(period_ns), cap_n_(cap_n), release_height_m_(release_height_m), slew_n_per_s_(slew_n_per_s) {
+  AFM_CHECK(period_ns > 0 && cap_n > 0 && std::isfinite(cap_n) && release_height_m > 0 && slew_n_per_s > 0);
 }
 
 bool SafetyGovernor::released() const noexcept {
@@ -166,7 +166,7 @@ glm::dvec3 SafetyGovernor::limited(const GovernorInput& input, std::int64_t elap
   }
   // a fade has its own clock: it must be over in time
   const bool guarded = input.time_ns < guard_until_ns_ && state_ != ServoState::Fading;
-  const double slew_n_per_s = guarded ? kGuardSlewNPerS : kSlewNPerS;
+  const double slew_n_per_s = guarded ? std::min(kGuardSlewNPerS, slew_n_per_s_) : slew_n_per_s_;
   const double largest_step_n = slew_n_per_s * seconds(std::min(elapsed_ns, period_ns_));
   return shortened(command_n_ + shortened(target_n - command_n_, largest_step_n), cap_n_);
 }

@@ -75,7 +75,8 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       exchange_(std::move(encounters)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count}, device.spec(),
              exchange_),
-      governor_(period_ns, force_cap_n(device.spec()), FitScaling::kStrokeM),
+      governor_(period_ns, force_cap_n(device.spec()), FitScaling::kStrokeM,
+                usable_slew_n_per_s(device.spec(), SafetyGovernor::kSlewNPerS)),
       hand_position_m_(device.spec().contact_point_m) {
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns);
   const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
@@ -100,10 +101,12 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   // the place of a device that failed, or that makes no sense, is the last one known; the governor hears of it below
   if (hand.healthy && is_within_reach(hand.position_m)) {
     hand_position_m_ = hand.position_m;
-    hand_height_m_ = glm::dot(hand.position_m - device_.spec().contact_point_m, normal_);
+    hand_from_contact_m_ = hand.position_m - device_.spec().contact_point_m;
+    hand_height_m_ = glm::dot(hand_from_contact_m_, normal_);
   } else if (encounter_ != nullptr) {
     encounter_->wait_for_lift();
   }
+  turn_on_ = hand.turn_on;
 
   physics::TipResponse response;
   double wanted_n = 0;
@@ -230,20 +233,23 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physic
   // without a material there is no curve to draw
   if (encounter_ == nullptr) return;
   const glm::dvec3 hand_force_n(state_.hand_force_n[0], state_.hand_force_n[1], state_.hand_force_n[2]);
-  shared_.push(scene::TipSample{.time_ns = now_ns,
-                                .tick = state_.tick,
-                                .z_m = state_.z_m,
-                                .force_n = state_.force_n,
-                                .tip_height_m = state_.tip_height_m,
-                                .deflection_m = state_.deflection_m,
-                                .sample_deformation_m = state_.sample_deformation_m,
-                                .hand_height_m = hand_height_m_,
-                                .hand_force_n = glm::dot(hand_force_n, normal_),
-                                .servo_state = state_.servo_state,
-                                .phase = state_.phase,
-                                .material = state_.material,
-                                .wake_us = wake_us,
-                                .edit_revision = state_.edit_revision});
+  shared_.push(scene::TipSample{
+      .time_ns = now_ns,
+      .tick = state_.tick,
+      .z_m = state_.z_m,
+      .force_n = state_.force_n,
+      .tip_height_m = state_.tip_height_m,
+      .deflection_m = state_.deflection_m,
+      .sample_deformation_m = state_.sample_deformation_m,
+      .hand_height_m = hand_height_m_,
+      .hand_force_n = glm::dot(hand_force_n, normal_),
+      .servo_state = state_.servo_state,
+      .phase = state_.phase,
+      .material = state_.material,
+      .wake_us = wake_us,
+      .edit_revision = state_.edit_revision,
+      .turn_on = turn_on_ ? 1U : 0U,
+      .hand_from_contact_m = {hand_from_contact_m_.x, hand_from_contact_m_.y, hand_from_contact_m_.z}});
 }
 
 bool ServoLoop::finished() const noexcept {

@@ -17,7 +17,6 @@
 
 #include "core/clock.h"
 #include "core/log.h"
-#include "haptics/simulated_device.h"
 
 namespace afm::haptics {
 
@@ -83,7 +82,8 @@ core::FileDescriptor out_of_the_way(int descriptor) {
 
 core::Result<std::unique_ptr<ServoProcess>> ServoProcess::spawn(const std::string& program,
                                                                 scene::SharedSegment& segment,
-                                                                scene::RendererSide& side, double rate_hz) {
+                                                                scene::RendererSide& side, double rate_hz,
+                                                                const std::string& device) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     return tl::unexpected(spawn_error(program, errno));
@@ -100,7 +100,9 @@ core::Result<std::unique_ptr<ServoProcess>> ServoProcess::spawn(const std::strin
                                      "--parent-socket",
                                      std::to_string(kLifelineInChild),
                                      "--rate",
-                                     fmt::format("{}", rate_hz)};
+                                     fmt::format("{}", rate_hz),
+                                     "--haptics",
+                                     device};
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
@@ -144,8 +146,7 @@ bool ServoProcess::ended_within(int milliseconds) noexcept {
 }
 
 core::Result<std::unique_ptr<ServoThread>> ServoThread::start(scene::SharedSegment& segment, scene::RendererSide& side,
-                                                              double rate_hz) {
-  auto device = std::make_unique<SimulatedDevice>();
+                                                              double rate_hz, std::unique_ptr<HapticDevice> device) {
   auto loop = ServoLoop::create(segment, *device, rate_hz);
   if (!loop) return tl::unexpected(loop.error());
   return std::unique_ptr<ServoThread>(new ServoThread(std::move(device), std::move(*loop), side));

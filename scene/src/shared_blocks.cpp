@@ -154,7 +154,8 @@ bool plausible(const TipState& state, const SharedModel& model) {
 bool plausible(const TipSample& sample, const SharedModel& model) {
   return sane(sample.z_m) && sane(sample.force_n) && sane(sample.tip_height_m) && sane(sample.deflection_m) &&
          sane(sample.sample_deformation_m) && sane(sample.hand_height_m) && sane(sample.hand_force_n) &&
-         known(sample.servo_state) && known(sample.phase) && within(sample.material, model);
+         all_sane(sample.hand_from_contact_m) && known(sample.servo_state) && known(sample.phase) &&
+         within(sample.material, model);
 }
 
 bool plausible(const TipEvent& event, const SharedModel& model) {

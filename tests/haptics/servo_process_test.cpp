@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "core/clock.h"
+#include "haptics/simulated_device.h"
 #include "support/paper_model.h"
 
 // Real processes and real time. What must happen is waited for with a generous limit; how long it took is printed and
@@ -298,7 +299,7 @@ TEST(ServoProcess, SaysWhatIsMissingWhenItCannotBeStarted) {
 TEST(ServoThread, RunsTheSameLoopAndLeavesInGoodOrder) {
   SharedSegment segment = create_segment();
   RendererSide side = segment.renderer_side();
-  auto servo = ServoThread::start(segment, side, kRateHz);
+  auto servo = ServoThread::start(segment, side, kRateHz, std::make_unique<afm::haptics::SimulatedDevice>());
   ASSERT_TRUE(servo);
   Renderer renderer(side);
   ASSERT_TRUE(renderer.hold_attached());

@@ -36,6 +36,9 @@ double force_cap_n(const DeviceSpec& spec);
 // What a device's limits of slew and speed leave for use: a driver that sees its own limit exceeded cuts the force.
 inline constexpr double kUsableLimitShare = 0.8;
 
+// `wanted`, or what the device leaves for use where that is less.
+double usable_slew_n_per_s(const DeviceSpec& spec, double wanted_n_per_s);
+
 // Finite and not absurdly far: what a hand's position must be before anything is computed from it.
 bool is_within_reach(const glm::dvec3& position_m) noexcept;
 

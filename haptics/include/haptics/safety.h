@@ -65,7 +65,8 @@ class SafetyGovernor {
   };
 
   // `cap_n`: the longest force vector. `release_height_m`: hand height at which the tip lets go (FitScaling::kStrokeM).
-  SafetyGovernor(std::int64_t period_ns, double cap_n, double release_height_m);
+  // `slew_n_per_s`: less than kSlewNPerS for a device that stands less.
+  SafetyGovernor(std::int64_t period_ns, double cap_n, double release_height_m, double slew_n_per_s = kSlewNPerS);
 
   Output step(const GovernorInput& input) noexcept;
 
@@ -89,6 +90,7 @@ class SafetyGovernor {
   std::int64_t period_ns_;
   double cap_n_;
   double release_height_m_;
+  double slew_n_per_s_;
 
   scene::ServoState state_ = scene::ServoState::Disarmed;
   scene::FaultCode fault_ = scene::FaultCode::None;

@@ -79,6 +79,8 @@ class ServoLoop {
   scene::Selection chosen_;         // the newest choice, perhaps not in effect yet
   glm::dvec3 normal_{0.0, 1.0, 0.0};
   glm::dvec3 hand_position_m_;
+  glm::dvec3 hand_from_contact_m_{0.0};
+  bool turn_on_ = false;
   double hand_height_m_ = 0;
   scene::TipState state_;
   std::int64_t previous_ns_ = 0;

@@ -39,9 +39,12 @@ class Servo {
 // hand.
 class ServoProcess final : public Servo {
  public:
-  // `program` is the path of touchafm-servo; `rate_hz` is what ServoLoop takes.
+  // `program` is the path of touchafm-servo; `rate_hz` is what ServoLoop takes; `device` names the device as
+  // touchafm's --haptics does. A servo that cannot have it says why on stderr and ends with an exit code of the
+  // program.
   static core::Result<std::unique_ptr<ServoProcess>> spawn(const std::string& program, scene::SharedSegment& segment,
-                                                           scene::RendererSide& side, double rate_hz);
+                                                           scene::RendererSide& side, double rate_hz,
+                                                           const std::string& device = "sim");
 
   // Waits at most 2 s for the servo to leave; then it is terminated, then killed. Leaves no zombie.
   ~ServoProcess() override;
@@ -62,12 +65,12 @@ class ServoProcess final : public Servo {
   std::optional<int> exit_status_;
 };
 
-// The same loop with the same simulated device as a thread of this process, for sanitizers and debuggers. Its pages are
+// The same loop as a thread of this process, for sanitizers and debuggers. Its pages are
 // not locked, so it reports itself as not real-time; a debugger's stop disarms it.
 class ServoThread final : public Servo {
  public:
   static core::Result<std::unique_ptr<ServoThread>> start(scene::SharedSegment& segment, scene::RendererSide& side,
-                                                          double rate_hz);
+                                                          double rate_hz, std::unique_ptr<HapticDevice> device);
   ~ServoThread() override;
 
   bool alive() noexcept override { return !exit_status().has_value(); }

@@ -171,9 +171,10 @@ struct TipSample {
   ServoState servo_state = ServoState::Disarmed;
   ContactPhase phase = ContactPhase::WaitForLift;
   std::int32_t material = -1;
-  std::uint32_t wake_us = 0;        // how late this tick woke
-  std::uint32_t edit_revision = 0;  // as in TipState
-  std::uint32_t padding = 0;
+  std::uint32_t wake_us = 0;                    // how late this tick woke
+  std::uint32_t edit_revision = 0;              // as in TipState
+  std::uint32_t turn_on = 0;                    // 1: the button was held
+  std::array<double, 3> hand_from_contact_m{};  // device frame, from where Z = 0: with turn_on all that a replay needs
 };
 
 enum class TipEventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2 };

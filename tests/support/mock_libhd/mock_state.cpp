@@ -125,7 +125,9 @@ void Mock::tick() {
 
 void Mock::play_script() {
   if (script.empty()) return;
-  const double seconds = 1e-3 * kPeriodMs * static_cast<double>(ticks_);
+  const double whole = script.back().seconds;
+  const double played = 1e-3 * kPeriodMs * static_cast<double>(ticks_);
+  const double seconds = whole > 0 ? std::fmod(played, whole) : 0.0;
   const auto after = std::find_if(script.begin(), script.end(), [&](const KeyFrame& k) { return k.seconds > seconds; });
   const KeyFrame& to = after == script.end() ? script.back() : *after;
   const KeyFrame& from = after == script.begin() ? script.front() : *(after - 1);
