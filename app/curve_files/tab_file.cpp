@@ -98,10 +98,12 @@ RecordedCurve read_tab(std::string_view bytes) {
   const std::size_t height = column_in(names, measured ? "height (measured)" : "height (piezo)");
   const std::size_t force = column_in(names, "force"), segment = column_in(names, "segment");
   const std::size_t time = static_cast<std::size_t>(std::find(names.begin(), names.end(), "time") - names.begin());
+  // afmformats 0.13 wrote its first row behind the heading, which then has more columns than the rows
+  const std::size_t last_used = std::max({height, force, segment, time < names.size() ? time : 0});
   for (bool more = !line.empty(); more; more = lines.next(line)) {
     if (trimmed(line).empty() || line.starts_with('#')) continue;
     split(line, '\t', fields);
-    if (fields.size() != names.size()) {
+    if (fields.size() <= last_used || fields.size() > names.size()) {
       throw CurveFault(
           fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), names.size()));
     }
