@@ -174,10 +174,13 @@ double BentBranch::solve(double z, double guess, double low, double high, Point&
 }
 
 std::optional<double> BentBranch::at_z(double z) const {
-  const double low = branch_.first, high = end_;
+  double low = branch_.first, high = end_;
   if (sign_ * (z - at(low).z) < 0.0 || sign_ * (at(high).z - z) < 0.0) return std::nullopt;
-  Point solution;
-  return solve(z, 0.5 * (low + high), low, high, solution);
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (sign_ * (at(middle).z - z) < 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 BranchTable::Piece BentBranch::piece(double from, double to, double end_z, double reach) const {
