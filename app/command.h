@@ -19,6 +19,7 @@ struct CommandContext {
 
 // Each command adds one subcommand with its options, whose callback only stores what to run into context.chosen.
 void add_analyse_command(CLI::App& app, CommandContext& context);
+void add_bench_command(CLI::App& app, CommandContext& context);
 void add_curve_command(CLI::App& app, CommandContext& context);
 void add_demo_command(CLI::App& app, CommandContext& context);
 void add_devices_command(CLI::App& app, CommandContext& context);

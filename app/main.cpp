@@ -53,6 +53,7 @@ int run(int count, char** arguments) {
   afm::app::add_wall_command(app, context);
   afm::app::add_devices_command(app, context);
   afm::app::add_doctor_command(app, context);
+  afm::app::add_bench_command(app, context);
 
   if (names_unknown_command(app, count, arguments)) {
     return fail(ExitCode::WrongUsage, "there is no command \"" + std::string(arguments[1]) + "\"; see touchafm --help");

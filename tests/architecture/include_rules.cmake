@@ -18,7 +18,7 @@ set(libraries_scene glm fmt toml\\+\\+ tiny_gltf nlohmann tl)
 set(libraries_haptics glm fmt tl)
 set(libraries_input glm)
 set(libraries_render glm vulkan GLFW imgui fmt png shaders)
-set(libraries_app glm fmt CLI nlohmann tl hdf5 zip)
+set(libraries_app glm fmt CLI nlohmann tl hdf5 zip benchmark)
 set(known_libraries "glm|fmt|toml\\+\\+|tiny_gltf|nlohmann|tl|vulkan|GLFW|imgui|png|CLI|hidapi|SDL2|stb|spdlog|gtest|gmock|benchmark|hdf5|zip")
 
 set(scanned 0)

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+namespace afm::app {
+
+// Processor time leaves out what other programs take; wall time is what a person waits for.
+enum class BenchmarkClock { Processor, Wall };
+
+// One thing to measure. `run` is a Google Benchmark: set up, loop over the state, and the loop alone is timed.
+struct BenchmarkCase {
+  std::string name;
+  double bar_s = 0.0;  // what one operation may take
+  BenchmarkClock clock = BenchmarkClock::Processor;
+  double operations = 1.0;  // in one turn of the loop
+  std::function<void(benchmark::State&)> run;
+};
+
+// What one operation took: the median over repetitions, each of which is the mean of as many turns as fill some
+// hundredths of a second, and the two extremes.
+struct BenchmarkFigure {
+  std::string name;
+  double bar_s = 0.0;
+  BenchmarkClock clock = BenchmarkClock::Processor;
+  double median_s = 0.0;
+  double min_s = 0.0;
+  double max_s = 0.0;
+
+  bool met() const { return median_s <= bar_s; }
+};
+
+inline constexpr int kBenchmarkRepetitions = 15;
+
+// Runs one after the other, with a line of progress each. Fails if one of them fails or the run is interrupted.
+core::Result<std::vector<BenchmarkFigure>> run_benchmarks(const std::vector<BenchmarkCase>& cases);
+
+// For people, and as JSON; durations of the JSON are seconds.
+std::string benchmark_table(const std::vector<BenchmarkFigure>& figures);
+std::string benchmark_json(const std::vector<BenchmarkFigure>& figures);
+
+}  // namespace afm::app
