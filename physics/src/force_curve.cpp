@@ -50,7 +50,8 @@ ForceCurve record(Model model, const SweepPlan& plan) {
   }
 
   // the tip comes from where nothing holds it
-  model.step(2.0 * std::max(thresholds.z_joc, plan.from));
+  constexpr Length kHigher(1e-6);
+  model.step(std::max(thresholds.z_joc, plan.from) + kHigher);
 
   ForceCurve curve;
   curve.samples.reserve(static_cast<std::size_t>(count) + 8);

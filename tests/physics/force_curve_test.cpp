@@ -75,6 +75,22 @@ TEST_P(Step, DoesNotChangeExtremesAndLoopEnergy) {
   }
 }
 
+// Of a law that bends, a curve's area is as good as its step; its extremes are exact all the same.
+TEST(ForceCurve, OfAnyLawHoldsItsFigures) {
+  Interaction interaction = kMica;
+  interaction.reduced_modulus = 51.5_GPa;
+  for (const Law law : {Law::Hao, Law::Dmt, Law::MaugisDugdale, Law::Jkr}) {
+    const ApproachRetractModel model(build_law_tables(law, interaction));
+    const CycleFigures& figures = model.figures();
+    const auto curve = record_curve(model, {1.1 * figures.z_joc, -5_nm, 0.005_nm});
+    const CurveSummary summary = summarise(curve.samples);
+    ASSERT_EQ(curve.events.size(), 2U) << name_of(law);
+    EXPECT_NEAR(summary.approach.force / figures.force_after_jtc, 1.0, 1e-12) << name_of(law);
+    EXPECT_NEAR(summary.retract.force / figures.force_before_joc, 1.0, 1e-4) << name_of(law);
+    EXPECT_NEAR(summary.loop_energy / figures.loop_energy, 1.0, 1e-4) << name_of(law);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(ForceCurve, Step, testing::Values(0.001, 0.01, 0.37, 1.0, 7.0, 1000.0),
                          [](const auto& test) { return "Case" + std::to_string(test.index); });
 

@@ -269,5 +269,55 @@ TEST(ApproachRetractModel, ChangesForceNoFasterThanItsSlopeExceptAtAJump) {
   }
 }
 
+Interaction elastic_mica() {
+  Interaction interaction = kMica;
+  interaction.reduced_modulus = 51.5_GPa;
+  return interaction;
+}
+
+TEST(ModelOfAnyLaw, GoesInAndOutOfContactSilentlyWithoutHysteresis) {
+  Interaction stiff = elastic_mica();
+  stiff.spring_constant = 10_N_per_m;
+  for (const Law law : {Law::Hertz, Law::Dmt}) {
+    ApproachRetractModel model(build_law_tables(law, stiff));
+    const CycleFigures& figures = model.figures();
+    ASSERT_FALSE(figures.hysteretic);
+    EXPECT_EQ(model.step(figures.z_joc).phase, Phase::WaitForLift);
+    const TipResponse above = model.step(figures.z_joc + Length(1e-15));
+    EXPECT_EQ(above.phase, Phase::Free);
+    const TipResponse at = model.step(figures.z_jtc);
+    EXPECT_EQ(at.phase, Phase::Attached);
+    EXPECT_EQ(at.event_count, 0U);
+    EXPECT_NEAR(at.force.si, above.force.si, 1e-13);
+    // a hold at the very place does not chatter
+    EXPECT_EQ(model.step(figures.z_jtc).phase, Phase::Attached);
+    EXPECT_EQ(model.step(figures.z_joc + Length(1e-15)).phase, Phase::Free);
+  }
+}
+
+TEST(ModelOfAnyLaw, BalancesLeverAndTip) {
+  for (const Law law : {Law::Paper, Law::Hao, Law::Hertz, Law::Dmt, Law::Jkr, Law::MaugisDugdale, Law::LennardJones}) {
+    ApproachRetractModel model(build_law_tables(law, elastic_mica()));
+    EXPECT_EQ(model.law(), law);
+    model.step(1_um);
+    for (const Length z : {20_nm, 4_nm, -1_nm, -20_nm, 3_nm, 10_nm}) {
+      const TipResponse response = model.step(z);
+      EXPECT_NEAR(response.force.si, -(model.interaction().spring_constant * response.cantilever_deflection).si, 1e-20);
+      EXPECT_NEAR((response.tip_height + response.cantilever_deflection).si, z.si, 1e-20);
+      const Length gap = response.phase == Phase::Attached ? model.tables().contact_gap : response.tip_height;
+      EXPECT_NEAR((response.tip_height - response.sample_deformation).si, gap.si, 1e-20) << name_of(law) << z.si;
+    }
+  }
+}
+
+TEST(ModelOfAnyLaw, FeelsTheAttractionBeforeTheJump) {
+  ApproachRetractModel model(build_law_tables(Law::Dmt, elastic_mica()));
+  model.step(1_um);
+  const CycleFigures& figures = model.figures();
+  EXPECT_EQ(model.step(figures.z_jtc + Length(1e-18)).phase, Phase::Free);
+  EXPECT_NEAR(model.step(figures.z_jtc + Length(1e-18)).force / figures.force_before_jtc, 1.0, 1e-3);
+  EXPECT_LT(figures.force_after_jtc, 2.0 * figures.force_before_jtc);
+}
+
 }  // namespace
 }  // namespace afm::physics
