@@ -24,6 +24,7 @@ void add_curve_command(CLI::App& app, CommandContext& context);
 void add_demo_command(CLI::App& app, CommandContext& context);
 void add_devices_command(CLI::App& app, CommandContext& context);
 void add_doctor_command(CLI::App& app, CommandContext& context);
+void add_material_command(CLI::App& app, CommandContext& context);
 void add_paper_command(CLI::App& app, CommandContext& context);
 void add_render_command(CLI::App& app, CommandContext& context);
 void add_wall_command(CLI::App& app, CommandContext& context);

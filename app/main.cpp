@@ -48,6 +48,7 @@ int run(int count, char** arguments) {
   afm::app::add_demo_command(app, context);
   afm::app::add_curve_command(app, context);
   afm::app::add_analyse_command(app, context);
+  afm::app::add_material_command(app, context);
   afm::app::add_paper_command(app, context);
   afm::app::add_render_command(app, context);
   afm::app::add_wall_command(app, context);

@@ -24,17 +24,16 @@ core::Result<void> write_paper(const PaperOptions& options) {
                          fmt::format("material file {} lacks a sample of the paper: {}", options.materials_file,
                                      samples.error().message));
   }
-  MeasuredEvents measured;
-  if (!options.summary_file.empty()) {
-    auto loaded = load_measured_events(options.summary_file);
-    if (!loaded) return tl::unexpected(loaded.error());
-    measured = std::move(*loaded);
-  }
-  const auto tables = paper_tables(*samples, measured);
+  const bool of_a_demo = !options.summary_file.empty();
+  const core::Result<MeasuredEvents> measured =
+      of_a_demo ? load_measured_events(options.summary_file) : core::Result<MeasuredEvents>(measured_events(*samples));
+  if (!measured) return tl::unexpected(measured.error());
+  const auto tables = paper_tables(*samples, *measured);
   if (!tables) return tl::unexpected(tables.error());
+  const char* run = of_a_demo ? "of the demo" : "of the model, which looks every 0.1 nm";
 
-  const std::array<std::pair<const char*, std::string>, 6> files{{{"paper.md", paper_markdown(*tables)},
-                                                                  {"paper.json", paper_json(*tables)},
+  const std::array<std::pair<const char*, std::string>, 6> files{{{"paper.md", paper_markdown(*tables, *samples, run)},
+                                                                  {"paper.json", paper_json(*tables, *samples)},
                                                                   {"table1.csv", table1_csv(*tables)},
                                                                   {"table2.csv", table2_csv(*tables)},
                                                                   {"fig2.svg", figure2_svg(samples->materials.front())},
@@ -53,7 +52,8 @@ void add_paper_command(CLI::App& app, CommandContext& context) {
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<PaperOptions>();
   command->add_option("--out", options->out, "folder for paper.md, paper.json, the tables and the figures")->required();
-  command->add_option("--summary", options->summary_file, "summary.json of a demo, for a column of what it measured");
+  command->add_option("--summary", options->summary_file,
+                      "summary.json of a demo, whose measurements then stand in the tables");
   command->add_option("--materials", options->materials_file, "material file (TOML); default: the built-in one");
   command->footer("example: touchafm paper --out paper --summary out/summary.json");
   command->callback([options, &context] {

@@ -2,18 +2,19 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "app/paper_tables.h"
 #include "scene/material_library.h"
 
 namespace afm::app {
 
-// The tables for people: printed, exact and, where a demo was given, measured beside each other; the figures; the
-// errata.
-std::string paper_markdown(const PaperTables& tables);
+// The tables for people: printed, exact and measured in the run beside each other, what contact mechanics says of the
+// same samples, the figures, the errata. `run` says which run measured: "of the demo".
+std::string paper_markdown(const PaperTables& tables, const scene::MaterialLibrary& library, std::string_view run);
 
 // The same for machines: SI, magnitudes.
-std::string paper_json(const PaperTables& tables);
+std::string paper_json(const PaperTables& tables, const scene::MaterialLibrary& library);
 
 // A line per number, in the table's unit.
 std::string table1_csv(const PaperTables& tables);

@@ -32,7 +32,7 @@ struct TableCell {
   double per_si = 1.0;               // units in one SI unit
   std::string printed;               // as the paper prints it
   double exact = 0.0;                // by the paper's equations
-  std::optional<double> measured;    // in the run of a demo
+  std::optional<double> measured;    // in the run; no run measures D_attr and delta_c
   std::optional<double> experiment;  // Table 2 only
   std::string printed_simulation;    // Table 2 only
   std::string_view erratum;          // empty where printed and exact agree
@@ -56,6 +56,9 @@ using MeasuredEvents = std::map<std::string, std::map<std::string, double>>;
 
 // Reads a demo's summary.json. The error names the file and what is wrong in it.
 core::Result<MeasuredEvents> load_measured_events(const std::string& path);
+
+// The same of a run of the model alone, which looks every 0.1 nm as a moving hand does.
+MeasuredEvents measured_events(const scene::MaterialLibrary& library);
 
 // The paper's Tables 1 and 2 beside our evaluation of its equations for the library's numbers. Fails if the library
 // lacks one of the paper's materials.

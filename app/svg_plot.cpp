@@ -53,6 +53,18 @@ double tick_step(double range) {
   return power * (mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : mantissa < 7.5 ? 5.0 : 10.0);
 }
 
+// A whole power of ten.
+std::string power_text(double exponent) {
+  constexpr std::array<const char*, 10> kSuperscripts{"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                                      "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  std::string text = "10";
+  if (exponent < 0) text += "\u207b";
+  for (const char digit : fmt::format("{}", std::abs(std::lround(exponent)))) {
+    text += kSuperscripts[static_cast<std::size_t>(digit - '0')];
+  }
+  return text;
+}
+
 // A number on an axis whose ticks are `step` apart: no more decimals than that needs, and a real minus sign.
 std::string tick_text(double value, double step) {
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
@@ -64,6 +76,17 @@ struct Axis {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
   double step = 1;
+  AxisScale scale = AxisScale::Linear;
+
+  // where a number stands on the axis; NaN where it has no place
+  double place(double value) const {
+    if (scale == AxisScale::Linear) return value;
+    return value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  std::string text(double tick) const { return scale == AxisScale::Linear ? tick_text(tick, step) : power_text(tick); }
+
+  bool is_zero(double tick) const { return scale == AxisScale::Linear && tick == 0; }
 
   void include(double value) {
     low = std::min(low, value);
@@ -85,6 +108,7 @@ struct Axis {
     low -= margin;
     high += margin;
     step = tick_step(high - low);
+    if (scale == AxisScale::Logarithmic) step = std::max(1.0, std::round(step));
   }
 
   double first_tick() const { return std::ceil(low / step); }
@@ -133,10 +157,12 @@ class Frame {
         right_(plot.width - kRight),
         top_(kTitle + legend_height(plot) + 10),
         bottom_(plot.height - kBottom) {
+    x_.scale = plot.x_scale;
+    y_.scale = plot.y_scale;
     for (const SvgLine& line : plot.lines) {
-      for (const SvgPoint& point : line.points) include(point);
+      for (const SvgPoint& point : line.points) include(placed(point));
     }
-    for (const SvgMark& mark : plot.marks) include(mark.at);
+    for (const SvgMark& mark : plot.marks) include(placed(mark.at));
     x_.settle();
     y_.settle();
   }
@@ -147,8 +173,10 @@ class Frame {
   double right() const { return right_; }
   double top() const { return top_; }
   double bottom() const { return bottom_; }
+  // of places on the axes
   double x_px(double x) const { return left_ + (x - x_.low) / (x_.high - x_.low) * (right_ - left_); }
   double y_px(double y) const { return bottom_ - (y - y_.low) / (y_.high - y_.low) * (bottom_ - top_); }
+  SvgPoint placed(SvgPoint point) const { return {x_.place(point.x), y_.place(point.y)}; }
 
  private:
   void include(SvgPoint point) {
@@ -174,16 +202,16 @@ void draw_axes(std::string& out, const SvgPlot& plot, const Frame& frame) {
   for (double i = frame.x().first_tick(); i <= frame.x().last_tick(); ++i) {
     const double x = frame.x_px(i * frame.x().step);
     out += fmt::format("<path d=\"M{0:.2f} {1:.2f}V{2:.2f}\"{3}/>\n", x, frame.top(), frame.bottom(),
-                       i == 0 ? " stroke=\"#7a828c\"" : "");
+                       frame.x().is_zero(i) ? " stroke=\"#7a828c\"" : "");
     labels += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{}</text>\n", x, frame.bottom() + 22,
-                          tick_text(i * frame.x().step, frame.x().step));
+                          frame.x().text(i * frame.x().step));
   }
   for (double i = frame.y().first_tick(); i <= frame.y().last_tick(); ++i) {
     const double y = frame.y_px(i * frame.y().step);
     out += fmt::format("<path d=\"M{0:.2f} {1:.2f}H{2:.2f}\"{3}/>\n", frame.left(), y, frame.right(),
-                       i == 0 ? " stroke=\"#7a828c\"" : "");
+                       frame.y().is_zero(i) ? " stroke=\"#7a828c\"" : "");
     labels += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"end\">{}</text>\n", frame.left() - 10, y + 5,
-                          tick_text(i * frame.y().step, frame.y().step));
+                          frame.y().text(i * frame.y().step));
   }
   out += fmt::format(
       "</g>\n<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"none\" stroke=\"#3c434b\"/>\n",
@@ -211,8 +239,8 @@ void draw_line(std::string& out, const SvgLine& line, const Frame& frame) {
     run.clear();
   };
   for (const SvgPoint& point : line.points) {
-    if (finite(point)) {
-      run.push_back({frame.x_px(point.x), frame.y_px(point.y)});
+    if (const SvgPoint place = frame.placed(point); finite(place)) {
+      run.push_back({frame.x_px(place.x), frame.y_px(place.y)});
     } else {
       end_run();
     }
@@ -224,15 +252,18 @@ void draw_line(std::string& out, const SvgLine& line, const Frame& frame) {
 }
 
 void draw_mark(std::string& out, const SvgMark& mark, const Frame& frame) {
-  if (!finite(mark.at)) return;
-  const double x = frame.x_px(mark.at.x), y = frame.y_px(mark.at.y);
-  out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4.5\" fill=\"{}\" stroke=\"#fff\"/>\n", x, y,
-                     escaped(mark.color));
+  using Side = SvgMark::Side;
+  const SvgPoint place = frame.placed(mark.at);
+  if (!finite(place)) return;
+  const double x = frame.x_px(place.x), y = frame.y_px(place.y);
+  if (mark.side != Side::Centre) {
+    out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4.5\" fill=\"{}\" stroke=\"#fff\"/>\n", x, y,
+                       escaped(mark.color));
+  }
   if (mark.text.empty()) return;
-  const bool beside = mark.side == SvgMark::Side::Left || mark.side == SvgMark::Side::Right;
-  const double dx = mark.side == SvgMark::Side::Left ? -10 : mark.side == SvgMark::Side::Right ? 10 : 0;
-  const double dy = beside ? 5 : mark.side == SvgMark::Side::Above ? -11 : 21;
-  const char* anchor = !beside ? "middle" : mark.side == SvgMark::Side::Left ? "end" : "start";
+  const double dx = mark.side == Side::Left ? -10 : mark.side == Side::Right ? 10 : 0;
+  const double dy = mark.side == Side::Above ? -11 : mark.side == Side::Below ? 21 : 5;
+  const char* anchor = mark.side == Side::Left ? "end" : mark.side == Side::Right ? "start" : "middle";
   // a white rim keeps the text readable where it crosses a line
   out += fmt::format(
       "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\" fill=\"{}\" font-weight=\"600\" stroke=\"#fff\" "

@@ -23,13 +23,15 @@ struct SvgLine {
   std::vector<SvgPoint> points;  // one that is not finite breaks the line
 };
 
-// A dot on the plot with a text beside it.
+// A dot on the plot with a text beside it, or a text alone.
 struct SvgMark {
   SvgPoint at;
   std::string text;  // empty for the dot alone
   std::string color;
-  enum class Side { Left, Right, Above, Below } side = Side::Right;
+  enum class Side { Left, Right, Above, Below, Centre } side = Side::Right;  // Centre: the text in the place of the dot
 };
+
+enum class AxisScale { Linear, Logarithmic };
 
 struct SvgPlot {
   std::string title;
@@ -37,6 +39,8 @@ struct SvgPlot {
   std::string y_label;  // with its unit
   std::vector<SvgLine> lines;
   std::vector<SvgMark> marks;
+  AxisScale x_scale = AxisScale::Linear;  // on a logarithmic axis what is not positive breaks the line
+  AxisScale y_scale = AxisScale::Linear;
   int width = 960;
   int height = 600;
 };
@@ -49,9 +53,9 @@ std::string_view distinct_color(std::size_t index);
 // 1973); the first, the last and the extremes of both coordinates always stay.
 std::vector<SvgPoint> simplified(std::span<const SvgPoint> points, double tolerance);
 
-// One <svg> element with its own size, axes at round numbers, and both zero lines. It may stand in HTML or, since it
-// names its namespace, in a file of its own. Lines are thinned to a tenth of a pixel. An empty plot has axes from 0
-// to 1.
+// One <svg> element with its own size, axes at round numbers or powers of ten, and both zero lines. It may stand in
+// HTML or, since it names its namespace, in a file of its own. Lines are thinned to a tenth of a pixel. An empty plot
+// has axes from 0 to 1.
 std::string svg(const SvgPlot& plot);
 
 // Several plots below each other in one such element.

@@ -30,7 +30,7 @@ void expect_refusal(const ProgramResult& result, int exit_code, const std::strin
 TEST(CommandLine, EveryCommandExplainsItself) {
   const ProgramResult all = touchafm("--help");
   EXPECT_EQ(all.exit_code, 0);
-  for (const char* command : {"demo", "curve", "paper", "render", "wall", "devices"}) {
+  for (const char* command : {"demo", "curve", "material", "paper", "render", "wall", "devices"}) {
     EXPECT_THAT(all.out, HasSubstr(command));
     const ProgramResult one = touchafm(std::string(command) + " --help");
     EXPECT_EQ(one.exit_code, 0) << command;

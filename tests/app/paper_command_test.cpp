@@ -58,7 +58,7 @@ TEST_F(PaperCommand, PutsThePrintedAndTheExactNumberBesideEachOther) {
   EXPECT_NEAR(gap["printed"], 0.799e-9, 1e-21);
   EXPECT_NEAR(gap["exact"], 1.59834899139e-9, 1e-18);
   EXPECT_EQ(gap["erratum"], "swapped columns");
-  EXPECT_TRUE(gap["measured"].is_null());
+  EXPECT_TRUE(gap["measured"].is_null());  // nobody measures a gap
   const auto& attraction = json["table2"]["mica"]["F_attr_N"];
   EXPECT_NEAR(attraction["printed"], 0.2387e-9, 1e-21);
   EXPECT_NEAR(attraction["exact"], 2.39752348708e-10, 1e-19);
@@ -82,6 +82,41 @@ TEST_F(PaperCommand, AgreesWithThePrintWhereNoErratumIsNamed) {
     }
   }
   EXPECT_EQ(clean, 5);
+}
+
+TEST_F(PaperCommand, MeasuresARunOfTheModelWhereNoDemoIsGiven) {
+  ASSERT_TRUE(write_paper(options_).has_value());
+  const auto json = nlohmann::json::parse(text_of("paper.json"));
+  for (const char* table : {"table1", "table2"}) {
+    for (const auto& [material, quantities] : json[table].items()) {
+      for (const char* quantity : {"F_attr_N", "F_ad_N"}) {
+        const auto& cell = quantities[quantity];
+        EXPECT_NEAR(cell["measured"].get<double>() / cell["exact"].get<double>(), 1.0, 1e-9) << material << quantity;
+      }
+    }
+  }
+  EXPECT_THAT(text_of("paper.md"), HasSubstr("Mica: printed | Mica: exact | Mica: measured in the run"));
+}
+
+// The numbers of the same engine from an independent solver, with the moduli rounded to three digits.
+TEST_F(PaperCommand, SaysWhatContactMechanicsSaysOfTheSameSamples) {
+  ASSERT_TRUE(write_paper(options_).has_value());
+  const auto json = nlohmann::json::parse(text_of("paper.json"))["contact_mechanics"];
+  struct Expected {
+    const char* material;
+    double force_after_nn, z_out_nm, from_zero_nm, loop_aj;
+  };
+  for (const Expected& e :
+       {Expected{"mica", -0.2034, 14.3819, 14.0203, 9.5284}, Expected{"gold", -0.3814, 100.3162, 100.0604, 499.369},
+        Expected{"si3n4", -0.0768, 17.0393, 16.6728, 4.8877}}) {
+    const auto& chosen = json[e.material]["chosen"];
+    EXPECT_EQ(json[e.material]["law"], "dmt");
+    EXPECT_NEAR(chosen["snap_in_force_after_N"].get<double>() * 1e9, e.force_after_nn, 1e-4) << e.material;
+    EXPECT_NEAR(chosen["pull_off_z_m"].get<double>() * 1e9 / e.z_out_nm, 1.0, 2e-4) << e.material;
+    EXPECT_NEAR(chosen["pull_off_from_contact_zero_m"].get<double>() * 1e9 / e.from_zero_nm, 1.0, 2e-4) << e.material;
+    EXPECT_NEAR(chosen["loop_energy_J"].get<double>() * 1e18 / e.loop_aj, 1.0, 3e-4) << e.material;
+  }
+  EXPECT_THAT(text_of("paper.md"), HasSubstr("Gold: paper | Gold: dmt"));
 }
 
 TEST_F(PaperCommand, ShowsWhatARunMeasured) {

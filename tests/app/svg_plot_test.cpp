@@ -77,6 +77,24 @@ TEST(SvgPlot, BreaksALineWhereANumberIsMissing) {
             2);
 }
 
+TEST(SvgPlot, WritesPowersOfTenOnALogarithmicAxis) {
+  SvgPlot plot;
+  plot.x_scale = AxisScale::Logarithmic;
+  plot.lines.push_back({"", "#123456", LineStyle::Solid, {{0.01, 0}, {1, 1}, {0, 5}, {-1, 5}, {10, 0}, {1000, 1}}});
+  plot.marks.push_back({{1, 1}, "here", "#000", SvgMark::Side::Centre});
+  const std::string text = svg(plot);
+  for (const char* tick : {">10\u207b\u00b2<", ">10\u2070<", ">10\u00b3<"}) EXPECT_THAT(text, HasSubstr(tick));
+  EXPECT_THAT(text, HasSubstr(">here<"));
+  EXPECT_THAT(text, Not(HasSubstr("<circle")));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+  // what is not positive breaks the line in two
+  const std::size_t path = text.find("stroke=\"#123456\"");
+  const std::size_t begin = text.rfind("<path", path);
+  EXPECT_EQ(std::count(text.begin() + static_cast<std::ptrdiff_t>(begin),
+                       text.begin() + static_cast<std::ptrdiff_t>(path), 'M'),
+            2);
+}
+
 TEST(SvgPlot, DrawsAxesForNothingAtAll) {
   for (const auto& points : {std::vector<SvgPoint>{}, std::vector<SvgPoint>{{5, 5}}, std::vector<SvgPoint>{{0, 0}}}) {
     SvgPlot plot;

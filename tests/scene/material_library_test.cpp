@@ -225,7 +225,7 @@ TEST(MaterialFile, RefusesElasticityThatNoBodyHas) {
            "\", source = \"h\" }\n" + "sample_poisson_ratio = { value = " + ratio + ", source = \"h\" }\n";
   };
   EXPECT_TRUE(load_text(bodies("60 GPa", "0.25")).has_value());
-  EXPECT_THAT(refusal(bodies("1e30 Pa", "0.25")), HasSubstr("line 15: material.sample_modulus: modulus of the sample"));
+  EXPECT_THAT(refusal(bodies("1e30 Pa", "0.25")), HasSubstr("line 15: material.sample_modulus: sample modulus"));
   EXPECT_THAT(refusal(bodies("60 GPa", "0.6")), HasSubstr("line 16: material.sample_poisson_ratio"));
   EXPECT_THAT(refusal(bodies("60 GPa", "nan")), HasSubstr("line 16: material.sample_poisson_ratio"));
   EXPECT_THAT(refusal(bodies("60 GPa", "\"0.25\"")), HasSubstr("must be a number without a unit"));
