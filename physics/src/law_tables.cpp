@@ -29,18 +29,24 @@ double compliance(const Interaction& interaction) {
   return 1.0 / interaction.spring_constant.si + 1.0 / interaction.sample_stiffness.si;
 }
 
-// Energies of the lever, the support and the law at a point: c F^2/2 + U.
+// Where a tip rests, SI, and the parameter of that place on its branch.
 struct Rest {
   double z = 0.0;
   double force = 0.0;
   double s = 0.0;
 };
 
+// A law that is single-valued in h says so by an attached branch that goes on to where the free one begins.
+bool is_single_valued(const ForceLaw& law) {
+  const double farthest = law.free.at(law.free.first).h.si;
+  return std::abs(law.attached.at(law.attached.last).h.si - farthest) < 1e-6 * farthest;
+}
+
 class Builder {
  public:
   Builder(Law name, const ForceLaw& law, const Interaction& interaction)
       : law_(law),
-        single_valued_(law.attached.at(law.attached.last).h > 0.5 * law.free.at(law.free.first).h),
+        single_valued_(is_single_valued(law)),
         free_curve_(single_valued_ ? reversed(law.attached) : law.free),
         compliance_(compliance(interaction)),
         free_(free_curve_, compliance_, BentBranch::Direction::Inwards),
@@ -97,6 +103,11 @@ class Builder {
     const Rest in_from = rest(free_, free_.end());
     const Rest off_from = rest(attached_, attached_.end());
     const auto in_to_s = attached_.at_z(in_from.z);
+    if (in_from.z < attached_.at(law_.attached.first).z) {
+      throw std::invalid_argument("the sample is too soft: a tip that jumps to contact at " +
+                                  format_quantity(Length(in_from.z), kLengthUnits) + " would sink in by more than " +
+                                  format_quantity(-law_.attached.at(law_.attached.first).h, kLengthUnits));
+    }
     if (off_from.z <= in_from.z || !in_to_s) {
       throw std::invalid_argument(
           "the adhesion is too weak: jump-off-contact at " + format_quantity(Length(off_from.z), kLengthUnits) +
@@ -118,24 +129,30 @@ class Builder {
     const double rise_of_attached = potential_rise(law_.attached, in_to.s, off_from.s);
     const double loop =
         fall_of_free + rise_of_attached + stored(in_from) - stored(in_to) + stored(off_from) - stored(off_to);
-    figures.loop_energy = Energy(loop);
-    figures.lost_at_jtc = lost_at_jtc(in_from, in_to);
+    figures.loop_energy = Energy(single_valued_ ? std::max(0.0, loop) : loop);
+    figures.lost_at_jtc = lost_at_jtc(in_from, in_to, figures.loop_energy);
     figures.lost_at_joc = figures.loop_energy - figures.lost_at_jtc;
   }
 
+  // In lever and support.
   double stored(const Rest& rest) const { return 0.5 * compliance_ * rest.force * rest.force; }
 
-  // Without a potential nothing tells the two jumps apart: the well is taken to be just deep enough for the first one.
-  Energy lost_at_jtc(const Rest& from, const Rest& to) const {
+  Energy lost_at_jtc(const Rest& from, const Rest& to, Energy loop) const {
+    if (single_valued_) {
+      // along the one curve; it cannot be negative, but rounding can be larger than it is
+      const double lost = potential_rise(law_.attached, to.s, -from.s) + stored(from) - stored(to);
+      return Energy(std::clamp(lost, 0.0, loop.si));
+    }
+    // without a potential nothing tells the two jumps apart: the well is just deep enough for the first one
     if (!law_.attached_end_potential) return Energy();
-    const double u_from = potential_far_away() + potential_rise(free_curve_, free_curve_.first, from.s);
+    const double u_from = potential_far_away() + potential_rise(law_.free, law_.free.first, from.s);
     const double u_to = law_.attached_end_potential->si - potential_rise(law_.attached, to.s, law_.attached.last);
     return Energy(u_from + stored(from) - u_to - stored(to));
   }
 
   // U at the first point of the free branch, as of a force that goes on as the power of h that it is there.
   double potential_far_away() const {
-    const LawPoint far = free_curve_.at(free_curve_.first);
+    const LawPoint far = law_.free.at(law_.free.first);
     if (far.force.si == 0.0) return 0.0;
     const double exponent = -far.dforce_ds / far.dh_ds * far.h.si / far.force.si;
     return far.force.si * far.h.si / (exponent - 1.0);
@@ -159,9 +176,9 @@ class Builder {
   }
 
   const ForceLaw& law_;
-  // A law that is single-valued in h says so by an attached branch that goes on to far away: then a tip that comes in
-  // follows that same curve until it folds, be it before contact or after.
   bool single_valued_;
+  // of a single-valued law the attached branch the other way: a tip that comes in follows that one curve until it
+  // folds, be it before contact or after
   LawBranch free_curve_;
   double compliance_;
   BentBranch free_;

@@ -254,6 +254,11 @@ TEST(LawTables, RefuseWhatHasNoLaw) {
   Interaction weak = kContacts[0];
   weak.mean_surface_energy = 0.2_mJ_per_m2;
   EXPECT_THAT(refusal(Law::Hao, weak), HasSubstr("adhesion is too weak: jump-off-contact at"));
+  Interaction slime = kContacts[4];
+  slime.spring_constant = Stiffness(1e-5);
+  slime.mean_surface_energy = SurfaceEnergy(20.0);
+  slime.reduced_modulus = Pressure(10.0);
+  EXPECT_THAT(refusal(Law::Dmt, slime), HasSubstr("the sample is too soft: a tip that jumps to contact at"));
   Interaction negative = kContacts[0];
   negative.tip_radius = -1_nm;
   EXPECT_THAT(refusal(Law::Dmt, negative), HasSubstr("tip radius"));
