@@ -90,6 +90,21 @@ TEST(HdapiDevice, NeverStepsFurtherThanTheDeviceAllows) {
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
 }
 
+// Every second callback is lost while the tip is torn off: the governor then steps twice between two of them.
+TEST(HdapiDevice, DividesTwoStepsOfTheServoThatFallBetweenTwoCallbacks) {
+  HdapiBench bench([] { mock_hd_set_limit(kImpulseProperty, 0.1); });
+  bench.hold_attached();
+  for (double height_mm = 25; height_mm < 60; height_mm += 0.2) {
+    mock_hd_set_position(0, HdapiBench::kContactMm + height_mm, 0);
+    bench.clock.time_ns += HdapiBench::kPeriodNs;
+    bench.servo_tick();
+    bench.tick();
+  }
+  EXPECT_EQ(bench.events.size(), 2U);
+  EXPECT_LE(bench.largest_step_n, 0.08 + 1e-12);
+  EXPECT_EQ(bench.health(), HdapiHealth::Ready);
+}
+
 TEST(HdapiDevice, CapsTheForceOfAWeakDevice) {
   HdapiBench bench([] { mock_hd_set_limit(kNominalForceProperty, 1.0); });
   bench.arm();
