@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -33,6 +35,14 @@ const char* name_of(physics::Phase phase) {
 const char* name_of(std::optional<EventKind> event) {
   if (!event) return "";
   return *event == EventKind::JumpToContact ? "jump_to_contact" : "jump_off_contact";
+}
+
+// As few digits as read back as the same number. Three times as fast as fmt, and a curve is little else.
+void append_number(std::string& text, double value) {
+  std::array<char, 32> digits{};
+  // adding zero turns -0 into 0
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0);
+  text.append(digits.data(), end.ptr);
 }
 
 // The sources of the numbers that act, in the material's order.
@@ -124,24 +134,32 @@ std::string setup_header(const ContactSetup& setup, const std::string& model,
 }
 
 std::string curve_csv(const CurveRun& run) {
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  fmt::format_to(out, "# TouchAFM force-displacement curve\n{}", setup_header(run.setup, run.model, run.place));
-  fmt::format_to(out, "# from_m: {}\n# to_m: {}\n# step_m: {}\n", run.plan.from.si, run.plan.to.si, run.plan.step.si);
+  std::string text =
+      fmt::format("# TouchAFM force-displacement curve\n{}# from_m: {}\n# to_m: {}\n# step_m: {}\n",
+                  setup_header(run.setup, run.model, run.place), run.plan.from.si, run.plan.to.si, run.plan.step.si);
   if (run.motion) {
-    fmt::format_to(out, "# speed_m_per_s: {}\n# slow_motion: {}\n", run.motion->speed.si, run.motion->slow_motion);
+    text += fmt::format("# speed_m_per_s: {}\n# slow_motion: {}\n", run.motion->speed.si, run.motion->slow_motion);
   }
-  fmt::format_to(out,
-                 "# signs: z along the sample's outward normal from its undeformed surface; force on the tip positive "
-                 "away from the sample; a jump is two rows at its z\n"
-                 "z_m,force_N,tip_height_m,deflection_m,sample_deformation_m,branch,phase,event\n");
+  text +=
+      "# signs: z along the sample's outward normal from its undeformed surface; force on the tip positive away from "
+      "the "
+      "sample; a jump is two rows at its z\n"
+      "z_m,force_N,tip_height_m,deflection_m,sample_deformation_m,branch,phase,event\n";
+  constexpr std::size_t kRowBytes = 136;
+  text.reserve(text.size() + run.curve.samples.size() * kRowBytes);
   for (const auto& s : run.curve.samples) {
-    // adding zero turns -0 into 0
-    fmt::format_to(out, "{},{},{},{},{},{},{},{}\n", s.z.si + 0.0, s.force.si + 0.0, s.tip_height.si + 0.0,
-                   s.cantilever_deflection.si + 0.0, s.sample_deformation.si + 0.0,
-                   s.branch == physics::Branch::Approach ? "approach" : "retract", name_of(s.phase), name_of(s.event));
+    for (const double value :
+         {s.z.si, s.force.si, s.tip_height.si, s.cantilever_deflection.si, s.sample_deformation.si}) {
+      append_number(text, value);
+      text += ',';
+    }
+    text += s.branch == physics::Branch::Approach ? "approach," : "retract,";
+    text += name_of(s.phase);
+    text += ',';
+    text += name_of(s.event);
+    text += '\n';
   }
-  return fmt::to_string(text);
+  return text;
 }
 
 nlohmann::ordered_json parameters_json(const ContactSetup& setup) {
