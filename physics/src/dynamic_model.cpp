@@ -93,6 +93,12 @@ DynamicModel::Instant DynamicModel::now() const noexcept {
   return {oscillator_.base(), oscillator_.height(), setup_->interaction.spring_constant * oscillator_.deflection()};
 }
 
+DynamicModel::Jump DynamicModel::awaited_jump() const noexcept {
+  const CycleFigures& figures = setup_->figures;
+  if (phase_ == Phase::Free) return {figures.tip_height_before_jtc, setup_->surface->contact_height()};
+  return {figures.tip_height_before_joc, setup_->free_above};
+}
+
 // On the straight line between two instants, where the tip passes `height`.
 DynamicModel::Instant DynamicModel::where(Length height, const Instant& before, const Instant& after) noexcept {
   const double share = (height - before.tip_height) / (after.tip_height - before.tip_height);
@@ -100,10 +106,8 @@ DynamicModel::Instant DynamicModel::where(Length height, const Instant& before, 
 }
 
 void DynamicModel::watch(const Instant& before, const Instant& after, double fraction, TipResponse& response) noexcept {
-  const CycleFigures& figures = setup_->figures;
   const bool to_contact = phase_ == Phase::Free;
-  const Length begin = to_contact ? figures.tip_height_before_jtc : figures.tip_height_before_joc;
-  const Length end = to_contact ? setup_->surface->contact_height() : setup_->free_above;
+  const auto [begin, end] = awaited_jump();
   const auto passes = [&](Length height) {
     return to_contact ? before.tip_height > height && after.tip_height <= height
                       : before.tip_height <= height && after.tip_height > height;
@@ -113,7 +117,7 @@ void DynamicModel::watch(const Instant& before, const Instant& after, double fra
 
   phase_ = to_contact ? Phase::Attached : Phase::Free;
   const Instant ended = where(end, before, after);
-  if (figures.hysteretic && response.event_count < response.events.size()) {
+  if (setup_->figures.hysteretic && response.event_count < response.events.size()) {
     response.events[response.event_count++] = {to_contact ? EventKind::JumpToContact : EventKind::JumpOffContact,
                                                jump_began_.z, jump_began_.force, ended.force, fraction};
   }
@@ -134,13 +138,18 @@ TipResponse DynamicModel::step(Length z) noexcept {
 
   oscillator_.move_base((z - oscillator_.base()) / pace_.simulated);
   Length sum;
-  Instant before = now();
+  Jump jump = awaited_jump();
   for (std::int64_t i = 0; i < pace_.sub_steps; ++i) {
+    const Instant before = now();
     oscillator_.sub_step();
-    const Instant after = now();
-    watch(before, after, static_cast<double>(i + 1) / static_cast<double>(pace_.sub_steps), response);
     sum = sum + oscillator_.deflection();
-    before = after;
+    const Length height = oscillator_.height();
+    const bool passed = (before.tip_height > jump.begin) != (height > jump.begin) ||
+                        (before.tip_height > jump.end) != (height > jump.end);
+    if (passed) [[unlikely]] {
+      watch(before, now(), static_cast<double>(i + 1) / static_cast<double>(pace_.sub_steps), response);
+      jump = awaited_jump();
+    }
   }
 
   const Length mean = sum / static_cast<double>(pace_.sub_steps);

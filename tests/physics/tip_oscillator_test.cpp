@@ -33,18 +33,20 @@ TEST(TipForce, IsTheForceOfItsTables) {
   for (const Law law : {Law::Dmt, Law::Jkr, Law::MaugisDugdale, Law::LennardJones}) {
     const auto grips = fixed_grips(law, elastic_mica());
     const TipForce force(*grips, 20_nN);
+    // a tenth of the thermal force: the kinks of Maugis-Dugdale do not lie at the ends
+    const double rounded = law == Law::MaugisDugdale ? 2e-12 : 0.0;
     bool attached = false;
     for (double h = 100e-9; h > force.contact_height().si + 1e-14; h *= 0.999) {
       const double expected = grips->free.force(Length(h)).si;
-      EXPECT_NEAR(force(Length(h), attached).si, expected, 5e-5 * std::abs(expected)) << name_of(law) << " at " << h;
+      EXPECT_NEAR(force(Length(h), attached).si, expected, 5e-5 * std::abs(expected) + rounded)
+          << name_of(law) << " at " << h;
       EXPECT_FALSE(attached);
     }
     for (double depth = 1e-13; depth < 1e-9; depth *= 1.01) {
       const Length h = force.contact_height() - Length(depth);
       const double expected = grips->attached.force(h).si;
       if (expected > 20e-9) break;
-      // a tenth of the thermal force, for the kink of Maugis-Dugdale, which does not lie at the end
-      EXPECT_NEAR(force(h, attached).si, expected, 3e-4 * std::abs(expected) + 2e-12)
+      EXPECT_NEAR(force(h, attached).si, expected, 3e-4 * std::abs(expected) + rounded + 1e-13)
           << name_of(law) << " at " << depth;
       EXPECT_TRUE(attached);
     }

@@ -120,6 +120,13 @@ class DynamicModel {
     Force force;
   };
   Instant now() const noexcept;
+
+  // The heights of the tip where the jump that can come next begins and ends.
+  struct Jump {
+    Length begin;
+    Length end;
+  };
+  Jump awaited_jump() const noexcept;
   static Instant where(Length height, const Instant& before, const Instant& after) noexcept;
   void watch(const Instant& before, const Instant& after, double fraction, TipResponse& response) noexcept;
 
