@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/curves_plot.h"
 
+#include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "app/cycle_curve.h"
 #include "app/svg_plot.h"
@@ -30,17 +33,14 @@ std::vector<SvgPoint> points_within(const std::vector<render::PlotPoint>& points
   return result;
 }
 
-SvgPlot plot_within(const std::vector<RecordedSession>& sessions, const scene::MaterialLibrary& materials,
-                    std::string title, const Window& window) {
+SvgPlot plot_within(std::span<const LabelledSession> sessions, std::string title, const Window& window) {
   SvgPlot plot;
   plot.title = std::move(title);
   plot.x_label = "Z, piezo displacement (nm)";
   plot.y_label = "force on the tip (nN)";
   for (std::size_t i = 0; i < sessions.size(); ++i) {
-    const RecordedSession& session = sessions[i];
-    const render::PlotCurve curve = curve_until(session, session.samples.back().time_ns).plot(session.material, {});
-    const scene::MaterialEntry* material = materials.find(session.material);
-    const std::string name = material != nullptr ? material->title : session.material;
+    const auto& [name, session] = sessions[i];
+    const render::PlotCurve curve = curve_until(*session, session->samples.back().time_ns).plot(name, {});
     plot.lines.push_back({name + ", approach", std::string(distinct_color(i)), LineStyle::Dashed,
                           points_within(curve.approach, window)});
     plot.lines.push_back(
@@ -49,13 +49,30 @@ SvgPlot plot_within(const std::vector<RecordedSession>& sessions, const scene::M
   return plot;
 }
 
+// Round the smallest loop, if that is hard to see beside the largest.
+std::optional<Window> window_of_smallest(std::span<const LabelledSession> sessions) {
+  const scene::TipEvent* smallest = nullptr;
+  double largest_m = 0.0;
+  for (const LabelledSession& labelled : sessions) {
+    const scene::TipEvent* off = labelled.session->find(scene::TipEventKind::JumpOffContact);
+    if (off == nullptr) continue;
+    if (smallest == nullptr || off->z_m < smallest->z_m) smallest = off;
+    largest_m = std::max(largest_m, off->z_m);
+  }
+  constexpr double kHardToSee = 3.0;
+  if (smallest == nullptr || !(largest_m > kHardToSee * smallest->z_m)) return std::nullopt;
+  const double z_nm = smallest->z_m * 1e9;
+  return Window{.z_min_nm = -0.5 * z_nm, .z_max_nm = 1.6 * z_nm, .force_min_nn = 1.3 * smallest->force_before_n * 1e9};
+}
+
 }  // namespace
 
-std::string curves_svg(const std::vector<RecordedSession>& sessions, const scene::MaterialLibrary& materials) {
-  // mica and silicon nitride whole, gold's jump to contact
-  constexpr Window kNear{.z_min_nm = -7.0, .z_max_nm = 22.0, .force_min_nn = -1.8};
-  return svg(plot_within(sessions, materials, "Approach and retract", {})) + "\n" +
-         svg(plot_within(sessions, materials, "The same, near the surface", kNear));
+std::string curves_svg(std::span<const LabelledSession> sessions) {
+  std::string plots = svg(plot_within(sessions, "Approach and retract", {}));
+  if (const auto near = window_of_smallest(sessions)) {
+    plots += "\n" + svg(plot_within(sessions, "The same, near the surface", *near));
+  }
+  return plots;
 }
 
 }  // namespace afm::app

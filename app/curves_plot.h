@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
-#include <vector>
 
 #include "app/session_file.h"
-#include "scene/material_library.h"
 
 namespace afm::app {
 
-// The whole curves of the sessions as two plots: all together, and the same near the surface, where the jumps to
-// contact are. Self-contained SVG elements, one below the other.
-std::string curves_svg(const std::vector<RecordedSession>& sessions, const scene::MaterialLibrary& materials);
+struct LabelledSession {
+  std::string label;
+  const RecordedSession* session = nullptr;
+};
+
+// The whole curves of the sessions as plots: all together, and, where the largest loop dwarfs the smallest, the same
+// around that. Self-contained SVG elements, one below the other.
+std::string curves_svg(std::span<const LabelledSession> sessions);
 
 }  // namespace afm::app

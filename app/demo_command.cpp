@@ -4,12 +4,14 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "app/command.h"
 #include "app/curves_plot.h"
 #include "app/demo_figures.h"
 #include "app/demonstration.h"
+#include "app/measured_material.h"
 #include "app/output_folder.h"
 #include "app/report.h"
 #include "app/stage_setup.h"
@@ -33,48 +35,124 @@ struct DemoOptions {
   std::uint32_t eye_width = 960;
   HandPath hand;
   ServoMode servo = ServoMode::Process;
+  LawRequest law;
+  std::string measured;  // a curve file to be felt too; empty: none
 };
 
 void say(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
 
-core::Result<void> draw_figures(render::Context& context, const Stage& stage, const DemoResult& result,
-                                OutputFolder& out, std::vector<ReportPicture>& pictures) {
+// The curve file as one more material of the stage, on the lever of the first built-in one where it knows no better.
+core::Result<std::optional<MeasuredMaterial>> load_measured(const DemoOptions& options) {
+  if (options.measured.empty()) return std::nullopt;
+  const auto library = scene::load_materials(options.files.assets_dir + "/materials.toml");
+  if (!library) return tl::unexpected(library.error());
+  auto measured = load_measured_material(options.measured, library->materials.front());
+  if (!measured) return tl::unexpected(measured.error());
+  return std::move(*measured);
+}
+
+core::Result<DemoPlan> plan_demo(const Stage& stage, const std::optional<MeasuredMaterial>& measured,
+                                 const LawRequest& law) {
+  DemoPlan plan;
+  if (measured) plan.curves.push_back(measured->curve);
+  for (const scene::MaterialEntry& entry : stage.materials.materials) {
+    const bool is_measured = measured && entry.name == measured->entry.name;
+    auto felt = is_measured ? felt_material(entry, plan.curves, 0) : felt_material(entry, law);
+    if (!felt) return tl::unexpected(felt.error());
+    plan.materials.push_back(std::move(*felt));
+  }
+  plan.variations.resize(plan.materials.size());
+  return plan;
+}
+
+core::Result<void> draw_picture(const std::string& file, const std::string& caption, const Moment& moment,
+                                const FrameBuilder& frames, render::Renderer& renderer, OutputFolder& out,
+                                std::vector<ReportPicture>& pictures) {
+  say(fmt::format("  {}", file));
+  const std::string path = out.staged(file);
+  if (auto drawn = draw_figure(moment, frames, renderer, path); !drawn) return drawn;
+  auto bytes = read_file(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  pictures.push_back({caption, std::move(*bytes)});
+  return {};
+}
+
+core::Result<void> draw_figures(render::Context& context, const Stage& stage, const DemoPlan& plan,
+                                const DemoResult& result, OutputFolder& out, std::vector<ReportPicture>& pictures) {
   auto renderer = render::Renderer::create(context, stage.wall_scene.scene(), stage.renderer_options(kFigureEyeWidth));
   if (!renderer) return tl::unexpected(renderer.error());
-  const FrameBuilder frames(stage.wall_scene, stage.materials, stage.eyes);
-  const FigurePlan plan(result.sessions, result.measurements, 0);
-  for (const Figure& figure : plan.figures()) {
-    say(fmt::format("  {}", figure.file));
-    const std::string path = out.staged(figure.file);
-    if (auto drawn = draw_figure(figure, frames, *renderer, path); !drawn) return drawn;
-    auto bytes = read_file(path);
-    if (!bytes) return tl::unexpected(bytes.error());
-    pictures.push_back({figure.caption, std::move(*bytes)});
+  const FrameBuilder frames(stage.wall_scene, plan.materials, stage.eyes);
+  const FigurePlan figures(result.sessions, result.measurements, 0);
+  for (const Figure& figure : figures.figures()) {
+    if (auto drawn = draw_picture(figure.file, figure.caption, figure.moment, frames, *renderer, out, pictures); !drawn)
+      return drawn;
+  }
+  for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+    if (plan.variations[i].empty()) continue;
+    const VariationFigure figure(result.sessions[i], result.measurements[i], plan.materials[i], result.variations, i);
+    const FrameBuilder varied(stage.wall_scene, figure.materials(), stage.eyes);
+    const scene::MaterialEntry& entry = plan.materials[i].entry;
+    if (auto drawn = draw_picture("vary-" + entry.name + ".png", entry.title + ", felt with other numbers.",
+                                  figure.moment(), varied, *renderer, out, pictures);
+        !drawn)
+      return drawn;
   }
   return {};
 }
 
-core::Result<void> write_results(const DemoResult& result, const scene::MaterialLibrary& materials,
-                                 const std::vector<ReportPicture>& pictures, OutputFolder& out) {
-  for (const RecordedSession& session : result.sessions) {
-    if (auto saved = save_session(session, out.staged("session-" + session.material + ".afms")); !saved) return saved;
-    if (auto saved = out.write("curve-" + session.material + ".csv", session_csv(session)); !saved) return saved;
+core::Result<void> write_session(const RecordedSession& session, const std::string& name, OutputFolder& out) {
+  if (auto saved = save_session(session, out.staged("session-" + name + ".afms")); !saved) return saved;
+  return out.write("curve-" + name + ".csv", session_csv(session));
+}
+
+core::Result<void> write_results(const DemoResult& result, const std::vector<ReportPicture>& pictures,
+                                 OutputFolder& out) {
+  std::vector<LabelledSession> plotted;
+  for (std::size_t i = 0; i < result.sessions.size(); ++i) {
+    const RecordedSession& session = result.sessions[i];
+    if (auto saved = write_session(session, session.material, out); !saved) return saved;
+    plotted.push_back({result.measurements[i].title, &session});
+    int number = 0;
+    for (const FeltVariation& variation : result.variations) {
+      if (variation.material != i) continue;
+      const std::string name = fmt::format("{}-vary-{}", session.material, ++number);
+      if (auto saved = write_session(variation.session, name, out); !saved) return saved;
+      plotted.push_back({variation.measurement.title, &variation.session});
+    }
   }
   if (auto saved = out.write("summary.json", summary_json(result).dump(2) + "\n"); !saved) return saved;
-  if (auto saved = out.write("report.html", report_html(result, pictures, curves_svg(result.sessions, materials)));
-      !saved)
-    return saved;
+  if (auto saved = out.write("report.html", report_html(result, pictures, curves_svg(plotted))); !saved) return saved;
   return out.commit();
+}
+
+core::Result<void> measure_all(const DemoPlan& plan, DemoResult& result) {
+  for (std::size_t i = 0; i < result.sessions.size(); ++i) {
+    auto measured = measure(result.sessions[i], plan.materials[i]);
+    if (!measured) return tl::unexpected(measured.error());
+    result.measurements.push_back(std::move(*measured));
+  }
+  for (FeltVariation& variation : result.variations) {
+    auto measured = measure(variation.session, variation.felt);
+    if (!measured) return tl::unexpected(measured.error());
+    variation.measurement = std::move(*measured);
+  }
+  return {};
+}
+
+core::Result<void> check_accuracy(const Measurement& m) {
+  if (m.worst_error() <= kEventErrorBound) return {};
+  return core::failure(
+      core::ErrorCategory::Failed,
+      fmt::format("{}: an event is off by {:.3g} % from the equations, more than {} %; see summary.json", m.title,
+                  100.0 * m.worst_error(), 100.0 * kEventErrorBound));
 }
 
 core::Result<void> check_accuracy(const DemoResult& result) {
   for (const Measurement& m : result.measurements) {
-    if (!(m.worst_error() <= kEventErrorBound)) {
-      return core::failure(
-          core::ErrorCategory::Failed,
-          fmt::format("{}: an event is off by {:.3g} % from the equations, more than {} %; see summary.json", m.title,
-                      100.0 * m.worst_error(), 100.0 * kEventErrorBound));
-    }
+    if (auto accurate = check_accuracy(m); !accurate) return accurate;
+  }
+  for (const FeltVariation& variation : result.variations) {
+    if (auto accurate = check_accuracy(variation.measurement); !accurate) return accurate;
   }
   return {};
 }
@@ -83,8 +161,14 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   const core::MonotonicClock clock;
   const std::int64_t start_ns = clock.now_ns();
 
-  auto stage = load_stage(options.files);
+  const auto measured = load_measured(options);
+  if (!measured) return tl::unexpected(measured.error());
+  StageFiles files = options.files;
+  if (*measured) files.added.push_back((*measured)->entry);
+  auto stage = load_stage(files);
   if (!stage) return tl::unexpected(stage.error());
+  const auto plan = plan_demo(*stage, *measured, options.law);
+  if (!plan) return tl::unexpected(plan.error());
   auto out = OutputFolder::open(options.out);
   if (!out) return tl::unexpected(out.error());
   auto context = render::Context::open();
@@ -102,21 +186,17 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   say(fmt::format("drawing 2 x {} x {} pixels on {}", result.eye_width, result.eye_height, result.vulkan_device));
 
   {
-    const auto model = shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), stage->materials);
+    const auto model =
+        shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), plan->materials, plan->curves);
     if (!model) return tl::unexpected(model.error());
     auto servo = ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
     if (!servo) return tl::unexpected(servo.error());
-    const FrameBuilder frames(stage->wall_scene, stage->materials, stage->eyes);
-    Demonstration live(stage->wall_scene, stage->materials, frames, *renderer, **servo, clock, options.hand);
+    Demonstration live(stage->wall_scene, stage->eyes, *plan, *renderer, **servo, clock, options.hand);
     if (auto ran = live.run(result, say); !ran) return ran;
     renderer->wait();
   }
 
-  for (std::size_t i = 0; i < result.sessions.size(); ++i) {
-    auto measured = measure(result.sessions[i], stage->materials.materials[i]);
-    if (!measured) return tl::unexpected(measured.error());
-    result.measurements.push_back(std::move(*measured));
-  }
+  if (auto measured = measure_all(*plan, result); !measured) return measured;
   say("drawing the figures");
   std::vector<ReportPicture> pictures;
   if (result.choosing) {
@@ -125,9 +205,9 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
     pictures.push_back(
         {"The wand's ray chooses the sample: a frame of the live run.", std::string(png->begin(), png->end())});
   }
-  if (auto drawn = draw_figures(*context, *stage, result, *out, pictures); !drawn) return drawn;
+  if (auto drawn = draw_figures(*context, *stage, *plan, result, *out, pictures); !drawn) return drawn;
   result.seconds = static_cast<double>(clock.now_ns() - start_ns) * 1e-9;
-  if (auto written = write_results(result, stage->materials, pictures, *out); !written) return written;
+  if (auto written = write_results(result, pictures, *out); !written) return written;
   if (auto accurate = check_accuracy(result); !accurate) return accurate;
 
   std::printf("open %s/report.html\n", options.out.c_str());
@@ -159,12 +239,27 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
   command->add_option("--hand-speed", *speed, "mean speed of the simulated hand, 5mm/s to 200mm/s")
       ->capture_default_str()
       ->type_name("SPEED");
+  command
+      ->add_option("--material", options->files.shown,
+                   "a sample of the material files, by name; give it once for each; default: the paper's three")
+      ->type_name("NAME");
+  auto model = std::make_shared<std::string>("paper");
+  command
+      ->add_option("--model", *model,
+                   "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- "
+                   "before auto, hertz, dmt, jkr, maugis or lj")
+      ->capture_default_str()
+      ->type_name("NAME");
+  command
+      ->add_option("--measured", options->measured,
+                   "a recorded curve to be felt too (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
+      ->type_name("FILE");
   auto servo = std::make_shared<std::string>("process");
   command->add_option("--servo", *servo, "how the servo runs: process, or thread for debuggers and sanitizers")
       ->check(CLI::IsMember({"process", "thread"}))
       ->capture_default_str();
-  command->callback([options, speed, servo, &context] {
-    context.chosen = [options, speed, servo, &context]() -> core::Result<void> {
+  command->callback([options, speed, model, servo, &context] {
+    context.chosen = [options, speed, model, servo, &context]() -> core::Result<void> {
       const auto parsed = physics::parse_quantity(*speed, physics::kVelocityUnits);
       if (!parsed.value) return core::failure(core::ErrorCategory::WrongUsage, "--hand-speed: " + parsed.error);
       if (parsed.value->si < kSlowestHand || parsed.value->si > kFastestHand) {
@@ -172,6 +267,9 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
                              fmt::format("--hand-speed: {} is outside 5mm/s to 200mm/s, the speeds of a hand", *speed));
       }
       options->hand.speed_m_per_s = parsed.value->si;
+      const auto law = law_request(*model);
+      if (!law) return tl::unexpected(law.error());
+      options->law = *law;
       options->servo = *servo == "thread" ? ServoMode::Thread : ServoMode::Process;
       return run_demo(*options, context.program_path);
     };

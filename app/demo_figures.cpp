@@ -2,6 +2,7 @@
 #include "app/demo_figures.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/demonstration.h"
 #include "core/check.h"
@@ -12,17 +13,28 @@ namespace afm::app {
 namespace {
 
 constexpr std::int64_t kAfterJumpInNs = 5'000'000;
-constexpr std::int64_t kBeforeJumpOffNs = 1'000'000;
 constexpr std::int64_t kAfterJumpOffNs = 400'000'000;
+
+Felt felt_of(const Measurement& m) {
+  const CycleEvents& events = m.measured;
+  return {m.title, m.law, m.hysteretic, events.f_attr_n, events.f_ad_n, events.z_jtc_m, events.z_joc_m};
+}
+
+// The times of the first and the last sample in contact.
+std::pair<std::int64_t, std::int64_t> contact_of(const RecordedSession& session) {
+  const auto attached = [](const scene::TipSample& sample) { return sample.phase == scene::ContactPhase::Attached; };
+  const auto first = std::find_if(session.samples.begin(), session.samples.end(), attached);
+  const auto last = std::find_if(session.samples.rbegin(), session.samples.rend(), attached);
+  AFM_CHECK(first != session.samples.end());
+  return {first->time_ns, last->time_ns};
+}
 
 }  // namespace
 
 FigurePlan::FigurePlan(const std::vector<RecordedSession>& sessions, const std::vector<Measurement>& measurements,
                        std::size_t shown_material) {
   const RecordedSession& shown = sessions.at(shown_material);
-  const scene::TipEvent* in = shown.find(scene::TipEventKind::JumpToContact);
-  const scene::TipEvent* out = shown.find(scene::TipEventKind::JumpOffContact);
-  AFM_CHECK(in != nullptr && out != nullptr);
+  const auto [in_ns, off_ns] = contact_of(shown);
   const auto deepest = std::min_element(shown.samples.begin(), shown.samples.end(),
                                         [](const auto& a, const auto& b) { return a.z_m < b.z_m; });
 
@@ -34,13 +46,13 @@ FigurePlan::FigurePlan(const std::vector<RecordedSession>& sessions, const std::
   };
   const std::vector<Plan> plans{
       {"fig5a.png", "(a) Sudden attraction: the tip has jumped to contact and pulls the lever down.",
-       "The tip has snapped onto the surface", in->time_ns + kAfterJumpInNs},
+       "The tip has snapped onto the surface", in_ns + kAfterJumpInNs},
       {"fig5b.png", "(b) Pressed: the cantilever bends away from the sample.", "Pressed: the beam bends",
        deepest->time_ns},
       {"fig5c.png", "(c) Sudden adhesion: the last moment before the tip lets go.",
-       "Adhesion holds the tip: keep pulling", out->time_ns - kBeforeJumpOffNs},
+       "Adhesion holds the tip: keep pulling", off_ns},
       {"fig5d.png", "(d) Free: no force after the jump off contact.", "Released: no force any more",
-       out->time_ns + kAfterJumpOffNs}};
+       off_ns + kAfterJumpOffNs}};
 
   // reserved, because the moments point into it
   curves_.reserve(plans.size() + 1);
@@ -58,15 +70,32 @@ FigurePlan::FigurePlan(const std::vector<RecordedSession>& sessions, const std::
   Moment finale = moment_of(shown, shown_material, plans.back().time_ns, curves_.back());
   finale.compare_all = true;
   for (const Measurement& m : measurements) {
-    finale.felt.push_back({m.title, m.measured.f_attr_n, m.measured.f_ad_n, m.measured.z_jtc_m, m.measured.z_joc_m});
+    finale.felt.push_back(felt_of(m));
   }
-  finale.guidance = "All samples together: the same tip, three materials";
+  finale.guidance = "All samples together";
   figures_.push_back({"fig5e.png", "(e) The force-displacement curves of all samples.", finale});
 }
 
-core::Result<void> draw_figure(const Figure& figure, const FrameBuilder& frames, render::Renderer& renderer,
+VariationFigure::VariationFigure(const RecordedSession& base, const Measurement& measurement, const FeltMaterial& felt,
+                                 std::span<const FeltVariation> variations, std::size_t material) {
+  const auto add = [&](const RecordedSession& session, const Measurement& m, const FeltMaterial& was_felt) {
+    materials_.push_back(was_felt);
+    curves_.push_back(curve_until(session, session.samples.back().time_ns));
+    moment_.felt.push_back(felt_of(m));
+  };
+  add(base, measurement, felt);
+  for (const FeltVariation& variation : variations) {
+    if (variation.material == material) add(variation.session, variation.measurement, variation.felt);
+  }
+  moment_.compare_all = true;
+  moment_.curves = curves_;
+  moment_.guidance = "The same sample, felt with other numbers";
+  moment_.realtime = base.realtime;
+}
+
+core::Result<void> draw_figure(const Moment& moment, const FrameBuilder& frames, render::Renderer& renderer,
                                const std::string& path) {
-  renderer.render(frames.build(figure.moment));
+  renderer.render(frames.build(moment));
   return render::write_png(renderer.read_composed(render::Layout::SideBySide), path);
 }
 

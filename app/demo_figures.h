@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/frame_builder.h"
 #include "app/measurement.h"
+#include "app/report.h"
 #include "app/session_file.h"
 #include "core/result.h"
 #include "render/renderer.h"
@@ -33,8 +35,26 @@ class FigurePlan {
   std::vector<Figure> figures_;
 };
 
+// A material and those variations that are its, together in the same picture as (e). `materials()` is what its
+// FrameBuilder draws from.
+class VariationFigure {
+ public:
+  VariationFigure(const RecordedSession& base, const Measurement& measurement, const FeltMaterial& felt,
+                  std::span<const FeltVariation> variations, std::size_t material);
+  VariationFigure(const VariationFigure&) = delete;
+  VariationFigure& operator=(const VariationFigure&) = delete;
+
+  const std::vector<FeltMaterial>& materials() const { return materials_; }
+  const Moment& moment() const { return moment_; }
+
+ private:
+  std::vector<FeltMaterial> materials_;
+  std::vector<CycleCurve> curves_;
+  Moment moment_;
+};
+
 // Draws a figure side by side and writes it as PNG.
-core::Result<void> draw_figure(const Figure& figure, const FrameBuilder& frames, render::Renderer& renderer,
+core::Result<void> draw_figure(const Moment& moment, const FrameBuilder& frames, render::Renderer& renderer,
                                const std::string& path);
 
 }  // namespace afm::app

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "app/interruption.h"
 
@@ -19,39 +20,65 @@ constexpr int kMostRestarts = 5;
 
 }  // namespace
 
-Demonstration::Demonstration(const WallScene& wall_scene, const scene::MaterialLibrary& materials,
-                             const FrameBuilder& frames, render::Renderer& renderer, ServoLink& servo,
+Demonstration::Demonstration(const WallScene& wall_scene, const std::array<scene::EyeView, 2>& eyes,
+                             const DemoPlan& plan, render::Renderer& renderer, ServoLink& servo,
                              const core::Clock& clock, const HandPath& path)
     : wall_scene_(wall_scene),
-      materials_(materials),
-      frames_(frames),
+      plan_(plan),
+      materials_(plan.materials),
+      frames_(wall_scene, materials_, eyes),
       renderer_(renderer),
       servo_(servo),
       clock_(clock),
       path_(path),
       person_(wall_scene.wand_grip_m(), wall_scene.sample_normal(), path),
       targets_(wall_scene.swatch_targets()),
-      curves_(materials.materials.size()) {}
+      curves_(materials_.size()) {}
 
 core::Result<void> Demonstration::run(DemoResult& result, const Progress& progress) {
-  for (std::size_t i = 0; i < materials_.materials.size(); ++i) {
-    if (auto felt = feel(i, result, progress); !felt) return felt;
+  for (std::size_t i = 0; i < materials_.size(); ++i) {
+    progress(fmt::format("{} of {}: {}", i + 1, materials_.size(), materials_[i].entry.title));
+    person_.begin(targets_[i].center_m, static_cast<std::int32_t>(i), clock_.now_ns());
+    auto session = feel(i, result, progress);
+    if (!session) return tl::unexpected(session.error());
+    result.sessions.push_back(std::move(*session));
+    for (const FeltMaterial& variation : plan_.variations[i]) {
+      session = feel_variation(i, variation, result, progress);
+      if (!session) return tl::unexpected(session.error());
+      result.variations.push_back({i, variation, std::move(*session), {}});
+    }
   }
   result.servo = servo_.timing();
   result.lost_samples = servo_.lost_samples();
   return {};
 }
 
-core::Result<void> Demonstration::feel(std::size_t material, DemoResult& result, const Progress& progress) {
-  const std::string& title = materials_.materials[material].title;
-  progress(fmt::format("{} of {}: {}", material + 1, materials_.materials.size(), title));
-  person_.begin(targets_[material].center_m, static_cast<std::int32_t>(material), clock_.now_ns());
+core::Result<RecordedSession> Demonstration::feel_variation(std::size_t material, const FeltMaterial& variation,
+                                                            DemoResult& result, const Progress& progress) {
+  progress(fmt::format("  {}", variation.entry.title));
+  const std::uint32_t revision = servo_.change(material, variation.parameters);
+  const std::int64_t start_ns = clock_.now_ns();
+  while (servo_.tip().edit_revision != revision) {
+    if (auto stepped = step(result); !stepped) return tl::unexpected(stepped.error());
+    const double waited_s = static_cast<double>(clock_.now_ns() - start_ns) * 1e-9;
+    if (servo_.tip().edit_refused == revision || waited_s > kPatienceSeconds) {
+      return core::failure(core::ErrorCategory::Failed,
+                           fmt::format("{}: the servo did not take these parameters", variation.entry.title));
+    }
+  }
+  materials_[material] = variation;
+  person_.begin_again(clock_.now_ns());
+  return feel(material, result, progress);
+}
+
+core::Result<RecordedSession> Demonstration::feel(std::size_t material, DemoResult& result, const Progress& progress) {
+  const std::string title = materials_[material].entry.title;
   const double stroke_seconds = (path_.lift_m - path_.push_m) / path_.speed_m_per_s;
 
   std::size_t events_told = 0;
   int restarts = 0;
   while (person_.step() != SimulatedPerson::Step::Done) {
-    if (auto stepped = step(result); !stepped) return stepped;
+    if (auto stepped = step(result); !stepped) return tl::unexpected(stepped.error());
     if (person_.restarts() != restarts) {
       restarts = person_.restarts();
       if (restarts > kMostRestarts) {
@@ -61,7 +88,7 @@ core::Result<void> Demonstration::feel(std::size_t material, DemoResult& result,
                         title, restarts, reason(servo_.tip().fault)));
       }
       progress(fmt::format("  the servo released the hand: {}; lifting again", reason(servo_.tip().fault)));
-      begin_session(material);
+      begin_session(material, edit_revision_);
       events_told = 0;
     }
     for (; current_ == material && events_told < session_.events.size(); ++events_told) {
@@ -70,24 +97,32 @@ core::Result<void> Demonstration::feel(std::size_t material, DemoResult& result,
       progress(fmt::format("  {:<17} Z = {:8.4f} nm   pull {:8.5f} nN", in ? "jump to contact" : "jump off contact",
                            e.z_m * 1e9, -(in ? e.force_after_n : e.force_before_n) * 1e9));
     }
-    if (person_.seconds_in_step(clock_.now_ns()) > kPatienceSeconds + stroke_seconds) {
-      return core::failure(
-          core::ErrorCategory::Failed,
-          fmt::format("{}: waited {:.0f} s for {}, in vain ({}; a frame took {:.0f} ms); run again, with "
-                      "less load on the machine or a smaller --eye-width",
-                      title, kPatienceSeconds + stroke_seconds, person_.waiting_for(), reason(servo_.tip().fault),
-                      percentiles(result.frame_ms).p50));
-    }
-    if (interrupted())
-      return core::failure(core::ErrorCategory::Failed, "interrupted: the hand was released, nothing was written");
+    if (auto patient = keep_patience(title, stroke_seconds, result); !patient) return tl::unexpected(patient.error());
+  }
+  session_.material = materials_[material].entry.name;
+  session_.parameters = materials_[material].parameters;
+  if (const std::uint32_t curve = session_.parameters.measured_curve; curve != scene::kNoMeasuredCurve) {
+    session_.curve = plan_.curves[curve];
   }
   const scene::TipState& tip = servo_.tip();
   session_.realtime = tip.realtime != 0;
   session_.hand_m_per_m = tip.hand_m_per_m;
   session_.hand_n_per_n = tip.hand_n_per_n;
+  session_.slow_motion = tip.slow_motion;
   session_.rate_hz = kServoRateHz;
-  result.sessions.push_back(session_);
-  return {};
+  return session_;
+}
+
+core::Result<void> Demonstration::keep_patience(const std::string& title, double step_seconds,
+                                                const DemoResult& result) const {
+  if (interrupted())
+    return core::failure(core::ErrorCategory::Failed, "interrupted: the hand was released, nothing was written");
+  if (person_.seconds_in_step(clock_.now_ns()) <= kPatienceSeconds + step_seconds) return {};
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("{}: waited {:.0f} s for {}, in vain ({}; a frame took {:.0f} ms); run again, with "
+                                   "less load on the machine or a smaller --eye-width",
+                                   title, kPatienceSeconds + step_seconds, person_.waiting_for(),
+                                   reason(servo_.tip().fault), percentiles(result.frame_ms).p50));
 }
 
 void Demonstration::wait_for_renderer() {
@@ -127,30 +162,29 @@ core::Result<void> Demonstration::take_news(std::int64_t now_ns) {
   auto news = servo_.poll(now_ns);
   if (!news) return tl::unexpected(news.error());
 
-  const auto follow = [&](std::int32_t material) {
-    const auto index = static_cast<std::size_t>(material);
-    if (current_ != index) begin_session(index);  // a new material has taken effect
-    return index;
-  };
   stream_.take(
       *news,
       [&](const scene::TipSample& sample) {
-        curves_[follow(sample.material)].add(sample);
+        const auto material = static_cast<std::size_t>(sample.material);
+        // another material, or the same with other parameters, has taken effect
+        if (current_ != material || edit_revision_ != sample.edit_revision)
+          begin_session(material, sample.edit_revision);
+        curves_[material].add(sample);
         session_.samples.push_back(sample);
         deepest_z_m_ = std::min(deepest_z_m_, sample.z_m);
       },
       [&](const scene::TipEvent& event) {
-        curves_[follow(event.material)].add(event);
+        if (!current_) return;
+        curves_[*current_].add(event);
         session_.events.push_back(event);
       });
   return {};
 }
 
-void Demonstration::begin_session(std::size_t material) {
+void Demonstration::begin_session(std::size_t material, std::uint32_t edit_revision) {
   current_ = material;
+  edit_revision_ = edit_revision;
   session_ = {};
-  session_.material = materials_.materials[material].name;
-  session_.parameters = shared_material(materials_.materials[material]);
   curves_[material] = {};
   deepest_z_m_ = std::numeric_limits<double>::infinity();
 }
@@ -201,6 +235,7 @@ Moment moment_of(const RecordedSession& session, std::size_t material, std::int6
   then.phase = sample.phase;
   then.retracting = lowest != after && is_retracting(sample.z_m, lowest->z_m);
   then.realtime = session.realtime;
+  then.slow_motion = session.slow_motion;
   then.curves = curves;
   return then;
 }

@@ -15,6 +15,14 @@
 
 namespace afm::app {
 
+// What is felt, in order: every material, and each once more for every one of its variations, which are other
+// parameters of the same sample.
+struct DemoPlan {
+  std::vector<FeltMaterial> materials;
+  std::vector<std::vector<FeltMaterial>> variations;  // one list per material
+  std::vector<scene::SharedMeasuredCurve> curves;     // of measured materials
+};
+
 // One live run of the paper's procedure on every material: the simulated person's wand and hand, the servo, and the
 // renderer, each doing what it does for a real person. One thread.
 class Demonstration {
@@ -22,25 +30,29 @@ class Demonstration {
   using Progress = std::function<void(const std::string&)>;
 
   // Everything must outlive it.
-  Demonstration(const WallScene& wall_scene, const scene::MaterialLibrary& materials, const FrameBuilder& frames,
+  Demonstration(const WallScene& wall_scene, const std::array<scene::EyeView, 2>& eyes, const DemoPlan& plan,
                 render::Renderer& renderer, ServoLink& servo, const core::Clock& clock, const HandPath& path);
 
   // Until every cycle is done. Fails when the servo dies, when something that must happen does not, or on SIGINT or
-  // SIGTERM. Fills sessions, frame times and the servo's timing of the result.
+  // SIGTERM. Fills sessions, variations, frame times and the servo's timing of the result.
   core::Result<void> run(DemoResult& result, const Progress& progress);
 
  private:
-  core::Result<void> feel(std::size_t material, DemoResult& result, const Progress& progress);
+  core::Result<RecordedSession> feel(std::size_t material, DemoResult& result, const Progress& progress);
+  core::Result<RecordedSession> feel_variation(std::size_t material, const FeltMaterial& variation, DemoResult& result,
+                                               const Progress& progress);
+  core::Result<void> keep_patience(const std::string& title, double step_seconds, const DemoResult& result) const;
   void wait_for_renderer();
   core::Result<void> step(DemoResult& result);
   core::Result<void> take_news(std::int64_t now_ns);
-  void begin_session(std::size_t material);
+  void begin_session(std::size_t material, std::uint32_t edit_revision);
   Moment moment(const input::WandState& wand, const input::Selector::Result& pointing) const;
   std::string guidance() const;
 
   const WallScene& wall_scene_;
-  const scene::MaterialLibrary& materials_;
-  const FrameBuilder& frames_;
+  const DemoPlan& plan_;
+  std::vector<FeltMaterial> materials_;  // as they are felt now
+  FrameBuilder frames_;
   render::Renderer& renderer_;
   ServoLink& servo_;
   const core::Clock& clock_;
@@ -49,7 +61,8 @@ class Demonstration {
   input::Selector selector_;
   std::vector<input::Target> targets_;
 
-  std::optional<std::size_t> current_;  // whose session is being recorded
+  std::optional<std::size_t> current_;  // whose session is being recorded, and with which edit
+  std::uint32_t edit_revision_ = 0;
   RecordedSession session_;
   double deepest_z_m_ = 0;
   TipStream stream_;

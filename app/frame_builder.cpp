@@ -7,7 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "physics/contact.h"
+#include "app/data_panel.h"
+#include "haptics/scaling.h"
 #include "physics/quantity_text.h"
 
 namespace afm::app {
@@ -19,9 +20,11 @@ using physics::format_quantity;
 constexpr double kNmPerM = 1e9;
 constexpr double kNnPerN = 1e9;
 
-// Axes around the loop, in units of Z_joc and F_ad.
+// Axes around the loop, in units of the reach of the pull and of its strength.
 constexpr double kAxisBelow = 0.42, kAxisAbove = 1.42;
 constexpr double kForceBelow = 1.22, kForceAbove = 0.52;
+constexpr double kPushShare = 0.4;  // of the reach: the deepest push
+constexpr double kHardlyPulled = 0.05;
 
 struct StateSign {
   const char* word;
@@ -45,18 +48,54 @@ StateSign sign_of(scene::ServoState state) {
   return {"FORCE OFF", render::StateShape::Square, {0.70F, 0.74F, 0.80F}};
 }
 
-// With a typographic minus, and no sign on what rounds to zero.
-std::string signed_text(double value, int decimals, const char* unit) {
-  const double tiny = 0.5 * std::pow(10.0, -decimals);
-  const char* sign = value >= tiny ? "+" : value <= -tiny ? "\u2212" : "";
-  return fmt::format("{}{:.{}f} {}", sign, std::abs(value), decimals, unit);
-}
-
 // "33.1 nm": how much one metre of the wall shows.
 std::string scale_text(double m_per_m) {
   std::string text = format_quantity(physics::Length(m_per_m), physics::kLengthUnits, 3);
   if (const std::size_t micro = text.find("um"); micro != std::string::npos) text.replace(micro, 1, "\u00b5");
   return text;
+}
+
+// Round the loops of all materials that are in front.
+class Axes {
+ public:
+  void include(const FeltMaterial& material) {
+    const double reach_m = material.scaling.z_m(haptics::FitScaling::kStrokeM);
+    const double push_n = material.tables->attached.force(physics::Length(-kPushShare * reach_m)).si;
+    reach_nm_ = std::max(reach_nm_, reach_m * kNmPerM);
+    pull_nn_ = std::max(pull_nn_, haptics::strongest_pull_n(*material.tables) * kNnPerN);
+    push_nn_ = std::max(push_nn_, push_n * kNnPerN);
+  }
+
+  // A tip that is hardly pulled is pushed; otherwise the pull gives the measure.
+  void apply(render::ForcePanel& panel) const {
+    const bool pulled = pull_nn_ > kHardlyPulled * push_nn_;
+    panel.z_min_nm = -kAxisBelow * reach_nm_;
+    panel.z_max_nm = kAxisAbove * reach_nm_;
+    panel.force_min_nn = pulled ? -kForceBelow * pull_nn_ : -kForceAbove * push_nn_;
+    panel.force_max_nn = pulled ? kForceAbove * pull_nn_ : kForceBelow * push_nn_;
+  }
+
+ private:
+  double reach_nm_ = 1e-6, pull_nn_ = 1e-9, push_nn_ = 0.0;
+};
+
+// The three forces that a cycle is known by: of the law at the fold, which is felt just before the jump; just after it,
+// the paper's F_attr; and the pull-off.
+std::vector<render::PlotMarker> jump_markers(const physics::CycleFigures& figures) {
+  using Kind = render::PlotMarker::Kind;
+  const double z_jtc_nm = figures.z_jtc.si * kNmPerM, z_joc_nm = figures.z_joc.si * kNmPerM;
+  const double fold_nn = figures.force_before_jtc.si * kNnPerN;
+  const double after_nn = figures.force_after_jtc.si * kNnPerN;
+  const double pull_off_nn = figures.force_before_joc.si * kNnPerN;
+  std::vector<render::PlotMarker> markers{
+      {Kind::VerticalLine, z_jtc_nm, fmt::format("Z_jtc {:.2f} nm", z_jtc_nm)},
+      {Kind::VerticalLine, z_joc_nm, fmt::format("Z_joc {:.2f} nm", z_joc_nm)},
+      {Kind::HorizontalLine, after_nn, fmt::format("F_attr {:.3f} nN", std::abs(after_nn))},
+      {Kind::HorizontalLine, pull_off_nn, fmt::format("F_ad {:.3f} nN", std::abs(pull_off_nn))}};
+  if (fold_nn != 0.0) {
+    markers.push_back({Kind::HorizontalLine, fold_nn, fmt::format("F_fold {:.3f} nN", std::abs(fold_nn))});
+  }
+  return markers;
 }
 
 }  // namespace
@@ -95,7 +134,7 @@ std::string stage_of_cycle(const Moment& moment, double z_jtc_m) {
   return moment.tip.z_m > 0.0 ? "E \u2192 F   adhesion pulls" : "E \u2192 F   retract";
 }
 
-FrameBuilder::FrameBuilder(const WallScene& wall_scene, const scene::MaterialLibrary& materials,
+FrameBuilder::FrameBuilder(const WallScene& wall_scene, const std::vector<FeltMaterial>& materials,
                            const std::array<scene::EyeView, 2>& eyes)
     : wall_scene_(&wall_scene), materials_(&materials), eyes_(eyes) {}
 
@@ -109,7 +148,13 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
                       .instrument = moment.compare_all ? WallScene::Instrument::Hidden : WallScene::Instrument::Shown},
                      frame);
   frame.force_panel = force_panel(moment);
-  frame.data_panel = data_panel(moment);
+  if (moment.compare_all) {
+    frame.data_panel = felt_panel(moment.felt);
+  } else if (moment.material) {
+    frame.data_panel = data_panel((*materials_)[*moment.material], moment.tip.deflection_m, moment.force_n);
+  } else {
+    frame.data_panel = {.title = "No material yet", .subtitle = "point at a swatch and press", .rows = {}};
+  }
   frame.banner = banner(moment);
   return frame;
 }
@@ -117,25 +162,18 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
 render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   render::ForcePanel panel;
   panel.title = "Force on the tip";
-  double z_joc_nm = 1.0, f_ad_nn = 1.0;
-  for (std::size_t i = 0; i < materials_->materials.size(); ++i) {
+  Axes axes;
+  for (std::size_t i = 0; i < materials_->size(); ++i) {
     const bool in_front = moment.compare_all || moment.material == i;
-    const auto events = physics::approach_retract_events(materials_->materials[i].interaction);
-    if (in_front) {
-      z_joc_nm = std::max(moment.compare_all ? z_joc_nm : 0.0, events.z_joc.si * kNmPerM);
-      f_ad_nn = std::max(moment.compare_all ? f_ad_nn : 0.0, events.f_ad.si * kNnPerN);
-    }
+    if (in_front) axes.include((*materials_)[i]);
     if (i >= moment.curves.size() || moment.curves[i].empty()) continue;
-    render::PlotCurve curve = moment.curves[i].plot(materials_->materials[i].title, curve_color(i));
+    render::PlotCurve curve = moment.curves[i].plot((*materials_)[i].entry.title, curve_color(i));
     curve.faded = !in_front;
     panel.curves.push_back(std::move(curve));
   }
   // earlier materials behind, the current one in front
   std::stable_partition(panel.curves.begin(), panel.curves.end(), [](const render::PlotCurve& c) { return c.faded; });
-  panel.z_min_nm = -kAxisBelow * z_joc_nm;
-  panel.z_max_nm = kAxisAbove * z_joc_nm;
-  panel.force_min_nn = -kForceBelow * f_ad_nn;
-  panel.force_max_nn = kForceAbove * f_ad_nn;
+  axes.apply(panel);
   if (moment.compare_all) {
     panel.title = "Approach and retract of all materials";
     panel.stage = "";
@@ -143,53 +181,12 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   }
   if (!moment.material) return panel;
 
-  using Kind = render::PlotMarker::Kind;
-  const auto events = physics::approach_retract_events(materials_->materials[*moment.material].interaction);
-  const double z_jtc_nm = events.z_jtc.si * kNmPerM, f_attr_nn = events.f_attr.si * kNnPerN;
-  panel.markers = {{Kind::VerticalLine, z_jtc_nm, fmt::format("Z_jtc {:.2f} nm", z_jtc_nm)},
-                   {Kind::VerticalLine, z_joc_nm, fmt::format("Z_joc {:.2f} nm", z_joc_nm)},
-                   {Kind::HorizontalLine, -f_attr_nn, fmt::format("F_attr {:.3f} nN", f_attr_nn)},
-                   {Kind::HorizontalLine, -f_ad_nn, fmt::format("F_ad {:.3f} nN", f_ad_nn)}};
-  panel.stage = stage_of_cycle(moment, events.z_jtc.si);
+  const physics::CycleFigures& figures = (*materials_)[*moment.material].figures();
+  if (figures.hysteretic) panel.markers = jump_markers(figures);
+  panel.stage = stage_of_cycle(moment, figures.z_jtc.si);
   if (moment.phase != scene::ContactPhase::WaitForLift) {
     panel.cursor = render::PlotPoint{moment.tip.z_m * kNmPerM, moment.force_n * kNnPerN};
   }
-  return panel;
-}
-
-render::DataPanel FrameBuilder::data_panel(const Moment& moment) const {
-  render::DataPanel panel;
-  if (moment.compare_all) {
-    panel.title = "What was felt";
-    panel.subtitle = "jump to contact / jump off contact";
-    for (const Felt& felt : moment.felt) {
-      panel.rows.push_back({felt.title,
-                            fmt::format("{:.3f} / {:.3f} nN", felt.f_attr_n * kNnPerN, felt.f_ad_n * kNnPerN),
-                            fmt::format("at {:.2f} nm / {:.2f} nm", felt.z_jtc_m * kNmPerM, felt.z_joc_m * kNmPerM)});
-    }
-    return panel;
-  }
-  if (!moment.material) {
-    panel.title = "No material yet";
-    panel.subtitle = "point at a swatch and press";
-    return panel;
-  }
-  const scene::MaterialEntry& material = materials_->materials[*moment.material];
-  const physics::Interaction& in = material.interaction;
-  const auto source = [&](std::string_view key) {
-    const auto found =
-        std::find_if(material.sources.begin(), material.sources.end(), [&](const auto& s) { return s.key == key; });
-    return found == material.sources.end() ? std::string() : found->source;
-  };
-  panel.title = material.title;
-  panel.subtitle = fmt::format("{} tip, in {}", material.tip, material.medium);
-  panel.rows = {{"Tip radius R", format_quantity(in.tip_radius, physics::kLengthUnits, 3), source("tip_radius")},
-                {"Spring constant k", fmt::format("{:g} N/m", in.spring_constant.si), source("spring_constant")},
-                {"Hamaker constant A", format_quantity(in.hamaker, physics::kEnergyUnits, 3), source("hamaker")},
-                {"Surface energy \u221a(\u03b3\u03b3)",
-                 fmt::format("{:.3f} mJ/m\u00b2", in.mean_surface_energy.si * 1e3), source("mean_surface_energy")},
-                {"Lever deflection", signed_text(moment.tip.deflection_m * kNmPerM, 2, "nm"), ""},
-                {"Force on the tip", signed_text(moment.force_n * kNnPerN, 3, "nN"), ""}};
   return panel;
 }
 
@@ -201,6 +198,10 @@ render::Banner FrameBuilder::banner(const Moment& moment) const {
   banner.state_shape = sign.shape;
   banner.state_color = sign.color;
   if (!moment.realtime) banner.warning = "not real-time";
+  if (moment.slow_motion > 1.0) {
+    banner.warning =
+        fmt::format("slow motion \u00d7{:.3g}{}", moment.slow_motion, moment.realtime ? "" : ", not real-time");
+  }
   const DrawnScale scale = wall_scene_->drawn_scale(moment.material.value_or(0));
   banner.scale = fmt::format(
       "sample and motion: 1 m = {}     lever: 1 m = {}     tip: 1 m = {}     deflection \u00d7{:.0f} against the lever",

@@ -7,17 +7,19 @@
 #include <vector>
 
 #include "app/cycle_curve.h"
+#include "app/felt_material.h"
 #include "app/wall_scene.h"
 #include "render/frame.h"
-#include "scene/material_library.h"
 #include "scene/shared_blocks.h"
 #include "scene/wall.h"
 
 namespace afm::app {
 
-// The events of a finished cycle, magnitudes.
+// What a finished cycle came to, magnitudes.
 struct Felt {
   std::string title;
+  std::string law;  // "dmt"
+  bool hysteretic = true;
   double f_attr_n = 0, f_ad_n = 0, z_jtc_m = 0, z_joc_m = 0;
 };
 
@@ -30,6 +32,7 @@ struct Moment {
   scene::ContactPhase phase = scene::ContactPhase::WaitForLift;
   bool retracting = false;  // past the deepest push of this cycle
   bool realtime = false;
+  double slow_motion = 1;  // as in TipState
   std::optional<std::size_t> hovered;
   std::optional<input::WandState> wand;
   std::string guidance;
@@ -42,22 +45,21 @@ struct Moment {
 // The part of the cycle in words, with the letters of the paper's Fig. 2.
 std::string stage_of_cycle(const Moment& moment, double z_jtc_m);
 
-// Turns moments into frames for one wall and one viewer. Const after construction; any thread.
+// Turns moments into frames for one wall and one viewer.
 class FrameBuilder {
  public:
-  // `wall_scene` and `materials` must outlive it.
-  FrameBuilder(const WallScene& wall_scene, const scene::MaterialLibrary& materials,
+  // `wall_scene` and `materials` must outlive it; what a material is felt with may change between two frames.
+  FrameBuilder(const WallScene& wall_scene, const std::vector<FeltMaterial>& materials,
                const std::array<scene::EyeView, 2>& eyes);
 
   render::FrameState build(const Moment& moment) const;
 
  private:
   render::ForcePanel force_panel(const Moment& moment) const;
-  render::DataPanel data_panel(const Moment& moment) const;
   render::Banner banner(const Moment& moment) const;
 
   const WallScene* wall_scene_;
-  const scene::MaterialLibrary* materials_;
+  const std::vector<FeltMaterial>* materials_;
   std::array<scene::EyeView, 2> eyes_;
 };
 

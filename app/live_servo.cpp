@@ -26,6 +26,7 @@ Moment moment_of(const scene::TipState& tip, double deepest_z_m) {
   now.phase = tip.phase;
   now.retracting = is_retracting(tip.z_m, deepest_z_m);
   now.realtime = tip.realtime != 0;
+  now.slow_motion = tip.slow_motion;
   return now;
 }
 

@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
-
-#include "physics/contact.h"
 
 namespace afm::app {
 
@@ -23,37 +20,52 @@ std::size_t rank(double fraction, std::size_t count) {
 }  // namespace
 
 CycleEvents Measurement::error_vs_calculation() const {
+  if (!hysteretic) return {};
+  const double z_scale_m = calculation.z_jtc_m != 0.0 ? std::abs(calculation.z_jtc_m) : std::abs(calculation.z_joc_m);
   return {.f_attr_n = relative(measured.f_attr_n, calculation.f_attr_n),
           .f_ad_n = relative(measured.f_ad_n, calculation.f_ad_n),
-          .z_jtc_m = relative(measured.z_jtc_m, calculation.z_jtc_m),
+          .z_jtc_m = (measured.z_jtc_m - calculation.z_jtc_m) / z_scale_m,
           .z_joc_m = relative(measured.z_joc_m, calculation.z_joc_m)};
 }
 
-double Measurement::experiment_error_f_attr() const { return relative(measured.f_attr_n, experiment_f_attr_n); }
-double Measurement::experiment_error_f_ad() const { return relative(measured.f_ad_n, experiment_f_ad_n); }
+std::optional<double> Measurement::experiment_error_f_attr() const {
+  if (!hysteretic || !experiment_f_attr_n) return std::nullopt;
+  return relative(measured.f_attr_n, *experiment_f_attr_n);
+}
+
+std::optional<double> Measurement::experiment_error_f_ad() const {
+  if (!hysteretic || !experiment_f_ad_n) return std::nullopt;
+  return relative(measured.f_ad_n, *experiment_f_ad_n);
+}
 
 double Measurement::worst_error() const {
+  if (!judged) return 0.0;
   const CycleEvents e = error_vs_calculation();
   return std::max({std::abs(e.f_attr_n), std::abs(e.f_ad_n), std::abs(e.z_jtc_m), std::abs(e.z_joc_m)});
 }
 
-core::Result<Measurement> measure(const RecordedSession& session, const scene::MaterialEntry& material) {
+core::Result<Measurement> measure(const RecordedSession& session, const FeltMaterial& material) {
+  const physics::CycleFigures& figures = material.figures();
   const scene::TipEvent* in = session.find(scene::TipEventKind::JumpToContact);
   const scene::TipEvent* out = session.find(scene::TipEventKind::JumpOffContact);
-  if (in == nullptr || out == nullptr) {
+  if (figures.hysteretic && (in == nullptr || out == nullptr)) {
     return core::failure(core::ErrorCategory::Failed,
                          fmt::format("{}: the recorded cycle has no {}; run the demo again", session.material,
                                      in == nullptr ? "jump to contact" : "jump off contact"));
   }
-  const physics::ApproachRetractEvents events = physics::approach_retract_events(material.interaction);
   Measurement m;
   m.material = session.material;
-  m.title = material.title;
-  m.measured = {std::abs(in->force_after_n), std::abs(out->force_before_n), in->z_m, out->z_m};
-  m.calculation = {events.f_attr.si, events.f_ad.si, events.z_jtc.si, events.z_joc.si};
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  m.experiment_f_attr_n = material.experiment_f_attr ? material.experiment_f_attr->si : kNone;
-  m.experiment_f_ad_n = material.experiment_f_ad ? material.experiment_f_ad->si : kNone;
+  m.title = material.entry.title;
+  m.law = law_name(material.parameters);
+  m.hysteretic = figures.hysteretic;
+  m.judged = !material.dynamic();
+  if (m.hysteretic) m.measured = {std::abs(in->force_after_n), std::abs(out->force_before_n), in->z_m, out->z_m};
+  m.calculation = {std::abs(figures.force_after_jtc.si), std::abs(figures.force_before_joc.si), figures.z_jtc.si,
+                   figures.z_joc.si};
+  m.fold_n = std::abs(figures.force_before_jtc.si);
+  m.loop_energy_j = figures.loop_energy.si;
+  if (const auto& f = material.entry.experiment_f_attr) m.experiment_f_attr_n = f->si;
+  if (const auto& f = material.entry.experiment_f_ad) m.experiment_f_ad_n = f->si;
 
   const auto first_attached =
       std::find_if(session.samples.begin(), session.samples.end(),

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/command.h"
 #include "app/demonstration.h"
@@ -28,10 +29,29 @@ struct RenderOptions {
   StageFiles files;
 };
 
+// The wall as it was, as far as the session tells: the paper's three stand together, another material alone.
+StageFiles files_for(const RecordedSession& session, StageFiles files) {
+  const auto& paper = scene::kPaperMaterials;
+  const bool shown_anyway =
+      !files.materials.empty() || std::find(paper.begin(), paper.end(), session.material) != paper.end();
+  if (session.curve) {
+    scene::MaterialEntry entry;
+    entry.name = session.material;
+    entry.title = "Measured curve";
+    entry.note = "a recorded curve";
+    entry.look = paper.front();
+    entry.interaction = session.parameters.interaction;
+    files.added.push_back(entry);
+  } else if (!shown_anyway) {
+    files.shown = {session.material};
+  }
+  return files;
+}
+
 core::Result<void> run_render(const RenderOptions& options) {
   auto session = load_session(options.session);
   if (!session) return tl::unexpected(session.error());
-  auto stage = load_stage(options.files);
+  auto stage = load_stage(files_for(*session, options.files));
   if (!stage) return tl::unexpected(stage.error());
   const auto& materials = stage->materials.materials;
   const auto found =
@@ -41,6 +61,15 @@ core::Result<void> run_render(const RenderOptions& options) {
         core::ErrorCategory::BadInputFile,
         fmt::format("session file {}: its material \"{}\" is not in the material file; give that file with --materials",
                     options.session, session->material));
+  }
+  std::vector<scene::SharedMeasuredCurve> recorded;
+  if (session->curve) recorded.push_back(*session->curve);
+  std::vector<FeltMaterial> felt;
+  for (const scene::MaterialEntry& entry : materials) {
+    auto one = entry.name == session->material ? felt_material(entry, session->parameters, recorded)
+                                               : felt_material(entry, LawRequest{});
+    if (!one) return tl::unexpected(one.error());
+    felt.push_back(std::move(*one));
   }
   const double length_s = session->seconds_since_start(session->samples.back().time_ns);
   if (!(options.at_s >= 0.0 && options.at_s <= length_s)) {
@@ -61,7 +90,7 @@ core::Result<void> run_render(const RenderOptions& options) {
   curves[material] = curve_until(*session, time_ns);
   Moment moment = moment_of(*session, material, time_ns, curves);
   moment.guidance = fmt::format("{} at {:.2f} s", found->title, options.at_s);
-  const FrameBuilder frames(stage->wall_scene, stage->materials, stage->eyes);
+  const FrameBuilder frames(stage->wall_scene, felt, stage->eyes);
   renderer->render(frames.build(moment));
   return render::write_png(renderer->read_composed(options.layout), options.out);
 }

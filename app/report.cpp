@@ -21,6 +21,24 @@ nlohmann::json json_of(const Percentiles& p) {
   return {{"p50", p.p50}, {"p99", p.p99}, {"p99.9", p.p999}, {"max", p.max}};
 }
 
+nlohmann::json json_of(const Measurement& m) {
+  nlohmann::json json{{"law", m.law},
+                      {"hysteretic", m.hysteretic},
+                      {"fold_N", m.fold_n},
+                      {"loop_energy_J", m.loop_energy_j},
+                      {"f_attr_N", m.measured.f_attr_n},
+                      {"f_ad_N", m.measured.f_ad_n},
+                      {"z_jtc_m", m.measured.z_jtc_m},
+                      {"z_joc_m", m.measured.z_joc_m},
+                      {"sampled_f_attr_N", m.sampled_f_attr_n},
+                      {"sampled_f_ad_N", m.sampled_f_ad_n},
+                      {"error_vs_calculation", json_of(m.error_vs_calculation())},
+                      {"error_vs_experiment", nlohmann::json::object()}};
+  if (const auto error = m.experiment_error_f_attr()) json["error_vs_experiment"]["f_attr"] = *error;
+  if (const auto error = m.experiment_error_f_ad()) json["error_vs_experiment"]["f_ad"] = *error;
+  return json;
+}
+
 std::string base64(const std::string& bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -63,12 +81,22 @@ std::string events_table(const DemoResult& result) {
         sample, name, calculation, unit, measured, unit, signed_percent(measured / calculation - 1.0), sampled,
         experiment, error);
   };
-  const auto nn = [](double n) { return fmt::format("{:.5g} nN", n * 1e9); };
-  for (const Measurement& m : result.measurements) {
-    row(m.title, "F<sub>attr</sub>", "nN", m.calculation.f_attr_n * 1e9, m.measured.f_attr_n * 1e9,
-        nn(m.sampled_f_attr_n), nn(m.experiment_f_attr_n), signed_percent(m.experiment_error_f_attr()));
+  const auto nn = [](std::optional<double> n) { return n ? fmt::format("{:.5g} nN", *n * 1e9) : "\u2013"; };
+  const auto percent = [](std::optional<double> error) { return error ? signed_percent(*error) : "\u2013"; };
+  std::vector<Measurement> measurements = result.measurements;
+  for (const FeltVariation& variation : result.variations) measurements.push_back(variation.measurement);
+  for (const Measurement& m : measurements) {
+    if (!m.hysteretic) {
+      html += fmt::format(
+          "<tr><td>{} ({})</td><td colspan=\"7\">no jumps: so stiff a lever follows the force wherever it "
+          "goes</td></tr>\n",
+          m.title, m.law);
+      continue;
+    }
+    row(m.title + " (" + m.law + ")", "F<sub>attr</sub>", "nN", m.calculation.f_attr_n * 1e9, m.measured.f_attr_n * 1e9,
+        nn(m.sampled_f_attr_n), nn(m.experiment_f_attr_n), percent(m.experiment_error_f_attr()));
     row(m.title, "F<sub>ad</sub>", "nN", m.calculation.f_ad_n * 1e9, m.measured.f_ad_n * 1e9, nn(m.sampled_f_ad_n),
-        nn(m.experiment_f_ad_n), signed_percent(m.experiment_error_f_ad()));
+        nn(m.experiment_f_ad_n), percent(m.experiment_error_f_ad()));
     row(m.title, "Z<sub>jtc</sub>", "nm", m.calculation.z_jtc_m * 1e9, m.measured.z_jtc_m * 1e9, "\u2013", "\u2013",
         "\u2013");
     row(m.title, "Z<sub>joc</sub>", "nm", m.calculation.z_joc_m * 1e9, m.measured.z_joc_m * 1e9, "\u2013", "\u2013",
@@ -92,18 +120,15 @@ std::string timing_table(const DemoResult& result) {
 
 nlohmann::json summary_json(const DemoResult& result) {
   nlohmann::json materials = nlohmann::json::object();
-  for (const Measurement& m : result.measurements) {
-    materials[m.material] = {
-        {"f_attr_N", m.measured.f_attr_n},
-        {"f_ad_N", m.measured.f_ad_n},
-        {"z_jtc_m", m.measured.z_jtc_m},
-        {"z_joc_m", m.measured.z_joc_m},
-        {"sampled_f_attr_N", m.sampled_f_attr_n},
-        {"sampled_f_ad_N", m.sampled_f_ad_n},
-        {"error_vs_calculation", json_of(m.error_vs_calculation())},
-        {"error_vs_experiment", {{"f_attr", m.experiment_error_f_attr()}, {"f_ad", m.experiment_error_f_ad()}}}};
+  for (const Measurement& m : result.measurements) materials[m.material] = json_of(m);
+  nlohmann::json variations = nlohmann::json::array();
+  for (const FeltVariation& variation : result.variations) {
+    variations.push_back(json_of(variation.measurement));
+    variations.back()["material"] = variation.measurement.material;
+    variations.back()["title"] = variation.measurement.title;
   }
   return {{"materials", materials},
+          {"variations", variations},
           {"servo",
            {{"rate_hz", result.servo.rate_hz},
             {"policy", result.servo.policy_fifo != 0 ? "SCHED_FIFO" : "SCHED_OTHER"},
@@ -145,7 +170,9 @@ std::string report_html(const DemoResult& result, const std::vector<ReportPictur
       "tick; beside it, "
       "what the ticks alone have seen. The agreement of F<sub>ad</sub> with the experiment is circular: the surface "
       "energies were "
-      "computed from the measured pull-off forces. Only F<sub>attr</sub> is a prediction.</p>\n";
+      "computed from the measured pull-off forces. Only F<sub>attr</sub> is a prediction. The inertia and the noise of "
+      "a "
+      "dynamic lever move its jumps, which no calculation at rest can judge.</p>\n";
   html +=
       "<h2>The wall</h2>\n<p class=\"note\">Side by side, left eye left: look at them with parallel eyes, or on a "
       "stereo wall.</p>\n";
@@ -164,14 +191,21 @@ std::string report_html(const DemoResult& result, const std::vector<ReportPictur
 }
 
 std::string session_csv(const RecordedSession& session) {
-  const physics::Interaction& in = session.parameters.interaction;
+  const scene::SharedMaterial& m = session.parameters;
+  const physics::Interaction& in = m.interaction;
   fmt::memory_buffer csv;
   const auto out = std::back_inserter(csv);
   fmt::format_to(out, "# TouchAFM {}: one approach-retract cycle as the servo recorded it\n", kVersion);
-  fmt::format_to(out, "# material: {}\n# model: {}\n", session.material, session.model);
+  fmt::format_to(out, "# material: {}\n# model: {}\n", session.material, law_name(m));
   fmt::format_to(out, "# tip_radius_m: {}\n# spring_constant_N_per_m: {}\n", in.tip_radius.si, in.spring_constant.si);
   fmt::format_to(out, "# sample_stiffness_N_per_m: {}\n# hamaker_J: {}\n", in.sample_stiffness.si, in.hamaker.si);
   fmt::format_to(out, "# mean_surface_energy_J_per_m2: {}\n", in.mean_surface_energy.si);
+  fmt::format_to(out, "# reduced_modulus_Pa: {}\n# atomic_distance_m: {}\n", in.reduced_modulus.si,
+                 in.atomic_distance.si);
+  if (m.dynamic != 0) {
+    fmt::format_to(out, "# resonance_Hz: {}\n# quality_factor: {}\n# temperature_K: {}\n# slow_motion: {}\n",
+                   m.lever.resonance.si, m.lever.quality_factor, m.lever.temperature.si, session.slow_motion);
+  }
   fmt::format_to(out, "# servo_rate_Hz: {}\n# hand_m_per_m: {}\n# hand_N_per_N: {}\n", session.rate_hz,
                  session.hand_m_per_m, session.hand_n_per_n);
   fmt::format_to(out, "# force on the tip, positive away from the sample; Z is the piezo displacement\n");

@@ -14,10 +14,19 @@
 
 namespace afm::app {
 
+// One cycle on a sample whose parameters were changed while the servo ran.
+struct FeltVariation {
+  std::size_t material = 0;  // of which material it is a variation
+  FeltMaterial felt;
+  RecordedSession session;
+  Measurement measurement;
+};
+
 // All that a run of the demo has found out.
 struct DemoResult {
   std::vector<RecordedSession> sessions;  // one per material, in the file's order
   std::vector<Measurement> measurements;
+  std::vector<FeltVariation> variations;
   scene::ServoTiming servo;
   std::uint64_t lost_samples = 0;
   std::vector<double> frame_ms;

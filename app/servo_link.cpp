@@ -37,24 +37,22 @@ core::Error ended(int status) {
 
 }  // namespace
 
-scene::SharedMaterial shared_material(const scene::MaterialEntry& material) {
-  scene::SharedMaterial shared;
-  set_name(shared.name, material.name);
-  shared.interaction = material.interaction;
-  return shared;
-}
-
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
-                                              const scene::MaterialLibrary& materials) {
-  if (scene.nodes.size() > scene::kMaxNodes || materials.materials.size() > scene::kMaxMaterials) {
+                                              std::span<const FeltMaterial> materials,
+                                              std::span<const scene::SharedMeasuredCurve> curves) {
+  if (scene.nodes.size() > scene::kMaxNodes || materials.size() > scene::kMaxMaterials ||
+      curves.size() > scene::kMaxMeasuredCurves) {
     return core::failure(
         core::ErrorCategory::BadInputFile,
-        fmt::format("the scene has {} nodes and {} materials; at most {} and {} can be shared with the servo",
-                    scene.nodes.size(), materials.materials.size(), scene::kMaxNodes, scene::kMaxMaterials));
+        fmt::format("the scene has {} nodes, {} materials and {} measured curves; at most {}, {} and {} can be shared "
+                    "with the servo",
+                    scene.nodes.size(), materials.size(), curves.size(), scene::kMaxNodes, scene::kMaxMaterials,
+                    scene::kMaxMeasuredCurves));
   }
   scene::SharedModel model;
   model.node_count = static_cast<std::uint32_t>(scene.nodes.size());
-  model.material_count = static_cast<std::uint32_t>(materials.materials.size());
+  model.material_count = static_cast<std::uint32_t>(materials.size());
+  model.curve_count = static_cast<std::uint32_t>(curves.size());
   model.sample_node = sample_node;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     scene::SharedNode& node = model.nodes[i];
@@ -67,7 +65,9 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
       }
     }
   }
-  std::transform(materials.materials.begin(), materials.materials.end(), model.materials.begin(), shared_material);
+  std::transform(materials.begin(), materials.end(), model.materials.begin(),
+                 [](const FeltMaterial& material) { return material.parameters; });
+  std::copy(curves.begin(), curves.end(), model.curves.begin());
   return model;
 }
 

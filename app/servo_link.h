@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "app/felt_material.h"
 #include "core/clock.h"
 #include "core/result.h"
 #include "haptics/servo_process.h"
-#include "scene/material_library.h"
 #include "scene/scene.h"
 #include "scene/shared_segment.h"
 
@@ -20,12 +21,11 @@ enum class ServoMode { Process, Thread };
 
 inline constexpr double kServoRateHz = 1000.0;
 
-scene::SharedMaterial shared_material(const scene::MaterialEntry& material);
-
-// The shared model of a scene: its nodes at rest and the materials' interactions. Fails if there are more of either
-// than the segment holds.
+// The shared model of a scene: its nodes at rest and what is felt. Fails if there are more of either than the segment
+// holds. `curves` are those that measured materials refer to.
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
-                                              const scene::MaterialLibrary& materials);
+                                              std::span<const FeltMaterial> materials,
+                                              std::span<const scene::SharedMeasuredCurve> curves = {});
 
 // The frame loop's end of the servo: starts it over a segment of its own, tells it what was chosen and where things
 // are, and takes every sample and event. One thread.

@@ -8,10 +8,12 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string_view>
 #include <type_traits>
 
 #include "app/whole_file.h"
+#include "scene/shared_segment.h"
 
 namespace afm::app {
 
@@ -72,39 +74,112 @@ bool finite(const TipEvent& e) {
   return std::isfinite(e.z_m) && std::isfinite(e.force_before_n) && std::isfinite(e.force_after_n);
 }
 
+nlohmann::json json_of(const physics::Interaction& in) {
+  nlohmann::json json{{"tip_radius_m", in.tip_radius.si},
+                      {"spring_constant_N_per_m", in.spring_constant.si},
+                      {"hamaker_J", in.hamaker.si},
+                      {"mean_surface_energy_J_per_m2", in.mean_surface_energy.si},
+                      {"atomic_distance_m", in.atomic_distance.si}};
+  // JSON has no infinity: what is rigid has no entry
+  if (physics::isfinite(in.sample_stiffness)) json["sample_stiffness_N_per_m"] = in.sample_stiffness.si;
+  if (physics::isfinite(in.reduced_modulus)) json["reduced_modulus_Pa"] = in.reduced_modulus.si;
+  return json;
+}
+
+physics::Interaction interaction_of(const nlohmann::json& json) {
+  return {.tip_radius = physics::Length(json.at("tip_radius_m").get<double>()),
+          .spring_constant = physics::Stiffness(json.at("spring_constant_N_per_m").get<double>()),
+          .sample_stiffness = physics::Stiffness(json.value("sample_stiffness_N_per_m", HUGE_VAL)),
+          .hamaker = physics::Energy(json.at("hamaker_J").get<double>()),
+          .mean_surface_energy = physics::SurfaceEnergy(json.at("mean_surface_energy_J_per_m2").get<double>()),
+          .reduced_modulus = physics::Pressure(json.value("reduced_modulus_Pa", HUGE_VAL)),
+          .atomic_distance = physics::Length(json.at("atomic_distance_m").get<double>())};
+}
+
+nlohmann::json json_of(const scene::SharedMaterial& m) {
+  nlohmann::json json{{"law", static_cast<std::uint32_t>(m.law)},
+                      {"interaction", json_of(m.interaction)},
+                      {"exact_hamaker_sphere", m.exact_hamaker_sphere != 0},
+                      {"retardation_wavelength_m", m.retardation_wavelength_m}};
+  if (m.has_meniscus != 0) {
+    json["meniscus"] = {{"surface_tension_N_per_m", m.meniscus.surface_tension.si},
+                        {"contact_angle_rad", m.meniscus.contact_angle_rad},
+                        {"relative_humidity", m.meniscus.relative_humidity}};
+  }
+  if (m.dynamic != 0) {
+    json["dynamics"] = {{"resonance_Hz", m.lever.resonance.si},
+                        {"quality_factor", m.lever.quality_factor},
+                        {"temperature_K", m.lever.temperature.si}};
+  }
+  return json;
+}
+
+scene::SharedMaterial parameters_of(const nlohmann::json& json, const std::string& name) {
+  scene::SharedMaterial m;
+  std::copy_n(name.begin(), std::min(name.size(), m.name.size() - 1), m.name.begin());
+  m.law = static_cast<physics::Law>(json.at("law").get<std::uint32_t>());
+  if (m.law == physics::Law::Measured) m.measured_curve = 0;
+  m.interaction = interaction_of(json.at("interaction"));
+  m.exact_hamaker_sphere = json.at("exact_hamaker_sphere").get<bool>() ? 1 : 0;
+  m.retardation_wavelength_m = json.at("retardation_wavelength_m").get<double>();
+  if (const auto meniscus = json.find("meniscus"); meniscus != json.end()) {
+    m.has_meniscus = 1;
+    m.meniscus = {.surface_tension = physics::SurfaceEnergy(meniscus->at("surface_tension_N_per_m").get<double>()),
+                  .contact_angle_rad = meniscus->at("contact_angle_rad").get<double>(),
+                  .relative_humidity = meniscus->at("relative_humidity").get<double>()};
+  }
+  if (const auto dynamics = json.find("dynamics"); dynamics != json.end()) {
+    m.dynamic = 1;
+    m.lever = {.resonance = physics::Frequency(dynamics->at("resonance_Hz").get<double>()),
+               .quality_factor = dynamics->at("quality_factor").get<double>(),
+               .temperature = physics::Temperature(dynamics->at("temperature_K").get<double>())};
+  }
+  return m;
+}
+
+nlohmann::json json_of(std::span<const physics::MeasuredPoint> branch) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const physics::MeasuredPoint& point : branch) json.push_back({point.z.si, point.force.si});
+  return json;
+}
+
+std::uint32_t branch_of(const nlohmann::json& json, std::span<physics::MeasuredPoint> branch) {
+  const auto count = static_cast<std::uint32_t>(std::min(json.size(), branch.size()));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    branch[i] = {.z = physics::Length(json.at(i).at(0).get<double>()),
+                 .force = physics::Force(json.at(i).at(1).get<double>())};
+  }
+  return count;
+}
+
 nlohmann::json header_of(const RecordedSession& session) {
-  const physics::Interaction& in = session.parameters.interaction;
-  nlohmann::json interaction{{"tip_radius_m", in.tip_radius.si},
-                             {"spring_constant_N_per_m", in.spring_constant.si},
-                             {"hamaker_J", in.hamaker.si},
-                             {"mean_surface_energy_J_per_m2", in.mean_surface_energy.si}};
-  // JSON has no infinity: a rigid sample has no stiffness entry
-  if (physics::isfinite(in.sample_stiffness)) interaction["sample_stiffness_N_per_m"] = in.sample_stiffness.si;
-  return {{"material", session.material},         {"model", session.model},
-          {"interaction", interaction},           {"rate_hz", session.rate_hz},
-          {"realtime", session.realtime},         {"hand_m_per_m", session.hand_m_per_m},
-          {"hand_N_per_N", session.hand_n_per_n}, {"sample_bytes", sizeof(TipSample)},
-          {"event_bytes", sizeof(TipEvent)}};
+  nlohmann::json header{{"material", session.material},         {"parameters", json_of(session.parameters)},
+                        {"rate_hz", session.rate_hz},           {"realtime", session.realtime},
+                        {"hand_m_per_m", session.hand_m_per_m}, {"hand_N_per_N", session.hand_n_per_n},
+                        {"slow_motion", session.slow_motion},   {"sample_bytes", sizeof(TipSample)},
+                        {"event_bytes", sizeof(TipEvent)}};
+  if (const auto& curve = session.curve) {
+    header["measured"] = {{"approach", json_of(std::span(curve->approach).first(curve->approach_count))},
+                          {"retract", json_of(std::span(curve->retract).first(curve->retract_count))}};
+  }
+  return header;
 }
 
 // Throws nlohmann::json::exception when a key is missing or of the wrong type.
 RecordedSession session_of(const nlohmann::json& header) {
   RecordedSession session;
   session.material = header.at("material").get<std::string>();
-  session.model = header.at("model").get<std::string>();
+  session.parameters = parameters_of(header.at("parameters"), session.material);
   session.rate_hz = header.at("rate_hz").get<double>();
   session.realtime = header.at("realtime").get<bool>();
   session.hand_m_per_m = header.at("hand_m_per_m").get<double>();
   session.hand_n_per_n = header.at("hand_N_per_N").get<double>();
-  const nlohmann::json& interaction = header.at("interaction");
-  physics::Interaction& in = session.parameters.interaction;
-  in.tip_radius.si = interaction.at("tip_radius_m").get<double>();
-  in.spring_constant.si = interaction.at("spring_constant_N_per_m").get<double>();
-  in.sample_stiffness.si = interaction.value("sample_stiffness_N_per_m", HUGE_VAL);
-  in.hamaker.si = interaction.at("hamaker_J").get<double>();
-  in.mean_surface_energy.si = interaction.at("mean_surface_energy_J_per_m2").get<double>();
-  scene::Name& name = session.parameters.name;
-  std::copy_n(session.material.begin(), std::min(session.material.size(), name.size() - 1), name.begin());
+  session.slow_motion = header.at("slow_motion").get<double>();
+  if (const auto measured = header.find("measured"); measured != header.end()) {
+    scene::SharedMeasuredCurve& curve = session.curve.emplace();
+    curve.approach_count = branch_of(measured->at("approach"), curve.approach);
+    curve.retract_count = branch_of(measured->at("retract"), curve.retract);
+  }
   return session;
 }
 
@@ -165,6 +240,9 @@ core::Result<RecordedSession> load_session(const std::string& path) {
     }
     if (!take_all(body, session.samples) || !take_all(body, session.events) || !body.empty()) {
       return bad("its records do not fill the file; record it again");
+    }
+    if (const auto valid = scene::validate(session.parameters, session.curve ? 1 : 0); !valid) {
+      return bad(valid.error().message + "; record it again");
     }
     if (session.samples.empty()) return bad("it holds no sample; record it again");
     const auto is_finite = [](const auto& record) { return finite(record); };

@@ -24,6 +24,12 @@ void SimulatedPerson::begin(const glm::dvec3& swatch_m, std::int32_t material, s
   enter(Step::PointAtSwatch, now_ns);
 }
 
+void SimulatedPerson::begin_again(std::int64_t now_ns) {
+  restarts_ = 0;
+  move_hand(path_.lift_m, kLiftSeconds);
+  enter(Step::Lift, now_ns);
+}
+
 void SimulatedPerson::enter(Step step, std::int64_t now_ns) {
   step_ = step;
   step_start_ns_ = now_ns;
@@ -43,9 +49,9 @@ void SimulatedPerson::move_hand(double height_m, double seconds) {
 double SimulatedPerson::stroke_seconds() const { return (path_.lift_m - path_.push_m) / path_.speed_m_per_s; }
 
 void SimulatedPerson::lift_again(std::int64_t now_ns) {
-  ++restarts_;
-  move_hand(path_.lift_m, kLiftSeconds);
-  enter(Step::Lift, now_ns);
+  const int before = restarts_;
+  begin_again(now_ns);
+  restarts_ = before + 1;
 }
 
 void SimulatedPerson::update(std::int64_t now_ns, const scene::TipState& tip) {

@@ -31,6 +31,9 @@ class SimulatedPerson {
   // Starts the procedure for the swatch at `swatch_m`; `material` is what the servo must report once it is chosen.
   void begin(const glm::dvec3& swatch_m, std::int32_t material, std::int64_t now_ns);
 
+  // The same on the material that is under the tip already: its parameters have changed.
+  void begin_again(std::int64_t now_ns);
+
   // Once a frame, with the newest state of the tip.
   void update(std::int64_t now_ns, const scene::TipState& tip);
 

@@ -34,7 +34,9 @@ core::Result<scene::MaterialLibrary> shown_materials(const StageFiles& files) {
     }
     library->add(std::move(*own));
   }
-  return library->only(names.empty() ? std::span<const std::string>(scene::kPaperMaterials) : names);
+  auto shown = library->only(names.empty() ? std::span<const std::string>(scene::kPaperMaterials) : names);
+  if (shown) shown->add({files.added});
+  return shown;
 }
 
 }  // namespace

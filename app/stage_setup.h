@@ -19,9 +19,10 @@ namespace afm::app {
 // The files that a picture of the wall is made of.
 struct StageFiles {
   std::string assets_dir;
-  std::string wall;                // empty: the paper's wall in the assets
-  std::string materials;           // a file of the user's own; empty: none
-  std::vector<std::string> shown;  // names; empty: those of the user's file, or the paper's three
+  std::string wall;                         // empty: the paper's wall in the assets
+  std::string materials;                    // a file of the user's own; empty: none
+  std::vector<std::string> shown;           // names; empty: those of the user's file, or the paper's three
+  std::vector<scene::MaterialEntry> added;  // shown behind those
 };
 
 // All that is loaded before anything moves.

@@ -20,7 +20,7 @@ void EditBuilder::build() {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     const auto edit = edits_.new_edit(static_cast<std::uint32_t>(i));
     if (!edit) continue;
-    auto encounter = Encounter::create(edit->material, edit->revision, curves_, device_);
+    auto encounter = Encounter::create(edit->material, edit->revision, curves_, device_, period_ns_);
     if (encounter) {
       exchange_.offer(i, std::move(*encounter));
     } else {

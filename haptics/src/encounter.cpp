@@ -5,7 +5,9 @@
 
 #include <cstring>
 #include <exception>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "scene/shared_segment.h"
 
@@ -13,29 +15,76 @@ namespace afm::haptics {
 
 namespace {
 
-tl::unexpected<core::Error> refusal(const scene::SharedMaterial& material, const core::Error& why) {
+tl::unexpected<core::Error> refusal(const scene::SharedMaterial& material, core::ErrorCategory category,
+                                    std::string_view why) {
   // a name that came without its end is cut
   const std::string name(material.name.data(), ::strnlen(material.name.data(), material.name.size()));
-  return core::failure(why.category, fmt::format("cannot make {} felt: {}", name, why.message));
+  return core::failure(category, fmt::format("cannot make {} felt: {}", name, why));
 }
 
+std::shared_ptr<const physics::LawTables> build(const scene::SharedMaterial& material,
+                                                std::span<const scene::SharedMeasuredCurve> /*curves*/) {
+  if (material.law != physics::Law::Measured) {
+    return physics::build_law_tables(material.law, material.interaction, scene::law_options(material));
+  }
+  throw std::invalid_argument("a measured curve cannot be made into tables yet");
+}
+
+physics::DynamicModel dynamic_model(const scene::SharedMaterial& material, std::int64_t period_ns) {
+  return physics::DynamicModel(material.law, material.interaction, material.lever,
+                               physics::Time(1e-9 * static_cast<double>(period_ns)), scene::law_options(material));
+}
+
+double slow_motion_of(const physics::ApproachRetractModel& /*at rest at any time*/) { return 1.0; }
+double slow_motion_of(const physics::DynamicModel& model) { return model.slow_motion(); }
+
 }  // namespace
+
+core::Result<std::shared_ptr<const physics::LawTables>> felt_tables(
+    const scene::SharedMaterial& material, std::span<const scene::SharedMeasuredCurve> curves) {
+  if (auto valid = scene::validate(material, static_cast<std::uint32_t>(curves.size())); !valid) {
+    return refusal(material, valid.error().category, valid.error().message);
+  }
+  try {
+    return build(material, curves);
+  } catch (const std::exception& error) {
+    return refusal(material, core::ErrorCategory::Failed, error.what());
+  }
+}
 
 core::Result<std::unique_ptr<Encounter>> Encounter::create(const scene::SharedMaterial& material,
                                                            std::uint32_t edit_revision,
                                                            std::span<const scene::SharedMeasuredCurve> curves,
-                                                           const DeviceSpec& device) {
-  if (auto valid = scene::validate(material, static_cast<std::uint32_t>(curves.size())); !valid) {
-    return refusal(material, valid.error());
-  }
+                                                           const DeviceSpec& device, std::int64_t period_ns) {
+  auto tables = felt_tables(material, curves);
+  if (!tables) return tl::unexpected(tables.error());
+  auto scaling = FitScaling::create(**tables, device);
+  if (!scaling) return refusal(material, scaling.error().category, scaling.error().message);
   try {
-    const physics::ApproachRetractModel model(material.interaction);
-    auto scaling = FitScaling::create(model.figures(), device);
-    if (!scaling) return refusal(material, scaling.error());
-    return std::unique_ptr<Encounter>(new Encounter(model, *scaling, edit_revision));
+    Model model(std::in_place_type<physics::ApproachRetractModel>, *tables);
+    if (material.dynamic != 0) model = dynamic_model(material, period_ns);
+    return std::unique_ptr<Encounter>(new Encounter(std::move(model), *scaling, edit_revision));
   } catch (const std::exception& error) {
-    return refusal(material, {core::ErrorCategory::Failed, error.what()});
+    return refusal(material, core::ErrorCategory::Failed, error.what());
   }
+}
+
+Encounter::Encounter(Model model, const FitScaling& scaling, std::uint32_t edit_revision)
+    : model_(std::move(model)),
+      scaling_(scaling),
+      slow_motion_(std::visit([](const auto& m) { return slow_motion_of(m); }, model_)),
+      edit_revision_(edit_revision) {}
+
+physics::TipResponse Encounter::step(physics::Length z) noexcept {
+  return std::visit([z](auto& model) { return model.step(z); }, model_);
+}
+
+void Encounter::wait_for_lift() noexcept {
+  std::visit([](auto& model) { model.wait_for_lift(); }, model_);
+}
+
+physics::Phase Encounter::phase() const noexcept {
+  return std::visit([](const auto& model) { return model.phase(); }, model_);
 }
 
 }  // namespace afm::haptics

@@ -54,15 +54,15 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
   // a copy, because what has been checked in shared memory may change there
   const scene::SharedModel shared = segment.model();
   if (auto valid = scene::validate(shared); !valid) return tl::unexpected(valid.error());
+  const auto period_ns = static_cast<std::int64_t>(std::llround(1e9 / rate_hz));
   std::vector<std::unique_ptr<Encounter>> encounters;
   encounters.reserve(shared.material_count);
   for (std::uint32_t i = 0; i < shared.material_count; ++i) {
-    auto encounter =
-        Encounter::create(shared.materials[i], 0, std::span(shared.curves).first(shared.curve_count), device.spec());
+    auto encounter = Encounter::create(shared.materials[i], 0, std::span(shared.curves).first(shared.curve_count),
+                                       device.spec(), period_ns);
     if (!encounter) return tl::unexpected(encounter.error());
     encounters.push_back(std::move(*encounter));
   }
-  const auto period_ns = static_cast<std::int64_t>(std::llround(1e9 / rate_hz));
   return std::unique_ptr<ServoLoop>(new ServoLoop(segment, shared, device, period_ns, std::move(encounters)));
 }
 
@@ -74,7 +74,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       sample_node_(model.sample_node),
       exchange_(std::move(encounters)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count}, device.spec(),
-             exchange_),
+             period_ns, exchange_),
       governor_(period_ns, force_cap_n(device.spec()), FitScaling::kStrokeM,
                 usable_slew_n_per_s(device.spec(), SafetyGovernor::kSlewNPerS)),
       hand_position_m_(device.spec().contact_point_m) {
@@ -189,6 +189,7 @@ void ServoLoop::feel(std::size_t material) noexcept {
   state_.material = static_cast<std::int32_t>(material);
   state_.hand_m_per_m = encounter_->scaling().hand_m_per_m();
   state_.hand_n_per_n = encounter_->scaling().hand_n_per_n();
+  state_.slow_motion = encounter_->slow_motion();
   state_.edit_revision = encounter_->edit_revision();
 }
 

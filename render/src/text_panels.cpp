@@ -78,7 +78,7 @@ void paint(Canvas& canvas, const DataPanel& panel) {
     return;
   }
   const float room = canvas.size_mm().y - top - 18.0F;
-  const float pitch = std::min(104.0F, room / static_cast<float>(panel.rows.size()));
+  const float pitch = std::min(84.0F, room / static_cast<float>(panel.rows.size()));
   for (std::size_t i = 0; i < panel.rows.size(); ++i) {
     paint_row(canvas, panel.rows[i], top + pitch * static_cast<float>(i), pitch);
   }

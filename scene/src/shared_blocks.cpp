@@ -41,10 +41,10 @@ bool within(std::int32_t material, const SharedModel& model) {
 
 auto refusal(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
 
-bool rising_and_sane(std::span<const SharedCurvePoint> branch) {
+bool rising_and_sane(std::span<const physics::MeasuredPoint> branch) {
   for (std::size_t i = 0; i < branch.size(); ++i) {
-    if (!sane(branch[i].z_m) || !sane(branch[i].force_n)) return false;
-    if (i > 0 && !(branch[i].z_m > branch[i - 1].z_m)) return false;
+    if (!sane(branch[i].z.si) || !sane(branch[i].force.si)) return false;
+    if (i > 0 && !(branch[i].z > branch[i - 1].z)) return false;
   }
   return true;
 }
@@ -58,35 +58,6 @@ bool plausible(const SharedMeasuredCurve& curve) {
 
 }  // namespace
 
-core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count) {
-  if (!terminated(material.name)) return refusal("it has a name without an end");
-  try {
-    physics::validate(material.interaction);
-  } catch (const std::invalid_argument& error) {
-    return refusal(error.what());
-  }
-  if (material.law > physics::Law::Measured || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
-      material.dynamic > 1) {
-    return refusal("it has a law or an option that is not known");
-  }
-  if (material.law == physics::Law::Measured && (material.measured_curve >= curve_count || material.dynamic != 0)) {
-    return refusal("it has no measured curve, or a dynamic one");
-  }
-  if (!sane(material.retardation_wavelength_m) || material.retardation_wavelength_m < 0) {
-    return refusal("its retardation wavelength is not a length");
-  }
-  const physics::Meniscus& meniscus = material.meniscus;
-  if (material.has_meniscus != 0 && !(positive(meniscus.surface_tension.si) && sane(meniscus.contact_angle_rad) &&
-                                      meniscus.relative_humidity >= 0 && meniscus.relative_humidity <= 1)) {
-    return refusal("its meniscus has a number that no liquid has");
-  }
-  if (material.dynamic != 0 && !(positive(material.resonance_hz) && positive(material.quality_factor) &&
-                                 sane(material.temperature_k) && material.temperature_k >= 0)) {
-    return refusal("its lever has a resonance, a quality factor or a temperature that is not a positive number");
-  }
-  return {};
-}
-
 physics::LawOptions law_options(const SharedMaterial& material) {
   physics::LawOptions options;
   options.exact_hamaker_sphere = material.exact_hamaker_sphere != 0;
@@ -95,6 +66,26 @@ physics::LawOptions law_options(const SharedMaterial& material) {
   }
   if (material.has_meniscus != 0) options.meniscus = material.meniscus;
   return options;
+}
+
+core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count) {
+  if (!terminated(material.name)) return refusal("it has a name without an end");
+  if (material.law > physics::Law::Measured || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
+      material.dynamic > 1) {
+    return refusal("it has a law or an option that is not known");
+  }
+  if (material.law == physics::Law::Measured && (material.measured_curve >= curve_count || material.dynamic != 0)) {
+    return refusal("it has no measured curve, or a dynamic one");
+  }
+  if (!(material.retardation_wavelength_m >= 0)) return refusal("its retardation wavelength is not a length");
+  try {
+    physics::validate(material.interaction);
+    physics::validate(law_options(material));
+    if (material.dynamic != 0) physics::validate(material.lever);
+  } catch (const std::invalid_argument& error) {
+    return refusal(error.what());
+  }
+  return {};
 }
 
 core::Result<void> validate(const SharedModel& model) {

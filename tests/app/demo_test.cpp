@@ -105,7 +105,7 @@ TEST_F(Demo, LeavesCurvesAndSessionsOfEveryMaterial) {
     const std::string csv = read_file(folder_->file(std::string("curve-") + name + ".csv")).value();
     EXPECT_THAT(csv, HasSubstr("# hamaker_J: "));
     EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
-              session->samples.size() + session->events.size() + 13U);
+              session->samples.size() + session->events.size() + 15U);
   }
 }
 

@@ -6,28 +6,27 @@
 
 #include <array>
 
-#include "physics/contact.h"
-
 namespace afm::app {
 namespace {
 
-scene::MaterialEntry mica() {
-  auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml");
-  return *library.value().find("mica");
+FeltMaterial mica(physics::Law law = physics::Law::Paper) {
+  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml");
+  return felt_material(*library.value().find("mica"), LawRequest{.law = law, .dynamic = false, .options = {}}).value();
 }
 
-RecordedSession cycle(double error) {
-  const auto events = physics::approach_retract_events(mica().interaction);
+// A cycle of the law whose jump to contact pulls too hard by this part.
+RecordedSession cycle(double error, const FeltMaterial& material = mica()) {
+  const physics::CycleFigures& figures = material.figures();
   RecordedSession session;
   session.material = "mica";
   session.samples.resize(1);
   scene::TipEvent in, out;
   in.kind = scene::TipEventKind::JumpToContact;
-  in.z_m = events.z_jtc.si;
-  in.force_after_n = -events.f_attr.si * (1.0 + error);
+  in.z_m = figures.z_jtc.si;
+  in.force_after_n = figures.force_after_jtc.si * (1.0 + error);
   out.kind = scene::TipEventKind::JumpOffContact;
-  out.z_m = events.z_joc.si;
-  out.force_before_n = -events.f_ad.si;
+  out.z_m = figures.z_joc.si;
+  out.force_before_n = figures.force_before_joc.si;
   session.events = {in, out};
   return session;
 }
@@ -36,12 +35,41 @@ TEST(Measurement, OfAnExactCycleHasNoError) {
   const auto m = measure(cycle(0.0), mica());
   ASSERT_TRUE(m.has_value());
   EXPECT_LT(m->worst_error(), 1e-12);
-  EXPECT_NEAR(m->experiment_error_f_attr(), 0.23975 / 0.24 - 1.0, 1e-4);
+  EXPECT_NEAR(m->experiment_error_f_attr().value(), 0.23975 / 0.24 - 1.0, 1e-4);
 }
 
 TEST(Measurement, SeesAnEventThatIsOff) {
   EXPECT_GT(measure(cycle(0.002), mica())->worst_error(), kEventErrorBound);
   EXPECT_LT(measure(cycle(0.0005), mica())->worst_error(), kEventErrorBound);
+}
+
+TEST(Measurement, IsMadeAgainstTheFiguresOfTheLawThatWasFelt) {
+  const FeltMaterial dmt = mica(physics::Law::Dmt);
+  const auto m = measure(cycle(0.0, dmt), dmt);
+  ASSERT_TRUE(m.has_value());
+  EXPECT_EQ(m->law, "dmt");
+  EXPECT_LT(m->worst_error(), 1e-12);
+  EXPECT_NEAR(m->calculation.f_attr_n, 0.2034e-9, 1e-13);
+  EXPECT_GT(measure(cycle(0.0), dmt)->worst_error(), kEventErrorBound);
+}
+
+TEST(Measurement, OfALeverThatJumpsNowhereHasNothingToCompare) {
+  FeltMaterial stiff = mica(physics::Law::Dmt);
+  physics::Interaction interaction = stiff.parameters.interaction;
+  interaction.spring_constant.si = 40.0;
+  stiff = felt_material(stiff, interaction).value();
+  RecordedSession session = cycle(0.0);
+  session.events.clear();
+  const auto m = measure(session, stiff);
+  ASSERT_TRUE(m.has_value());
+  EXPECT_FALSE(m->hysteretic);
+  EXPECT_EQ(m->worst_error(), 0.0);
+}
+
+TEST(Measurement, DoesNotJudgeADynamicLever) {
+  FeltMaterial dynamic = mica(physics::Law::Dmt);
+  dynamic.parameters.dynamic = 1;
+  EXPECT_EQ(measure(cycle(0.3, dynamic), dynamic)->worst_error(), 0.0);
 }
 
 TEST(Measurement, FailsWithoutAJumpOffContact) {

@@ -23,6 +23,14 @@ RecordedSession example() {
   session.parameters.interaction.sample_stiffness.si = std::numeric_limits<double>::infinity();
   session.parameters.interaction.hamaker.si = 24.5e-21;
   session.parameters.interaction.mean_surface_energy.si = 2.228e-3;
+  session.parameters.interaction.reduced_modulus = physics::Pressure(51.5e9);
+  session.parameters.interaction.atomic_distance = physics::Length(0.3e-9);
+  session.parameters.law = physics::Law::Dmt;
+  session.parameters.has_meniscus = 1;
+  session.parameters.meniscus.relative_humidity = 0.35;
+  session.parameters.dynamic = 1;
+  session.parameters.lever = {physics::Frequency(12e3), 2.5, physics::Temperature(298.0)};
+  session.slow_motion = 37.0;
   session.rate_hz = 1000.0;
   session.realtime = true;
   session.hand_m_per_m = 3.57e6;
@@ -58,6 +66,13 @@ TEST(SessionFile, ComesBackAsItWasSaved) {
   EXPECT_EQ(loaded->material, "mica");
   EXPECT_EQ(loaded->parameters.interaction.hamaker.si, 24.5e-21);
   EXPECT_TRUE(std::isinf(loaded->parameters.interaction.sample_stiffness.si));
+  EXPECT_EQ(loaded->parameters.interaction.reduced_modulus.si, 51.5e9);
+  EXPECT_EQ(loaded->parameters.law, physics::Law::Dmt);
+  EXPECT_EQ(loaded->parameters.has_meniscus, 1U);
+  EXPECT_EQ(loaded->parameters.meniscus.relative_humidity, 0.35);
+  EXPECT_EQ(loaded->parameters.lever.quality_factor, 2.5);
+  EXPECT_EQ(loaded->slow_motion, 37.0);
+  EXPECT_FALSE(loaded->curve);
   EXPECT_EQ(loaded->hand_n_per_n, 1.43e9);
   ASSERT_EQ(loaded->samples.size(), 1000U);
   EXPECT_EQ(loaded->samples[999].z_m, example().samples[999].z_m);
@@ -97,6 +112,31 @@ TEST(SessionFile, OfAnotherVersionNamesBoth) {
   const support::ScratchFolder folder;
   EXPECT_THAT(error_of(folder.write("new.afms", std::string("AFMS\x09\0\0\0", 8))),
               HasSubstr("version 9, this program reads version 2"));
+}
+
+TEST(SessionFile, CarriesTheCurveThatWasFelt) {
+  const support::ScratchFolder folder;
+  RecordedSession session = example();
+  session.parameters.dynamic = 0;
+  session.parameters.law = physics::Law::Measured;
+  session.parameters.measured_curve = 0;
+  scene::SharedMeasuredCurve& curve = session.curve.emplace();
+  curve.approach_count = curve.retract_count = 2;
+  curve.approach[1] = curve.retract[1] = {physics::Length(3e-9), physics::Force(-0.2e-9)};
+  ASSERT_TRUE(save_session(session, folder.file("m.afms")).has_value());
+  const auto loaded = load_session(folder.file("m.afms"));
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().message;
+  ASSERT_TRUE(loaded->curve);
+  EXPECT_EQ(loaded->curve->retract_count, 2U);
+  EXPECT_EQ(loaded->curve->retract[1].force.si, -0.2e-9);
+}
+
+TEST(SessionFile, WithParametersThatNoMicroscopeHasIsRefused) {
+  const support::ScratchFolder folder;
+  RecordedSession session = example();
+  session.parameters.interaction.tip_radius.si = -1.0;
+  ASSERT_TRUE(save_session(session, folder.file("bad.afms")).has_value());
+  EXPECT_THAT(error_of(folder.file("bad.afms")), HasSubstr("tip radius"));
 }
 
 TEST(SessionFile, WithNumbersThatAreNotFiniteIsRefused) {

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 
 #include "servo_bench.h"
 #include "support/no_alloc.h"
 
 namespace {
 
+using afm::physics::Law;
 using afm::test::NoAllocation;
 using afm::test::ServoBench;
 
@@ -62,6 +64,66 @@ TEST(ServoTick, DoesNotAllocateOverACycleWithAChangeOfMaterial) {
   EXPECT_EQ(bench.events.size(), 3U);
   EXPECT_EQ(bench.state().fault, afm::scene::FaultCode::RendererHung);
 }
+
+struct AnyLaw {
+  std::string name;
+  Law law;
+  bool dynamic = false;
+};
+
+class ServoTickOf : public testing::TestWithParam<AnyLaw> {
+ protected:
+  // Mica, with the modulus and the lever that the paper does without.
+  static afm::scene::SharedModel model() {
+    afm::scene::SharedModel model = afm::test::paper_model();
+    afm::scene::SharedMaterial& mica = model.materials[afm::test::kMica];
+    mica.law = GetParam().law;
+    mica.interaction.reduced_modulus.si = 51.5e9;
+    mica.dynamic = GetParam().dynamic ? 1 : 0;
+    mica.lever = {afm::physics::Frequency(12e3), 2.5, afm::physics::Temperature(298.0)};
+    if (GetParam().law == Law::Measured) add_measured_curve(model);
+    return model;
+  }
+
+  // 0.1 N/m, in at 2 nm, off at 14 nm.
+  static void add_measured_curve(afm::scene::SharedModel& model) {
+    model.materials[afm::test::kMica].measured_curve = 0;
+    model.curve_count = 1;
+    afm::scene::SharedMeasuredCurve& curve = model.curves[0];
+    curve.approach_count = curve.retract_count = 200;
+    for (std::size_t i = 0; i < 200; ++i) {
+      const double z_m = 0.2e-9 * (static_cast<double>(i) - 50.0);
+      const afm::physics::Force line(-0.1 * z_m);
+      curve.approach[i] = {afm::physics::Length(z_m), z_m < 2e-9 ? line : afm::physics::Force()};
+      curve.retract[i] = {afm::physics::Length(z_m), z_m < 14e-9 ? line : afm::physics::Force()};
+    }
+  }
+};
+
+TEST_P(ServoTickOf, DoesNotAllocateOverACycle) {
+  ServoBench bench(model());
+  bench.arm(afm::test::kMica);
+  bench.aim(-0.02, 0.5);
+  for (int tick = 0; tick < 1500; ++tick) {
+    if (tick == 600) bench.aim(0.072, 0.5);
+    bench.renderer.store(afm::scene::RendererHeartbeat{});
+    bench.now_ns += bench.loop->period_ns();
+    const NoAllocation guard;
+    bench.loop->tick(bench.now_ns, 0);
+  }
+  EXPECT_EQ(bench.state().fault, afm::scene::FaultCode::None);
+  EXPECT_EQ(bench.state().servo_state, afm::scene::ServoState::Running);
+  EXPECT_EQ(bench.state().phase, afm::scene::ContactPhase::Free);
+  EXPECT_EQ(bench.state().slow_motion > 1.0, GetParam().dynamic);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, ServoTickOf,
+                         testing::Values(AnyLaw{"Paper", Law::Paper}, AnyLaw{"Hao", Law::Hao},
+                                         AnyLaw{"Hertz", Law::Hertz}, AnyLaw{"Dmt", Law::Dmt}, AnyLaw{"Jkr", Law::Jkr},
+                                         AnyLaw{"MaugisDugdale", Law::MaugisDugdale},
+                                         AnyLaw{"LennardJones", Law::LennardJones}, AnyLaw{"Measured", Law::Measured},
+                                         AnyLaw{"DynamicDmt", Law::Dmt, true}),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(ServoTickDeathTest, TheTrapItselfCatchesAnAllocation) {
   EXPECT_DEATH(

@@ -164,8 +164,9 @@ void add_measured_curve(SharedModel& model) {
   SharedMeasuredCurve& curve = model.curves[model.curve_count++];
   curve.approach_count = curve.retract_count = 10;
   for (std::size_t i = 0; i < 10; ++i) {
-    curve.approach[i] = {.z_m = 1e-9 * static_cast<double>(i), .force_n = 0};
-    curve.retract[i] = {.z_m = 1e-9 * static_cast<double>(i), .force_n = -1e-10 * static_cast<double>(i)};
+    const afm::physics::Length z(1e-9 * static_cast<double>(i));
+    curve.approach[i] = {.z = z, .force = {}};
+    curve.retract[i] = {.z = z, .force = afm::physics::Stiffness(-0.1) * z};
   }
 }
 
@@ -206,7 +207,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadModel{"option", [](SharedModel& m) { m.materials[1].exact_hamaker_sphere = 2; }},
                     BadModel{"option", [](SharedModel& m) { m.materials[1].dynamic = 7; }},
                     BadModel{"retardation", [](SharedModel& m) { m.materials[0].retardation_wavelength_m = kNan; }},
-                    BadModel{"meniscus",
+                    BadModel{"humidity",
                              [](SharedModel& m) {
                                m.materials[0].has_meniscus = 1;
                                m.materials[0].meniscus.relative_humidity = 1.5;
@@ -223,7 +224,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadModel{"measured curve 0",
                              [](SharedModel& m) {
                                add_measured_curve(m);
-                               m.curves[0].retract[5].force_n = kNan;
+                               m.curves[0].retract[5].force.si = kNan;
                              }},
                     BadModel{"measured curve 0", [](SharedModel& m) {
                                add_measured_curve(m);

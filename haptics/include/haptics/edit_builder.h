@@ -3,8 +3,8 @@
 
 #include <atomic>
 #include <cstdint>
-#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "haptics/device.h"
@@ -19,8 +19,8 @@ class EditBuilder {
  public:
   // `curves` as in SharedModel; `exchange` must outlive it.
   EditBuilder(scene::EditSide edits, std::vector<scene::SharedMeasuredCurve> curves, const DeviceSpec& device,
-              EncounterExchange& exchange)
-      : edits_(edits), curves_(std::move(curves)), device_(device), exchange_(exchange) {}
+              std::int64_t period_ns, EncounterExchange& exchange)
+      : edits_(edits), curves_(std::move(curves)), device_(device), period_ns_(period_ns), exchange_(exchange) {}
 
   // Builds what is new and frees what the servo has put aside. An edit that cannot be felt is logged and refused.
   void build();
@@ -32,6 +32,7 @@ class EditBuilder {
   scene::EditSide edits_;
   std::vector<scene::SharedMeasuredCurve> curves_;
   DeviceSpec device_;
+  std::int64_t period_ns_;
   EncounterExchange& exchange_;
   std::atomic<std::uint32_t> refused_{0};
 };

@@ -4,40 +4,52 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <variant>
 
 #include "core/result.h"
 #include "haptics/device.h"
 #include "haptics/scaling.h"
+#include "physics/dynamic_model.h"
 #include "physics/force_model.h"
+#include "physics/law_tables.h"
 #include "scene/shared_blocks.h"
 
 namespace afm::haptics {
+
+// The tables of what is felt, and shown: of a dynamic lever those of the same lever at rest. Believes nothing of
+// `material`; `curves` are those of its SharedModel. Fails with a line that begins with the material's name if its
+// parameters have no such law. Takes milliseconds and allocates.
+core::Result<std::shared_ptr<const physics::LawTables>> felt_tables(const scene::SharedMaterial& material,
+                                                                    std::span<const scene::SharedMeasuredCurve> curves);
 
 // What the hand meets with one material under the tip: its law of force, and the scale on which it is felt.
 //
 // create() takes milliseconds and allocates; the rest is for a tick of the servo.
 class Encounter {
  public:
-  // Believes nothing of `material`. `edit_revision` is of the MaterialEdit that it came with, 0 for none. Fails with a
-  // line that begins with the material's name if its parameters have no such law or the device cannot show it.
+  // Fails as felt_tables() does, and if the device cannot show it at this tick period. `edit_revision` is of the
+  // MaterialEdit that the material came with, 0 for none.
   static core::Result<std::unique_ptr<Encounter>> create(const scene::SharedMaterial& material,
                                                          std::uint32_t edit_revision,
                                                          std::span<const scene::SharedMeasuredCurve> curves,
-                                                         const DeviceSpec& device);
+                                                         const DeviceSpec& device, std::int64_t period_ns);
 
-  physics::TipResponse step(physics::Length z) noexcept { return model_.step(z); }
-  void wait_for_lift() noexcept { model_.wait_for_lift(); }
-  physics::Phase phase() const noexcept { return model_.phase(); }
+  physics::TipResponse step(physics::Length z) noexcept;
+  void wait_for_lift() noexcept;
+  physics::Phase phase() const noexcept;
+  double slow_motion() const noexcept { return slow_motion_; }  // as in TipState
 
   const FitScaling& scaling() const noexcept { return scaling_; }
   std::uint32_t edit_revision() const noexcept { return edit_revision_; }
 
  private:
-  Encounter(const physics::ApproachRetractModel& model, const FitScaling& scaling, std::uint32_t edit_revision)
-      : model_(model), scaling_(scaling), edit_revision_(edit_revision) {}
+  using Model = std::variant<physics::ApproachRetractModel, physics::DynamicModel>;
 
-  physics::ApproachRetractModel model_;
+  Encounter(Model model, const FitScaling& scaling, std::uint32_t edit_revision);
+
+  Model model_;  // never without a value, so that visiting it cannot throw
   FitScaling scaling_;
+  double slow_motion_;
   std::uint32_t edit_revision_;
 };
 

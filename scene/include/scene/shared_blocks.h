@@ -6,6 +6,8 @@
 
 #include "physics/interaction.h"
 #include "physics/law.h"
+#include "physics/law_tables.h"
+#include "physics/lever_dynamics.h"
 
 // The blocks of the shared scene: trivially copyable, without pointers, SI units, and each with exactly one writer, the
 // process named in its comment. A reader believes nothing unchecked: indices are compared with counts, numbers with
@@ -42,23 +44,17 @@ struct SharedMaterial {
   std::uint32_t has_meniscus = 0;                   // 0 or 1
   double retardation_wavelength_m = 0;              // 0: not retarded
   physics::Meniscus meniscus{};
-  std::uint32_t dynamic = 0;  // 1: the lever has inertia, damping and thermal noise, as the next three say
+  std::uint32_t dynamic = 0;  // 1: with the inertia, damping and thermal noise of the lever
   std::uint32_t padding = 0;
-  double resonance_hz = 0;
-  double quality_factor = 0;
-  double temperature_k = 0;
+  physics::LeverDynamics lever{};
 };
 
-// A curve that an instrument recorded, to be felt: each branch along rising z.
-struct SharedCurvePoint {
-  double z_m = 0;
-  double force_n = 0;
-};
+// A curve that an instrument recorded, to be felt: each branch along rising Z.
 struct SharedMeasuredCurve {
   std::uint32_t approach_count = 0;
   std::uint32_t retract_count = 0;
-  std::array<SharedCurvePoint, kMaxMeasuredPoints> approach{};
-  std::array<SharedCurvePoint, kMaxMeasuredPoints> retract{};
+  std::array<physics::MeasuredPoint, kMaxMeasuredPoints> approach{};
+  std::array<physics::MeasuredPoint, kMaxMeasuredPoints> retract{};
 };
 
 struct SharedModel {
@@ -144,7 +140,7 @@ struct TipState {
   std::array<double, 3> hand_force_n{};  // after the safety governor: what the device got
   double hand_m_per_m = 0;               // position scale: metres of hand per metre of Z
   double hand_n_per_n = 0;               // force scale: newtons on the hand per newton on the tip
-  double slow_motion = 1;                // seconds of the lever's physics in a second; below 1 only for a dynamic lever
+  double slow_motion = 1;                // seconds that a second of the lever's physics takes; 1 without dynamics
   ServoState servo_state = ServoState::Disarmed;
   ContactPhase phase = ContactPhase::WaitForLift;
   FaultCode fault = FaultCode::None;

@@ -9,6 +9,7 @@
 
 #include "core/file_descriptor.h"
 #include "core/result.h"
+#include "physics/law.h"
 #include "scene/shared_blocks.h"
 
 // The memory that touchafm and touchafm-servo share: a header page, the constant SharedModel, and one channel per
