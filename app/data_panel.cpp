@@ -31,16 +31,21 @@ std::string signed_text(double value, int decimals, const char* unit) {
 
 // A number of the contact: with where it comes from, or, marked, what it was before it was changed.
 template <class Q, class Text>
-render::DataRow row(const FeltMaterial& material, const char* name, const char* key, Q physics::Interaction::*member,
+render::DataRow row(const FeltMaterial& material, const char* name, const char* option, Q physics::Interaction::*member,
                     const Text& text) {
   const Q now = material.parameters.interaction.*member;
-  const Q before = material.entry.interaction.*member;
+  const Q before = material.setup.material.interaction.*member;
   render::DataRow row{name, text(now), ""};
   if (now != before) {
     row.value = "\u2192 " + row.value;
     row.source = "changed from " + text(before);
-  } else if (const scene::SourcedValue* sourced = scene::find_source(material.entry.sources, key)) {
+    return row;
+  }
+  for (const std::string_view key : find_contact_parameter(option)->source_keys) {
+    const scene::SourcedValue* sourced = scene::find_source(material.setup.material.sources, key);
+    if (sourced == nullptr) continue;
     row.source = (sourced->estimated ? "estimated: " : "") + sourced->source;
+    break;
   }
   return row;
 }
@@ -59,7 +64,8 @@ bool attracts_from_afar(Law law) { return law != Law::Hertz && law != Law::Jkr &
 std::string hysteresis_text(const physics::CycleFigures& figures) {
   const physics::Stiffness critical = figures.critical_stiffness;
   if (!physics::isfinite(critical)) return "hysteresis with any lever";
-  return fmt::format("{} from k = {} on", figures.hysteretic ? "none" : "no hysteresis", stiffness_text(critical));
+  return fmt::format("{} {}", figures.hysteretic ? "hysteresis vanishes at k =" : "no hysteresis: k is above",
+                     stiffness_text(critical));
 }
 
 }  // namespace
@@ -69,22 +75,22 @@ render::DataPanel data_panel(const FeltMaterial& material, double deflection_m, 
   const physics::CycleFigures& figures = material.figures();
   const Law law = material.parameters.law;
   render::DataPanel panel;
-  panel.title = material.entry.title;
-  panel.subtitle = law == Law::Measured ? material.entry.note
-                                        : fmt::format("{} tip, in {}", material.entry.tip, material.entry.medium);
-  panel.rows = {
-      row(material, "Tip radius R", "tip_radius", &Interaction::tip_radius, length_text),
-      row(material, "Spring constant k", "spring_constant", &Interaction::spring_constant, stiffness_text)};
+  panel.title = material.setup.material.title;
+  panel.subtitle = law == Law::Measured
+                       ? material.setup.material.note
+                       : fmt::format("{} tip, in {}", material.setup.material.tip, material.setup.material.medium);
+  panel.rows = {row(material, "Tip radius R", "tip-radius", &Interaction::tip_radius, length_text),
+                row(material, "Spring constant k", "spring-constant", &Interaction::spring_constant, stiffness_text)};
   if (attracts_from_afar(law)) {
     panel.rows.push_back(row(material, "Hamaker constant A", "hamaker", &Interaction::hamaker, energy_text));
   }
   if (law != Law::Hertz && law != Law::Measured) {
-    panel.rows.push_back(row(material, "Surface energy \u221a(\u03b3\u03b3)", "mean_surface_energy",
+    panel.rows.push_back(row(material, "Surface energy \u221a(\u03b3\u03b3)", "work-of-adhesion",
                              &Interaction::mean_surface_energy, surface_energy_text));
   }
   if (indents(law)) {
     panel.rows.push_back(
-        row(material, "Reduced modulus E*", "reduced_modulus", &Interaction::reduced_modulus, pressure_text));
+        row(material, "Reduced modulus E*", "reduced-modulus", &Interaction::reduced_modulus, pressure_text));
   }
   panel.rows.push_back({"Law of force", law_name(material.parameters), law_reason(material)});
   if (figures.hysteretic) {

@@ -15,11 +15,13 @@
 #include "app/output_folder.h"
 #include "app/report.h"
 #include "app/stage_setup.h"
+#include "app/sweep.h"
 #include "app/whole_file.h"
 #include "core/log.h"
 #include "physics/quantity_text.h"
 #include "render/context.h"
 #include "render/image_file.h"
+#include "scene/probe_library.h"
 
 namespace afm::app {
 
@@ -27,6 +29,7 @@ namespace {
 
 // Fig. 5 is drawn larger than the live wall.
 constexpr std::uint32_t kFigureEyeWidth = 1440;
+constexpr std::uint64_t kMostVariations = 9;
 constexpr double kSlowestHand = 0.005, kFastestHand = 0.200;  // m/s
 
 struct DemoOptions {
@@ -35,8 +38,10 @@ struct DemoOptions {
   std::uint32_t eye_width = 960;
   HandPath hand;
   ServoMode servo = ServoMode::Process;
-  LawRequest law;
-  std::string measured;  // a curve file to be felt too; empty: none
+  ModelName model;
+  std::string probe;              // a lever and tip instead of the materials' own; empty: none
+  std::string measured;           // a curve file to be felt too; empty: none
+  std::vector<std::string> vary;  // "spring-constant=0.1N/m:0.4N/m:3"
 };
 
 void say(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
@@ -51,17 +56,63 @@ core::Result<std::optional<MeasuredMaterial>> load_measured(const DemoOptions& o
   return std::move(*measured);
 }
 
+// Each material with the probe under it, as it is asked to be felt.
+core::Result<ContactSetup> setup_of(scene::MaterialEntry entry, const DemoOptions& options) {
+  if (!options.probe.empty()) {
+    const auto probes = scene::load_probes(options.files.assets_dir + "/probes.toml");
+    if (!probes) return tl::unexpected(probes.error());
+    const auto probe = probes->require(options.probe);
+    if (!probe) return tl::unexpected(probe.error());
+    entry = scene::with_probe(std::move(entry), **probe);
+  }
+  return ContactSetup{std::move(entry), {}, options.model};
+}
+
+// The material once more for each value of each axis, titled with that value.
+core::Result<std::vector<FeltMaterial>> variations_of(const FeltMaterial& material, const DemoOptions& options) {
+  std::vector<FeltMaterial> variations;
+  for (const std::string& text : options.vary) {
+    const auto axis = parse_sweep_axis(text, options.model);
+    if (!axis) return tl::unexpected(axis.error());
+    if (axis->count > kMostVariations) {
+      return core::failure(core::ErrorCategory::WrongUsage,
+                           fmt::format("--vary: {} values are more than a hand has patience for; give 2 to {}",
+                                       axis->count, kMostVariations));
+    }
+    for (std::uint64_t i = 0; i < axis->count; ++i) {
+      const std::string value = format_parameter(*axis->parameter, axis->value(i));
+      ContactSetup changed = material.setup;
+      override_parameter(changed, *axis->parameter, axis->value(i), value, "--vary on the command line");
+      auto varied = felt_material(material, changed);
+      if (!varied) return tl::unexpected(varied.error());
+      varied->setup.material.title = fmt::format("{} {}", material.setup.material.title, value);
+      variations.push_back(std::move(*varied));
+    }
+  }
+  return variations;
+}
+
 core::Result<DemoPlan> plan_demo(const Stage& stage, const std::optional<MeasuredMaterial>& measured,
-                                 const LawRequest& law) {
+                                 const DemoOptions& options) {
   DemoPlan plan;
   if (measured) plan.curves.push_back(measured->curve);
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
-    const bool is_measured = measured && entry.name == measured->entry.name;
-    auto felt = is_measured ? felt_material(entry, plan.curves, 0) : felt_material(entry, law);
+    if (measured && entry.name == measured->entry.name) {
+      auto felt = felt_material(entry, plan.curves, 0);
+      if (!felt) return tl::unexpected(felt.error());
+      plan.materials.push_back(std::move(*felt));
+      plan.variations.emplace_back();
+      continue;
+    }
+    const auto setup = setup_of(entry, options);
+    if (!setup) return tl::unexpected(setup.error());
+    auto felt = felt_material(*setup);
     if (!felt) return tl::unexpected(felt.error());
+    auto variations = variations_of(*felt, options);
+    if (!variations) return tl::unexpected(variations.error());
     plan.materials.push_back(std::move(*felt));
+    plan.variations.push_back(std::move(*variations));
   }
-  plan.variations.resize(plan.materials.size());
   return plan;
 }
 
@@ -91,7 +142,7 @@ core::Result<void> draw_figures(render::Context& context, const Stage& stage, co
     if (plan.variations[i].empty()) continue;
     const VariationFigure figure(result.sessions[i], result.measurements[i], plan.materials[i], result.variations, i);
     const FrameBuilder varied(stage.wall_scene, figure.materials(), stage.eyes);
-    const scene::MaterialEntry& entry = plan.materials[i].entry;
+    const scene::MaterialEntry& entry = plan.materials[i].setup.material;
     if (auto drawn = draw_picture("vary-" + entry.name + ".png", entry.title + ", felt with other numbers.",
                                   figure.moment(), varied, *renderer, out, pictures);
         !drawn)
@@ -161,13 +212,13 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   const core::MonotonicClock clock;
   const std::int64_t start_ns = clock.now_ns();
 
-  const auto measured = load_measured(options);
-  if (!measured) return tl::unexpected(measured.error());
+  const auto curve = load_measured(options);
+  if (!curve) return tl::unexpected(curve.error());
   StageFiles files = options.files;
-  if (*measured) files.added.push_back((*measured)->entry);
+  if (*curve) files.added.push_back((*curve)->entry);
   auto stage = load_stage(files);
   if (!stage) return tl::unexpected(stage.error());
-  const auto plan = plan_demo(*stage, *measured, options.law);
+  const auto plan = plan_demo(*stage, *curve, options);
   if (!plan) return tl::unexpected(plan.error());
   auto out = OutputFolder::open(options.out);
   if (!out) return tl::unexpected(out.error());
@@ -223,7 +274,8 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
       "Leaves in DIR: report.html (open it), fig5a.png to fig5e.png (side-by-side stereo), summary.json, and for "
       "every\n"
       "material curve-NAME.csv and session-NAME.afms.\n\nexample: touchafm demo --out out\n"
-      "         touchafm demo --out fast --hand-speed 200mm/s --eye-width 1440");
+      "         touchafm demo --out fast --hand-speed 200mm/s --eye-width 1440\n"
+      "         touchafm demo --out lever --material mica --model dmt --vary spring-constant=0.1N/m:0.4N/m:3");
   auto options = std::make_shared<DemoOptions>();
   command->add_option("--out", options->out, "folder for the results; made if it does not exist")
       ->required()
@@ -247,9 +299,16 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
   command
       ->add_option("--model", *model,
                    "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- "
-                   "before auto, hertz, dmt, jkr, maugis or lj")
+                   "before one that can move a mass")
       ->capture_default_str()
       ->type_name("NAME");
+  command->add_option("--probe", options->probe, "a lever and tip of assets/probes.toml instead of the materials' own")
+      ->type_name("NAME");
+  command
+      ->add_option("--vary", options->vary,
+                   "feel every sample once more at each of n values of one parameter, changed while the servo runs: "
+                   "spring-constant=0.1N/m:0.4N/m:3")
+      ->type_name("KEY=FROM:TO:N");
   command
       ->add_option("--measured", options->measured,
                    "a recorded curve to be felt too (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
@@ -267,9 +326,13 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
                              fmt::format("--hand-speed: {} is outside 5mm/s to 200mm/s, the speeds of a hand", *speed));
       }
       options->hand.speed_m_per_s = parsed.value->si;
-      const auto law = law_request(*model);
-      if (!law) return tl::unexpected(law.error());
-      options->law = *law;
+      const auto name = ModelName::parse(*model);
+      if (!name || name->direction_rule) {
+        return core::failure(core::ErrorCategory::WrongUsage,
+                             fmt::format("unknown model \"{}\" to feel; known are {} (paper-rule is for curves alone)",
+                                         *model, known_models()));
+      }
+      options->model = *name;
       options->servo = *servo == "thread" ? ServoMode::Thread : ServoMode::Process;
       return run_demo(*options, context.program_path);
     };

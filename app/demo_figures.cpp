@@ -78,19 +78,20 @@ FigurePlan::FigurePlan(const std::vector<RecordedSession>& sessions, const std::
 
 VariationFigure::VariationFigure(const RecordedSession& base, const Measurement& measurement, const FeltMaterial& felt,
                                  std::span<const FeltVariation> variations, std::size_t material) {
+  std::vector<Felt> all;
   const auto add = [&](const RecordedSession& session, const Measurement& m, const FeltMaterial& was_felt) {
     materials_.push_back(was_felt);
     curves_.push_back(curve_until(session, session.samples.back().time_ns));
-    moment_.felt.push_back(felt_of(m));
+    all.push_back(felt_of(m));
   };
   add(base, measurement, felt);
   for (const FeltVariation& variation : variations) {
     if (variation.material == material) add(variation.session, variation.measurement, variation.felt);
   }
+  moment_ = moment_of(base, material, base.samples.back().time_ns, curves_);
+  moment_.felt = std::move(all);
   moment_.compare_all = true;
-  moment_.curves = curves_;
   moment_.guidance = "The same sample, felt with other numbers";
-  moment_.realtime = base.realtime;
 }
 
 core::Result<void> draw_figure(const Moment& moment, const FrameBuilder& frames, render::Renderer& renderer,

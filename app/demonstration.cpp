@@ -37,7 +37,7 @@ Demonstration::Demonstration(const WallScene& wall_scene, const std::array<scene
 
 core::Result<void> Demonstration::run(DemoResult& result, const Progress& progress) {
   for (std::size_t i = 0; i < materials_.size(); ++i) {
-    progress(fmt::format("{} of {}: {}", i + 1, materials_.size(), materials_[i].entry.title));
+    progress(fmt::format("{} of {}: {}", i + 1, materials_.size(), materials_[i].setup.material.title));
     person_.begin(targets_[i].center_m, static_cast<std::int32_t>(i), clock_.now_ns());
     auto session = feel(i, result, progress);
     if (!session) return tl::unexpected(session.error());
@@ -55,7 +55,7 @@ core::Result<void> Demonstration::run(DemoResult& result, const Progress& progre
 
 core::Result<RecordedSession> Demonstration::feel_variation(std::size_t material, const FeltMaterial& variation,
                                                             DemoResult& result, const Progress& progress) {
-  progress(fmt::format("  {}", variation.entry.title));
+  progress(fmt::format("  {}", variation.setup.material.title));
   const std::uint32_t revision = servo_.change(material, variation.parameters);
   const std::int64_t start_ns = clock_.now_ns();
   while (servo_.tip().edit_revision != revision) {
@@ -63,7 +63,7 @@ core::Result<RecordedSession> Demonstration::feel_variation(std::size_t material
     const double waited_s = static_cast<double>(clock_.now_ns() - start_ns) * 1e-9;
     if (servo_.tip().edit_refused == revision || waited_s > kPatienceSeconds) {
       return core::failure(core::ErrorCategory::Failed,
-                           fmt::format("{}: the servo did not take these parameters", variation.entry.title));
+                           fmt::format("{}: the servo did not take these parameters", variation.setup.material.title));
     }
   }
   materials_[material] = variation;
@@ -72,7 +72,7 @@ core::Result<RecordedSession> Demonstration::feel_variation(std::size_t material
 }
 
 core::Result<RecordedSession> Demonstration::feel(std::size_t material, DemoResult& result, const Progress& progress) {
-  const std::string title = materials_[material].entry.title;
+  const std::string title = materials_[material].setup.material.title;
   const double stroke_seconds = (path_.lift_m - path_.push_m) / path_.speed_m_per_s;
 
   std::size_t events_told = 0;
@@ -99,7 +99,7 @@ core::Result<RecordedSession> Demonstration::feel(std::size_t material, DemoResu
     }
     if (auto patient = keep_patience(title, stroke_seconds, result); !patient) return tl::unexpected(patient.error());
   }
-  session_.material = materials_[material].entry.name;
+  session_.material = materials_[material].setup.material.name;
   session_.parameters = materials_[material].parameters;
   if (const std::uint32_t curve = session_.parameters.measured_curve; curve != scene::kNoMeasuredCurve) {
     session_.curve = plan_.curves[curve];

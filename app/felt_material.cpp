@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "haptics/encounter.h"
@@ -17,80 +18,72 @@ namespace {
 
 using physics::Law;
 
-// What the servo gets, but for the law itself.
-scene::SharedMaterial parameters_of(const scene::MaterialEntry& entry, const LawRequest& request) {
+// What the servo gets. A measured law is no model that can be asked for: its caller sets it.
+scene::SharedMaterial parameters_of(const ContactSetup& setup) {
+  const physics::LawOptions& options = setup.law_options;
+  const std::string& name = setup.material.name;
   scene::SharedMaterial shared;
   // names are for people; a longer one is cut
-  std::copy_n(entry.name.begin(), std::min(entry.name.size(), shared.name.size() - 1), shared.name.begin());
-  shared.interaction = entry.interaction;
-  shared.exact_hamaker_sphere = request.options.exact_hamaker_sphere ? 1 : 0;
-  shared.retardation_wavelength_m = request.options.retardation_wavelength.value_or(physics::Length()).si;
-  shared.has_meniscus = request.options.meniscus ? 1 : 0;
-  shared.meniscus = request.options.meniscus.value_or(physics::Meniscus());
-  shared.dynamic = request.dynamic ? 1 : 0;
-  shared.lever = entry.lever;
+  std::copy_n(name.begin(), std::min(name.size(), shared.name.size() - 1), shared.name.begin());
+  shared.interaction = setup.material.interaction;
+  shared.law = setup.law();
+  shared.exact_hamaker_sphere = options.exact_hamaker_sphere ? 1 : 0;
+  shared.retardation_wavelength_m = options.retardation_wavelength.value_or(physics::Length()).si;
+  shared.has_meniscus = options.meniscus ? 1 : 0;
+  shared.meniscus = options.meniscus.value_or(physics::Meniscus());
+  shared.dynamic = setup.model.dynamic ? 1 : 0;
+  shared.lever = setup.material.lever;
   return shared;
 }
 
-core::Result<FeltMaterial> felt(const scene::MaterialEntry& entry, const LawRequest& request,
-                                scene::SharedMaterial parameters, std::span<const scene::SharedMeasuredCurve> curves) {
-  physics::LawChoice contact;
-  try {
-    contact = physics::choose_law(parameters.interaction);
-  } catch (const std::invalid_argument& error) {
-    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot make {} felt: {}", entry.name, error.what()));
-  }
-  parameters.law = request.law.value_or(contact.law);
+tl::unexpected<core::Error> refusal(const scene::MaterialEntry& entry, core::ErrorCategory category,
+                                    std::string_view why) {
+  return core::failure(category, fmt::format("cannot make {} felt: {}", entry.name, why));
+}
+
+core::Result<FeltMaterial> felt(const ContactSetup& setup, const scene::SharedMaterial& parameters,
+                                std::span<const scene::SharedMeasuredCurve> curves) {
   auto tables = haptics::felt_tables(parameters, curves);
   if (!tables) return tl::unexpected(tables.error());
   auto scaling = haptics::FitScaling::create(**tables, haptics::SimulatedDevice().spec());
-  if (!scaling) {
-    return core::failure(scaling.error().category,
-                         fmt::format("cannot make {} felt: {}", entry.name, scaling.error().message));
-  }
-  return FeltMaterial{entry, request, parameters, contact, std::move(*tables), *scaling};
+  if (!scaling) return refusal(setup.material, scaling.error().category, scaling.error().message);
+  return FeltMaterial{setup, parameters, physics::choose_law(parameters.interaction), std::move(*tables), *scaling};
 }
 
 }  // namespace
 
-core::Result<FeltMaterial> felt_material(const scene::MaterialEntry& entry, const LawRequest& request) {
-  return felt(entry, request, parameters_of(entry, request), {});
+core::Result<FeltMaterial> felt_material(const ContactSetup& setup) {
+  try {
+    return felt(setup, parameters_of(setup), {});
+  } catch (const std::invalid_argument& error) {
+    return refusal(setup.material, core::ErrorCategory::Failed, error.what());
+  }
 }
 
-core::Result<FeltMaterial> felt_material(const FeltMaterial& material, const physics::Interaction& interaction) {
-  scene::SharedMaterial parameters = material.parameters;
-  parameters.interaction = interaction;
-  return felt(material.entry, material.request, parameters, {});
+core::Result<FeltMaterial> felt_material(const FeltMaterial& material, const ContactSetup& changed) {
+  auto felt = felt_material(changed);
+  if (felt) felt->setup = material.setup;
+  return felt;
 }
 
 core::Result<FeltMaterial> felt_material(const scene::MaterialEntry& entry, const scene::SharedMaterial& parameters,
                                          std::span<const scene::SharedMeasuredCurve> curves) {
-  const LawRequest request{
-      .law = parameters.law, .dynamic = parameters.dynamic != 0, .options = scene::law_options(parameters)};
-  return felt(entry, request, parameters, curves);
+  ContactSetup setup{entry, scene::law_options(parameters), {}};
+  setup.model.law = parameters.law;
+  setup.model.dynamic = parameters.dynamic != 0;
+  return felt(setup, parameters, curves);
 }
 
 core::Result<FeltMaterial> felt_material(const scene::MaterialEntry& entry,
                                          std::span<const scene::SharedMeasuredCurve> curves, std::uint32_t index) {
-  const LawRequest request{.law = Law::Measured, .dynamic = false, .options = {}};
-  scene::SharedMaterial parameters = parameters_of(entry, request);
+  scene::SharedMaterial parameters = parameters_of({entry, {}, {}});
+  parameters.law = Law::Measured;
   parameters.measured_curve = index;
-  return felt(entry, request, parameters, curves);
-}
-
-core::Result<std::vector<FeltMaterial>> felt_materials(const scene::MaterialLibrary& library,
-                                                       const LawRequest& request) {
-  std::vector<FeltMaterial> materials;
-  for (const scene::MaterialEntry& entry : library.materials) {
-    auto material = felt_material(entry, request);
-    if (!material) return tl::unexpected(material.error());
-    materials.push_back(std::move(*material));
-  }
-  return materials;
+  return felt_material(entry, parameters, curves);
 }
 
 std::string law_name(const scene::SharedMaterial& parameters) {
-  return name_of(LawRequest{.law = parameters.law, .dynamic = parameters.dynamic != 0, .options = {}});
+  return fmt::format("{}{}", parameters.dynamic != 0 ? "dynamic-" : "", physics::name_of(parameters.law));
 }
 
 std::string law_reason(const FeltMaterial& material) {

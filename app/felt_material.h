@@ -5,9 +5,8 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
-#include "app/law_request.h"
+#include "app/contact_setup.h"
 #include "core/result.h"
 #include "haptics/scaling.h"
 #include "physics/adhesion_map.h"
@@ -17,11 +16,10 @@
 
 namespace afm::app {
 
-// A material as it is felt and shown: what the files say of it, the parameters that hold now, the law that they are
-// given and why, and what that law comes to. Made again for other parameters; cheap to copy.
+// A material as it is felt and shown: what the files and the command line say of it, the parameters that hold now, the
+// law that they are given, and what that comes to. Made again for other parameters; cheap to copy.
 struct FeltMaterial {
-  scene::MaterialEntry entry;  // as the files and the command line have it
-  LawRequest request;
+  ContactSetup setup;                                // as it was loaded
   scene::SharedMaterial parameters;                  // what the servo gets
   physics::LawChoice contact;                        // its place on the adhesion map, and the law that suits it
   std::shared_ptr<const physics::LawTables> tables;  // of a dynamic lever, the same lever at rest
@@ -32,22 +30,18 @@ struct FeltMaterial {
 };
 
 // Takes milliseconds. Fails with one line that names the material if it has no such law, or cannot be felt.
-core::Result<FeltMaterial> felt_material(const scene::MaterialEntry& entry, const LawRequest& request);
+core::Result<FeltMaterial> felt_material(const ContactSetup& setup);
 
-// The same with other numbers than its files'; the law is chosen again where that was asked for.
-core::Result<FeltMaterial> felt_material(const FeltMaterial& material, const physics::Interaction& interaction);
+// The same material with other numbers, by which the law is chosen again where that was asked for.
+core::Result<FeltMaterial> felt_material(const FeltMaterial& material, const ContactSetup& changed);
 
-// With exactly these parameters, as a session recorded them or a measured curve needs them; `curves` as in SharedModel.
+// With exactly these parameters, as a session recorded them; `curves` as in SharedModel.
 core::Result<FeltMaterial> felt_material(const scene::MaterialEntry& entry, const scene::SharedMaterial& parameters,
                                          std::span<const scene::SharedMeasuredCurve> curves);
 
 // The recorded curve `curves[index]`; `entry` says what is known of its lever.
 core::Result<FeltMaterial> felt_material(const scene::MaterialEntry& entry,
                                          std::span<const scene::SharedMeasuredCurve> curves, std::uint32_t index);
-
-// All of a library's, each with the same request.
-core::Result<std::vector<FeltMaterial>> felt_materials(const scene::MaterialLibrary& library,
-                                                       const LawRequest& request);
 
 // "dmt", "dynamic-dmt", "measured": the law that is felt.
 std::string law_name(const scene::SharedMaterial& parameters);

@@ -167,7 +167,7 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
     const bool in_front = moment.compare_all || moment.material == i;
     if (in_front) axes.include((*materials_)[i]);
     if (i >= moment.curves.size() || moment.curves[i].empty()) continue;
-    render::PlotCurve curve = moment.curves[i].plot((*materials_)[i].entry.title, curve_color(i));
+    render::PlotCurve curve = moment.curves[i].plot((*materials_)[i].setup.material.title, curve_color(i));
     curve.faded = !in_front;
     panel.curves.push_back(std::move(curve));
   }
@@ -175,7 +175,7 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   std::stable_partition(panel.curves.begin(), panel.curves.end(), [](const render::PlotCurve& c) { return c.faded; });
   axes.apply(panel);
   if (moment.compare_all) {
-    panel.title = "Approach and retract of all materials";
+    panel.title = "Approach and retract, all together";
     panel.stage = "";
     return panel;
   }

@@ -55,7 +55,7 @@ core::Result<Measurement> measure(const RecordedSession& session, const FeltMate
   }
   Measurement m;
   m.material = session.material;
-  m.title = material.entry.title;
+  m.title = material.setup.material.title;
   m.law = law_name(material.parameters);
   m.hysteretic = figures.hysteretic;
   m.judged = !material.dynamic();
@@ -64,8 +64,8 @@ core::Result<Measurement> measure(const RecordedSession& session, const FeltMate
                    figures.z_joc.si};
   m.fold_n = std::abs(figures.force_before_jtc.si);
   m.loop_energy_j = figures.loop_energy.si;
-  if (const auto& f = material.entry.experiment_f_attr) m.experiment_f_attr_n = f->si;
-  if (const auto& f = material.entry.experiment_f_ad) m.experiment_f_ad_n = f->si;
+  if (const auto& f = material.setup.material.experiment_f_attr) m.experiment_f_attr_n = f->si;
+  if (const auto& f = material.setup.material.experiment_f_ad) m.experiment_f_ad_n = f->si;
 
   const auto first_attached =
       std::find_if(session.samples.begin(), session.samples.end(),

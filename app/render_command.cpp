@@ -67,7 +67,7 @@ core::Result<void> run_render(const RenderOptions& options) {
   std::vector<FeltMaterial> felt;
   for (const scene::MaterialEntry& entry : materials) {
     auto one = entry.name == session->material ? felt_material(entry, session->parameters, recorded)
-                                               : felt_material(entry, LawRequest{});
+                                               : felt_material(ContactSetup{entry, {}, {}});
     if (!one) return tl::unexpected(one.error());
     felt.push_back(std::move(*one));
   }

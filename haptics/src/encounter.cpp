@@ -5,7 +5,6 @@
 
 #include <cstring>
 #include <exception>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -23,11 +22,13 @@ tl::unexpected<core::Error> refusal(const scene::SharedMaterial& material, core:
 }
 
 std::shared_ptr<const physics::LawTables> build(const scene::SharedMaterial& material,
-                                                std::span<const scene::SharedMeasuredCurve> /*curves*/) {
+                                                std::span<const scene::SharedMeasuredCurve> curves) {
   if (material.law != physics::Law::Measured) {
     return physics::build_law_tables(material.law, material.interaction, scene::law_options(material));
   }
-  throw std::invalid_argument("a measured curve cannot be made into tables yet");
+  const scene::SharedMeasuredCurve& curve = curves[material.measured_curve];
+  return physics::measured_law_tables(std::span(curve.approach).first(curve.approach_count),
+                                      std::span(curve.retract).first(curve.retract_count), material.interaction);
 }
 
 physics::DynamicModel dynamic_model(const scene::SharedMaterial& material, std::int64_t period_ns) {

@@ -143,5 +143,40 @@ TEST_F(Demo, ASessionIsDrawnAgain) {
   fs::remove(picture);
 }
 
+// Another law, and its parameters changed while the servo runs.
+TEST(DemoOfAnotherLaw, FeelsTheSameSampleWithOtherNumbers) {
+  const support::ScratchFolder folder;
+  const auto result = support::run_program(AFM_PROGRAM " demo --out " + folder.path() +
+                                           " --material mica --model dmt --vary spring-constant=0.2N/m:0.4N/m:2"
+                                           " --hand-speed 150mm/s --eye-width 160 --servo " AFM_SERVO_MODE);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json all = nlohmann::json::parse(read_file(folder.file("summary.json")).value());
+  ASSERT_EQ(all["materials"].size(), 1U);
+  EXPECT_EQ(all["materials"]["mica"]["law"], "dmt");
+  // a0 + F_ad/k on any lever that jumps
+  EXPECT_NEAR(all["materials"]["mica"]["z_joc_m"].get<double>(), 0.3819e-9 + 1.399894e-9 / 0.1, 1e-12);
+  ASSERT_EQ(all["variations"].size(), 2U);
+  EXPECT_NEAR(all["variations"][0]["z_joc_m"].get<double>(), 0.3819e-9 + 1.399894e-9 / 0.2, 1e-12);
+  EXPECT_NEAR(all["variations"][1]["z_joc_m"].get<double>(), 0.3819e-9 + 1.399894e-9 / 0.4, 1e-12);
+  EXPECT_EQ(load_session(folder.file("session-mica-vary-2.afms"))->parameters.interaction.spring_constant.si, 0.4);
+  EXPECT_TRUE(support::read_png(folder.file("vary-mica.png")).has_value());
+}
+
+TEST(DemoOfAnotherLaw, RefusesWhatCannotBeFeltBeforeAnythingMoves) {
+  const support::ScratchFolder folder;
+  const auto refused = [&](const std::string& options) {
+    return support::run_program(AFM_PROGRAM " demo --out " + folder.file("none") + " " + options);
+  };
+  EXPECT_EQ(refused("--model paper-rule").exit_code, 2);
+  EXPECT_EQ(refused("--model dynamic-paper").exit_code, 2);
+  EXPECT_EQ(refused("--material unobtainium").exit_code, 2);
+  EXPECT_EQ(refused("--vary spring-constant=0.1N/m:0.4N/m:1000").exit_code, 2);
+  EXPECT_EQ(refused("--measured /nonexistent").exit_code, 3);
+  const auto weak = refused("--vary work-of-adhesion=1nJ/m2:2mJ/m2:2");
+  EXPECT_NE(weak.exit_code, 0);
+  EXPECT_THAT(weak.err, HasSubstr("mica"));
+  EXPECT_FALSE(fs::exists(folder.file("none")));
+}
+
 }  // namespace
 }  // namespace afm::app

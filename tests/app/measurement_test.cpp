@@ -11,7 +11,9 @@ namespace {
 
 FeltMaterial mica(physics::Law law = physics::Law::Paper) {
   const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml");
-  return felt_material(*library.value().find("mica"), LawRequest{.law = law, .dynamic = false, .options = {}}).value();
+  ContactSetup setup{*library.value().find("mica"), {}, {}};
+  setup.model.law = law;
+  return felt_material(setup).value();
 }
 
 // A cycle of the law whose jump to contact pulls too hard by this part.
@@ -55,9 +57,9 @@ TEST(Measurement, IsMadeAgainstTheFiguresOfTheLawThatWasFelt) {
 
 TEST(Measurement, OfALeverThatJumpsNowhereHasNothingToCompare) {
   FeltMaterial stiff = mica(physics::Law::Dmt);
-  physics::Interaction interaction = stiff.parameters.interaction;
-  interaction.spring_constant.si = 40.0;
-  stiff = felt_material(stiff, interaction).value();
+  ContactSetup changed = stiff.setup;
+  changed.material.interaction.spring_constant.si = 40.0;
+  stiff = felt_material(stiff, changed).value();
   RecordedSession session = cycle(0.0);
   session.events.clear();
   const auto m = measure(session, stiff);

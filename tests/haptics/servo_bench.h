@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -15,13 +16,20 @@
 
 namespace afm::test {
 
+// The value, or an exception that fails the test with the error's line.
+template <class T>
+T required(core::Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
 // The servo, the simulated hand and the renderer's side of the segment, in time that only tick() moves.
 class ServoBench {
  public:
   explicit ServoBench(const scene::SharedModel& model = paper_model(), double rate_hz = 1000.0)
-      : segment(std::move(*scene::SharedSegment::create(model, 0))),
+      : segment(required(scene::SharedSegment::create(model, 0))),
         renderer(segment.renderer_side()),
-        loop(std::move(*haptics::ServoLoop::create(segment, device, rate_hz))) {}
+        loop(required(haptics::ServoLoop::create(segment, device, rate_hz))) {}
 
   // One tick `late_ns` after its time.
   void tick(std::int64_t late_ns = 0) {
