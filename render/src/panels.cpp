@@ -249,6 +249,7 @@ void Panels::record_textures(const vk::raii::CommandBuffer& command, std::size_t
   update(force_, frame.force_panel, frame.force_placement);
   update(data_, frame.data_panel, frame.data_placement);
   update(banner_, frame.banner, frame.banner_placement);
+  update(control_, frame.control_panel, frame.control_placement);
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     update(labels_[i], frame.labels[i], frame.labels[i].placement);
   }
@@ -321,6 +322,7 @@ void Panels::record_rectangles(const vk::raii::CommandBuffer& command, vk::Descr
   show(force_);
   show(data_);
   show(banner_);
+  show(control_);
   std::for_each(labels_.begin(), labels_.end(), show);
 }
 

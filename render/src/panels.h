@@ -37,7 +37,7 @@ class Panels {
   };
   struct Panel {
     PanelPlacement placement;
-    std::variant<std::monostate, ForcePanel, DataPanel, Banner, Label> painted;  // what the texture shows
+    std::variant<std::monostate, ForcePanel, DataPanel, Banner, ControlPanel, Label> painted;  // what the texture shows
     DeviceImage texture;
     vk::raii::ImageView view{nullptr};
     vk::raii::DescriptorPool pool{nullptr};  // of one set: panels come and go with the labels
@@ -86,6 +86,7 @@ class Panels {
   Panel force_;
   Panel data_;
   Panel banner_;
+  Panel control_;
   std::vector<Panel> labels_;
 
   // what this frame paints; kept to reuse its memory

@@ -31,7 +31,11 @@ constexpr ImageUse kPresented{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagB
 PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px) {
   const glm::dvec2 window(window_px);
   const glm::dvec2 picture(picture_px);
-  const double scale = std::min(window.x / picture.x, window.y / picture.y);
+  double scale = std::min(window.x / picture.x, window.y / picture.y);
+  // a picture that was made for this window may be a pixel short of its border
+  if (scale > 1.0 && (window_px.x - picture_px.x <= 1 || window_px.y - picture_px.y <= 1)) {
+    scale = 1.0;
+  }
   const glm::uvec2 size = glm::clamp(glm::uvec2(glm::round(picture * scale)), glm::uvec2(1), window_px);
   return {.offset_px = (window_px - size) / 2U, .size_px = size};
 }

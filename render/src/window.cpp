@@ -80,7 +80,9 @@ core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptio
   glfwSetWindowUserPointer(handle->window_, handle.get());
   glfwSetKeyCallback(handle->window_, on_key);
   glfwSetMouseButtonCallback(handle->window_, on_button);
+  glfwSetCursorPosCallback(handle->window_, on_move);
   glfwSetScrollCallback(handle->window_, on_scroll);
+  glfwGetCursorPos(handle->window_, &handle->cursor_.x, &handle->cursor_.y);
   if (options.full_screen) {
     handle->set_full_screen(true);
   }
@@ -104,7 +106,7 @@ vk::raii::SurfaceKHR WindowHandle::create_surface(const vk::raii::Instance& inst
 WindowInput WindowHandle::poll() {
   glfwPollEvents();
   return {.events = std::exchange(events_, {}),
-          .cursor_px = cursor_px(),
+          .cursor_px = picture_px(cursor_),
           .close_requested = glfwWindowShouldClose(window_) == GLFW_TRUE};
 }
 
@@ -121,14 +123,11 @@ glm::uvec2 WindowHandle::size_px() const {
 }
 
 // The cursor comes in the units of the desktop, which some window systems scale.
-glm::dvec2 WindowHandle::cursor_px() const {
-  glm::dvec2 place(0.0);
-  glfwGetCursorPos(window_, &place.x, &place.y);
+glm::dvec2 WindowHandle::picture_px(const glm::dvec2& place) const {
   int width = 0;
   int height = 0;
   glfwGetWindowSize(window_, &width, &height);
-  const glm::dvec2 picture(size_px());
-  return place * picture / glm::dvec2(std::max(width, 1), std::max(height, 1));
+  return place * glm::dvec2(size_px()) / glm::dvec2(std::max(width, 1), std::max(height, 1));
 }
 
 // The monitor that shows the largest part of the window.
@@ -186,7 +185,7 @@ WindowHandle& WindowHandle::of(GLFWwindow* window) {
 }
 
 void WindowHandle::add(WindowEvent event) {
-  event.cursor_px = cursor_px();
+  event.cursor_px = picture_px(cursor_);
   events_.push_back(event);
 }
 
@@ -207,6 +206,8 @@ void WindowHandle::on_button(GLFWwindow* window, int button, int action, int) {
                             : button == GLFW_MOUSE_BUTTON_RIGHT ? MouseButton::Right
                                                                 : MouseButton::Middle});
 }
+
+void WindowHandle::on_move(GLFWwindow* window, double x, double y) { of(window).cursor_ = {x, y}; }
 
 void WindowHandle::on_scroll(GLFWwindow* window, double, double y) {
   of(window).add({.kind = WindowEvent::Kind::Scroll, .scroll = y});

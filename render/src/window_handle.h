@@ -30,15 +30,17 @@ class WindowHandle {
  private:
   WindowHandle() = default;
   GLFWmonitor* monitor() const;
-  glm::dvec2 cursor_px() const;
+  glm::dvec2 picture_px(const glm::dvec2& place) const;
   void add(WindowEvent event);
   static WindowHandle& of(GLFWwindow* window);
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
   static void on_button(GLFWwindow* window, int button, int action, int modifiers);
+  static void on_move(GLFWwindow* window, double x, double y);
   static void on_scroll(GLFWwindow* window, double x, double y);
 
   GLFWwindow* window_ = nullptr;
   std::vector<WindowEvent> events_;
+  glm::dvec2 cursor_{0.0};  // after the newest event, in the desktop's units: asking GLFW tells where it is now
   int windowed_x_ = 0, windowed_y_ = 0, windowed_width_ = 0, windowed_height_ = 0;  // to come back from full screen
 };
 

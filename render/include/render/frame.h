@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -119,6 +120,37 @@ struct Label {  // a short text standing in the room: a swatch's name
   bool operator==(const Label&) const = default;
 };
 
+// What a ray can point at on a ControlPanel.
+struct ControlTarget {
+  enum class Kind { Less, More, Button } kind = Kind::Less;
+  std::size_t index = 0;  // of the row, or of the button
+
+  bool operator==(const ControlTarget&) const = default;
+};
+
+struct ControlRow {  // a value with a target to make it less and one to make it more
+  std::string name, value;
+  bool changed = false;  // not what it was at first
+
+  bool operator==(const ControlRow&) const = default;
+};
+
+// Values that are changed by pointing (render/control_layout.h says where its targets stand).
+struct ControlPanel {
+  std::string title;
+  std::vector<std::string> buttons;  // beside the title
+  std::vector<ControlRow> rows;
+  std::vector<std::string> notes;  // what follows from the values, a line each
+  std::string status;              // what has become of the last change
+  std::optional<ControlTarget> pointed;
+
+  bool operator==(const ControlPanel&) const = default;
+};
+
+// A panel without area: not shown.
+inline constexpr PanelPlacement kNoPlacement{
+    .lower_left_m = glm::dvec3(0.0), .right_m = glm::dvec3(0.0), .up_m = glm::dvec3(0.0)};
+
 // ---- the frame ----
 
 struct FrameState {
@@ -134,6 +166,8 @@ struct FrameState {
   PanelPlacement data_placement;
   Banner banner;
   PanelPlacement banner_placement;
+  ControlPanel control_panel;
+  PanelPlacement control_placement = kNoPlacement;
   std::vector<Label> labels;
 };
 
