@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/stage_setup.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -17,6 +20,12 @@ render::RendererOptions Stage::renderer_options(std::uint32_t eye_width) const {
   options.eye_height = static_cast<std::uint32_t>(std::lround(eye_width * screen.height_m() / screen.width_m()));
   options.panel_texels_per_m = 2.0 * eye_width / screen.width_m();
   return options;
+}
+
+std::uint32_t Stage::eye_width_within(glm::uvec2 window_px, std::uint32_t beside) const {
+  const scene::Screen& screen = wall.screens.front();
+  const double by_height = std::floor(window_px.y * screen.width_m() / screen.height_m());
+  return std::max(1U, std::min(window_px.x / beside, static_cast<std::uint32_t>(by_height)));
 }
 
 namespace {
@@ -36,6 +45,12 @@ core::Result<scene::MaterialLibrary> shown_materials(const StageFiles& files) {
   }
   auto shown = library->only(names.empty() ? std::span<const std::string>(scene::kPaperMaterials) : names);
   if (shown) shown->add({files.added});
+  if (shown && shown->materials.size() > kMostMaterials) {
+    return core::failure(
+        core::ErrorCategory::WrongUsage,
+        fmt::format("{} materials do not fit on the shelf, which holds {}: choose some with --material",
+                    shown->materials.size(), kMostMaterials));
+  }
   return shown;
 }
 

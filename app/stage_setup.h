@@ -16,6 +16,9 @@
 
 namespace afm::app {
 
+// What the shelf in front of the wall holds.
+inline constexpr std::size_t kMostMaterials = 9;
+
 // The files that a picture of the wall is made of.
 struct StageFiles {
   std::string assets_dir;
@@ -34,6 +37,9 @@ struct Stage {
 
   // Square pixels: the height follows the wall's proportions.
   render::RendererOptions renderer_options(std::uint32_t eye_width) const;
+
+  // The widest eye image of which `beside` fit into a window beside each other, at the wall's proportions.
+  std::uint32_t eye_width_within(glm::uvec2 window_px, std::uint32_t beside) const;
 };
 
 core::Result<Stage> load_stage(const StageFiles& files);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -34,10 +35,17 @@ constexpr glm::dvec3 kWandGrip(0.66, -0.24, 1.00);
 constexpr double kShelfY = -0.85;
 constexpr double kShelfZ = 0.62;
 constexpr double kSwatchSpacing = 0.42;
+constexpr std::size_t kFrontSwatches = 5;  // as many as a row of the shelf holds; the others stand behind, raised
+constexpr double kBackY = -0.62;
+constexpr double kBackZ = 0.30;
+constexpr double kBackSpacing = 0.38;
 constexpr double kSwatchRadius = 0.16;
+constexpr std::size_t kFewSwatches = 3;
+constexpr double kSlimSwatchRadius = 0.11;  // of more than a few: the ray passes over one on its way to another
 constexpr glm::dvec3 kSwatchCenter(0.0, 0.13, 0.0);
 constexpr double kRayGap = 0.08;  // the ray ends just before what it points at
 constexpr double kFreeRayLength = 1.2;
+constexpr double kLongestRay = 3.0;
 constexpr glm::dvec3 kTowardsViewer(0.0, 0.0, 1.6);
 constexpr double kLabelWidth = 0.27;
 constexpr double kLabelHeight = 0.072;
@@ -46,10 +54,16 @@ constexpr double kPanelMargin = 0.03;
 constexpr double kPanelInnerEdge = 0.74;
 constexpr double kPanelBottom = -0.20;
 constexpr double kPanelHeight = 0.92;
+constexpr double kTabHeight = 0.10;
+// right of the sample, which stands before the wall
+constexpr double kParameterInset = 0.06;
+constexpr double kTabInset = 0.18;
 constexpr double kBannerHeight = 0.25;
 
 // The stroke of a cycle in units of Z_joc: from the deepest push below zero to the highest lift.
 constexpr double kStrokeOfZjoc = 0.30 + 1.40;
+
+constexpr const char* kNeutralLook = "si3n4";
 
 using glm::dmat4;
 using glm::dvec3;
@@ -64,6 +78,15 @@ dmat4 looking_along(const dvec3& origin, const dvec3& direction) {
   const dvec3 reference = std::abs(z.y) < 0.99 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
   const dvec3 x = glm::normalize(glm::cross(reference, z));
   return frame_matrix(x, glm::cross(z, x), z, origin);
+}
+
+// Whose models stand for a material: its own, those of its look, or the plain grey ones.
+std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& material) {
+  for (const std::string& name : {material.name, material.look}) {
+    std::error_code ignored;
+    if (std::filesystem::exists(assets_dir + "/models/sample-" + name + ".glb", ignored)) return name;
+  }
+  return kNeutralLook;
 }
 
 // A unit cylinder along +z, stretched between two points.
@@ -111,11 +134,12 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   for (const scene::MaterialEntry& material : materials.materials) {
     const physics::ApproachRetractEvents events = physics::approach_retract_events(material.interaction);
     MaterialLook look{};
+    const std::string model = model_of(assets_dir, material);
     const std::string sample = "sample-" + material.name;
-    look.sample = build.model_in_frame_of("surface", sample + ".glb", sample, w.sample_frame_);
+    look.sample = build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, w.sample_frame_);
     const scene::NodeIndex surface = build.node(sample + "/surface");
     const std::string swatch = "swatch-" + material.name;
-    look.swatch = build.model(swatch + ".glb", swatch, w.layout_);
+    look.swatch = build.model("swatch-" + model + ".glb", swatch, w.layout_);
     look.label = build.node(swatch + "/label");
     look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
     look.thickness_m = build.error() ? 0.0 : -bounds_below(w.scene_, surface).low.z;
@@ -140,28 +164,39 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   return w;
 }
 
-DrawnScale WallScene::drawn_scale(std::size_t material) const {
+double WallScene::parameter_factor(std::size_t material, const TipView& tip) const {
+  return tip.z_joc_m > 0.0 ? tip.z_joc_m * kStrokeOfZjoc / looks_[material].stroke_m : 1.0;
+}
+
+DrawnScale WallScene::drawn_scale(std::size_t material, const TipView& tip) const {
   const double unit_m = glm::length(dvec3(room_from_layout_[0]));
-  return {.sample_m_per_m = looks_[material].stroke_m / (kStrokeHeight * unit_m),
+  const double stroke_m = looks_[material].stroke_m * parameter_factor(material, tip);
+  return {.sample_m_per_m = stroke_m / (kStrokeHeight * unit_m),
           .lever_m_per_m = lever_length_ / (kLeverDrawnLength * unit_m),
           .tip_m_per_m = tip_length_ / (kTipDrawnLength * unit_m)};
 }
 
 double WallScene::layout_per_m(const Pose& pose) const {
   // before a choice nothing lies on the stage, and the tip rests at its height of zero
-  return pose.material ? kStrokeHeight / looks_[*pose.material].stroke_m : 0.0;
+  if (!pose.material) return 0.0;
+  return kStrokeHeight / (looks_[*pose.material].stroke_m * parameter_factor(*pose.material, pose.tip));
 }
 
 glm::dvec3 WallScene::swatch_place(std::size_t i) const {
-  const double middle = 0.5 * static_cast<double>(looks_.size() - 1);
-  return {kSwatchSpacing * (static_cast<double>(i) - middle), kShelfY, kShelfZ};
+  const std::size_t front = std::min(looks_.size(), kFrontSwatches);
+  const auto across = [](std::size_t place, std::size_t count, double spacing) {
+    return spacing * (static_cast<double>(place) - 0.5 * static_cast<double>(count - 1));
+  };
+  if (i < front) return {across(i, front, kSwatchSpacing), kShelfY, kShelfZ};
+  return {across(i - front, looks_.size() - front, kBackSpacing), kBackY, kBackZ};
 }
 
 std::vector<input::Target> WallScene::swatch_targets() const {
+  const double radius = looks_.size() <= kFewSwatches ? kSwatchRadius : kSlimSwatchRadius;
   std::vector<input::Target> targets;
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     targets.push_back({dvec3(room_from_layout_ * glm::dvec4(swatch_place(i) + kSwatchCenter, 1.0)),
-                       kSwatchRadius * glm::length(dvec3(room_from_layout_[0]))});
+                       radius * glm::length(dvec3(room_from_layout_[0]))});
   }
   return targets;
 }
@@ -222,7 +257,8 @@ void WallScene::place_optics(const Pose& pose, std::vector<dmat4>& local) const 
   // the diode looks between the lever and the viewer, so that its four quadrants and the spot are seen
   const dmat4 photodiode =
       looking_along(kPhotodiode, glm::normalize(dvec3(0.0, 0.2, 0.0) - kPhotodiode) + kTowardsViewer);
-  const double full = pose.material ? looks_[*pose.material].full_deflection_m : 1.0;
+  const double full =
+      pose.material ? looks_[*pose.material].full_deflection_m * parameter_factor(*pose.material, pose.tip) : 1.0;
   const double reach = std::clamp(pose.tip.deflection_m / full, -1.0, 1.0) * kSpotReach * kPhotodiodeHalfSize;
   const dmat4 spot = photodiode * glm::translate(dmat4(1.0), dvec3(0.0, reach, 0.004));
 
@@ -263,8 +299,9 @@ void WallScene::place_wand(const Pose& pose, std::vector<dmat4>& local) const {
   const input::Ray ray = input::ray_of(*pose.wand);
   const dvec3 grip(layout_from_room * glm::dvec4(ray.origin_m, 1.0));
   const dvec3 direction = glm::normalize(dvec3(layout_from_room * glm::dvec4(ray.direction, 0.0)));
-  const double reach =
-      pose.hovered ? glm::distance(swatch_place(*pose.hovered) + kSwatchCenter, grip) - kRayGap : kFreeRayLength;
+  const double to_wall = direction.z < 0.0 ? -grip.z / direction.z : kFreeRayLength;
+  const double reach = pose.hovered ? glm::distance(swatch_place(*pose.hovered) + kSwatchCenter, grip) - kRayGap
+                                    : std::min(to_wall, kLongestRay);
   local[wand_] = looking_along(grip, -direction);
   local[ray_] = stretched(grip, grip + direction * reach, 0.6 * kBeamRadius);
 }
@@ -299,6 +336,17 @@ render::PanelPlacement WallScene::panel(double left, double bottom, double width
           .up_m = vector({0.0, height, 0.0})};
 }
 
+double WallScene::side_width() const { return 0.5 * wall_width_ - kPanelInnerEdge - kPanelMargin; }
+
+render::PanelPlacement WallScene::parameter_placement() const {
+  return panel(kPanelInnerEdge + kParameterInset, kPanelBottom, side_width() - kParameterInset, kPanelHeight);
+}
+
+render::PanelPlacement WallScene::parameter_tab_placement() const {
+  return panel(kPanelInnerEdge + kTabInset, kPanelBottom - kPanelMargin - kTabHeight, side_width() - kTabInset,
+               kTabHeight);
+}
+
 void WallScene::place(const Pose& pose, render::FrameState& frame) const {
   render::BeamBend bend;
   frame.room_from_node = compose(local_transforms(pose, bend));
@@ -320,12 +368,11 @@ void WallScene::place(const Pose& pose, render::FrameState& frame) const {
   }
 
   const double half = 0.5 * wall_width_;
-  const double side_width = half - kPanelInnerEdge - kPanelMargin;
   // the finale's large plot takes the room of the instrument
   const double plot_width =
-      pose.instrument == Instrument::Hidden ? 2.0 * kPanelInnerEdge + side_width - kPanelMargin : side_width;
+      pose.instrument == Instrument::Hidden ? 2.0 * kPanelInnerEdge + side_width() - kPanelMargin : side_width();
   frame.force_placement = panel(-half + kPanelMargin, kPanelBottom, plot_width, kPanelHeight);
-  frame.data_placement = panel(kPanelInnerEdge, kPanelBottom, side_width, kPanelHeight);
+  frame.data_placement = panel(kPanelInnerEdge, kPanelBottom, side_width(), kPanelHeight);
   frame.banner_placement = panel(-half + kPanelMargin, wall_top_ - kBannerHeight - kPanelMargin,
                                  wall_width_ - 2.0 * kPanelMargin, kBannerHeight);
 

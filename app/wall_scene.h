@@ -22,6 +22,7 @@ namespace afm::app {
 struct TipView {
   double z_m = 0;           // piezo displacement
   double deflection_m = 0;  // delta_c, positive towards the sample
+  double z_joc_m = 0;       // where the tip lets go with the parameters that it has now; 0: those of the material
 };
 
 // How large things are drawn: metres of the nanoworld (or of the instrument) shown as one metre on the wall.
@@ -51,7 +52,11 @@ class WallScene {
   // Where a simulated person holds the wand.
   glm::dvec3 wand_grip_m() const;
 
-  DrawnScale drawn_scale(std::size_t material) const;
+  DrawnScale drawn_scale(std::size_t material, const TipView& tip = {}) const;
+
+  // Where the parameters of a material are changed, in the place of its data; and the target that opens it.
+  render::PanelPlacement parameter_placement() const;
+  render::PanelPlacement parameter_tab_placement() const;
 
   enum class Instrument { Shown, Hidden };  // hidden in the finale, where the plot takes its room
 
@@ -83,7 +88,9 @@ class WallScene {
   void place_sample(const Pose& pose, std::vector<glm::dmat4>& local) const;
   void place_optics(const Pose& pose, std::vector<glm::dmat4>& local) const;
   void place_wand(const Pose& pose, std::vector<glm::dmat4>& local) const;
-  double layout_per_m(const Pose& pose) const;  // layout units per metre of the nanoworld
+  double parameter_factor(std::size_t material, const TipView& tip) const;  // of Z_joc, against the material's own
+  double layout_per_m(const Pose& pose) const;                              // layout units per metre of the nanoworld
+  double side_width() const;                                                // of the panels beside the instrument
   glm::dvec3 swatch_place(std::size_t i) const;
   std::vector<glm::dmat4> local_transforms(const Pose& pose, render::BeamBend& bend) const;
   std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;

@@ -109,6 +109,58 @@ TEST_F(WallSceneTest, TheSwatchesAreSoFarApartThatTheRayCannotConfuseThem) {
   }
 }
 
+TEST_F(WallSceneTest, NineMaterialsStandApartAndAllCanBePicked) {
+  scene::MaterialLibrary nine;
+  for (std::size_t i = 0; i < 9; ++i) {
+    nine.materials.push_back(materials_.materials[i % 3]);
+    nine.materials.back().name += "-" + std::to_string(i);  // no model of its own: the look's, or the neutral one
+    if (i < 6) nine.materials.back().look = materials_.materials[i % 3].name;
+  }
+  const WallScene many = WallScene::load(assets_, nine, screen_, viewer_).value();
+  const auto targets = many.swatch_targets();
+  ASSERT_EQ(targets.size(), 9U);
+  for (std::size_t aim = 0; aim < targets.size(); ++aim) {
+    // from the eye, as the mouse points, and from the hand, as the wand does
+    for (const glm::dvec3& from : {viewer_, many.wand_grip_m()}) {
+      const input::Ray ray{.origin_m = from, .direction = glm::normalize(targets[aim].center_m - from)};
+      EXPECT_EQ(input::pick(ray, input::kPickConeRad, targets), aim);
+    }
+  }
+
+  // as the viewer sees them on the wall, no label covers another
+  render::FrameState state;
+  many.place({.material = 0}, state);
+  struct Box {
+    glm::dvec2 low{1e9}, high{-1e9};
+  };
+  std::vector<Box> boxes;
+  for (const render::Label& label : state.labels) {
+    const auto& p = label.placement;
+    Box box;
+    for (const glm::dvec3& corner :
+         {p.lower_left_m, p.lower_left_m + p.right_m, p.lower_left_m + p.up_m, p.lower_left_m + p.right_m + p.up_m}) {
+      const glm::dvec2 seen(viewer_ + (corner - viewer_) * (viewer_.z / (viewer_.z - corner.z)));
+      box.low = glm::min(box.low, seen);
+      box.high = glm::max(box.high, seen);
+    }
+    EXPECT_GT(box.low.x, screen_.lower_left.x);
+    EXPECT_LT(box.high.x, screen_.lower_right.x);
+    EXPECT_GT(box.low.y, screen_.lower_left.y);
+    for (const Box& other : boxes) {
+      EXPECT_FALSE(box.low.x < other.high.x && other.low.x < box.high.x && box.low.y < other.high.y &&
+                   other.low.y < box.high.y);
+    }
+    boxes.push_back(box);
+  }
+}
+
+TEST_F(WallSceneTest, TheStrokeFillsTheSameRoomWithOtherParameters) {
+  const TipView tip{.z_m = 70e-9, .deflection_m = 0.0, .z_joc_m = 50e-9};
+  const glm::dvec3 high = apex({.material = 0, .tip = tip});
+  const glm::dvec3 low = apex({.material = 0, .tip = {.z_m = -15e-9, .deflection_m = 0.0, .z_joc_m = 50e-9}});
+  EXPECT_NEAR(glm::length(high - low), screen_.height_m() / 3.0, 0.02);
+}
+
 TEST_F(WallSceneTest, FitsAWallOfAnySize) {
   const scene::Screen desk{"desk", {-0.3, 0.9, 0.0}, {0.3, 0.9, 0.0}, {-0.3, 1.25, 0.0}};
   const auto small = WallScene::load(assets_, materials_, desk, {0.0, 1.2, 0.6});
