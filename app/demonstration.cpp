@@ -190,7 +190,7 @@ void Demonstration::begin_session(std::size_t material, std::uint32_t edit_revis
 }
 
 Moment Demonstration::moment(const input::WandState& wand, const input::Selector::Result& pointing) const {
-  Moment now = moment_of(servo_.tip(), deepest_z_m_);
+  Moment now = moment_of(servo_.tip(), is_retracting(servo_.tip().z_m, deepest_z_m_));
   now.hovered = pointing.hovered;
   now.wand = wand;
   now.guidance = guidance();

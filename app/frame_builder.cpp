@@ -202,7 +202,7 @@ render::Banner FrameBuilder::banner(const Moment& moment) const {
     banner.warning =
         fmt::format("slow motion \u00d7{:.3g}{}", moment.slow_motion, moment.realtime ? "" : ", not real-time");
   }
-  const DrawnScale scale = wall_scene_->drawn_scale(moment.material.value_or(0));
+  const DrawnScale scale = wall_scene_->drawn_scale(moment.material.value_or(0), moment.tip);
   banner.scale = fmt::format(
       "sample and motion: 1 m = {}     lever: 1 m = {}     tip: 1 m = {}     deflection \u00d7{:.0f} against the lever",
       scale_text(scale.sample_m_per_m), scale_text(scale.lever_m_per_m), scale_text(scale.tip_m_per_m),

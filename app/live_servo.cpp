@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live_servo.h"
 
+#include "haptics/scaling.h"
+
 namespace afm::app {
 
 namespace {
@@ -17,14 +19,15 @@ void FrameBeat::operator()() const {
 
 bool is_retracting(double z_m, double deepest_z_m) { return z_m > deepest_z_m + kTurnM; }
 
-Moment moment_of(const scene::TipState& tip, double deepest_z_m) {
+Moment moment_of(const scene::TipState& tip, bool retracting) {
   Moment now;
   if (tip.material >= 0) now.material = static_cast<std::size_t>(tip.material);
   now.tip = {.z_m = tip.z_m, .deflection_m = tip.deflection_m};
+  if (tip.hand_m_per_m > 0.0) now.tip.z_joc_m = haptics::FitScaling::kStrokeM / tip.hand_m_per_m;
   now.force_n = tip.force_n;
   now.servo_state = tip.servo_state;
   now.phase = tip.phase;
-  now.retracting = is_retracting(tip.z_m, deepest_z_m);
+  now.retracting = retracting;
   now.realtime = tip.realtime != 0;
   now.slow_motion = tip.slow_motion;
   return now;

@@ -48,8 +48,8 @@ class TipStream {
   std::vector<scene::TipEvent> waiting_;
 };
 
-// What the newest state of the tip tells the wall; `deepest_z_m` is the lowest that this cycle has been.
-Moment moment_of(const scene::TipState& tip, double deepest_z_m);
+// What the newest state of the tip tells the wall.
+Moment moment_of(const scene::TipState& tip, bool retracting);
 
 // Whether the tip is on its way back from the deepest push of its cycle.
 bool is_retracting(double z_m, double deepest_z_m);

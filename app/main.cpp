@@ -46,6 +46,7 @@ int run(int count, char** arguments) {
   app.set_version_flag("--version", std::string("touchafm ") + afm::app::kVersion);
   app.require_subcommand(1);
   afm::app::add_demo_command(app, context);
+  afm::app::add_view_command(app, context);
   afm::app::add_curve_command(app, context);
   afm::app::add_analyse_command(app, context);
   afm::app::add_material_command(app, context);

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "app/live_parameters.h"
+#include "app/parameter_panel.h"
+#include "app/servo_link.h"
+#include "render/frame.h"
+
+namespace afm::app {
+
+// The parameters of every material as a person has changed them, and what the servo has made of the changes.
+class ParameterEdits {
+ public:
+  // As the servo was started with.
+  explicit ParameterEdits(std::vector<FeltMaterial> loaded) : loaded_(std::move(loaded)), edits_(loaded_.size()) {}
+
+  // What the target of the panel stands for, except Close: changes the parameters and tells the servo.
+  void apply(const render::ControlTarget& target, std::size_t material, ServoLink& servo);
+
+  // Back to what was loaded, of every material.
+  void reset(ServoLink& servo);
+
+  // Tells a servo that has been started again what has been changed.
+  void resend(ServoLink& servo);
+
+  // Of a material that has been asked for before; made from what was loaded if it has not.
+  const LiveParameters& of(std::size_t material);
+
+  bool changed(std::size_t material) const;
+  ChangeState state(std::size_t material, const scene::TipState& tip) const;
+
+ private:
+  struct Edit {
+    std::optional<LiveParameters> parameters;
+    std::uint32_t revision = 0;  // of the newest edit that the servo was told, 0: none
+  };
+  LiveParameters& parameters(std::size_t material);
+
+  std::vector<FeltMaterial> loaded_;
+  std::vector<Edit> edits_;
+};
+
+}  // namespace afm::app

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <charconv>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/command.h"
+#include "app/felt_material.h"
+#include "app/live_view.h"
+#include "app/stage_setup.h"
+#include "core/log.h"
+#include "render/context.h"
+#include "render/presenter.h"
+#include "render/window.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::uint32_t kSmallestWindow = 64, kLargestWindow = 16384;
+constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // a second; the servo lets go after 250 ms of silence
+
+struct ViewOptions {
+  StageFiles files;
+  render::WindowOptions window{.title = "TouchAFM"};
+  ViewSettings settings;
+  std::uint32_t eye_width = 0;  // 0: the window's
+  double frame_rate = 0;        // 0: the display's
+  ServoMode servo = ServoMode::Process;
+  bool validate = false;
+};
+
+std::optional<std::uint32_t> whole_number(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+core::Result<void> parse_size(const std::string& text, render::WindowOptions& window) {
+  const std::size_t cross = text.find('x');
+  const auto width = whole_number(text.substr(0, cross));
+  const auto height = cross == std::string::npos ? std::nullopt : whole_number(text.substr(cross + 1));
+  const auto legal = [](const std::optional<std::uint32_t>& pixels) {
+    return pixels && *pixels >= kSmallestWindow && *pixels <= kLargestWindow;
+  };
+  if (!legal(width) || !legal(height)) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("--size: \"{}\" is not WIDTHxHEIGHT in pixels of {} to {} each, such as 1280x960",
+                                     text, kSmallestWindow, kLargestWindow));
+  }
+  window.width = *width;
+  window.height = *height;
+  return {};
+}
+
+core::Result<void> check_validation(render::Context& context) {
+  const auto messages = context.take_validation_messages();
+  for (const std::string& message : messages) core::log_line(message);
+  if (messages.empty()) return {};
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("the Vulkan validation layer gave {} messages; they stand above", messages.size()));
+}
+
+core::Result<void> run_view(const ViewOptions& options, const std::string& program) {
+  const core::MonotonicClock clock;
+  auto stage = load_stage(options.files);
+  if (!stage) return tl::unexpected(stage.error());
+  std::vector<FeltMaterial> materials;
+  for (const scene::MaterialEntry& entry : stage->materials.materials) {
+    auto felt = felt_material(ContactSetup{entry, {}, {}});
+    if (!felt) return tl::unexpected(felt.error());
+    materials.push_back(std::move(*felt));
+  }
+  const auto model = shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials);
+  if (!model) return tl::unexpected(model.error());
+
+  auto window = render::Window::open(options.window);
+  if (!window) return tl::unexpected(window.error());
+  auto context = render::Context::open(options.validate ? render::Validation::On : render::Validation::Off,
+                                       render::Presentation::Window);
+  if (!context) return tl::unexpected(context.error());
+
+  ViewSettings settings = options.settings;
+  const std::uint32_t beside = settings.stereo == StereoMode::SideBySide ? 2 : 1;
+  const render::RendererOptions drawing = stage->renderer_options(
+      options.eye_width > 0 ? options.eye_width : stage->eye_width_within(window->size_px(), beside));
+  auto renderer = render::Renderer::create(*context, stage->wall_scene.scene(), drawing);
+  if (!renderer) return tl::unexpected(renderer.error());
+  auto presenter = render::Presenter::create(*context, *window, *renderer);
+  if (!presenter) return tl::unexpected(presenter.error());
+
+  settings.eye_px = {drawing.eye_width, drawing.eye_height};
+  settings.fixed_eye_size = options.eye_width > 0;
+  settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : window->refresh_hz();
+  core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}; F1 shows the keys", drawing.eye_width,
+                             drawing.eye_height, context->device_name()));
+  const auto start_servo = [&] {
+    return ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
+  };
+  LiveView live(*stage, materials, *window, *renderer, *presenter, start_servo, clock, settings);
+  if (auto ran = live.run(); !ran) return ran;
+  return check_validation(*context);
+}
+
+void add_picture_options(CLI::App& command, ViewOptions& options) {
+  static const std::map<std::string, StereoMode> kModes{{"mono", StereoMode::Mono},
+                                                        {"left", StereoMode::Left},
+                                                        {"right", StereoMode::Right},
+                                                        {"side-by-side", StereoMode::SideBySide}};
+  command
+      .add_option("--stereo", options.settings.stereo,
+                  "how the eyes are shown: mono, left, right, side-by-side; default: mono")
+      ->transform(CLI::CheckedTransformer(kModes))
+      ->type_name("MODE");
+  command.add_flag("--swap-eyes", options.settings.swap_eyes, "left and right exchanged; S does it while it runs");
+  command.add_flag("--fullscreen", options.window.full_screen, "fill the monitor; F11 does it while it runs");
+  command
+      .add_option("--eye-width", options.eye_width,
+                  "width of each eye's picture in pixels, then scaled to the window; default: the window's pixels")
+      ->check(CLI::Range(64, 8192))
+      ->type_name("PIXELS");
+  command
+      .add_option("--frame-rate", options.frame_rate, "most frames a second, 10 to 1000; default: the display's rate")
+      ->check(CLI::Range(kSlowestFrames, kFastestFrames))
+      ->type_name("RATE");
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand("view", "the live window: choose a sample and feel it, with a mouse alone");
+  command->footer(
+      "F1 in the window shows its keys and buttons.\n\nexample: touchafm view\n"
+      "         touchafm view --stereo side-by-side --fullscreen --material mica --material pdms-air");
+  auto options = std::make_shared<ViewOptions>();
+  add_stage_options(*command, options->files, context);
+  command
+      ->add_option("--material", options->files.shown,
+                   "a material to show, up to nine; default: mica, gold and silicon nitride of the paper")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("NAME");
+  add_picture_options(*command, *options);
+  auto size = std::make_shared<std::string>("1280x960");
+  command->add_option("--size", *size, "size of the window in pixels")->capture_default_str()->type_name("WxH");
+  static const std::map<std::string, HandSource> kHands{{"mouse", HandSource::Mouse}, {"sim", HandSource::Simulated}};
+  command
+      ->add_option("--haptics", options->settings.hand,
+                   "whose hand feels: mouse, or sim for a simulated person; default: mouse")
+      ->transform(CLI::CheckedTransformer(kHands))
+      ->type_name("DEVICE");
+  static const std::map<std::string, ServoMode> kServos{{"process", ServoMode::Process}, {"thread", ServoMode::Thread}};
+  command
+      ->add_option("--servo", options->servo,
+                   "how the servo runs: process, or thread for debuggers and sanitizers; default: process")
+      ->transform(CLI::CheckedTransformer(kServos))
+      ->type_name("HOW");
+  command->add_flag("--validate", options->validate, "check every Vulkan call; any message ends in exit code 1");
+  command->callback([options, size, &context] {
+    context.chosen = [options, size, &context]() -> core::Result<void> {
+      if (auto parsed = parse_size(*size, options->window); !parsed) return parsed;
+      return run_view(*options, context.program_path);
+    };
+  });
+}
+
+}  // namespace afm::app

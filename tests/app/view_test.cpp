@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <string>
+
+#include "app/felt_material.h"
+#include "app/frame_builder.h"
+#include "app/live_parameters.h"
+#include "app/mouse_hand.h"
+#include "app/parameter_panel.h"
+#include "app/stage_setup.h"
+#include "render/control_layout.h"
+#include "render/image_file.h"
+#include "support/live_program.h"
+#include "support/run_program.h"
+#include "support/virtual_display.h"
+
+// The real window on an X server without a screen, driven by xdotool as a hand drives a mouse and keys. Vulkan's calls
+// are validated: a message would end the program with exit code 1.
+namespace afm::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kWidth = 640, kHeight = 480;
+constexpr double kHandPerPixel = 0.255 / kHeight;  // of the drag, as docs/manual.md says: 85 mm on a third of the wall
+
+class ViewTest : public ::testing::Test {
+ protected:
+  std::vector<std::string> command(std::vector<std::string> more = {}) const {
+    std::vector<std::string> all{AFM_PROGRAM, "view",    "--size",       "640x480",   "--frame-rate",
+                                 "12",        "--servo", AFM_SERVO_MODE, "--validate"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  void xdotool(const std::string& what) const {
+    const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool " + what);
+    ASSERT_EQ(done.exit_code, 0) << "xdotool " << what << ": " << done.err << " (package xdotool)";
+  }
+  void move_to(const glm::dvec2& pixel) const {
+    xdotool("mousemove " + std::to_string(std::lround(pixel.x)) + " " + std::to_string(std::lround(pixel.y)));
+  }
+  void click(const glm::dvec2& pixel) const {
+    move_to(pixel);
+    xdotool("click 1");
+  }
+  void drag_hand(double height_m) const {
+    const int rise = static_cast<int>(std::lround(height_m / kHandPerPixel));
+    xdotool("mousemove 320 240 mousedown 3 mousemove 320 " + std::to_string(240 - rise) + " mouseup 3");
+  }
+
+  // Where a point of the room is seen with one eye.
+  glm::dvec2 pixel_of(const glm::dvec3& point_m) const {
+    scene::Wall one_eyed = stage_.wall;
+    one_eyed.viewers.front().ipd_m = 0.0;
+    const scene::EyeView eye = eyes_at_sweet_spot(one_eyed).value()[0];
+    const glm::dvec4 clip = eye.projection * eye.view * glm::dvec4(point_m, 1.0);
+    return 0.5 * glm::dvec2(kWidth, kHeight) * (glm::dvec2(clip) / clip.w + 1.0);
+  }
+
+  // The middle of a target of gold's parameter panel.
+  glm::dvec2 pixel_of(const render::ControlTarget& target) const {
+    const render::PanelPlacement panel = stage_.wall_scene.parameter_placement();
+    const glm::dvec2 size(1000.0 * glm::length(panel.right_m), 1000.0 * glm::length(panel.up_m));
+    const LiveParameters gold(felt_material(ContactSetup{stage_.materials.materials[1], {}, {}}).value());
+    const auto box = render::control_box(parameter_panel(gold, "", ChangeState::AsLoaded), size, target);
+    const glm::dvec2 share = 0.5 * (box.from_mm + box.to_mm) / size;
+    return pixel_of(panel.lower_left_m + share.x * panel.right_m + (1.0 - share.y) * panel.up_m);
+  }
+
+  struct Cycle {
+    render::Image down, whole;
+  };
+  // One full cycle on gold by the right button. On a machine that is busy with other things the servo may let go for
+  // want of frames; then the hand lifts and tries again, as the wall says.
+  std::optional<Cycle> feel_a_cycle(support::LiveProgram& view) const {
+    Cycle cycle;
+    for (int tries = 0; tries < 8; ++tries) {
+      xdotool("key t");
+      if (!view.says("force on")) return std::nullopt;
+      drag_hand(-0.100);
+      if (view.says_one_of({"jump to contact at Z = 4.07", "force off"}) != "force off") {
+        cycle.down = picture("down");
+        drag_hand(0.120);
+        if (view.says_one_of({"jump off contact at Z = 99.99", "force off"}) != "force off") {
+          cycle.whole = picture("whole");
+          return cycle;
+        }
+      }
+      drag_hand(0.150);
+      if (!view.says("Press Turn-On")) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  // The screen, kept in the build tree for people to look at.
+  render::Image picture(const std::string& name) const {
+    render::Image image = display_.screenshot();
+    EXPECT_TRUE(render::write_png(image, AFM_BINARY_DIR "/view-" + name + ".png"));
+    return image;
+  }
+
+  static double share_that_differs(const render::Image& a, const render::Image& b) {
+    EXPECT_EQ(a.rgba.size(), b.rgba.size());
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (std::abs(int{a.rgba[i + c]} - int{b.rgba[i + c]}) > 24) {
+          ++differing;
+          break;
+        }
+      }
+    }
+    return 4.0 * static_cast<double>(differing) / static_cast<double>(a.rgba.size());
+  }
+
+  const Stage stage_ =
+      load_stage({.assets_dir = AFM_SOURCE_DIR "/assets", .wall = {}, .materials = {}, .shown = {}, .added = {}})
+          .value();
+  support::VirtualDisplay display_{kWidth, kHeight};
+};
+
+TEST_F(ViewTest, AHandGoesThroughTheWholeProcedureWithAMouse) {
+  support::LiveProgram view(command(), display_.name());
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  click(pixel_of(stage_.wall_scene.swatch_targets()[1].center_m));
+  ASSERT_TRUE(view.says("chosen: Gold")) << view.said();
+  const render::Image chosen = picture("chosen");
+
+  drag_hand(-0.030);
+  ASSERT_TRUE(view.says("Lift the tip")) << view.said();
+  drag_hand(0.060);
+  ASSERT_TRUE(view.says("Press Turn-On")) << view.said();
+  const auto cycle = feel_a_cycle(view);
+  ASSERT_TRUE(cycle.has_value()) << view.said();
+  EXPECT_GT(share_that_differs(chosen, cycle->down), 0.005);
+  EXPECT_GT(share_that_differs(cycle->down, cycle->whole), 0.005);
+
+  // a stiffer lever, by pointing at its + : felt once the hand has lifted
+  xdotool("key F2");
+  click(pixel_of(render::ControlTarget{render::ControlTarget::Kind::More, 1}));
+  ASSERT_TRUE(view.says("119 mN/m")) << view.said();
+  ASSERT_TRUE(view.says("force off")) << view.said();
+  ASSERT_TRUE(view.says("Press Turn-On")) << view.said();
+  EXPECT_GT(share_that_differs(cycle->whole, picture("stiffer")), 0.02);
+
+  xdotool("key Escape");
+  EXPECT_EQ(view.ends(), 0) << view.said();
+}
+
+TEST_F(ViewTest, OutlivesAStormOfSizesAndTheDeathOfItsServo) {
+  support::LiveProgram view(command({"--stereo", "side-by-side"}), display_.name());
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  std::string storm = "search --name TouchAFM";
+  for (int i = 0; i < 24; ++i) {
+    storm += " windowsize " + std::to_string(40 + 97 * i % 600) + " " + std::to_string(30 + 61 * i % 450);
+  }
+  xdotool(storm);
+  xdotool("search --name TouchAFM windowunmap");
+  xdotool("search --name TouchAFM windowmap --sync windowsize 640 480 windowfocus");
+  xdotool("key F1");
+  xdotool("key F11");
+  xdotool("key 2");
+  EXPECT_TRUE(view.says("chosen: Gold")) << view.said();
+  xdotool("key F11");
+  if (std::string(AFM_SERVO_MODE) == "process") {
+    EXPECT_EQ(support::run_program("pkill -KILL -P " + std::to_string(view.pid())).exit_code, 0);
+    EXPECT_TRUE(view.says("the servo ended unexpectedly")) << view.said();
+    xdotool("key r");
+    EXPECT_TRUE(view.says("the servo was started again")) << view.said();
+  }
+  picture("side-by-side");
+  view.signal(SIGINT);
+  EXPECT_EQ(view.ends(), 0) << view.said();
+}
+
+TEST_F(ViewTest, EndsWithOneWhenTheServoStaysDead) {
+  if (std::string(AFM_SERVO_MODE) != "process") return;  // a thread dies with its program
+  support::LiveProgram view(command(), display_.name());
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  EXPECT_EQ(support::run_program("pkill -KILL -P " + std::to_string(view.pid())).exit_code, 0);
+  EXPECT_TRUE(view.says("the servo ended unexpectedly")) << view.said();
+  xdotool("key Escape");
+  EXPECT_EQ(view.ends(), 1) << view.said();
+}
+
+TEST(View, SaysWhatIsWrongInOneLine) {
+  const auto none = support::run_program("env -u WAYLAND_DISPLAY DISPLAY= " AFM_PROGRAM " view");
+  EXPECT_EQ(none.exit_code, 4);
+  EXPECT_THAT(none.err, HasSubstr("cannot open a window"));
+  const auto size = support::run_program(AFM_PROGRAM " view --size 1280");
+  EXPECT_EQ(size.exit_code, 2);
+  EXPECT_THAT(size.err, HasSubstr("\"1280\" is not WIDTHxHEIGHT"));
+  const auto mode = support::run_program(AFM_PROGRAM " view --stereo checkerboard");
+  EXPECT_EQ(mode.exit_code, 2);
+  EXPECT_THAT(mode.err, HasSubstr("side-by-side"));
+}
+
+}  // namespace
+}  // namespace afm::app

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "app/whole_file.h"
+#include "render/frame.h"
+#include "support/scratch_folder.h"
+
+namespace afm::support {
+
+// An X server of this test's own, without a screen, a window manager or other clients. Throws if Xvfb is missing.
+class VirtualDisplay {
+ public:
+  VirtualDisplay(int width, int height) {
+    int ends[2];
+    if (::pipe(ends) != 0) throw std::runtime_error("no pipe for Xvfb");
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      const std::string display_fd = std::to_string(ends[1]);
+      const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
+      ::execlp("Xvfb", "Xvfb", "-displayfd", display_fd.c_str(), "-screen", "0", screen.c_str(), "-fbdir",
+               folder_.path().c_str(), "-nolisten", "tcp", "-noreset", nullptr);
+      ::_exit(127);
+    }
+    ::close(ends[1]);
+
+    // it writes its number once it takes clients; the end of the pipe without one means that it has ended
+    char c = 0;
+    while (::read(ends[0], &c, 1) == 1 && c != '\n') name_ += c;
+    ::close(ends[0]);
+    if (name_.empty()) throw std::runtime_error("cannot start Xvfb: install the package xvfb");
+    name_ = ":" + name_;
+  }
+  VirtualDisplay(const VirtualDisplay&) = delete;
+  VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+  ~VirtualDisplay() {
+    ::kill(pid_, SIGTERM);
+    ::waitpid(pid_, nullptr, 0);
+  }
+
+  const std::string& name() const { return name_; }
+
+  // The whole screen, from the X window dump that Xvfb keeps it in.
+  render::Image screenshot() const {
+    const std::string dump = app::read_file(folder_.file("Xvfb_screen0")).value();
+    const auto word = [&](std::size_t i) {
+      std::uint32_t value = 0;
+      for (std::size_t byte = 0; byte < 4; ++byte)
+        value = value << 8 | static_cast<unsigned char>(dump.at(4 * i + byte));
+      return value;
+    };
+    const std::uint32_t header = word(0), width = word(4), height = word(5), bytes_per_line = word(12),
+                        colors = word(19);
+    render::Image image{.width = width, .height = height, .rgba = {}};
+    for (std::uint32_t y = 0; y < height; ++y) {
+      for (std::uint32_t x = 0; x < width; ++x) {
+        const std::size_t at = header + std::size_t{12} * colors + std::size_t{y} * bytes_per_line + std::size_t{4} * x;
+        for (const std::size_t channel : {2U, 1U, 0U})
+          image.rgba.push_back(static_cast<std::uint8_t>(dump.at(at + channel)));
+        image.rgba.push_back(255);
+      }
+    }
+    return image;
+  }
+
+ private:
+  ScratchFolder folder_;
+  pid_t pid_ = -1;
+  std::string name_;
+};
+
+}  // namespace afm::support
