@@ -36,8 +36,8 @@ constexpr double kShelfY = -0.85;
 constexpr double kShelfZ = 0.62;
 constexpr double kSwatchSpacing = 0.42;
 constexpr std::size_t kFrontSwatches = 5;  // as many as a row of the shelf holds; the others stand behind, raised
-constexpr double kBackY = -0.62;
-constexpr double kBackZ = 0.30;
+constexpr double kBackY = -0.60;
+constexpr double kBackZ = 0.52;  // before the stage
 constexpr double kBackSpacing = 0.38;
 constexpr double kSwatchRadius = 0.16;
 constexpr std::size_t kFewSwatches = 3;
@@ -145,7 +145,9 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
     look.thickness_m = build.error() ? 0.0 : -bounds_below(w.scene_, surface).low.z;
     look.full_deflection_m = events.f_ad.si / material.interaction.spring_constant.si;
     w.looks_.push_back(look);
-    w.titles_.push_back(material.title);
+    const auto of_this_title = [&](const scene::MaterialEntry& other) { return other.title == material.title; };
+    const bool alone = std::count_if(materials.materials.begin(), materials.materials.end(), of_this_title) == 1;
+    w.titles_.push_back(alone ? material.title : material.title + ", " + material.medium);
   }
   if (build.error()) return tl::unexpected(*build.error());
 
