@@ -93,7 +93,7 @@ core::Result<void> write_sweep(const CurveOptions& options, const ContactSetup& 
   std::vector<SweepAxis> axes;
   for (const std::string& text : options.sweeps) {
     const auto axis = parse_sweep_axis(text, setup.model);
-    if (!axis) return tl::unexpected(axis.error());
+    if (!axis) return wrong_usage("--sweep " + axis.error().message);
     if (!axes.empty() && axes.front().parameter == axis->parameter) {
       return wrong_usage(fmt::format("--sweep {}: it is swept twice", axis->parameter->option));
     }

@@ -73,7 +73,7 @@ core::Result<std::vector<FeltMaterial>> variations_of(const FeltMaterial& materi
   std::vector<FeltMaterial> variations;
   for (const std::string& text : options.vary) {
     const auto axis = parse_sweep_axis(text, options.model);
-    if (!axis) return tl::unexpected(axis.error());
+    if (!axis) return core::failure(axis.error().category, "--vary " + axis.error().message);
     if (axis->count > kMostVariations) {
       return core::failure(core::ErrorCategory::WrongUsage,
                            fmt::format("--vary: {} values are more than a hand has patience for; give 2 to {}",

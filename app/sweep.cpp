@@ -29,7 +29,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 tl::unexpected<core::Error> wrong_usage(const std::string& text, const std::string& why) {
-  return core::failure(core::ErrorCategory::WrongUsage, fmt::format("--sweep {}: {}", text.substr(0, 80), why));
+  return core::failure(core::ErrorCategory::WrongUsage, fmt::format("{}: {}", text.substr(0, 80), why));
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {

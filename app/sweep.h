@@ -27,7 +27,8 @@ struct SweepAxis {
 // What a sweep may hold; more is taken for a slip.
 inline constexpr std::uint64_t kLargestParameterSweep = 1'000'000;
 
-// Reads "spring-constant=0.01N/m:1N/m:50", with ":log" behind it for equal ratios. WrongUsage says what is wrong.
+// Reads "spring-constant=0.01N/m:1N/m:50", with ":log" behind it for equal ratios. WrongUsage quotes the text and says
+// what is wrong; the caller knows its option.
 core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelName& model);
 
 // What one cycle at one point of a sweep comes to; forces signed. Without hysteresis the jumps are null.

@@ -171,8 +171,9 @@ TEST(DemoOfAnotherLaw, RefusesWhatCannotBeFeltBeforeAnythingMoves) {
   EXPECT_EQ(refused("--model dynamic-paper").exit_code, 2);
   EXPECT_EQ(refused("--material unobtainium").exit_code, 2);
   EXPECT_EQ(refused("--vary spring-constant=0.1N/m:0.4N/m:1000").exit_code, 2);
+  EXPECT_THAT(refused("--vary spring-constant=0.1:0.4:2").err, HasSubstr("--vary spring-constant=0.1:0.4:2: "));
   EXPECT_EQ(refused("--measured /nonexistent").exit_code, 3);
-  const auto weak = refused("--vary work-of-adhesion=1nJ/m2:2mJ/m2:2");
+  const auto weak = refused("--vary work-of-adhesion=0.00001mJ/m2:2mJ/m2:2");
   EXPECT_NE(weak.exit_code, 0);
   EXPECT_THAT(weak.err, HasSubstr("mica"));
   EXPECT_FALSE(fs::exists(folder.file("none")));
