@@ -17,8 +17,8 @@ namespace afm::physics {
 // grips (physics/law_tables.h, with an infinite spring constant) once more, as straight pieces.
 //
 // - A piece is 1/128 of the octave of its distance to the place where its branch ends, down to 1 pm: a force that falls
-//   as a power of the distance is met to some 1e-5 of itself, and kinks lie at the ends; that of Maugis-Dugdale does
-//   not, and is rounded by 2 pN. 7.6 um from there a free tip feels nothing.
+//   as a power of the distance is met to some 1e-5 of itself, and kinks lie at the ends; those of Maugis-Dugdale,
+//   on both branches, do not, and are rounded by 2 pN. 7.6 um from there a free tip feels nothing.
 // - F is continuous along a branch, so a tip that stays on one neither gains nor loses energy.
 // - Which branch holds is a latch, as the caller's `attached`: a law that is hysteretic by itself (JKR,
 //   Maugis-Dugdale) keeps its memory.
