@@ -51,6 +51,14 @@ const char* reason(scene::FaultCode fault) {
       return "the haptic device failed";
     case scene::FaultCode::BadSharedData:
       return "the shared data was damaged";
+    case scene::FaultCode::DeadManReleased:
+      return "the Turn-On button was let go";
+    case scene::FaultCode::MotorsHot:
+      return "the device's motors are hot";
+    case scene::FaultCode::EnergyExceeded:
+      return "the hand was given more energy than the model holds";
+    case scene::FaultCode::OutOfWorkspace:
+      return "the hand left the device's workspace";
   }
   return "an unknown fault";
 }

@@ -82,13 +82,15 @@ core::Result<std::unique_ptr<ServoLink>> ServoLink::start(const scene::SharedMod
 
   if (mode == ServoMode::Process) {
     const std::string servo = std::filesystem::path(program).replace_filename("touchafm-servo").string();
-    auto process = haptics::ServoProcess::spawn(servo, link->segment_, link->side_, kServoRateHz, haptic_device);
+    auto process =
+        haptics::ServoProcess::spawn(servo, link->segment_, link->side_, {.rate_hz = kServoRateHz}, haptic_device);
     if (!process) return tl::unexpected(process.error());
     link->servo_ = std::move(*process);
   } else {
     auto opened = open_haptic_device(*choice, link->clock_);
     if (!opened) return tl::unexpected(opened.error());
-    auto thread = haptics::ServoThread::start(link->segment_, link->side_, kServoRateHz, std::move(opened->device));
+    auto thread =
+        haptics::ServoThread::start(link->segment_, link->side_, {.rate_hz = kServoRateHz}, std::move(opened->device));
     if (!thread) return tl::unexpected(thread.error());
     link->servo_ = std::move(*thread);
   }

@@ -126,7 +126,7 @@ ExitCode run(const Options& options) {
     afm::core::log_line(opened.error().message);
     return afm::app::exit_code(opened.error().category);
   }
-  auto loop = afm::haptics::ServoLoop::create(*segment, *opened->device, options.rate_hz);
+  auto loop = afm::haptics::ServoLoop::create(*segment, *opened->device, {.rate_hz = options.rate_hz});
   if (!loop) {
     afm::core::log_line(loop.error().message);
     return afm::app::exit_code(loop.error().category);

@@ -241,7 +241,8 @@ core::Result<RecordedSession> load_session(const std::string& path) {
     if (!take_all(body, session.samples) || !take_all(body, session.events) || !body.empty()) {
       return bad("its records do not fill the file; record it again");
     }
-    if (const auto valid = scene::validate(session.parameters, session.curve ? 1 : 0); !valid) {
+    if (const auto valid = scene::validate(session.parameters, session.curve ? 1 : 0, scene::kMaxHeightFields);
+        !valid) {
       return bad(valid.error().message + "; record it again");
     }
     if (session.samples.empty()) return bad("it holds no sample; record it again");

@@ -43,7 +43,8 @@ double slow_motion_of(const physics::DynamicModel& model) { return model.slow_mo
 
 core::Result<std::shared_ptr<const physics::LawTables>> felt_tables(
     const scene::SharedMaterial& material, std::span<const scene::SharedMeasuredCurve> curves) {
-  if (auto valid = scene::validate(material, static_cast<std::uint32_t>(curves.size())); !valid) {
+  if (auto valid = scene::validate(material, static_cast<std::uint32_t>(curves.size()), scene::kMaxHeightFields);
+      !valid) {
     return refusal(material, valid.error().category, valid.error().message);
   }
   try {

@@ -38,6 +38,8 @@ void count(std::array<std::uint32_t, scene::kHistogramBins>& bins, std::uint32_t
   largest = std::max(largest, us);
 }
 
+std::int64_t period_of(const ServoSettings& settings) { return std::llround(1e9 / settings.rate_hz); }
+
 std::uint32_t microseconds(std::int64_t ns) {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(ns / 1000, 0, UINT32_MAX));
 }
@@ -45,16 +47,18 @@ std::uint32_t microseconds(std::int64_t ns) {
 }  // namespace
 
 core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment& segment, HapticDevice& device,
-                                                           double rate_hz) {
+                                                           const ServoSettings& settings) {
+  const double rate_hz = settings.rate_hz;
   if (!(rate_hz >= kSlowestHz && rate_hz <= kFastestHz)) {
     return core::failure(
         core::ErrorCategory::WrongUsage,
         fmt::format("cannot run the servo at {} Hz: choose {} to {} Hz", rate_hz, kSlowestHz, kFastestHz));
   }
   // a copy, because what has been checked in shared memory may change there
-  const scene::SharedModel shared = segment.model();
+  const auto copy = std::make_unique<const scene::SharedModel>(segment.model());
+  const scene::SharedModel& shared = *copy;
   if (auto valid = scene::validate(shared); !valid) return tl::unexpected(valid.error());
-  const auto period_ns = static_cast<std::int64_t>(std::llround(1e9 / rate_hz));
+  const std::int64_t period_ns = period_of(settings);
   std::vector<std::unique_ptr<Encounter>> encounters;
   encounters.reserve(shared.material_count);
   for (std::uint32_t i = 0; i < shared.material_count; ++i) {
@@ -63,22 +67,23 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
     if (!encounter) return tl::unexpected(encounter.error());
     encounters.push_back(std::move(*encounter));
   }
-  return std::unique_ptr<ServoLoop>(new ServoLoop(segment, shared, device, period_ns, std::move(encounters)));
+  return std::unique_ptr<ServoLoop>(new ServoLoop(segment, shared, device, settings, std::move(encounters)));
 }
 
 ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
-                     std::int64_t period_ns, std::vector<std::unique_ptr<Encounter>> encounters)
+                     const ServoSettings& settings, std::vector<std::unique_ptr<Encounter>> encounters)
     : shared_(segment.servo_side()),
       device_(device),
-      period_ns_(period_ns),
+      settings_(settings),
+      period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
       exchange_(std::move(encounters)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count}, device.spec(),
-             period_ns, exchange_),
-      governor_(period_ns, force_cap_n(device.spec()), FitScaling::kStrokeM,
+             period_ns_, exchange_),
+      governor_(period_ns_, force_cap_n(device.spec()), FitScaling::kStrokeM,
                 usable_slew_n_per_s(device.spec(), SafetyGovernor::kSlewNPerS)),
       hand_position_m_(device.spec().contact_point_m) {
-  timing_.rate_hz = 1e9 / static_cast<double>(period_ns);
+  timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
   const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
   std::array<double, 16> room_from_sample{};
   std::copy_n(glm::value_ptr(rest), room_from_sample.size(), room_from_sample.begin());

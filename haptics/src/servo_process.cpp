@@ -82,7 +82,8 @@ core::FileDescriptor out_of_the_way(int descriptor) {
 
 core::Result<std::unique_ptr<ServoProcess>> ServoProcess::spawn(const std::string& program,
                                                                 scene::SharedSegment& segment,
-                                                                scene::RendererSide& side, double rate_hz,
+                                                                scene::RendererSide& side,
+                                                                const ServoSettings& settings,
                                                                 const std::string& device) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
@@ -100,7 +101,7 @@ core::Result<std::unique_ptr<ServoProcess>> ServoProcess::spawn(const std::strin
                                      "--parent-socket",
                                      std::to_string(kLifelineInChild),
                                      "--rate",
-                                     fmt::format("{}", rate_hz),
+                                     fmt::format("{}", settings.rate_hz),
                                      "--haptics",
                                      device};
   std::vector<char*> argv;
@@ -146,8 +147,9 @@ bool ServoProcess::ended_within(int milliseconds) noexcept {
 }
 
 core::Result<std::unique_ptr<ServoThread>> ServoThread::start(scene::SharedSegment& segment, scene::RendererSide& side,
-                                                              double rate_hz, std::unique_ptr<HapticDevice> device) {
-  auto loop = ServoLoop::create(segment, *device, rate_hz);
+                                                              const ServoSettings& settings,
+                                                              std::unique_ptr<HapticDevice> device) {
+  auto loop = ServoLoop::create(segment, *device, settings);
   if (!loop) return tl::unexpected(loop.error());
   return std::unique_ptr<ServoThread>(new ServoThread(std::move(device), std::move(*loop), side));
 }

@@ -32,7 +32,9 @@ bool terminated(const Name& name) { return std::find(name.begin(), name.end(), '
 
 bool known(ServoState state) { return state <= ServoState::Fault; }
 bool known(ContactPhase phase) { return phase <= ContactPhase::Attached; }
-bool known(FaultCode code) { return code <= FaultCode::BadSharedData; }
+bool known(FaultCode code) { return code <= FaultCode::OutOfWorkspace; }
+bool known(RendererLink link) { return link <= RendererLink::Died; }
+bool known(ScaleMode mode) { return mode <= ScaleMode::Compressed; }
 bool known(TipEventKind kind) { return kind == TipEventKind::JumpToContact || kind == TipEventKind::JumpOffContact; }
 
 bool within(std::int32_t material, const SharedModel& model) {
@@ -56,6 +58,13 @@ bool plausible(const SharedMeasuredCurve& curve) {
          rising_and_sane(std::span(curve.retract).first(curve.retract_count));
 }
 
+bool plausible(const SharedHeightField& field) {
+  const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxHeightFieldSide; };
+  if (!counted(field.columns) || !counted(field.rows) || !positive(field.spacing_m)) return false;
+  const std::size_t count = std::size_t{field.columns} * field.rows;
+  return std::all_of(field.height_m.begin(), field.height_m.begin() + count, [](float h) { return sane(double{h}); });
+}
+
 }  // namespace
 
 physics::LawOptions law_options(const SharedMaterial& material) {
@@ -68,7 +77,8 @@ physics::LawOptions law_options(const SharedMaterial& material) {
   return options;
 }
 
-core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count) {
+core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count,
+                            std::uint32_t height_field_count) {
   if (!terminated(material.name)) return refusal("it has a name without an end");
   if (material.law > physics::Law::Measured || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
       material.dynamic > 1) {
@@ -76,6 +86,9 @@ core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_
   }
   if (material.law == physics::Law::Measured && (material.measured_curve >= curve_count || material.dynamic != 0)) {
     return refusal("it has no measured curve, or a dynamic one");
+  }
+  if (material.height_field != kNoHeightField && material.height_field >= height_field_count) {
+    return refusal("it has a surface that is not there");
   }
   if (!(material.retardation_wavelength_m >= 0)) return refusal("its retardation wavelength is not a length");
   try {
@@ -113,8 +126,14 @@ core::Result<void> validate(const SharedModel& model) {
   for (std::uint32_t i = 0; i < model.curve_count; ++i) {
     if (!plausible(model.curves[i])) return refusal(fmt::format("measured curve {} is not along rising Z", i));
   }
+  if (model.height_field_count > kMaxHeightFields) {
+    return refusal(fmt::format("the shared scene has {} surfaces: {} fit", model.height_field_count, kMaxHeightFields));
+  }
+  for (std::uint32_t i = 0; i < model.height_field_count; ++i) {
+    if (!plausible(model.height_fields[i])) return refusal(fmt::format("surface {} is no grid of heights", i));
+  }
   for (std::uint32_t i = 0; i < model.material_count; ++i) {
-    if (auto valid = validate(model.materials[i], model.curve_count); !valid) {
+    if (auto valid = validate(model.materials[i], model.curve_count, model.height_field_count); !valid) {
       return refusal(fmt::format("material {} of the shared scene: {}", i, valid.error().message));
     }
   }
@@ -127,7 +146,9 @@ bool plausible(const SceneTransforms& transforms, const SharedModel& model) {
                      [](const auto& matrix) { return all_sane(matrix); });
 }
 
-bool plausible(const Selection& selection, const SharedModel& model) { return within(selection.material, model); }
+bool plausible(const Selection& selection, const SharedModel& model) {
+  return within(selection.material, model) && known(selection.scale_mode);
+}
 
 bool plausible(const HandScript& script) {
   return all_sane(script.target_m) && sane(script.duration_s) && script.duration_s >= 0 && script.turn_on_pressed <= 1;
@@ -139,14 +160,18 @@ bool plausible(const TipState& state, const SharedModel& model) {
   return sane(state.z_m) && sane(state.tip_height_m) && sane(state.deflection_m) && sane(state.sample_deformation_m) &&
          sane(state.force_n) && all_sane(state.hand_position_m) && all_sane(state.hand_force_n) &&
          std::isfinite(state.hand_m_per_m) && std::isfinite(state.hand_n_per_n) && positive(state.slow_motion) &&
+         all_sane(state.tip_xy_m) && sane(state.surface_height_m) && all_sane(state.normal) &&
+         sane(state.force_cap_n) && std::isfinite(state.slew_limit_n_per_s) && sane(state.motor_heat) &&
+         sane(state.thermal_gain) && sane(state.ledger_j) && sane(state.ledger_damping) && known(state.scale_mode) &&
          known(state.servo_state) && known(state.phase) && known(state.fault) && within(state.material, model);
 }
 
 bool plausible(const TipSample& sample, const SharedModel& model) {
   return sane(sample.z_m) && sane(sample.force_n) && sane(sample.tip_height_m) && sane(sample.deflection_m) &&
          sane(sample.sample_deformation_m) && sane(sample.hand_height_m) && sane(sample.hand_force_n) &&
-         all_sane(sample.hand_from_contact_m) && known(sample.servo_state) && known(sample.phase) &&
-         within(sample.material, model);
+         all_sane(sample.hand_from_contact_m) && all_sane(sample.sample_normal) && all_sane(sample.tip_xy_m) &&
+         sane(sample.surface_height_m) && known(sample.renderer) && known(sample.scale_mode) &&
+         known(sample.servo_state) && known(sample.phase) && within(sample.material, model);
 }
 
 bool plausible(const TipEvent& event, const SharedModel& model) {

@@ -49,7 +49,7 @@ class ServoDevices : public testing::Test {
  protected:
   ServoDevices() { side.store(scene::Selection{.material = test::kMica, .revision = 1}); }
 
-  auto start(const std::string& choice) { return ServoProcess::spawn(kServoProgram, segment, side, 1000.0, choice); }
+  auto start(const std::string& choice) { return ServoProcess::spawn(kServoProgram, segment, side, {}, choice); }
 
   // Beats and collects samples until the condition holds.
   bool until(ServoProcess& servo, const std::function<bool()>& condition) {
@@ -127,7 +127,7 @@ RecordedSession record_cycle() {
   auto recorded = std::move(*scene::SharedSegment::create(test::paper_model(), 0));
   auto renderer = recorded.renderer_side();
   haptics::SimulatedDevice device;
-  auto loop = std::move(*haptics::ServoLoop::create(recorded, device, 1000.0));
+  auto loop = std::move(*haptics::ServoLoop::create(recorded, device, {}));
   renderer.store(scene::Selection{.material = test::kMica, .revision = 1});
   RecordedSession session;
   session.material = "mica";

@@ -41,7 +41,7 @@ class HdapiBench {
     prepare();
     device = std::move(*haptics::HdapiDevice::open(*haptics::load_hdapi(AFM_MOCK_HD).functions, clock, "",
                                                    haptics::HdapiDevice::Supervision::Caller));
-    loop = std::move(*haptics::ServoLoop::create(segment, *device, 1000.0));
+    loop = std::move(*haptics::ServoLoop::create(segment, *device, {}));
     renderer.store(scene::Selection{.material = kMica, .revision = 1});
   }
 

@@ -156,7 +156,7 @@ TEST(MaterialEdit, IsFeltByTheSuccessorOfAServoThatDied) {
   bench.arm(kMica);
   bench.edit(kMica, mica_on_a_lever_of(0.2));
   afm::haptics::SimulatedDevice device;
-  auto successor = afm::haptics::ServoLoop::create(bench.segment, device, 1000.0);
+  auto successor = afm::haptics::ServoLoop::create(bench.segment, device, {});
   ASSERT_TRUE(successor);
   for (int i = 0; i < 50; ++i) {
     bench.renderer.store(RendererHeartbeat{});

@@ -43,7 +43,7 @@ class Recorder final : public HapticDevice {
 std::vector<TipSample> run(HapticDevice& device, int ticks) {
   auto segment = std::move(*SharedSegment::create(afm::test::paper_model(), 0));
   auto renderer = segment.renderer_side();
-  auto loop = std::move(*ServoLoop::create(segment, device, 1000.0));
+  auto loop = std::move(*ServoLoop::create(segment, device, {}));
   renderer.store(Selection{.material = afm::test::kMica, .revision = 1});
   std::vector<TipSample> samples;
   std::int64_t now_ns = 1'000'000'000;

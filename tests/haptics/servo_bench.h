@@ -29,7 +29,7 @@ class ServoBench {
   explicit ServoBench(const scene::SharedModel& model = paper_model(), double rate_hz = 1000.0)
       : segment(required(scene::SharedSegment::create(model, 0))),
         renderer(segment.renderer_side()),
-        loop(required(haptics::ServoLoop::create(segment, device, rate_hz))) {}
+        loop(required(haptics::ServoLoop::create(segment, device, {.rate_hz = rate_hz}))) {}
 
   // One tick `late_ns` after its time.
   void tick(std::int64_t late_ns = 0) {

@@ -275,7 +275,7 @@ TEST(ServoLoop, ReleasesADeviceThatReportsNonsense) {
                       +[](afm::haptics::DeviceSample& s) { s.healthy = false; }}) {
     auto segment = SharedSegment::create(paper_model(), 0);
     FaultyDevice device;
-    auto loop = ServoLoop::create(*segment, device, 1000.0);
+    auto loop = ServoLoop::create(*segment, device, {});
     RendererSide renderer = segment->renderer_side();
     renderer.store(Selection{.material = kMica, .revision = 1});
     std::int64_t now_ns = 0;
@@ -306,7 +306,7 @@ TEST(ServoLoop, GoesOnInASegmentWhereItsPredecessorDied) {
   ServoBench bench;
   bench.hold_attached(kMica);
   SimulatedDevice device;
-  auto successor = ServoLoop::create(bench.segment, device, 1000.0);
+  auto successor = ServoLoop::create(bench.segment, device, {});
   ASSERT_TRUE(successor);
   for (int i = 0; i < 50; ++i) {
     bench.renderer.store(RendererHeartbeat{});
@@ -322,7 +322,7 @@ TEST(ServoLoop, RefusesARateThatNoServoCanKeep) {
   auto segment = SharedSegment::create(paper_model(), 0);
   SimulatedDevice device;
   for (const double rate_hz : {0.0, 99.0, 20'000.0, -1000.0, kNan}) {
-    EXPECT_THAT(ServoLoop::create(*segment, device, rate_hz).error().message,
+    EXPECT_THAT(ServoLoop::create(*segment, device, {.rate_hz = rate_hz}).error().message,
                 testing::HasSubstr("choose 100 to 10000 Hz"));
   }
 }
@@ -333,7 +333,7 @@ TEST(ServoLoop, RefusesAMaterialWithoutAForceLaw) {
   model.materials[kGold].interaction.mean_surface_energy.si = 1e-6;
   auto segment = SharedSegment::create(model, 0);
   SimulatedDevice device;
-  EXPECT_THAT(ServoLoop::create(*segment, device, 1000.0).error().message, testing::HasSubstr("gold"));
+  EXPECT_THAT(ServoLoop::create(*segment, device, {}).error().message, testing::HasSubstr("gold"));
 }
 
 }  // namespace

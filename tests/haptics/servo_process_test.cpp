@@ -158,7 +158,7 @@ class RendererProcess {
  private:
   [[noreturn]] static void draw(SharedSegment& segment, int ready) {
     RendererSide side = segment.renderer_side();
-    auto servo = ServoProcess::spawn(kServoProgram, segment, side, kRateHz);
+    auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
     Renderer renderer(side);
     if (!servo || !renderer.hold_attached()) ::_exit(1);
     const pid_t pid = (*servo)->pid();
@@ -225,7 +225,7 @@ TEST(ServoProcess, FadesWhenTheRendererIsStoppedAndStaysDisarmedWhenItGoesOn) {
 TEST(ServoProcess, IsSeenDeadWhenItIsKilledAndCanBeStartedAgain) {
   SharedSegment segment = create_segment();
   RendererSide side = segment.renderer_side();
-  auto servo = ServoProcess::spawn(kServoProgram, segment, side, kRateHz);
+  auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
   ASSERT_TRUE(servo) << servo.error().message;
   Renderer renderer(side);
   ASSERT_TRUE(renderer.until([](const TipState& state) { return state.tick > 20; }));
@@ -238,7 +238,7 @@ TEST(ServoProcess, IsSeenDeadWhenItIsKilledAndCanBeStartedAgain) {
   EXPECT_EQ((*servo)->exit_status(), 128 + SIGKILL);
 
   const std::uint64_t last_tick = side.tip_state()->tick;
-  servo = ServoProcess::spawn(kServoProgram, segment, side, kRateHz);
+  servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
   ASSERT_TRUE(servo) << servo.error().message;
   EXPECT_TRUE(renderer.until([&](const TipState& state) { return state.tick < last_tick; }));
   EXPECT_TRUE(renderer.until([&](const TipState& state) { return state.tick > 20; }));
@@ -247,7 +247,7 @@ TEST(ServoProcess, IsSeenDeadWhenItIsKilledAndCanBeStartedAgain) {
 TEST(ServoProcess, LeavesInGoodOrderAndNoZombieBehind) {
   SharedSegment segment = create_segment();
   RendererSide side = segment.renderer_side();
-  auto servo = ServoProcess::spawn(kServoProgram, segment, side, kRateHz);
+  auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
   ASSERT_TRUE(servo);
   Renderer renderer(side);
   ASSERT_TRUE(renderer.hold_attached());
@@ -261,7 +261,7 @@ TEST(ServoProcess, LeavesInGoodOrderAndNoZombieBehind) {
 TEST(ServoProcess, EndsOnSigtermWithZeroAfterReleasingTheHand) {
   SharedSegment segment = create_segment();
   RendererSide side = segment.renderer_side();
-  auto servo = ServoProcess::spawn(kServoProgram, segment, side, kRateHz);
+  auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
   ASSERT_TRUE(servo);
   Renderer renderer(side);
   ASSERT_TRUE(renderer.hold_attached());
@@ -275,7 +275,7 @@ TEST(ServoProcess, InheritsTheTwoDescriptorsAndNoOthers) {
   const FileDescriptor stray(::open("/dev/null", O_RDONLY));  // without O_CLOEXEC, as a careless library might
   SharedSegment segment = create_segment();
   RendererSide side = segment.renderer_side();
-  auto servo = ServoProcess::spawn(kServoProgram, segment, side, kRateHz);
+  auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
   ASSERT_TRUE(servo);
   ASSERT_TRUE(Renderer(side).until([](const TipState& state) { return state.tick > 20; }));
   std::vector<std::string> targets;
@@ -291,7 +291,7 @@ TEST(ServoProcess, InheritsTheTwoDescriptorsAndNoOthers) {
 TEST(ServoProcess, SaysWhatIsMissingWhenItCannotBeStarted) {
   SharedSegment segment = create_segment();
   RendererSide side = segment.renderer_side();
-  const auto servo = ServoProcess::spawn("/nowhere/touchafm-servo", segment, side, kRateHz);
+  const auto servo = ServoProcess::spawn("/nowhere/touchafm-servo", segment, side, {.rate_hz = kRateHz});
   ASSERT_FALSE(servo);
   EXPECT_THAT(servo.error().message, HasSubstr("cannot start the servo /nowhere/touchafm-servo: No such file"));
 }
@@ -299,7 +299,8 @@ TEST(ServoProcess, SaysWhatIsMissingWhenItCannotBeStarted) {
 TEST(ServoThread, RunsTheSameLoopAndLeavesInGoodOrder) {
   SharedSegment segment = create_segment();
   RendererSide side = segment.renderer_side();
-  auto servo = ServoThread::start(segment, side, kRateHz, std::make_unique<afm::haptics::SimulatedDevice>());
+  auto servo =
+      ServoThread::start(segment, side, {.rate_hz = kRateHz}, std::make_unique<afm::haptics::SimulatedDevice>());
   ASSERT_TRUE(servo);
   Renderer renderer(side);
   ASSERT_TRUE(renderer.hold_attached());
@@ -323,7 +324,7 @@ std::uint32_t percentile(const std::array<std::uint32_t, kHistogramBins>& bins, 
 TEST(ServoProcess, CountsEveryTickInItsHistograms) {
   SharedSegment segment = create_segment();
   RendererSide side = segment.renderer_side();
-  auto servo = ServoProcess::spawn(kServoProgram, segment, side, kRateHz);
+  auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
   ASSERT_TRUE(servo);
   Renderer renderer(side);
   ASSERT_TRUE(renderer.hold_attached());

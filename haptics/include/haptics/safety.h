@@ -9,14 +9,7 @@
 
 namespace afm::haptics {
 
-// What the servo knows of the process that draws.
-enum class RendererLink {
-  Absent,  // has not shown a sign of life yet
-  Alive,
-  Hung,     // no heartbeat for kHangNs
-  Leaving,  // said goodbye
-  Died,
-};
+using scene::RendererLink;
 
 // One tick as the governor sees it; hand's values in the device frame.
 struct GovernorInput {

@@ -19,6 +19,13 @@
 
 namespace afm::haptics {
 
+// How a servo is run; what touchafm's options say.
+struct ServoSettings {
+  double rate_hz = 1000.0;   // 100 Hz to 10 kHz
+  bool dead_man = false;     // the force lasts only as long as Turn-On is held
+  std::int64_t spin_ns = 0;  // the end of every wait that is spent awake, for a punctual tick; 0 to half a period
+};
+
 enum class ServoExit { RendererLeft, RendererDied, Stopped };
 
 // The servo: hand's position in, force out, once a period, and a record of it in the shared segment. It reads what the
@@ -30,10 +37,10 @@ enum class ServoExit { RendererLeft, RendererDied, Stopped };
 class ServoLoop {
  public:
   // Builds the force law and the scaling of every material, so that a tick never has to. Fails on materials without
-  // a force law, on a device that cannot show them, and on a rate outside 100 Hz to 10 kHz. The segment and the device
+  // a force law, on a device that cannot show them, and on settings out of range. The segment and the device
   // must outlive the loop.
   static core::Result<std::unique_ptr<ServoLoop>> create(scene::SharedSegment& segment, HapticDevice& device,
-                                                         double rate_hz);
+                                                         const ServoSettings& settings);
 
   // One period. `now_ns` grows from tick to tick; `wake_us` is how late it came and is only recorded.
   void tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
@@ -56,7 +63,7 @@ class ServoLoop {
 
  private:
   ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
-            std::int64_t period_ns, std::vector<std::unique_ptr<Encounter>> encounters);
+            const ServoSettings& settings, std::vector<std::unique_ptr<Encounter>> encounters);
 
   void read_shared_blocks(std::int64_t now_ns) noexcept;
   void turn_sample(const std::array<double, 16>& room_from_sample) noexcept;
@@ -69,6 +76,7 @@ class ServoLoop {
 
   scene::ServoSide shared_;
   HapticDevice& device_;
+  ServoSettings settings_;
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
   EncounterExchange exchange_;

@@ -39,11 +39,11 @@ class Servo {
 // hand.
 class ServoProcess final : public Servo {
  public:
-  // `program` is the path of touchafm-servo; `rate_hz` is what ServoLoop takes; `device` names the device as
+  // `program` is the path of touchafm-servo; `settings` are what ServoLoop takes; `device` names the device as
   // touchafm's --haptics does. A servo that cannot have it says why on stderr and ends with an exit code of the
   // program.
   static core::Result<std::unique_ptr<ServoProcess>> spawn(const std::string& program, scene::SharedSegment& segment,
-                                                           scene::RendererSide& side, double rate_hz,
+                                                           scene::RendererSide& side, const ServoSettings& settings,
                                                            const std::string& device = "sim");
 
   // Waits at most 2 s for the servo to leave; then it is terminated, then killed. Leaves no zombie.
@@ -70,7 +70,8 @@ class ServoProcess final : public Servo {
 class ServoThread final : public Servo {
  public:
   static core::Result<std::unique_ptr<ServoThread>> start(scene::SharedSegment& segment, scene::RendererSide& side,
-                                                          double rate_hz, std::unique_ptr<HapticDevice> device);
+                                                          const ServoSettings& settings,
+                                                          std::unique_ptr<HapticDevice> device);
   ~ServoThread() override;
 
   bool alive() noexcept override { return !exit_status().has_value(); }

@@ -18,9 +18,12 @@ inline constexpr std::uint32_t kMaxNodes = 128;
 inline constexpr std::uint32_t kMaxMaterials = 32;
 inline constexpr std::uint32_t kMaxMeasuredCurves = 4;
 inline constexpr std::uint32_t kMaxMeasuredPoints = 512;  // of one branch
+inline constexpr std::uint32_t kMaxHeightFields = 8;
+inline constexpr std::uint32_t kMaxHeightFieldSide = 129;  // vertices
 inline constexpr std::uint32_t kNameLength = 48;
 inline constexpr std::uint32_t kNoParent = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kNoMeasuredCurve = 0xFFFFFFFFU;
+inline constexpr std::uint32_t kNoHeightField = 0xFFFFFFFFU;
 
 using Name = std::array<char, kNameLength>;  // zero-terminated UTF-8
 
@@ -44,8 +47,8 @@ struct SharedMaterial {
   std::uint32_t has_meniscus = 0;                   // 0 or 1
   double retardation_wavelength_m = 0;              // 0: not retarded
   physics::Meniscus meniscus{};
-  std::uint32_t dynamic = 0;  // 1: with the inertia, damping and thermal noise of the lever
-  std::uint32_t padding = 0;
+  std::uint32_t dynamic = 0;                    // 1: with the inertia, damping and thermal noise of the lever
+  std::uint32_t height_field = kNoHeightField;  // index into SharedModel::height_fields; none: a plane
   physics::LeverDynamics lever{};
 };
 
@@ -57,14 +60,26 @@ struct SharedMeasuredCurve {
   std::array<physics::MeasuredPoint, kMaxMeasuredPoints> retract{};
 };
 
+// The surface of a sample as it is drawn: heights on a square grid that is centred on the origin of the sample's frame,
+// row by row from -y to +y, x fastest; metres of the nanoworld along +z.
+struct SharedHeightField {
+  std::uint32_t columns = 0;
+  std::uint32_t rows = 0;
+  double spacing_m = 0;
+  std::array<float, kMaxHeightFieldSide * kMaxHeightFieldSide> height_m{};
+};
+
 struct SharedModel {
   std::uint32_t node_count = 0;
   std::uint32_t material_count = 0;
   std::uint32_t sample_node = 0;  // its orientation turns the force: +z of this node is the outward normal
   std::uint32_t curve_count = 0;
+  std::uint32_t height_field_count = 0;
+  std::uint32_t padding = 0;
   std::array<SharedNode, kMaxNodes> nodes{};
   std::array<SharedMaterial, kMaxMaterials> materials{};
   std::array<SharedMeasuredCurve, kMaxMeasuredCurves> curves{};
+  std::array<SharedHeightField, kMaxHeightFields> height_fields{};
 };
 
 // ---- written by touchafm ----
@@ -76,10 +91,16 @@ struct SceneTransforms {
   std::array<std::array<double, 16>, kMaxNodes> room_from_node{};
 };
 
-// The material that the wand chose. `revision` grows by one with every choice.
+// How nanometres and nanonewtons become a hand's: one scale for all materials, one that fits each (the usual), or that
+// with small forces raised by a bounded compression.
+enum class ScaleMode : std::uint32_t { Common = 0, Fit = 1, Compressed = 2 };
+
+// The material that the wand chose, and the scale on which it is to be felt. `revision` grows by one with every choice.
 struct Selection {
   std::int32_t material = -1;  // index into SharedModel::materials, -1: none yet
   std::uint32_t revision = 0;
+  ScaleMode scale_mode = ScaleMode::Fit;
+  std::uint32_t padding = 0;
 };
 
 // Other parameters for one material while the servo runs. `revision` grows by one with every edit, of whichever
@@ -124,6 +145,19 @@ enum class FaultCode : std::uint32_t {
   VelocityTrip = 5,
   DeviceError = 6,
   BadSharedData = 7,
+  DeadManReleased = 8,
+  MotorsHot = 9,
+  EnergyExceeded = 10,
+  OutOfWorkspace = 11,
+};
+
+// What the servo saw of the process that draws.
+enum class RendererLink : std::uint32_t {
+  Absent = 0,  // has not shown a sign of life yet
+  Alive = 1,
+  Hung = 2,     // no heartbeat for too long
+  Leaving = 3,  // said goodbye
+  Died = 4,
 };
 
 // The newest state of the tip, once a tick. Heights along +z of the sample; forces on the tip, positive away from the
@@ -131,7 +165,7 @@ enum class FaultCode : std::uint32_t {
 struct TipState {
   std::int64_t time_ns = 0;  // CLOCK_MONOTONIC at the device read
   std::uint64_t tick = 0;
-  double z_m = 0;  // piezo displacement Z: what the hand commands
+  double z_m = 0;  // piezo displacement Z above the surface below the tip: what the hand commands
   double tip_height_m = 0;
   double deflection_m = 0;          // delta_c
   double sample_deformation_m = 0;  // delta_s
@@ -141,6 +175,17 @@ struct TipState {
   double hand_m_per_m = 0;               // position scale: metres of hand per metre of Z
   double hand_n_per_n = 0;               // force scale: newtons on the hand per newton on the tip
   double slow_motion = 1;                // seconds that a second of the lever's physics takes; 1 without dynamics
+  std::array<double, 2> tip_xy_m{};      // the tip's place over the sample, in the sample's frame
+  double surface_height_m = 0;           // of the surface below the tip, along +z of the sample
+  std::array<double, 3> normal{0.0, 1.0, 0.0};  // outward normal of the surface below the tip, device frame, unit
+  double force_cap_n = 0;                       // the longest force vector that may be given now
+  double slew_limit_n_per_s = 0;
+  double motor_heat = 0;      // 0: cold, 1: as hot as the motors may become
+  double thermal_gain = 1;    // what is left of the force to let the motors cool
+  double ledger_j = 0;        // energy that the hand has got beyond what the model and its sampling may give
+  double ledger_damping = 0;  // N s/m that the ledger adds in this tick
+  ScaleMode scale_mode = ScaleMode::Fit;
+  std::uint32_t dead_man = 0;  // 1: the force lasts only as long as the button is held
   ServoState servo_state = ServoState::Disarmed;
   ContactPhase phase = ContactPhase::WaitForLift;
   FaultCode fault = FaultCode::None;
@@ -167,10 +212,16 @@ struct TipSample {
   ServoState servo_state = ServoState::Disarmed;
   ContactPhase phase = ContactPhase::WaitForLift;
   std::int32_t material = -1;
-  std::uint32_t wake_us = 0;                    // how late this tick woke
-  std::uint32_t edit_revision = 0;              // as in TipState
-  std::uint32_t turn_on = 0;                    // 1: the button was held
-  std::array<double, 3> hand_from_contact_m{};  // device frame, from where Z = 0: with turn_on all that a replay needs
+  std::uint32_t wake_us = 0;        // how late this tick woke
+  std::uint32_t edit_revision = 0;  // as in TipState
+  std::uint32_t turn_on = 0;        // 1: the button was held
+  RendererLink renderer = RendererLink::Absent;
+  ScaleMode scale_mode = ScaleMode::Fit;
+  // device frame, from where Z = 0: with turn_on, renderer and the sample's normal all that a replay needs
+  std::array<double, 3> hand_from_contact_m{};
+  std::array<double, 3> sample_normal{0.0, 1.0, 0.0};  // +z of the sample's frame, unit
+  std::array<double, 2> tip_xy_m{};                    // as in TipState
+  double surface_height_m = 0;                         // as in TipState
 };
 
 enum class TipEventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2 };

@@ -17,7 +17,7 @@
 namespace afm::scene {
 
 // Raised whenever the meaning of a block changes; a change of a block's size is noticed by itself.
-inline constexpr std::uint32_t kSegmentVersion = 2;
+inline constexpr std::uint32_t kSegmentVersion = 3;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;
@@ -27,9 +27,10 @@ struct SegmentLayout;
 // Counts in range, parents before children, names terminated, numbers finite, materials and curves as below.
 core::Result<void> validate(const SharedModel& model);
 
-// A material that physics::validate() accepts, of a law and with options that are known; `curve_count` as in
+// A material that physics::validate() accepts, of a law and with options that are known; the counts are those of its
 // SharedModel. Whether it can be felt as well, only building it can tell.
-core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count);
+core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count,
+                            std::uint32_t height_field_count);
 
 physics::LawOptions law_options(const SharedMaterial& material);
 
