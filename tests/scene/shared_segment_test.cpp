@@ -127,7 +127,7 @@ TEST(SharedSegment, PrintsBothVersionsWhenTheyDiffer) {
   const SharedSegment segment = create_segment();
   overwrite(segment, kVersionOffset, std::uint32_t{kSegmentVersion + 41});
   EXPECT_THAT(attach_error(segment), HasSubstr("version " + std::to_string(kSegmentVersion + 41)));
-  EXPECT_THAT(attach_error(segment), HasSubstr("version " + std::to_string(kSegmentVersion) + ":"));
+  EXPECT_THAT(attach_error(segment), HasSubstr("version " + std::to_string(kSegmentVersion) + ";"));
 }
 
 TEST(SharedSegment, RefusesOtherBlockSizes) {
