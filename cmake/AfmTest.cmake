@@ -7,7 +7,7 @@ add_custom_target(threaded_tests)
 
 # afm_test(NAME folder.unit SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT seconds] [WHOLE])
 # One executable test_folder_unit; every TEST in it becomes a CTest case named folder.Suite.Case. With WHOLE the executable is
-# one case, for suites whose set-up is dear, and nothing runs beside it.
+# one case, for suites whose set-up is dear. Nothing runs beside it, nor beside a test of real time.
 function(afm_test)
   cmake_parse_arguments(T "WHOLE" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   string(REPLACE "." "_" target "test_${T_NAME}")
@@ -28,6 +28,10 @@ function(afm_test)
     set_tests_properties(${T_NAME} PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL TRUE)
     return()
   endif()
+  set(alone FALSE)
+  if(T_LABELS STREQUAL "realtime")
+    set(alone TRUE)
+  endif()
   gtest_discover_tests(${target} NO_PRETTY_VALUES TEST_PREFIX "${folder}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT})
+                       PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${alone})
 endfunction()

@@ -21,96 +21,19 @@
 #include <utility>
 #include <vector>
 
-#include "core/clock.h"
 #include "haptics/simulated_device.h"
-#include "support/paper_model.h"
+#include "live_renderer.h"
 
-// Real processes and real time. What must happen is waited for with a generous limit; how long it took is printed and
-// decides nothing.
+// Real processes and real time. How long something took is printed and decides nothing.
 namespace {
 
 using namespace afm::scene;
+using namespace afm::test;
 using afm::core::FileDescriptor;
 using afm::haptics::Servo;
 using afm::haptics::ServoProcess;
 using afm::haptics::ServoThread;
-using afm::test::kMica;
-using afm::test::paper_model;
 using testing::HasSubstr;
-
-const std::string kServoProgram = AFM_BINARY_DIR "/bin/touchafm-servo";
-constexpr double kRateHz = 1000.0;
-constexpr auto kPatience = std::chrono::seconds(10);
-
-std::int64_t now_ns() { return afm::core::MonotonicClock().now_ns(); }
-
-void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }
-
-bool eventually(const std::function<bool()>& condition) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    pause();
-  }
-  return true;
-}
-
-SharedSegment create_segment() { return std::move(*SharedSegment::create(paper_model(), 0)); }
-
-// What touchafm does, and nothing else: heartbeats while it waits for something.
-class Renderer {
- public:
-  explicit Renderer(RendererSide& side) : side_(side) {}
-
-  bool until(const std::function<bool(const TipState&)>& condition) {
-    return eventually([&] {
-      side_.store(RendererHeartbeat{.time_ns = now_ns(), .frame = ++frame_});
-      const auto state = side_.tip_state();
-      return state && condition(*state);
-    });
-  }
-
-  void aim(double height_m, double seconds, bool pressed = false) {
-    side_.store(HandScript{.target_m = {0.0, height_m, 0.0},
-                           .duration_s = seconds,
-                           .revision = ++script_,
-                           .turn_on_pressed = pressed ? 1U : 0U});
-  }
-
-  bool played() {
-    return until([this](const TipState& state) { return state.hand_revision == script_; });
-  }
-
-  // The paper's procedure, until the tip hangs on mica and the hand feels more than half a newton. A stall of this
-  // machine may disarm the servo on the way; then the person begins again, as a person would.
-  bool hold_attached() {
-    side_.store(Selection{.material = kMica, .revision = 1});
-    for (int attempt = 0; attempt < 5; ++attempt) {
-      aim(0.060, 0.4);
-      if (!played()) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(200));
-      aim(0.060, 0.3, true);
-      if (!played()) return false;
-      aim(0.060, 0.5);
-      if (!played()) return false;
-      aim(-0.010, 0.4);
-      if (!played()) return false;
-      aim(0.025, 0.4);
-      if (!played()) return false;
-      const bool held = until([](const TipState& state) {
-        return state.hand_force_n[1] < -0.5 || state.servo_state == ServoState::Disarmed;
-      });
-      if (!held) return false;
-      if (side_.tip_state()->hand_force_n[1] < -0.5) return true;
-    }
-    return false;
-  }
-
- private:
-  RendererSide& side_;
-  std::uint64_t frame_ = 0;
-  std::uint32_t script_ = 0;
-};
 
 // A renderer in a process of its own, which starts a servo, holds the tip on the sample and then draws for ever. The
 // test shares the segment with both and inherits the servo when the renderer dies.
@@ -159,7 +82,7 @@ class RendererProcess {
   [[noreturn]] static void draw(SharedSegment& segment, int ready) {
     RendererSide side = segment.renderer_side();
     auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
-    Renderer renderer(side);
+    LiveRenderer renderer(side);
     if (!servo || !renderer.hold_attached()) ::_exit(1);
     const pid_t pid = (*servo)->pid();
     if (::write(ready, &pid, sizeof(pid)) != static_cast<ssize_t>(sizeof(pid))) ::_exit(1);
@@ -183,43 +106,53 @@ std::int64_t released_at(RendererSide& side, std::int64_t since_ns) {
   return first_ns;
 }
 
+// A stall of the machine made the servo let go before the test could: try again.
+bool let_go_before(const TipState& state) { return state.fault == FaultCode::LateTick; }
+
 TEST(ServoProcess, ReleasesTheHandAndEndsWhenTheRendererIsKilled) {
-  for (int round = 0; round < 3; ++round) {
+  int rounds = 0;
+  EXPECT_TRUE(eventually([&] {
     SharedSegment segment = create_segment();
     RendererProcess renderer(segment);
     RendererSide side = segment.renderer_side();
-    ASSERT_LT(side.tip_state()->hand_force_n[1], -0.5);
 
     const std::int64_t killed_ns = now_ns();
     renderer.signal(SIGKILL);
     const std::int64_t released_ns = released_at(side, killed_ns);
-    ASSERT_NE(released_ns, 0);
+    EXPECT_NE(released_ns, 0);
     EXPECT_EQ(renderer.servo_exit_code(), 1);
     EXPECT_THAT(renderer.log(), HasSubstr("the renderer died: force released"));
     const TipState last = *side.tip_state();
     EXPECT_EQ(last.hand_force_n, (std::array<double, 3>{}));
+    if (let_go_before(last)) return false;
     EXPECT_EQ(last.fault, FaultCode::RendererDied);
     std::printf("force exactly zero %.1f ms after the kill\n", 1e-6 * static_cast<double>(released_ns - killed_ns));
-  }
+    return ++rounds == 2;
+  }));
 }
 
 TEST(ServoProcess, FadesWhenTheRendererIsStoppedAndStaysDisarmedWhenItGoesOn) {
-  SharedSegment segment = create_segment();
-  RendererProcess renderer(segment);
-  RendererSide side = segment.renderer_side();
-  const std::int64_t stopped_ns = now_ns();
-  renderer.signal(SIGSTOP);
-  const std::int64_t released_ns = released_at(side, stopped_ns);
-  ASSERT_NE(released_ns, 0);
-  EXPECT_EQ(side.tip_state()->fault, FaultCode::RendererHung);
-  std::printf("force exactly zero %.1f ms after the stop\n", 1e-6 * static_cast<double>(released_ns - stopped_ns));
+  EXPECT_TRUE(eventually([&] {
+    SharedSegment segment = create_segment();
+    RendererProcess renderer(segment);
+    RendererSide side = segment.renderer_side();
+    const std::int64_t stopped_ns = now_ns();
+    renderer.signal(SIGSTOP);
+    const std::int64_t released_ns = released_at(side, stopped_ns);
+    EXPECT_NE(released_ns, 0);
+    const TipState stopped = *side.tip_state();
 
-  renderer.signal(SIGCONT);
-  pause();
-  EXPECT_EQ(side.tip_state()->servo_state, ServoState::Disarmed);
-  EXPECT_EQ(side.tip_state()->hand_force_n, (std::array<double, 3>{}));
-  renderer.signal(SIGKILL);
-  EXPECT_EQ(renderer.servo_exit_code(), 1);
+    renderer.signal(SIGCONT);
+    wait_a_little();
+    EXPECT_EQ(side.tip_state()->servo_state, ServoState::Disarmed);
+    EXPECT_EQ(side.tip_state()->hand_force_n, (std::array<double, 3>{}));
+    renderer.signal(SIGKILL);
+    EXPECT_EQ(renderer.servo_exit_code(), 1);
+    if (let_go_before(stopped)) return false;
+    EXPECT_EQ(stopped.fault, FaultCode::RendererHung);
+    std::printf("force exactly zero %.1f ms after the stop\n", 1e-6 * static_cast<double>(released_ns - stopped_ns));
+    return true;
+  }));
 }
 
 TEST(ServoProcess, IsSeenDeadWhenItIsKilledAndCanBeStartedAgain) {
@@ -227,7 +160,7 @@ TEST(ServoProcess, IsSeenDeadWhenItIsKilledAndCanBeStartedAgain) {
   RendererSide side = segment.renderer_side();
   auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
   ASSERT_TRUE(servo) << servo.error().message;
-  Renderer renderer(side);
+  LiveRenderer renderer(side);
   ASSERT_TRUE(renderer.until([](const TipState& state) { return state.tick > 20; }));
   EXPECT_TRUE((*servo)->alive());
 
@@ -245,17 +178,21 @@ TEST(ServoProcess, IsSeenDeadWhenItIsKilledAndCanBeStartedAgain) {
 }
 
 TEST(ServoProcess, LeavesInGoodOrderAndNoZombieBehind) {
-  SharedSegment segment = create_segment();
-  RendererSide side = segment.renderer_side();
-  auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
-  ASSERT_TRUE(servo);
-  Renderer renderer(side);
-  ASSERT_TRUE(renderer.hold_attached());
-  const pid_t pid = (*servo)->pid();
-  servo->reset();
-  EXPECT_NE(::kill(pid, 0), 0);
-  EXPECT_EQ(side.tip_state()->hand_force_n, (std::array<double, 3>{}));
-  EXPECT_EQ(side.tip_state()->fault, FaultCode::None);
+  EXPECT_TRUE(eventually([&] {
+    SharedSegment segment = create_segment();
+    RendererSide side = segment.renderer_side();
+    auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
+    EXPECT_TRUE(servo);
+    EXPECT_TRUE(LiveRenderer(side).hold_attached());
+    const pid_t pid = (*servo)->pid();
+    servo->reset();
+    EXPECT_NE(::kill(pid, 0), 0);
+    const TipState last = *side.tip_state();
+    EXPECT_EQ(last.hand_force_n, (std::array<double, 3>{}));
+    if (let_go_before(last)) return false;
+    EXPECT_EQ(last.fault, FaultCode::None);
+    return true;
+  }));
 }
 
 TEST(ServoProcess, EndsOnSigtermWithZeroAfterReleasingTheHand) {
@@ -263,7 +200,7 @@ TEST(ServoProcess, EndsOnSigtermWithZeroAfterReleasingTheHand) {
   RendererSide side = segment.renderer_side();
   auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
   ASSERT_TRUE(servo);
-  Renderer renderer(side);
+  LiveRenderer renderer(side);
   ASSERT_TRUE(renderer.hold_attached());
   ::kill((*servo)->pid(), SIGTERM);
   ASSERT_TRUE(eventually([&] { return !(*servo)->alive(); }));
@@ -277,7 +214,7 @@ TEST(ServoProcess, InheritsTheTwoDescriptorsAndNoOthers) {
   RendererSide side = segment.renderer_side();
   auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
   ASSERT_TRUE(servo);
-  ASSERT_TRUE(Renderer(side).until([](const TipState& state) { return state.tick > 20; }));
+  ASSERT_TRUE(LiveRenderer(side).until([](const TipState& state) { return state.tick > 20; }));
   std::vector<std::string> targets;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string((*servo)->pid()) + "/fd")) {
     if (std::stoi(entry.path().filename()) > STDERR_FILENO)
@@ -302,7 +239,7 @@ TEST(ServoThread, RunsTheSameLoopAndLeavesInGoodOrder) {
   auto servo =
       ServoThread::start(segment, side, {.rate_hz = kRateHz}, std::make_unique<afm::haptics::SimulatedDevice>());
   ASSERT_TRUE(servo);
-  Renderer renderer(side);
+  LiveRenderer renderer(side);
   ASSERT_TRUE(renderer.hold_attached());
   EXPECT_TRUE((*servo)->alive());
   EXPECT_EQ(side.tip_state()->realtime, 0U);
@@ -326,9 +263,9 @@ TEST(ServoProcess, CountsEveryTickInItsHistograms) {
   RendererSide side = segment.renderer_side();
   auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
   ASSERT_TRUE(servo);
-  Renderer renderer(side);
+  LiveRenderer renderer(side);
   ASSERT_TRUE(renderer.hold_attached());
-  ASSERT_TRUE(renderer.until([](const TipState& state) { return state.tick > 4000; }));
+  ASSERT_TRUE(renderer.until([](const TipState& state) { return state.tick > 2500; }));
   const std::uint64_t ticks_before = side.tip_state()->tick;
   servo->reset();
   const ServoTiming timing = *side.servo_timing();
