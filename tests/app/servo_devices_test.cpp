@@ -80,12 +80,23 @@ TEST_F(ServoDevices, LetsACycleBeFeltThroughTheVendorsLibrary) {
   const support::ScratchFolder folder;
   const Environment library("TOUCHAFM_HD_LIBRARY", AFM_MOCK_HD);
   const Environment script("MOCK_HD_SCRIPT", folder.write("person.txt", kPerson));
+  const auto felt = [&] {
+    return events.size() >= 2 &&
+           std::any_of(samples.begin(), samples.end(), [](const TipSample& s) { return s.hand_force_n < -1.5; });
+  };
+  const auto let_go = [&] { return side.tip_state() && side.tip_state()->fault == scene::FaultCode::LateTick; };
   auto servo = start("hdapi");
   ASSERT_TRUE(servo) << servo.error().message;
-  const auto pulls = [&] {
-    return std::any_of(samples.begin(), samples.end(), [](const TipSample& s) { return s.hand_force_n < -1.5; });
-  };
-  EXPECT_TRUE(until(**servo, [&] { return pulls() && events.size() >= 2; }));
+  // the mock's person goes down once: after a stall of this machine it takes another servo, and another person
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(100);
+  while (until(**servo, [&] { return felt() || let_go(); }) && !felt() && std::chrono::steady_clock::now() < end) {
+    servo->reset();
+    samples.clear();
+    events.clear();
+    servo = start("hdapi");
+    ASSERT_TRUE(servo) << servo.error().message;
+  }
+  EXPECT_TRUE(felt());
   const pid_t pid = (*servo)->pid();
   servo->reset();
   EXPECT_NE(::kill(pid, 0), 0);
