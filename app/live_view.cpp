@@ -310,7 +310,9 @@ void LiveView::follow_edits() {
   const ChangeState state = edits_.state(*current, servo_->tip());
   const FeltMaterial& edited = edits_.of(*current).felt();
   const bool taken = state == ChangeState::Felt || state == ChangeState::AsLoaded;
-  if (taken && felt_[*current].tables != edited.tables) felt_[*current] = edited;
+  if (!taken || felt_[*current].tables == edited.tables) return;
+  felt_[*current] = edited;
+  core::log_line("the changed parameters are felt from now on");
 }
 
 // The panel, or the tab that opens it; and the curve that follows from what was changed.

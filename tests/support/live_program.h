@@ -44,13 +44,16 @@ class LiveProgram {
   pid_t pid() const { return pid_; }
   std::string said() const { return app::read_file(err()).value(); }
 
-  // Waits until it says `text`, after what the last call waited for; false after a minute, or if it has ended before.
-  bool says(const std::string& text) { return says_one_of({text}) == text; }
+  // Waits until it says `text`, after what the last call waited for; false after `patience`, or if it has ended before.
+  bool says(const std::string& text, std::chrono::seconds patience = std::chrono::minutes(1)) {
+    return says_one_of({text}, patience) == text;
+  }
 
   // The same for the first one that is said of several; empty if none is.
-  std::string says_one_of(const std::vector<std::string>& texts) {
+  std::string says_one_of(const std::vector<std::string>& texts,
+                          std::chrono::seconds patience = std::chrono::minutes(1)) {
     std::string first;
-    within_a_minute([&] {
+    within(patience, [&] {
       const std::string all = said();
       std::size_t earliest = std::string::npos;
       for (const std::string& text : texts) {
@@ -70,14 +73,14 @@ class LiveProgram {
 
   // Its exit code once it has ended; none if it has not after a minute.
   std::optional<int> ends() {
-    within_a_minute([&] { return poll_end(); });
+    within(std::chrono::minutes(1), [&] { return poll_end(); });
     return exit_code_;
   }
 
  private:
   template <class Condition>
-  bool within_a_minute(Condition&& holds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  bool within(std::chrono::seconds patience, Condition&& holds) {
+    const auto end = std::chrono::steady_clock::now() + patience;
     while (!holds()) {
       if (poll_end() && holds()) return true;
       if (exit_code_ || std::chrono::steady_clock::now() > end) return false;
