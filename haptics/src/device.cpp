@@ -24,6 +24,42 @@ DeviceSpec omni_like(std::string name) {
           .contact_point_m = glm::dvec3(0.0)};
 }
 
+DeviceSpec from_contact(DeviceSpec spec) {
+  spec.workspace_min_m -= spec.contact_point_m;
+  spec.workspace_max_m -= spec.contact_point_m;
+  spec.contact_point_m = glm::dvec3(0.0);
+  return spec;
+}
+
+scene::SharedDevice shared(const DeviceSpec& spec) {
+  const DeviceSpec here = from_contact(spec);
+  scene::SharedDevice device{
+      .name = {},
+      .max_force_n = here.max_force_n,
+      .max_continuous_force_n = here.max_continuous_force_n,
+      .max_stiffness_n_per_m = here.max_stiffness_n_per_m,
+      .max_slew_n_per_s = here.max_slew_n_per_s,
+      .max_speed_m_per_s = here.max_speed_m_per_s,
+      .workspace_min_m = {here.workspace_min_m.x, here.workspace_min_m.y, here.workspace_min_m.z},
+      .workspace_max_m = {here.workspace_max_m.x, here.workspace_max_m.y, here.workspace_max_m.z}};
+  std::copy_n(here.name.begin(), std::min(here.name.size(), device.name.size() - 1), device.name.begin());
+  return device;
+}
+
+DeviceSpec spec_of(const scene::SharedDevice& device) {
+  const auto& [min_x, min_y, min_z] = device.workspace_min_m;
+  const auto& [max_x, max_y, max_z] = device.workspace_max_m;
+  return {.name = std::string(device.name.data()),
+          .max_force_n = device.max_force_n,
+          .max_continuous_force_n = device.max_continuous_force_n,
+          .max_stiffness_n_per_m = device.max_stiffness_n_per_m,
+          .max_slew_n_per_s = device.max_slew_n_per_s,
+          .max_speed_m_per_s = device.max_speed_m_per_s,
+          .workspace_min_m = glm::dvec3(min_x, min_y, min_z),
+          .workspace_max_m = glm::dvec3(max_x, max_y, max_z),
+          .contact_point_m = glm::dvec3(0.0)};
+}
+
 double force_cap_n(const DeviceSpec& spec) { return std::min(kDefaultCapN, kUsableShare * spec.max_force_n); }
 
 double usable_slew_n_per_s(const DeviceSpec& spec, double wanted_n_per_s) {

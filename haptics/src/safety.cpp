@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <limits>
 
 #include "core/check.h"
 
@@ -41,6 +42,14 @@ SafetyGovernor::SafetyGovernor(std::int64_t period_ns, double cap_n, double rele
 
 bool SafetyGovernor::released() const noexcept {
   return (state_ == ServoState::Disarmed || state_ == ServoState::Fault) && command_n_ == glm::dvec3(0.0);
+}
+
+void SafetyGovernor::forget_motion() noexcept {
+  started_ = false;
+  turn_on_before_ = true;
+  velocity_m_per_s_ = glm::dvec3(0.0);
+  fast_ = false;
+  guard_until_ns_ = damping_until_ns_ = std::numeric_limits<std::int64_t>::min();
 }
 
 SafetyGovernor::Output SafetyGovernor::step(const GovernorInput& input) noexcept {

@@ -83,6 +83,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       governor_(period_ns_, force_cap_n(device.spec()), FitScaling::kStrokeM,
                 usable_slew_n_per_s(device.spec(), SafetyGovernor::kSlewNPerS)),
       hand_position_m_(device.spec().contact_point_m) {
+  shared_.store(shared(device.spec()));
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
   const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
   std::array<double, 16> room_from_sample{};
@@ -104,7 +105,8 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   const DeviceSample hand = device_.read(now_ns);
 
   // the place of a device that failed, or that makes no sense, is the last one known; the governor hears of it below
-  if (hand.healthy && is_within_reach(hand.position_m)) {
+  device_healthy_ = hand.healthy && is_within_reach(hand.position_m);
+  if (device_healthy_) {
     hand_position_m_ = hand.position_m;
     hand_from_contact_m_ = hand.position_m - device_.spec().contact_point_m;
     hand_height_m_ = glm::dot(hand_from_contact_m_, normal_);
@@ -124,15 +126,17 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
     pulled_off = pulled_off || response.events[i].kind == physics::EventKind::JumpOffContact;
   }
 
+  // from the contact point, so that a recording that knows no other frame gives the same bits
+  renderer_ = renderer_link(now_ns);
   const auto output = governor_.step({.time_ns = now_ns,
-                                      .hand_position_m = hand.position_m,
+                                      .hand_position_m = hand.position_m - device_.spec().contact_point_m,
                                       .wanted_force_n = wanted_n * normal_,
                                       .hand_height_m = hand_height_m_,
                                       .phase = shared_phase(response.phase),
                                       .pulled_off = pulled_off,
                                       .turn_on = hand.turn_on,
                                       .device_healthy = hand.healthy,
-                                      .renderer = renderer_link(now_ns)});
+                                      .renderer = renderer_});
   device_.write(output.command);
   if (output.dropped && encounter_ != nullptr) encounter_->wait_for_lift();
 
@@ -191,6 +195,7 @@ void ServoLoop::change_encounter() noexcept {
 void ServoLoop::feel(std::size_t material) noexcept {
   encounter_ = &exchange_.current(material);
   encounter_->wait_for_lift();
+  governor_.forget_motion();
   state_.material = static_cast<std::int32_t>(material);
   state_.hand_m_per_m = encounter_->scaling().hand_m_per_m();
   state_.hand_n_per_n = encounter_->scaling().hand_n_per_n();
@@ -239,23 +244,26 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physic
   // without a material there is no curve to draw
   if (encounter_ == nullptr) return;
   const glm::dvec3 hand_force_n(state_.hand_force_n[0], state_.hand_force_n[1], state_.hand_force_n[2]);
-  shared_.push(scene::TipSample{
-      .time_ns = now_ns,
-      .tick = state_.tick,
-      .z_m = state_.z_m,
-      .force_n = state_.force_n,
-      .tip_height_m = state_.tip_height_m,
-      .deflection_m = state_.deflection_m,
-      .sample_deformation_m = state_.sample_deformation_m,
-      .hand_height_m = hand_height_m_,
-      .hand_force_n = glm::dot(hand_force_n, normal_),
-      .servo_state = state_.servo_state,
-      .phase = state_.phase,
-      .material = state_.material,
-      .wake_us = wake_us,
-      .edit_revision = state_.edit_revision,
-      .turn_on = turn_on_ ? 1U : 0U,
-      .hand_from_contact_m = {hand_from_contact_m_.x, hand_from_contact_m_.y, hand_from_contact_m_.z}});
+  shared_.push(
+      scene::TipSample{.time_ns = now_ns,
+                       .tick = state_.tick,
+                       .z_m = state_.z_m,
+                       .force_n = state_.force_n,
+                       .tip_height_m = state_.tip_height_m,
+                       .deflection_m = state_.deflection_m,
+                       .sample_deformation_m = state_.sample_deformation_m,
+                       .hand_height_m = hand_height_m_,
+                       .hand_force_n = glm::dot(hand_force_n, normal_),
+                       .servo_state = state_.servo_state,
+                       .phase = state_.phase,
+                       .material = state_.material,
+                       .wake_us = wake_us,
+                       .edit_revision = state_.edit_revision,
+                       .turn_on = turn_on_ ? 1U : 0U,
+                       .renderer = renderer_,
+                       .hand_from_contact_m = {hand_from_contact_m_.x, hand_from_contact_m_.y, hand_from_contact_m_.z},
+                       .sample_normal = {normal_.x, normal_.y, normal_.z},
+                       .device_healthy = device_healthy_ ? 1U : 0U});
 }
 
 bool ServoLoop::finished() const noexcept {

@@ -89,6 +89,11 @@ void DynamicModel::settle(Length z, Velocity base_velocity) noexcept {
   jump_began_ = now();
 }
 
+void DynamicModel::wait_for_lift() noexcept {
+  oscillator_.restart_noise(setup_->seed);
+  phase_ = Phase::WaitForLift;
+}
+
 DynamicModel::Instant DynamicModel::now() const noexcept {
   return {oscillator_.base(), oscillator_.height(), setup_->interaction.spring_constant * oscillator_.deflection()};
 }
@@ -127,7 +132,7 @@ void DynamicModel::watch(const Instant& before, const Instant& after, double fra
 TipResponse DynamicModel::step(Length z) noexcept {
   TipResponse response;
   if (!isfinite(z)) {
-    phase_ = Phase::WaitForLift;
+    wait_for_lift();
     return response;
   }
   if (phase_ == Phase::WaitForLift) {
@@ -155,7 +160,7 @@ TipResponse DynamicModel::step(Length z) noexcept {
   const Length mean = sum / static_cast<double>(pace_.sub_steps);
   // written so that NaN fails
   if (!(abs(mean) <= kLargestDeflection)) {
-    phase_ = Phase::WaitForLift;
+    wait_for_lift();
     return {};
   }
   response.phase = phase_;

@@ -14,10 +14,11 @@ namespace afm::scene {
 inline constexpr std::uint64_t kSegmentMagic = 0x314D46414D464154;  // "TAFMAFM1" in memory
 
 // The sizes of the blocks in this build, in the order of SegmentLayout: two builds that disagree refuse each other.
-using BlockSizes = std::array<std::uint32_t, 10>;
-inline constexpr BlockSizes kBlockSizes{
-    sizeof(SharedModel),       sizeof(SceneTransforms), sizeof(Selection), sizeof(MaterialEdit), sizeof(HandScript),
-    sizeof(RendererHeartbeat), sizeof(TipState),        sizeof(TipSample), sizeof(TipEvent),     sizeof(ServoTiming)};
+using BlockSizes = std::array<std::uint32_t, 11>;
+inline constexpr BlockSizes kBlockSizes{sizeof(SharedModel),  sizeof(SceneTransforms), sizeof(Selection),
+                                        sizeof(MaterialEdit), sizeof(HandScript),      sizeof(RendererHeartbeat),
+                                        sizeof(TipState),     sizeof(TipSample),       sizeof(TipEvent),
+                                        sizeof(ServoTiming),  sizeof(SharedDevice)};
 
 struct SegmentHeader {
   std::uint64_t magic = kSegmentMagic;
@@ -43,6 +44,7 @@ struct SegmentLayout {
   // written by touchafm-servo (of a ring, touchafm writes the tail)
   alignas(4096) core::LatestValue<TipState> tip_state;
   core::LatestValue<ServoTiming> timing;
+  core::LatestValue<SharedDevice> device;
   core::SpscRing<TipSample, kSampleRingCapacity> samples;
   core::SpscRing<TipEvent, kEventRingCapacity> events;
 };

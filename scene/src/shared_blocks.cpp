@@ -156,6 +156,13 @@ bool plausible(const HandScript& script) {
 
 bool plausible(const RendererHeartbeat& heartbeat) { return heartbeat.leaving <= 1; }
 
+bool plausible(const SharedDevice& device) {
+  // limits may be infinite
+  return terminated(device.name) && device.max_force_n > 0 && device.max_continuous_force_n > 0 &&
+         device.max_stiffness_n_per_m > 0 && device.max_slew_n_per_s > 0 && device.max_speed_m_per_s > 0 &&
+         all_sane(device.workspace_min_m) && all_sane(device.workspace_max_m);
+}
+
 bool plausible(const TipState& state, const SharedModel& model) {
   return sane(state.z_m) && sane(state.tip_height_m) && sane(state.deflection_m) && sane(state.sample_deformation_m) &&
          sane(state.force_n) && all_sane(state.hand_position_m) && all_sane(state.hand_force_n) &&
@@ -170,8 +177,8 @@ bool plausible(const TipSample& sample, const SharedModel& model) {
   return sane(sample.z_m) && sane(sample.force_n) && sane(sample.tip_height_m) && sane(sample.deflection_m) &&
          sane(sample.sample_deformation_m) && sane(sample.hand_height_m) && sane(sample.hand_force_n) &&
          all_sane(sample.hand_from_contact_m) && all_sane(sample.sample_normal) && all_sane(sample.tip_xy_m) &&
-         sane(sample.surface_height_m) && known(sample.renderer) && known(sample.scale_mode) &&
-         known(sample.servo_state) && known(sample.phase) && within(sample.material, model);
+         sane(sample.surface_height_m) && sample.device_healthy <= 1 && known(sample.renderer) &&
+         known(sample.scale_mode) && known(sample.servo_state) && known(sample.phase) && within(sample.material, model);
 }
 
 bool plausible(const TipEvent& event, const SharedModel& model) {

@@ -144,6 +144,12 @@ std::optional<TipState> RendererSide::tip_state() noexcept {
 
 std::optional<ServoTiming> RendererSide::servo_timing() const noexcept { return layout_->timing.load(); }
 
+std::optional<SharedDevice> RendererSide::device() noexcept {
+  auto device = layout_->device.load();
+  check(device, refused_);
+  return device;
+}
+
 std::optional<TipSample> RendererSide::pop_sample() noexcept {
   return next(layout_->samples, refused_, layout_->model);
 }
@@ -182,6 +188,7 @@ std::optional<RendererHeartbeat> ServoSide::new_heartbeat() noexcept {
 
 void ServoSide::store(const TipState& state) noexcept { layout_->tip_state.store(state); }
 void ServoSide::store(const ServoTiming& timing) noexcept { layout_->timing.store(timing); }
+void ServoSide::store(const SharedDevice& device) noexcept { layout_->device.store(device); }
 void ServoSide::push(const TipSample& sample) noexcept { layout_->samples.push(sample); }
 void ServoSide::push(const TipEvent& event) noexcept { layout_->events.push(event); }
 

@@ -193,6 +193,13 @@ TEST(DynamicModel, RepeatsItselfForTheSameSeed) {
   EXPECT_NE(forces(1), forces(2));
 }
 
+TEST(DynamicModel, OwesNothingToWhatWasFeltBeforeALift) {
+  DynamicModel fresh = mica(kWarm), used = mica(kWarm);
+  for (int i = 0; i < 100; ++i) used.step(20_nm - i * 0.2_nm);
+  used.wait_for_lift();
+  for (Length z = 20_nm; z > -2_nm; z = z - 0.1_nm) EXPECT_EQ(used.step(z).force.si, fresh.step(z).force.si);
+}
+
 TEST(DynamicModel, DoesNotAllocateInAStep) {
   DynamicModel model = mica(kWarm);
   const test::NoAllocation none;

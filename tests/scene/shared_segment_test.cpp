@@ -78,6 +78,17 @@ TEST(SharedSegment, CarriesEveryBlockAcross) {
   EXPECT_EQ(servo.new_heartbeat()->time_ns, 77);
   EXPECT_FALSE(servo.new_transforms() || servo.new_selection() || servo.new_hand_script() || servo.new_heartbeat());
 
+  EXPECT_FALSE(renderer.device());
+  servo.store(SharedDevice{.max_force_n = 3.3,
+                           .max_continuous_force_n = 0.88,
+                           .max_stiffness_n_per_m = 400.0,
+                           .max_slew_n_per_s = std::numeric_limits<double>::infinity(),
+                           .max_speed_m_per_s = 1.0});
+  EXPECT_EQ(renderer.device()->max_continuous_force_n, 0.88);
+  servo.store(SharedDevice{.max_force_n = std::nan("")});
+  EXPECT_FALSE(renderer.device());
+  EXPECT_EQ(renderer.refused_blocks(), 1U);
+
   EXPECT_FALSE(renderer.tip_state() || renderer.servo_timing() || renderer.pop_sample() || renderer.pop_event());
   servo.store(TipState{.tick = 3, .z_m = 1e-9});
   ServoTiming timing;
@@ -92,7 +103,7 @@ TEST(SharedSegment, CarriesEveryBlockAcross) {
   EXPECT_EQ(renderer.pop_sample()->tick, 2U);
   EXPECT_FALSE(renderer.pop_sample());
   EXPECT_EQ(renderer.pop_event()->kind, TipEventKind::JumpOffContact);
-  EXPECT_EQ(renderer.refused_blocks() + servo.refused_blocks(), 0U);
+  EXPECT_EQ(renderer.refused_blocks() + servo.refused_blocks(), 1U);
 }
 
 TEST(SharedSegment, CountsTheSamplesThatNobodyTook) {

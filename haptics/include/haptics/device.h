@@ -29,6 +29,14 @@ struct DeviceSpec {
 // the origin.
 DeviceSpec omni_like(std::string name);
 
+// The same device, its places from the contact point, which is then the origin: what a recording can keep of it.
+DeviceSpec from_contact(DeviceSpec spec);
+
+// A device as the shared segment tells of it; of a spec that is from_contact(), the way there and back changes nothing
+// but a name that is too long.
+scene::SharedDevice shared(const DeviceSpec& spec);
+DeviceSpec spec_of(const scene::SharedDevice& device);
+
 // The force that the servo lets a device have at most: 2.0 N, the default of careful drivers for hands
 // (sawSensablePhantom), and less for a device whose nominal peak leaves no reserve of a tenth.
 double force_cap_n(const DeviceSpec& spec);

@@ -66,6 +66,10 @@ class SafetyGovernor {
   // Takes the force away in kQuickFadeNs; a new Turn-On is needed. For a change of material.
   void disarm() noexcept { begin_fade(kQuickFadeNs, scene::FaultCode::None); }
 
+  // What the hand did before no longer counts, except for the state: for a change of material, so that what follows
+  // depends on nothing that a recording of it does not hold. Only while released().
+  void forget_motion() noexcept;
+
   scene::ServoState state() const noexcept { return state_; }
   scene::FaultCode fault() const noexcept { return fault_; }
   bool released() const noexcept;  // no force, and none to come without a new Turn-On

@@ -89,6 +89,8 @@ class ServoLoop {
   glm::dvec3 hand_position_m_;
   glm::dvec3 hand_from_contact_m_{0.0};
   bool turn_on_ = false;
+  bool device_healthy_ = true;
+  RendererLink renderer_ = RendererLink::Absent;
   double hand_height_m_ = 0;
   scene::TipState state_;
   std::int64_t previous_ns_ = 0;

@@ -67,8 +67,9 @@ class DynamicModel {
   // The response at Z after the straight path from the Z of the step before.
   TipResponse step(Length z) noexcept;
 
-  // After a start, a change of material or a dropout: zero force until Z > Z_joc.
-  void wait_for_lift() noexcept { phase_ = Phase::WaitForLift; }
+  // After a start, a change of material or a dropout: zero force until Z > Z_joc. The noise begins anew, so that what
+  // follows depends on the steps to come alone.
+  void wait_for_lift() noexcept;
 
   // Free and at rest at Z, or moving with a base of this velocity as one that came steadily from afar. Z lies above
   // Z_jtc.

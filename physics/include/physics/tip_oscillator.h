@@ -41,6 +41,9 @@ class TipOscillator {
   TipOscillator(std::shared_ptr<const TipForce> force, Stiffness spring_constant, const LeverDynamics& lever,
                 Time sub_step, std::uint64_t seed);
 
+  // The noise of a new oscillator with this seed; the motion goes on.
+  void restart_noise(std::uint64_t seed) noexcept { normal_ = NormalGenerator(seed); }
+
   // Puts tip and base somewhere; a tip above the height of release is free, below that of contact attached.
   void place(Length base, Length height, Velocity velocity) noexcept;
 

@@ -160,6 +160,19 @@ enum class RendererLink : std::uint32_t {
   Died = 4,
 };
 
+// What the servo holds: limits as in haptics::DeviceSpec, places in the device frame from the contact point, metres.
+// Stored once, when the servo starts.
+struct SharedDevice {
+  Name name{};
+  double max_force_n = 0;
+  double max_continuous_force_n = 0;
+  double max_stiffness_n_per_m = 0;
+  double max_slew_n_per_s = 0;   // infinite: no limit
+  double max_speed_m_per_s = 0;  // likewise
+  std::array<double, 3> workspace_min_m{};
+  std::array<double, 3> workspace_max_m{};
+};
+
 // The newest state of the tip, once a tick. Heights along +z of the sample; forces on the tip, positive away from the
 // sample; the hand's values in the device frame.
 struct TipState {
@@ -222,6 +235,8 @@ struct TipSample {
   std::array<double, 3> sample_normal{0.0, 1.0, 0.0};  // +z of the sample's frame, unit
   std::array<double, 2> tip_xy_m{};                    // as in TipState
   double surface_height_m = 0;                         // as in TipState
+  std::uint32_t device_healthy = 1;                    // 0: the device failed, and the hand's place is the last known
+  std::uint32_t padding = 0;
 };
 
 enum class TipEventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2 };

@@ -39,6 +39,7 @@ bool plausible(const SceneTransforms& transforms, const SharedModel& model);
 bool plausible(const Selection& selection, const SharedModel& model);
 bool plausible(const HandScript& script);
 bool plausible(const RendererHeartbeat& heartbeat);
+bool plausible(const SharedDevice& device);
 bool plausible(const TipState& state, const SharedModel& model);
 bool plausible(const TipSample& sample, const SharedModel& model);
 bool plausible(const TipEvent& event, const SharedModel& model);
@@ -60,6 +61,8 @@ class RendererSide {
   // Empty before the servo's first tick, and if the servo died in the middle of a store.
   std::optional<TipState> tip_state() noexcept;
   std::optional<ServoTiming> servo_timing() const noexcept;  // some 5 times a second
+
+  std::optional<SharedDevice> device() noexcept;  // empty until a servo has started
 
   // The next one in order, or empty.
   std::optional<TipSample> pop_sample() noexcept;
@@ -88,6 +91,7 @@ class ServoSide {
 
   void store(const TipState& state) noexcept;
   void store(const ServoTiming& timing) noexcept;
+  void store(const SharedDevice& device) noexcept;
   void push(const TipSample& sample) noexcept;  // counted as lost if the renderer has fallen 16 s behind
   void push(const TipEvent& event) noexcept;
 
