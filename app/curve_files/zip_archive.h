@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <zip.h>
+#include <unzip.h>
 
 #include <cstddef>
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace afm::app {
 
-// A zip archive in memory, to be read through libzip. The bytes must outlive it. Throws CurveFault.
+// A zip archive in memory, to be read through minizip. The bytes must outlive it. Throws CurveFault.
 class ZipArchive {
  public:
   explicit ZipArchive(std::string_view bytes);
@@ -23,7 +23,7 @@ class ZipArchive {
   std::string entry(const std::string& name, std::size_t most_bytes) const;
 
  private:
-  std::unique_ptr<zip_t, decltype(&zip_discard)> archive_;
+  std::unique_ptr<void, decltype(&unzClose)> archive_;
 };
 
 }  // namespace afm::app
