@@ -104,7 +104,9 @@ std::string described(const RecordedCurve& curve) {
 
 core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve) {
   try {
-    CurveFeatures features = physics::analyse(curve.points);
+    const bool computed = curve.metadata.software == kComputedBy;
+    CurveFeatures features =
+        physics::analyse(curve.points, computed ? physics::ForceZero::True : physics::ForceZero::Instrument);
     return AnalysedCurve{std::move(name), std::move(curve), features};
   } catch (const std::invalid_argument& error) {
     return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot analyse {}: {}", name, error.what()));

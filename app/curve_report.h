@@ -18,7 +18,8 @@ struct AnalysedCurve {
   physics::CurveFeatures features;
 };
 
-// BadInputFile, naming the curve, if it cannot be analysed.
+// A computed curve keeps its own zero of the force; a measured one gets a baseline. BadInputFile, naming the curve, if
+// it cannot be analysed.
 core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve);
 
 // One line a feature, with its unit, places from the contact point; with another curve its figures and the differences

@@ -7,7 +7,7 @@ RecordedCurve recorded_curve(const physics::ForceCurve& curve, physics::Stiffnes
   RecordedCurve recorded{physics::points_of(curve.samples), {}, {}};
   recorded.metadata.spring_constant = spring_constant;
   recorded.metadata.instrument = "TouchAFM";
-  recorded.metadata.software = "TouchAFM";
+  recorded.metadata.software = kComputedBy;
   recorded.metadata.software_version = AFM_VERSION;
   return recorded;
 }

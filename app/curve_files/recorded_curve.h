@@ -37,6 +37,9 @@ struct RecordedCurve {
 
 inline constexpr std::size_t kMostCurvePoints = 4'000'000;
 
+// The software of curves that were computed, not measured.
+inline constexpr const char* kComputedBy = "TouchAFM";
+
 // A model's curve with the lever that it was made for.
 RecordedCurve recorded_curve(const physics::ForceCurve& curve, physics::Stiffness spring_constant);
 

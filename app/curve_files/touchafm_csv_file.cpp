@@ -24,7 +24,7 @@ void read_comment(std::string_view line, const Lines& lines, CurveMetadata& meta
 
 RecordedCurve read_touchafm_csv(std::string_view bytes) {
   RecordedCurve curve;
-  curve.metadata.instrument = curve.metadata.software = "TouchAFM";
+  curve.metadata.instrument = curve.metadata.software = kComputedBy;
   Lines lines(bytes);
   std::string_view line;
   bool more = lines.next(line);

@@ -227,7 +227,7 @@ std::vector<CurvePoint> points_of(std::span<const CurveSample> samples) {
   return points;
 }
 
-CurveFeatures analyse(std::span<const CurvePoint> points) {
+CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero_of_force) {
   std::vector<CurvePoint> cycle(points.begin(), points.end());
   const auto turn = std::stable_partition(cycle.begin(), cycle.end(),
                                           [](const CurvePoint& point) { return point.branch == Branch::Approach; });
@@ -245,6 +245,10 @@ CurveFeatures analyse(std::span<const CurvePoint> points) {
   CurveFeatures features;
   const std::span<CurvePoint> approach(cycle.data(), approach_count);
   features.baseline = fit_baseline(approach, greatest);
+  if (zero_of_force == ForceZero::True) {
+    features.baseline.level = Force();
+    features.baseline.tilt = Stiffness();
+  }
   for (CurvePoint& point : cycle) {
     point.force = point.force - features.baseline.at(point.z);
     if (point.branch == Branch::Approach) features.greatest_push = std::max(features.greatest_push, point.force);

@@ -75,6 +75,7 @@ TEST(CurveReport, SetsTwoCurvesBesideEachOther) {
 
 TEST(CurveReport, DrawsFromTheContactPointAndTheBaseline) {
   RecordedCurve shifted = mica_curve(0.1);
+  shifted.metadata.software = "an instrument's";
   for (auto& point : shifted.points)
     point = {point.z + physics::Length(1e-6), point.force + physics::Force(5e-9), point.branch};
   const auto lines = curve_lines(*analysed("shifted", shifted), "red");

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "physics/contact.h"
+#include "physics/law_tables.h"
 #include "physics/measured_branches.h"
 
 namespace afm::physics {
@@ -77,6 +78,26 @@ TEST_P(PaperCurve, GivesTheFiguresOfItsModelBack) {
   EXPECT_NEAR(found.loop_energy / expected.loop_energy, 1.0, 1e-9);
   // all that lies below the zero line: the triangle under the contact line
   EXPECT_NEAR(found.adhesion_energy / (0.5 * expected.f_ad * expected.z_joc), 1.0, 1e-6);
+}
+
+// Van der Waals reaches so far that a line through the outermost fifth would lean on it.
+TEST(CurveAnalysis, TakesNoAttractionForTiltWhereTheZeroIsTrue) {
+  Interaction mica = kMica;
+  mica.reduced_modulus = 60_GPa;
+  const ApproachRetractModel model(build_law_tables(Law::Dmt, mica));
+  const auto points = points_of(record_curve(model, {20_nm, -5_nm, 0.01_nm}).samples);
+  const CurveFeatures found = analyse(points, ForceZero::True);
+  ASSERT_TRUE(found.snap_in && found.pull_off);
+  const Force deepest = std::min_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+                          return a.force < b.force;
+                        })->force;
+  EXPECT_EQ(found.pull_off->force, deepest);
+  const CycleFigures& figures = model.figures();
+  EXPECT_NEAR(found.snap_in->z / figures.z_jtc, 1.0, 0.005);
+  EXPECT_NEAR(found.snap_in->force_before / figures.force_before_jtc, 1.0, 0.05);
+  // the same curve with an instrument's zero
+  const auto leaning = analyse(points);
+  EXPECT_GT(abs(leaning.snap_in->force_after - found.snap_in->force_after), 0.005 * abs(found.snap_in->force_after));
 }
 
 TEST_P(PaperCurve, GivesThemBackThroughOffsetDriftAndNoise) {

@@ -87,8 +87,12 @@ struct CurveFeatures {
 // The least number of points that an approach must have to be analysed; a retract may be missing.
 inline constexpr std::size_t kFewestApproachPoints = 10;
 
+// Whether the force of a curve has a zero of its own, as a computed one has, or that of an instrument, which has to be
+// found: a long attraction would then be taken for tilt.
+enum class ForceZero { Instrument, True };
+
 // For points in the order of the cycle, of any number of samples a branch. Throws std::invalid_argument if the approach
 // has fewer than kFewestApproachPoints, a point is not finite, or all points share their Z. O(n log n), allocates.
-CurveFeatures analyse(std::span<const CurvePoint> points);
+CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero = ForceZero::Instrument);
 
 }  // namespace afm::physics
