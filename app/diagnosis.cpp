@@ -17,11 +17,6 @@ constexpr double kGoodLatenessUs = 200.0;
 
 constexpr const char* kLogInAgain = ", then log in again";
 
-std::string add_limit(const char* item, const char* value) {
-  return fmt::format("echo \"$(id -un) - {} {}\" | sudo tee -a /etc/security/limits.d/touchafm.conf{}", item, value,
-                     kLogInAgain);
-}
-
 std::string join_group(const char* groups) {
   return fmt::format("sudo usermod -aG {} \"$(id -un)\"{}", groups, kLogInAgain);
 }
@@ -31,7 +26,7 @@ Finding priority(const MachineFacts& facts) {
   if (granted > 0) return {"real-time priority", Verdict::Good, fmt::format("SCHED_FIFO {} granted", granted), {}};
   return {"real-time priority", Verdict::Limited,
           fmt::format("SCHED_FIFO {} refused: the limit is {}", haptics::kServoPriority, facts.priority_limit),
-          add_limit("rtprio", "80")};
+          haptics::limit_mend("rtprio", "80")};
 }
 
 Finding locked_memory(const MachineFacts& facts) {
@@ -39,7 +34,8 @@ Finding locked_memory(const MachineFacts& facts) {
                                 ? fmt::format("limit {} KiB", *facts.locked_memory_limit_bytes / 1024)
                                 : std::string("unlimited");
   if (facts.pages_can_be_locked) return {"locked memory", Verdict::Good, "pages can be locked, " + limit, {}};
-  return {"locked memory", Verdict::Limited, "pages cannot be locked, " + limit, add_limit("memlock", "unlimited")};
+  return {"locked memory", Verdict::Limited, "pages cannot be locked, " + limit,
+          haptics::limit_mend("memlock", "unlimited")};
 }
 
 Finding wake_up(const MachineFacts& facts) {

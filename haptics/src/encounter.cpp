@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <string>
@@ -16,8 +17,10 @@ namespace {
 
 tl::unexpected<core::Error> refusal(const scene::SharedMaterial& material, core::ErrorCategory category,
                                     std::string_view why) {
-  // a name that came without its end is cut
-  const std::string name(material.name.data(), ::strnlen(material.name.data(), material.name.size()));
+  // a name that came without its end is cut, and nothing in it may command a terminal
+  std::string name(material.name.data(), ::strnlen(material.name.data(), material.name.size()));
+  std::replace_if(
+      name.begin(), name.end(), [](char byte) { return byte < ' ' || byte > '~'; }, '?');
   return core::failure(category, fmt::format("cannot make {} felt: {}", name, why));
 }
 

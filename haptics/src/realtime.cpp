@@ -6,6 +6,7 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 
 #include <array>
 #include <cerrno>
@@ -26,7 +27,17 @@ void prefault_stack() {
   for (std::size_t i = 0; i < kBytes; i += kPage) bytes[i] = 0;
 }
 
+rlim_t limit_of(__rlimit_resource resource) {
+  rlimit limit{};
+  return ::getrlimit(resource, &limit) == 0 ? limit.rlim_cur : 0;
+}
+
 }  // namespace
+
+std::string limit_mend(const char* item, const char* value) {
+  return fmt::format("echo \"$(id -un) - {} {}\" | sudo tee -a /etc/security/limits.d/touchafm.conf, then log in again",
+                     item, value);
+}
 
 RealtimeGrant enter_realtime(int priority, PageLock lock) {
   RealtimeGrant grant;
@@ -35,10 +46,8 @@ RealtimeGrant enter_realtime(int priority, PageLock lock) {
   if (const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters); error == 0) {
     grant.priority = priority;
   } else {
-    grant.notes.push_back(
-        fmt::format("not real-time: SCHED_FIFO {} was refused ({}); grant rtprio {} in "
-                    "/etc/security/limits.d and log in again",
-                    priority, std::strerror(error), priority));
+    grant.notes.push_back(fmt::format("not real-time: SCHED_FIFO {} was refused ({}, the limit is {}); {}", priority,
+                                      std::strerror(error), limit_of(RLIMIT_RTPRIO), limit_mend("rtprio", "80")));
   }
   if (::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL) != 0) {
     grant.notes.push_back(fmt::format("timers stay coarse: a slack of 1 ns was refused ({})", std::strerror(errno)));
@@ -46,10 +55,9 @@ RealtimeGrant enter_realtime(int priority, PageLock lock) {
   if (lock == PageLock::Lock) {
     grant.pages_locked = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
     if (!grant.pages_locked) {
-      grant.notes.push_back(
-          fmt::format("not real-time: locking the pages was refused ({}); grant memlock unlimited in "
-                      "/etc/security/limits.d and log in again",
-                      std::strerror(errno)));
+      grant.notes.push_back(fmt::format("not real-time: locking the pages was refused ({}, the limit is {} KiB); {}",
+                                        std::strerror(errno), limit_of(RLIMIT_MEMLOCK) / 1024,
+                                        limit_mend("memlock", "unlimited")));
     }
   }
   prefault_stack();
@@ -59,6 +67,12 @@ RealtimeGrant enter_realtime(int priority, PageLock lock) {
 void sleep_until(std::int64_t deadline_ns) noexcept {
   const timespec deadline{.tv_sec = deadline_ns / 1'000'000'000, .tv_nsec = deadline_ns % 1'000'000'000};
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
+  }
+}
+
+void sleep_then_spin_until(std::int64_t deadline_ns, std::int64_t spin_ns, const core::Clock& clock) noexcept {
+  sleep_until(deadline_ns - spin_ns);
+  while (clock.now_ns() < deadline_ns) {
   }
 }
 

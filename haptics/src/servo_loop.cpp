@@ -54,11 +54,16 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
         core::ErrorCategory::WrongUsage,
         fmt::format("cannot run the servo at {} Hz: choose {} to {} Hz", rate_hz, kSlowestHz, kFastestHz));
   }
+  const std::int64_t period_ns = period_of(settings);
+  if (settings.spin_ns < 0 || settings.spin_ns > period_ns / 2) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("cannot stay awake for {} us of every period of {} us: choose 0 to {} us",
+                                     settings.spin_ns / 1000, period_ns / 1000, period_ns / 2000));
+  }
   // a copy, because what has been checked in shared memory may change there
   const auto copy = std::make_unique<const scene::SharedModel>(segment.model());
   const scene::SharedModel& shared = *copy;
   if (auto valid = scene::validate(shared); !valid) return tl::unexpected(valid.error());
-  const std::int64_t period_ns = period_of(settings);
   std::vector<std::unique_ptr<Encounter>> encounters;
   encounters.reserve(shared.material_count);
   for (std::uint32_t i = 0; i < shared.material_count; ++i) {
@@ -277,7 +282,7 @@ ServoExit ServoLoop::run(const core::MonotonicClock& clock) noexcept {
       std::max<std::uint64_t>(1, static_cast<std::uint64_t>(timing_.rate_hz) / kTimingStoresPerSecond);
   std::int64_t deadline_ns = clock.now_ns() + period_ns_;
   do {
-    sleep_until(deadline_ns);
+    sleep_then_spin_until(deadline_ns, settings_.spin_ns, clock);
     const std::int64_t woke_ns = clock.now_ns();
     const std::int64_t missed = std::max<std::int64_t>(0, woke_ns - deadline_ns) / period_ns_;
     const std::uint32_t wake_us = microseconds(woke_ns - deadline_ns);

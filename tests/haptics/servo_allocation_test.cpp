@@ -2,18 +2,21 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "servo_bench.h"
 #include "support/no_alloc.h"
+#include "support/no_lock.h"
 
 namespace {
 
 using afm::physics::Law;
 using afm::test::NoAllocation;
+using afm::test::NoLock;
 using afm::test::ServoBench;
 
-TEST(ServoTick, DoesNotAllocateOverACycleWithAChangeOfMaterial) {
+TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsOverACycleWithAChangeOfMaterial) {
   ServoBench bench;
   bench.arm(afm::test::kMica);
 
@@ -56,7 +59,8 @@ TEST(ServoTick, DoesNotAllocateOverACycleWithAChangeOfMaterial) {
     if (bench.heartbeats) bench.renderer.store(afm::scene::RendererHeartbeat{});
     bench.now_ns += bench.loop->period_ns();
     {
-      const NoAllocation guard;
+      const NoAllocation no_allocation;
+      const NoLock no_lock;
       bench.loop->tick(bench.now_ns, 0);
     }
     while (const auto event = bench.renderer.pop_event()) bench.events.push_back(*event);
@@ -100,7 +104,7 @@ class ServoTickOf : public testing::TestWithParam<AnyLaw> {
   }
 };
 
-TEST_P(ServoTickOf, DoesNotAllocateOverACycle) {
+TEST_P(ServoTickOf, NeitherAllocatesNorLocksNorThrowsOverACycle) {
   ServoBench bench(model());
   bench.arm(afm::test::kMica);
   bench.aim(-0.02, 0.5);
@@ -108,7 +112,8 @@ TEST_P(ServoTickOf, DoesNotAllocateOverACycle) {
     if (tick == 600) bench.aim(0.072, 0.5);
     bench.renderer.store(afm::scene::RendererHeartbeat{});
     bench.now_ns += bench.loop->period_ns();
-    const NoAllocation guard;
+    const NoAllocation no_allocation;
+    const NoLock no_lock;
     bench.loop->tick(bench.now_ns, 0);
   }
   EXPECT_EQ(bench.state().fault, afm::scene::FaultCode::None);
@@ -133,6 +138,28 @@ TEST(ServoTickDeathTest, TheTrapItselfCatchesAnAllocation) {
         std::printf("%d", *number);
       },
       "where no allocation is allowed");
+}
+
+TEST(ServoTickDeathTest, TheTrapItselfCatchesALockThatNobodyHolds) {
+  EXPECT_DEATH(
+      {
+        std::mutex mutex;
+        const NoLock guard;
+        const std::lock_guard lock(mutex);
+      },
+      "pthread_mutex_lock where nothing may lock or throw");
+}
+
+TEST(ServoTickDeathTest, TheTrapItselfCatchesAnExceptionThatIsCaught) {
+  EXPECT_DEATH(
+      {
+        const NoLock guard;
+        try {
+          throw 3;
+        } catch (int) {
+        }
+      },
+      "__cxa_allocate_exception where nothing may lock or throw");
 }
 
 }  // namespace

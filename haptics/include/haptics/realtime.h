@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/clock.h"
+
 namespace afm::haptics {
 
 inline constexpr int kServoPriority = 80;    // below the kernel's own threads at 99
@@ -25,7 +27,14 @@ struct RealtimeGrant {
 // pages are there already. Everything that is refused is noted; nothing is fatal.
 RealtimeGrant enter_realtime(int priority, PageLock lock);
 
+// The line that raises a limit of /etc/security/limits.d for the person who runs it.
+std::string limit_mend(const char* item, const char* value);
+
 // Until this time of CLOCK_MONOTONIC, signals or not.
 void sleep_until(std::int64_t deadline_ns) noexcept;
+
+// The same, with the last `spin_ns` spent awake: the wake-up from the sleep, some tens of microseconds, then lies
+// before the deadline. The processor is busy for as long.
+void sleep_then_spin_until(std::int64_t deadline_ns, std::int64_t spin_ns, const core::Clock& clock) noexcept;
 
 }  // namespace afm::haptics
