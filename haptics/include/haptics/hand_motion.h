@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace afm::haptics {
+
+// How fast the hand is: a first-order low-pass of 30 Hz on the differences of its places, which an encoder of 0.055 mm
+// would otherwise turn into noise. For damping and the velocity trip only, never for a force law. Servo's thread.
+class HandMotion {
+ public:
+  static constexpr double kCutoffHz = 30.0;
+  static constexpr std::int64_t kTripNs = 5'000'000;  // one wild sample is no flying hand
+
+  // `trip_speed_m_per_s`: faster than this is too fast.
+  explicit HandMotion(double trip_speed_m_per_s);
+
+  // The hand is here `elapsed_ns` after the call before; a first call sets the place. Finite, within reach.
+  void move(const glm::dvec3& position_m, std::int64_t elapsed_ns) noexcept;
+  void forget() noexcept;
+
+  const glm::dvec3& velocity_m_per_s() const noexcept { return velocity_m_per_s_; }
+  const glm::dvec3& moved_m() const noexcept { return moved_m_; }  // in the last call
+  bool too_fast() const noexcept { return fast_ns_ >= kTripNs; }
+
+ private:
+  double trip_speed_m_per_s_;
+  bool started_ = false;
+  glm::dvec3 position_m_{0.0};
+  glm::dvec3 moved_m_{0.0};
+  glm::dvec3 velocity_m_per_s_{0.0};
+  std::int64_t fast_ns_ = 0;  // since the tick that first saw it too fast
+  bool fast_ = false;
+};
+
+}  // namespace afm::haptics

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/safety_states.h"
+
+#include <optional>
+
+namespace afm::haptics {
+
+using scene::FaultCode;
+using scene::RendererLink;
+using scene::ServoState;
+
+namespace {
+
+struct Reason {
+  std::int64_t fade_ns;
+  FaultCode fault;
+};
+
+// The most urgent of all reasons to take the force away.
+std::optional<Reason> reason_to_fade(const Findings& findings) {
+  if (findings.late) return Reason{kQuickFadeNs, FaultCode::LateTick};
+  if (findings.energy_exceeded) return Reason{kQuickFadeNs, FaultCode::EnergyExceeded};
+  if (findings.outside) return Reason{kQuickFadeNs, FaultCode::OutOfWorkspace};
+  if (findings.renderer == RendererLink::Died) return Reason{kQuickFadeNs, FaultCode::RendererDied};
+  if (findings.dead_man && !findings.turn_on_held) return Reason{kQuickFadeNs, FaultCode::DeadManReleased};
+  if (findings.hot) return Reason{kSlowFadeNs, FaultCode::MotorsHot};
+  if (findings.renderer == RendererLink::Hung) return Reason{kSlowFadeNs, FaultCode::RendererHung};
+  if (findings.renderer == RendererLink::Leaving) return Reason{kSlowFadeNs, FaultCode::None};
+  return std::nullopt;
+}
+
+}  // namespace
+
+SafetyState begin_fade(const SafetyState& before, std::int64_t fade_ns, FaultCode fault) noexcept {
+  if (!before.armed()) return before;
+  if (before.state == ServoState::Fading && fade_ns >= before.fade_ns) return before;
+  return {ServoState::Fading, fault, fade_ns};
+}
+
+SafetyState after_findings(const SafetyState& before, const Findings& findings) noexcept {
+  // a hand may be moved as fast as it likes where it feels nothing
+  const bool cut = findings.cut != FaultCode::None && (before.armed() || findings.cut != FaultCode::VelocityTrip);
+  if (cut) return {ServoState::Fault, findings.cut, 0};
+
+  const auto reason = reason_to_fade(findings);
+  switch (before.state) {
+    case ServoState::Disarmed:
+      if (findings.turn_on_edge && findings.interlock && findings.renderer == RendererLink::Alive &&
+          findings.cut == FaultCode::None && !reason) {
+        return {ServoState::Arming, FaultCode::None, 0};
+      }
+      return before;
+    case ServoState::Fault:
+      if (findings.turn_on_edge) return {ServoState::Disarmed, before.fault, 0};
+      return before;
+    case ServoState::Arming:
+    case ServoState::Running:
+    case ServoState::Fading:
+      return reason ? begin_fade(before, reason->fade_ns, reason->fault) : before;
+  }
+  return before;
+}
+
+SafetyState after_output(const SafetyState& before, double gain, bool silent) noexcept {
+  if (before.state == ServoState::Arming && gain >= 1.0) return {ServoState::Running, before.fault, 0};
+  if (before.state == ServoState::Fading && gain <= 0.0 && silent) return {ServoState::Disarmed, before.fault, 0};
+  return before;
+}
+
+}  // namespace afm::haptics
