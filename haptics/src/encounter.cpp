@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <string>
 #include <utility>
 
@@ -39,6 +41,19 @@ physics::DynamicModel dynamic_model(const scene::SharedMaterial& material, std::
                                physics::Time(1e-9 * static_cast<double>(period_ns)), scene::law_options(material));
 }
 
+// For every height at which a hand can be, however the sample is turned.
+StoredEnergy stored_energy_of(const physics::LawTables& tables, const FitScaling& scaling, const DeviceSpec& device) {
+  const auto felt = [&scaling](const physics::BranchTable& branch) {
+    return [&scaling, &branch](double height_m) {
+      return scaling.hand_force_n(branch.force(physics::Length(scaling.z_m(height_m))).si);
+    };
+  };
+  const double reach_m = glm::length(glm::max(glm::abs(device.workspace_min_m - device.contact_point_m),
+                                              glm::abs(device.workspace_max_m - device.contact_point_m)));
+  return StoredEnergy(felt(tables.free), felt(tables.attached), tables.figures.z_jtc.si * scaling.hand_m_per_m(),
+                      {-reach_m, reach_m});
+}
+
 double slow_motion_of(const physics::ApproachRetractModel& /*at rest at any time*/) { return 1.0; }
 double slow_motion_of(const physics::DynamicModel& model) { return model.slow_motion(); }
 
@@ -68,15 +83,17 @@ core::Result<std::unique_ptr<Encounter>> Encounter::create(const scene::SharedMa
   try {
     Model model(std::in_place_type<physics::ApproachRetractModel>, *tables);
     if (material.dynamic != 0) model = dynamic_model(material, period_ns);
-    return std::unique_ptr<Encounter>(new Encounter(std::move(model), *scaling, edit_revision));
+    return std::unique_ptr<Encounter>(
+        new Encounter(std::move(model), *scaling, stored_energy_of(**tables, *scaling, device), edit_revision));
   } catch (const std::exception& error) {
     return refusal(material, core::ErrorCategory::Failed, error.what());
   }
 }
 
-Encounter::Encounter(Model model, const FitScaling& scaling, std::uint32_t edit_revision)
+Encounter::Encounter(Model model, const FitScaling& scaling, StoredEnergy stored_energy, std::uint32_t edit_revision)
     : model_(std::move(model)),
       scaling_(scaling),
+      stored_energy_(std::move(stored_energy)),
       slow_motion_(std::visit([](const auto& m) { return slow_motion_of(m); }, model_)),
       edit_revision_(edit_revision) {}
 

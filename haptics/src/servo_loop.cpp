@@ -85,8 +85,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       exchange_(std::move(encounters)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count}, device.spec(),
              period_ns_, exchange_),
-      governor_(period_ns_, force_cap_n(device.spec()), FitScaling::kStrokeM,
-                usable_slew_n_per_s(device.spec(), SafetyGovernor::kSlewNPerS)),
+      governor_(safety_limits(device.spec(), period_ns_, FitScaling::kStrokeM, settings.dead_man)),
       hand_position_m_(device.spec().contact_point_m) {
   shared_.store(shared(device.spec()));
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
@@ -126,6 +125,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
     response = encounter_->step(physics::Length(encounter_->scaling().z_m(hand_height_m_)));
     wanted_n = encounter_->scaling().hand_force_n(response.force.si);
   }
+  const ContactPhase phase = shared_phase(response.phase);
   bool pulled_off = false;
   for (std::uint32_t i = 0; i < response.event_count; ++i) {
     pulled_off = pulled_off || response.events[i].kind == physics::EventKind::JumpOffContact;
@@ -133,15 +133,20 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
 
   // from the contact point, so that a recording that knows no other frame gives the same bits
   renderer_ = renderer_link(now_ns);
+  const StoredEnergy* stored = encounter_ == nullptr ? nullptr : &encounter_->stored_energy();
   const auto output = governor_.step({.time_ns = now_ns,
                                       .hand_position_m = hand.position_m - device_.spec().contact_point_m,
                                       .wanted_force_n = wanted_n * normal_,
                                       .hand_height_m = hand_height_m_,
-                                      .phase = shared_phase(response.phase),
+                                      .phase = phase,
                                       .pulled_off = pulled_off,
                                       .turn_on = hand.turn_on,
                                       .device_healthy = hand.healthy,
-                                      .renderer = renderer_});
+                                      .motor_heat = hand.motor_heat,
+                                      .renderer = renderer_,
+                                      .stored_energy_j = stored == nullptr ? 0.0 : stored->at(phase, hand_height_m_),
+                                      .stiffness_n_per_m = stored == nullptr ? 0.0 : stored->stiffness_n_per_m(),
+                                      .sample_moved = std::exchange(sample_moved_, false)});
   device_.write(output.command);
   if (output.dropped && encounter_ != nullptr) encounter_->wait_for_lift();
 
@@ -171,6 +176,7 @@ void ServoLoop::turn_sample(const std::array<double, 16>& room_from_sample) noex
   const glm::dvec3 z_axis(room_from_sample[8], room_from_sample[9], room_from_sample[10]);
   const double length = glm::length(z_axis);
   if (std::isnormal(length)) {
+    sample_moved_ = sample_moved_ || normal_ != z_axis / length;
     normal_ = z_axis / length;
   } else {
     ++refused_transforms_;
@@ -242,6 +248,13 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physic
   state_.servo_state = governor_.state();
   state_.phase = shared_phase(response.phase);
   state_.fault = governor_.fault();
+  state_.dead_man = governor_.dead_man() ? 1 : 0;
+  state_.force_cap_n = governor_.force_cap_n();
+  state_.slew_limit_n_per_s = governor_.slew_limit_n_per_s();
+  state_.motor_heat = governor_.motors().heat();
+  state_.thermal_gain = governor_.motors().gain();
+  state_.ledger_j = governor_.ledger().excess_j();
+  state_.ledger_damping = governor_.ledger_damping_n_s_per_m();
   state_.edit_refused = edits_.refused();
   state_.garbage_blocks = shared_.refused_blocks() + refused_transforms_;
   shared_.store(state_);

@@ -54,6 +54,7 @@ struct DeviceSample {
   glm::dvec3 position_m{0.0};
   bool turn_on = false;               // the button that enables the force, held down
   bool healthy = true;                // false: the device failed, the rest is not to be used
+  double motor_heat = 0;              // as the device measures it: 1 is as hot as its motors may become, 0 if unknown
   std::uint32_t finished_script = 0;  // revision of the newest HandScript that was played to its end
 };
 

@@ -9,6 +9,7 @@
 #include "core/result.h"
 #include "haptics/device.h"
 #include "haptics/scaling.h"
+#include "haptics/stored_energy.h"
 #include "physics/dynamic_model.h"
 #include "physics/force_model.h"
 #include "physics/law_tables.h"
@@ -40,15 +41,17 @@ class Encounter {
   double slow_motion() const noexcept { return slow_motion_; }  // as in TipState
 
   const FitScaling& scaling() const noexcept { return scaling_; }
+  const StoredEnergy& stored_energy() const noexcept { return stored_energy_; }
   std::uint32_t edit_revision() const noexcept { return edit_revision_; }
 
  private:
   using Model = std::variant<physics::ApproachRetractModel, physics::DynamicModel>;
 
-  Encounter(Model model, const FitScaling& scaling, std::uint32_t edit_revision);
+  Encounter(Model model, const FitScaling& scaling, StoredEnergy stored_energy, std::uint32_t edit_revision);
 
   Model model_;  // never without a value, so that visiting it cannot throw
   FitScaling scaling_;
+  StoredEnergy stored_energy_;
   double slow_motion_;
   std::uint32_t edit_revision_;
 };

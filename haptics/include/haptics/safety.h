@@ -3,15 +3,37 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 
 #include "haptics/device.h"
+#include "haptics/energy_ledger.h"
+#include "haptics/hand_motion.h"
+#include "haptics/output_stage.h"
+#include "haptics/safety_states.h"
+#include "haptics/thermal_budget.h"
 #include "scene/shared_blocks.h"
 
 namespace afm::haptics {
 
 using scene::RendererLink;
 
-// One tick as the governor sees it; hand's values in the device frame.
+// What a hand, a device and its motors stand.
+struct SafetyLimits {
+  std::int64_t period_ns = 1'000'000;
+  double force_cap_n = 2.0;  // the longest vector
+  double slew_n_per_s = 500.0;
+  double trip_speed_m_per_s = 0.8;  // a relaxed hand reaches 0.6 m/s after pull-off
+  double continuous_force_n = 0;    // 0: unknown
+  double release_height_m = 0.050;  // hand height at which the tip lets go
+  glm::dvec3 workspace_min_m{0.0};  // from the contact point
+  glm::dvec3 workspace_max_m{0.0};
+  bool dead_man = false;
+};
+
+// Those of a device, whose own limits are used to kUsableLimitShare, or less where TouchAFM wants less.
+SafetyLimits safety_limits(const DeviceSpec& device, std::int64_t period_ns, double release_height_m, bool dead_man);
+
+// One tick as the governor sees it; hand's values in the device frame, from the contact point.
 struct GovernorInput {
   std::int64_t time_ns = 0;
   glm::dvec3 hand_position_m{0.0};
@@ -21,34 +43,27 @@ struct GovernorInput {
   bool pulled_off = false;  // in this tick
   bool turn_on = false;
   bool device_healthy = true;
+  double motor_heat = 0;  // as DeviceSample has it
   RendererLink renderer = RendererLink::Absent;
+  double stored_energy_j = 0;    // what the law holds at this height in this phase (haptics/stored_energy.h)
+  double stiffness_n_per_m = 0;  // no spring of the law is stiffer
+  bool sample_moved = false;     // since the tick before, by another hand, whose work is not this one's
 };
 
-// The last thing between a force law and a hand. Owns the servo's state and is the only maker of ForceCommand. For the
-// servo's thread: wait-free, never throws.
-//
-// Disarmed --Turn-On pressed, tip lifted, still and free, renderer alive--> Arming --0.5 s--> Running
-// Arming, Running --renderer hung, leaving or dead, a tick > 20 ms late, disarm()--> Fading --force is zero--> Disarmed
-// any --not a number, device error, too fast--> Fault --cause gone, Turn-On pressed--> Disarmed
-//
-// The order of the output stage is fixed: finite check, gain, damping after pull-off, clamp of the vector, slew limit,
-// velocity trip. Whatever comes in, what goes out is finite, not longer than the cap, and differs from the command
-// before by no more than the slew limit, except that a fault cuts it to zero at once.
+// The last thing between a force law and a hand. Owns the servo's state (haptics/safety_states.h) and is the only maker
+// of ForceCommand, which goes through haptics/output_stage.h. For the servo's thread: wait-free, never throws.
 class SafetyGovernor {
  public:
   static constexpr double kSlewNPerS = 500.0;
   static constexpr double kGuardSlewNPerS = 100.0;  // for kGuardNs after a tick that came more than two periods late
   static constexpr std::int64_t kGuardNs = 100'000'000;
-  static constexpr std::int64_t kLateNs = 20'000'000;  // a tick after this pause disarms
-  static constexpr std::int64_t kHangNs = 250'000'000;
+  static constexpr std::int64_t kLateNs = 20'000'000;   // a tick after this pause disarms
+  static constexpr std::int64_t kHangNs = 250'000'000;  // with kSlowFadeNs less than 350 ms from heartbeat to zero
   static constexpr std::int64_t kArmingNs = 500'000'000;
-  static constexpr std::int64_t kQuickFadeNs = 20'000'000;
-  static constexpr std::int64_t kFadeNs = 90'000'000;  // with kHangNs less than 350 ms from the last heartbeat to zero
-  static constexpr double kArmingMarginM = 0.005;      // above the height at which the tip lets go
+  static constexpr double kArmingMarginM = 0.005;  // above the height at which the tip lets go
   static constexpr double kArmingForceN = 0.05;
   static constexpr double kArmingSpeedMPerS = 0.1;
-  static constexpr double kTripSpeedMPerS = 0.8;  // a relaxed hand reaches 0.6 m/s after pull-off
-  static constexpr std::int64_t kTripNs = 5'000'000;
+  static constexpr double kTripSpeedMPerS = 0.8;
   static constexpr double kReleaseDampingNSPerM = 3.0;
   static constexpr std::int64_t kReleaseDampingNs = 100'000'000;
 
@@ -57,54 +72,69 @@ class SafetyGovernor {
     bool dropped = false;  // the force was just taken away: the model has to wait for a lift
   };
 
-  // `cap_n`: the longest force vector. `release_height_m`: hand height at which the tip lets go (FitScaling::kStrokeM).
-  // `slew_n_per_s`: less than kSlewNPerS for a device that stands less.
-  SafetyGovernor(std::int64_t period_ns, double cap_n, double release_height_m, double slew_n_per_s = kSlewNPerS);
+  explicit SafetyGovernor(const SafetyLimits& limits);
 
   Output step(const GovernorInput& input) noexcept;
 
   // Takes the force away in kQuickFadeNs; a new Turn-On is needed. For a change of material.
-  void disarm() noexcept { begin_fade(kQuickFadeNs, scene::FaultCode::None); }
+  void disarm() noexcept { state_ = begin_fade(state_, kQuickFadeNs, scene::FaultCode::None); }
 
-  // What the hand did before no longer counts, except for the state: for a change of material, so that what follows
-  // depends on nothing that a recording of it does not hold. Only while released().
+  // For another material or scale. Only while released().
+  void set_release_height(double release_height_m) noexcept { release_height_m_ = release_height_m; }
+
+  // What the hand did before no longer counts, except for the state and the heat: for a change of material, so that
+  // what follows depends on nothing that a recording of it does not hold. Only while released().
   void forget_motion() noexcept;
 
-  scene::ServoState state() const noexcept { return state_; }
-  scene::FaultCode fault() const noexcept { return fault_; }
+  scene::ServoState state() const noexcept { return state_.state; }
+  scene::FaultCode fault() const noexcept { return state_.fault; }
   bool released() const noexcept;  // no force, and none to come without a new Turn-On
 
+  double force_cap_n() const noexcept { return output_.cap_n(); }
+  double slew_limit_n_per_s() const noexcept { return slew_n_per_s_; }  // in this tick
+  const ThermalBudget& motors() const noexcept { return motors_; }
+  const EnergyLedger& ledger() const noexcept { return ledger_; }
+  double ledger_damping_n_s_per_m() const noexcept { return ledger_damping_; }  // in this tick
+  bool dead_man() const noexcept { return dead_man_; }
+
  private:
-  void begin_fade(std::int64_t duration_ns, scene::FaultCode code) noexcept;
-  Output cut(scene::FaultCode code) noexcept;
-  void estimate_velocity(const glm::dvec3& position_m, double seconds) noexcept;
-  bool may_arm(const GovernorInput& input) const noexcept;
-  void follow_renderer(RendererLink link) noexcept;
-  void advance_state(const GovernorInput& input, std::int64_t elapsed_ns, bool turn_on_edge) noexcept;
-  glm::dvec3 limited(const GovernorInput& input, std::int64_t elapsed_ns) noexcept;
-  bool too_fast(std::int64_t now_ns) noexcept;
+  // What the tick before left for the ledger.
+  struct Booked {
+    bool valid = false;
+    double law_gain = 0;
+    double stop_gain = 0;
+    double stored_j = 0;
+    double stop_stored_j = 0;
+    double stiffness_n_per_m = 0;
+  };
+
+  Findings find(const GovernorInput& input, std::int64_t elapsed_ns) noexcept;
+  void book(const GovernorInput& input) noexcept;
+  bool high_and_free(const GovernorInput& input) const noexcept;
+  void advance_gain(std::int64_t elapsed_ns) noexcept;
+  scene::FaultCode give(const GovernorInput& input, std::int64_t elapsed_ns) noexcept;
+  void remember(const GovernorInput& input) noexcept;
 
   std::int64_t period_ns_;
-  double cap_n_;
   double release_height_m_;
+  bool dead_man_;
+
+  SafetyState state_;
+  double gain_ = 0;  // of arming
+  bool fade_under_way_ = false;
+  OutputStage output_;
+  HandMotion motion_;
+  ThermalBudget motors_;
+  EnergyLedger ledger_;
+  Booked booked_;
+  double ledger_damping_ = 0;
   double slew_n_per_s_;
 
-  scene::ServoState state_ = scene::ServoState::Disarmed;
-  scene::FaultCode fault_ = scene::FaultCode::None;
-  double gain_ = 0;
-  bool fade_begins_ = false;
-  std::int64_t fade_duration_ns_ = kFadeNs;
-  std::int64_t guard_until_ns_ = 0;
-  std::int64_t damping_until_ns_ = 0;
-  std::int64_t fast_since_ns_ = 0;
-  bool fast_ = false;
-
+  std::int64_t guard_until_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::int64_t damping_until_ns_ = std::numeric_limits<std::int64_t>::min();
   bool started_ = false;
   bool turn_on_before_ = true;  // a button that is held from the beginning is no press
   std::int64_t time_ns_ = 0;
-  glm::dvec3 position_m_{0.0};
-  glm::dvec3 velocity_m_per_s_{0.0};
-  glm::dvec3 command_n_{0.0};
 };
 
 }  // namespace afm::haptics

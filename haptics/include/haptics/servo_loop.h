@@ -86,6 +86,7 @@ class ServoLoop {
   Encounter* encounter_ = nullptr;  // of the material under the tip, null before the first choice
   scene::Selection chosen_;         // the newest choice, perhaps not in effect yet
   glm::dvec3 normal_{0.0, 1.0, 0.0};
+  bool sample_moved_ = false;  // in this tick
   glm::dvec3 hand_position_m_;
   glm::dvec3 hand_from_contact_m_{0.0};
   bool turn_on_ = false;

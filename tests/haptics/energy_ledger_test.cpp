@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/energy_ledger.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "servo_bench.h"
+
+namespace {
+
+using namespace afm::haptics;
+using afm::physics::Law;
+using afm::scene::ContactPhase;
+using afm::scene::FaultCode;
+using afm::scene::ServoState;
+
+constexpr std::int64_t kPeriodNs = 1'000'000;
+constexpr double kPeriodS = 1e-3;
+constexpr double kTopM = 0.060;
+constexpr double kEncoderM = 0.055e-3;
+
+EnergyLedger::Tick falling_spring(double height_m, double moved_m, double force_share = 1.0) {
+  constexpr double kSpring = 40.0;
+  const glm::dvec3 force_n(0.0, -kSpring * force_share * height_m, 0.0);
+  const double after_m = height_m + moved_m;
+  return {.moved_m = {0.0, moved_m, 0.0},
+          .wanted_n = force_n,
+          .commanded_n = force_n,
+          .stored_rise_j = 0.5 * kSpring * (after_m * after_m - height_m * height_m),
+          .stiffness_n_per_m = kSpring};
+}
+
+TEST(EnergyLedger, SeesNothingInASpringThatIsSampled) {
+  EnergyLedger ledger;
+  double height_m = 0.03;
+  for (int i = 0; i < 10'000; ++i) {
+    const double moved_m = 1e-3 * std::sin(0.1 * i);
+    ledger.book(falling_spring(height_m, moved_m));
+    height_m += moved_m;
+    ASSERT_LT(ledger.excess_j(), 1e-12);
+  }
+}
+
+TEST(EnergyLedger, SeesASpringThatGivesMoreThanItHolds) {
+  EnergyLedger ledger;
+  ledger.book(falling_spring(0.03, -1e-4, 1.5));
+  EXPECT_NEAR(ledger.excess_j(), 0.5 * 40.0 * 0.03 * 1e-4, 1e-6);
+}
+
+TEST(EnergyLedger, DampsByWhatPaysBackInATickAndNoMoreThanItsLimit) {
+  EnergyLedger ledger;
+  const glm::dvec3 velocity(0.0, -0.1, 0.0);
+  EXPECT_EQ(ledger.damping_n_s_per_m(velocity, kPeriodS), 0.0);
+  ledger.book({.moved_m = {0.0, -1e-4, 0.0}, .stored_rise_j = 2e-5});
+  EXPECT_NEAR(ledger.damping_n_s_per_m(velocity, kPeriodS), 2e-5 / (0.01 * kPeriodS), 1e-9);
+  ledger.book({.stored_rise_j = 4e-5});
+  EXPECT_EQ(ledger.damping_n_s_per_m(velocity, kPeriodS), EnergyLedger::kMostDampingNSPerM);
+  EXPECT_EQ(ledger.damping_n_s_per_m({}, kPeriodS), EnergyLedger::kMostDampingNSPerM);
+  EXPECT_FALSE(ledger.exceeded());
+  ledger.book({.stored_rise_j = EnergyLedger::kLimitJ});
+  EXPECT_TRUE(ledger.exceeded());
+  ledger.recredit();
+  EXPECT_EQ(ledger.excess_j(), 0.0);
+}
+
+TEST(EnergyLedger, IsPaidBackByWhatDamps) {
+  EnergyLedger ledger;
+  ledger.book({.stored_rise_j = 4e-5});
+  for (int i = 0; i < 10; ++i) {
+    const double damping = ledger.damping_n_s_per_m({0.0, 0.1, 0.0}, kPeriodS);
+    ledger.book({.moved_m = {0.0, 0.1 * kPeriodS, 0.0}, .commanded_n = {0.0, -0.1 * damping, 0.0}});
+  }
+  EXPECT_LE(ledger.excess_j(), EnergyLedger::kToleranceJ);
+}
+
+TEST(EnergyLedger, BlamesNoLawForWhatTheLimitsAdd) {
+  EnergyLedger ledger;
+  ledger.book({.moved_m = {0.0, 1e-3, 0.0}, .wanted_n = {}, .commanded_n = {0.0, 1.0, 0.0}});
+  EXPECT_EQ(ledger.excess_j(), 0.0);
+}
+
+TEST(EnergyLedger, BooksAllDirectionsOfTheForce) {
+  EnergyLedger ledger;
+  const glm::dvec3 force_n(0.3, -0.2, 0.5);
+  const glm::dvec3 moved_m(1e-3, 2e-3, -1e-3);
+  ledger.book({.moved_m = -moved_m, .wanted_n = force_n, .commanded_n = force_n});
+  EXPECT_NEAR(ledger.excess_j(), -glm::dot(force_n, moved_m), 1e-12);
+}
+
+// What a broken program could do to a force on its way from the law to the governor.
+enum class Injected { Nothing, HalfMore, FiveMillisecondsLate };
+
+// Law, scale and governor in a loop that a test moves by its hand's height; without the servo around them.
+class Loop {
+ public:
+  Loop(const afm::scene::SharedMaterial& material, std::int64_t period_ns = kPeriodNs)
+      : period_ns_(period_ns),
+        encounter_(afm::test::required(Encounter::create(material, 0, {}, omni_like("hand"), period_ns))),
+        governor_(safety_limits(omni_like("hand"), period_ns, FitScaling::kStrokeM, false)) {}
+
+  void tick(const glm::dvec3& position_m, std::int64_t late_ns = 0) {
+    time_ns_ += period_ns_ + late_ns;
+    position_m_ = position_m;
+    const double height_m = position_m.y;
+    const auto response = encounter_->step(afm::physics::Length(encounter_->scaling().z_m(height_m)));
+    phase_ = static_cast<ContactPhase>(response.phase);
+    const double force_n = encounter_->scaling().hand_force_n(response.force.si);
+    history_[ticks_ % history_.size()] = force_n;
+    double wanted_n = force_n;
+    if (injected == Injected::HalfMore) wanted_n = 1.5 * force_n;
+    if (injected == Injected::FiveMillisecondsLate) wanted_n = history_[(ticks_ + 1) % history_.size()];
+    ++ticks_;
+    bool pulled_off = false;
+    for (std::uint32_t i = 0; i < response.event_count; ++i) {
+      pulled_off = pulled_off || response.events[i].kind == afm::physics::EventKind::JumpOffContact;
+    }
+    const auto& stored = encounter_->stored_energy();
+    const auto output = governor_.step({.time_ns = time_ns_,
+                                        .hand_position_m = position_m,
+                                        .wanted_force_n = {0.0, wanted_n, 0.0},
+                                        .hand_height_m = height_m,
+                                        .phase = phase_,
+                                        .pulled_off = pulled_off,
+                                        .turn_on = turn_on,
+                                        .renderer = RendererLink::Alive,
+                                        .stored_energy_j = stored.at(phase_, height_m),
+                                        .stiffness_n_per_m = stored.stiffness_n_per_m()});
+    force_n_ = output.command.force_n();
+    if (output.dropped) encounter_->wait_for_lift();
+    most_excess_j = std::max(most_excess_j, governor_.ledger().excess_j());
+    damped_ticks += governor_.ledger_damping_n_s_per_m() > 0.0 ? 1 : 0;
+  }
+
+  // Lifts slowly and presses Turn-On until there is force; a fault takes two presses.
+  void arm() {
+    for (int press = 0; press < 3 && governor_.state() != ServoState::Running; ++press) {
+      turn_on = false;
+      glm::dvec3 place_m = position_m_;
+      const glm::dvec3 way_m = (glm::dvec3(0.0, kTopM, 0.0) - place_m) / 400.0;
+      for (int i = 0; i < 400; ++i) tick(place_m += way_m);
+      for (int i = 0; i < 50; ++i) tick(place_m);
+      turn_on = true;
+      for (int i = 0; i < 520; ++i) tick(place_m);
+    }
+    ASSERT_EQ(governor_.state(), ServoState::Running);
+  }
+
+  SafetyGovernor& governor() { return governor_; }
+  const Encounter& encounter() const { return *encounter_; }
+  ContactPhase phase() const { return phase_; }
+  const glm::dvec3& position_m() const { return position_m_; }
+  const glm::dvec3& force_n() const { return force_n_; }
+
+  Injected injected = Injected::Nothing;
+  bool turn_on = false;
+  double most_excess_j = 0;
+  int damped_ticks = 0;
+
+ private:
+  std::int64_t period_ns_;
+  std::unique_ptr<Encounter> encounter_;
+  SafetyGovernor governor_;
+  std::array<double, 6> history_{};  // the oldest is 5 ms old at 1 kHz
+  std::size_t ticks_ = 0;
+  std::int64_t time_ns_ = 1'000'000'000;
+  glm::dvec3 position_m_{0.0, kTopM, 0.0};
+  ContactPhase phase_ = ContactPhase::WaitForLift;
+  glm::dvec3 force_n_{0.0};
+};
+
+afm::scene::SharedMaterial random_material(std::mt19937_64& random, Law law) {
+  const auto between = [&](double least, double most) {
+    return least * std::pow(most / least, std::uniform_real_distribution<double>(0.0, 1.0)(random));
+  };
+  afm::scene::SharedMaterial material =
+      afm::test::material("random", between(0.03, 1.0), between(5e-21, 300e-21), between(1e-3, 40e-3));
+  material.law = law;
+  material.interaction.tip_radius.si = between(10e-9, 100e-9);
+  material.interaction.reduced_modulus.si = between(1e9, 100e9);
+  return material;
+}
+
+// A hand on its way as no hand would go: speeds up to the trip's, reversals, places in steps of an encoder, sideways
+// into the end-stop, ticks that come too late.
+void wander(Loop& loop, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const bool quantised = random() % 2 == 0;
+  const bool restless = random() % 4 == 0;
+  const int ticks = 40 + static_cast<int>(random() % 150);
+  glm::dvec3 place_m = loop.position_m();
+  glm::dvec3 velocity(0.0, place_m.y > 0.03 ? -0.5 : 0.5, 0.0);
+  for (int i = 0; i < ticks; ++i) {
+    if (random() % 32 == 0) {
+      velocity.y = 0.7 * (2.0 * share(random) - 1.0);
+      velocity.x = restless ? 0.3 * (2.0 * share(random) - 1.0) : 0.0;
+    }
+    if (place_m.y < -0.037) velocity.y = std::abs(velocity.y);
+    if (place_m.y > 0.078) velocity.y = -std::abs(velocity.y);
+    if (std::abs(place_m.x) > 0.078) velocity.x = -std::copysign(velocity.x, place_m.x);
+    const std::int64_t late_ns = restless && random() % 64 == 0 ? static_cast<std::int64_t>(share(random) * 19e6) : 0;
+    place_m += velocity * (kPeriodS + 1e-9 * static_cast<double>(late_ns));
+    loop.tick(quantised ? kEncoderM * glm::round(place_m / kEncoderM) : place_m, late_ns);
+  }
+}
+
+struct AnyLaw {
+  std::string name;
+  Law law;
+};
+
+class EnergyLedgerOf : public testing::TestWithParam<AnyLaw> {};
+
+TEST_P(EnergyLedgerOf, NeverActsOnTheIdealModel) {
+  constexpr int kMaterials = 40;
+  constexpr int kTrips = 400;
+  std::mt19937_64 random(static_cast<std::uint64_t>(GetParam().law) + 1);
+  int attached = 0;
+  int armed = 0;
+  for (int i = 0; i < kMaterials; ++i) {
+    std::unique_ptr<Loop> loop;
+    while (loop == nullptr) {
+      try {
+        loop = std::make_unique<Loop>(random_material(random, GetParam().law));
+      } catch (const std::runtime_error&) {
+        // not every set of numbers has such a law, or can be felt
+      }
+    }
+    for (int trip = 0; trip < kTrips; ++trip) {
+      if (loop->governor().state() != ServoState::Running) loop->arm();
+      if (HasFatalFailure()) return;
+      wander(*loop, random);
+      attached += loop->phase() == ContactPhase::Attached ? 1 : 0;
+      armed += loop->governor().state() == ServoState::Running ? 1 : 0;
+      if (random() % 16 == 0) loop->governor().disarm();
+      ASSERT_EQ(loop->damped_ticks, 0) << "material " << i << ", trip " << trip << ", excess "
+                                       << 1e6 * loop->most_excess_j << " uJ";
+      ASSERT_NE(loop->governor().fault(), FaultCode::EnergyExceeded);
+    }
+  }
+  EXPECT_GT(attached, kMaterials * kTrips / 20);
+  EXPECT_GT(armed, kMaterials * kTrips / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, EnergyLedgerOf,
+                         testing::Values(AnyLaw{"Paper", Law::Paper}, AnyLaw{"Hao", Law::Hao},
+                                         AnyLaw{"Hertz", Law::Hertz}, AnyLaw{"Dmt", Law::Dmt}, AnyLaw{"Jkr", Law::Jkr},
+                                         AnyLaw{"MaugisDugdale", Law::MaugisDugdale},
+                                         AnyLaw{"LennardJones", Law::LennardJones}),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
