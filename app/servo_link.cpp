@@ -10,6 +10,7 @@
 
 #include "app/exit_code.h"
 #include "app/haptic_choice.h"
+#include "app/servo_takeover.h"
 #include "core/check.h"
 
 namespace afm::app {
@@ -73,17 +74,23 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
 
 core::Result<std::unique_ptr<ServoLink>> ServoLink::start(const scene::SharedModel& model, std::uint64_t scene_digest,
                                                           ServoMode mode, const std::string& program,
-                                                          const std::string& haptic_device) {
+                                                          const std::string& haptic_device, double linger_s) {
   const auto choice = parse_haptic_choice(haptic_device);
   if (!choice) return tl::unexpected(choice.error());
+  const std::string servo = std::filesystem::path(program).replace_filename("touchafm-servo").string();
+  const haptics::ServoSettings settings{.rate_hz = kServoRateHz, .linger_s = linger_s};
+  if (auto taken = take_waiting_servo(model, scene_digest, settings, haptic_device, servo)) {
+    std::unique_ptr<ServoLink> link(new ServoLink(std::move(taken->segment)));
+    link->go_on();
+    link->servo_ = haptics::AdoptedServo::adopt(std::move(taken->servo), link->side_);
+    return link;
+  }
   auto segment = scene::SharedSegment::create(model, scene_digest);
   if (!segment) return tl::unexpected(segment.error());
   std::unique_ptr<ServoLink> link(new ServoLink(std::move(*segment)));
 
   if (mode == ServoMode::Process) {
-    const std::string servo = std::filesystem::path(program).replace_filename("touchafm-servo").string();
-    auto process =
-        haptics::ServoProcess::spawn(servo, link->segment_, link->side_, {.rate_hz = kServoRateHz}, haptic_device);
+    auto process = haptics::ServoProcess::spawn(servo, link->segment_, link->side_, settings, haptic_device);
     if (!process) return tl::unexpected(process.error());
     link->servo_ = std::move(*process);
   } else {
@@ -103,7 +110,10 @@ void ServoLink::beat(std::int64_t now_ns) {
 
 core::Result<ServoLink::News> ServoLink::poll(std::int64_t now_ns) {
   beat(now_ns);
-  if (const auto state = side_.tip_state()) tip_ = *state;
+  if (const auto state = side_.tip_state()) {
+    tip_ = *state;
+    tip_.hand_revision = state->hand_revision > script_base_ ? state->hand_revision - script_base_ : 0;
+  }
 
   News news;
   while (const auto sample = side_.pop_sample()) news.samples.push_back(*sample);
@@ -119,6 +129,33 @@ std::uint32_t ServoLink::change(std::size_t material, const scene::SharedMateria
   AFM_CHECK(material < segment_.model().material_count);
   side_.store(scene::MaterialEdit{.material = parameters, .revision = ++edits_}, static_cast<std::uint32_t>(material));
   return edits_;
+}
+
+void ServoLink::script(const scene::HandScript& script) {
+  scene::HandScript next = script;
+  next.revision += script_base_;
+  side_.store(next);
+}
+
+// Takes the place of a renderer that died: revisions go on from its own, its edits are undone, and what it left unread
+// is of the past.
+void ServoLink::go_on() {
+  tip_ = side_.tip_state().value_or(scene::TipState{});
+  selection_ = side_.last_selection().value_or(scene::Selection{.revision = tip_.selection_revision});
+  script_base_ = side_.last_hand_script().value_or(scene::HandScript{.revision = tip_.hand_revision}).revision;
+  const scene::SharedModel& model = segment_.model();
+  std::vector<std::size_t> edited;
+  for (std::uint32_t i = 0; i < model.material_count; ++i) {
+    const auto edit = side_.last_edit(i);
+    if (!edit) continue;
+    edits_ = std::max(edits_, edit->revision);
+    edited.push_back(i);
+  }
+  for (const std::size_t i : edited) change(i, model.materials[i]);
+  while (side_.pop_sample()) {
+  }
+  while (side_.pop_event()) {
+  }
 }
 
 void ServoLink::choose(std::int32_t material) {

@@ -32,10 +32,11 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
 class ServoLink {
  public:
   // `program` is the running touchafm; touchafm-servo lies beside it. `haptic_device` is what parse_haptic_choice()
-  // takes.
+  // takes. A servo that waits since its renderer died is taken over, if it is of the same scene, device and settings
+  // and if `linger_s`, how long this one would wait, is not zero; otherwise it is told to leave first.
   static core::Result<std::unique_ptr<ServoLink>> start(const scene::SharedModel& model, std::uint64_t scene_digest,
                                                         ServoMode mode, const std::string& program,
-                                                        const std::string& haptic_device = "sim");
+                                                        const std::string& haptic_device = "sim", double linger_s = 0);
 
   struct News {
     std::vector<scene::TipSample> samples;
@@ -61,10 +62,12 @@ class ServoLink {
   // (the servo's log line says why). Edits may come as fast as they like: of each material the newest counts.
   std::uint32_t change(std::size_t material, const scene::SharedMaterial& parameters);
   void place(const scene::SceneTransforms& transforms) { side_.store(transforms); }
-  void script(const scene::HandScript& script) { side_.store(script); }
+  void script(const scene::HandScript& script);
 
  private:
   explicit ServoLink(scene::SharedSegment segment) : segment_(std::move(segment)), side_(segment_.renderer_side()) {}
+
+  void go_on();
 
   core::MonotonicClock clock_;  // of a device in a thread of this process
   scene::SharedSegment segment_;
@@ -72,6 +75,7 @@ class ServoLink {
   scene::Selection selection_;
   std::uint32_t edits_ = 0;
   scene::TipState tip_;
+  std::uint32_t script_base_ = 0;  // the predecessor's newest script
   std::uint64_t beats_ = 0;
   std::unique_ptr<haptics::Servo> servo_;  // last: it ends before its segment goes
 };

@@ -1,26 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <poll.h>
 #include <signal.h>
-#include <sys/eventfd.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <string_view>
-#include <thread>
+#include <utility>
 
 #include "app/exit_code.h"
 #include "app/haptic_choice.h"
+#include "app/renderer_watch.h"
 #include "core/clock.h"
 #include "core/file_descriptor.h"
 #include "core/log.h"
 #include "haptics/realtime.h"
+#include "haptics/servo_handover.h"
 #include "haptics/servo_loop.h"
 #include "scene/shared_segment.h"
 
@@ -37,6 +35,7 @@ struct Options {
   int segment = -1;
   int parent_socket = -1;
   double rate_hz = kDefaultRateHz;
+  double linger_s = 0;
   std::string_view haptics = "sim";
 };
 
@@ -54,51 +53,14 @@ std::optional<Options> parse_options(int count, char** arguments) {
     const std::string_view value = arguments[i + 1];
     const bool parsed = (name == "--segment"sv && parse(value, options.segment)) ||
                         (name == "--parent-socket"sv && parse(value, options.parent_socket)) ||
-                        (name == "--rate"sv && parse(value, options.rate_hz)) || name == "--haptics"sv;
+                        (name == "--rate"sv && parse(value, options.rate_hz)) ||
+                        (name == "--linger"sv && parse(value, options.linger_s)) || name == "--haptics"sv;
     if (name == "--haptics"sv) options.haptics = value;
     if (!parsed) return std::nullopt;
   }
   if (options.segment < 0 || options.parent_socket < 0) return std::nullopt;
   return options;
 }
-
-// Waits for the first of: the renderer's end of the socket closes, a signal asks to end, the servo is done. Real-time
-// like the servo, because the hand is held until it is heard.
-class Monitor {
- public:
-  Monitor(afm::haptics::ServoLoop& loop, int parent_socket, int signals)
-      : done_(::eventfd(0, EFD_CLOEXEC)),
-        thread_([this, &loop, parent_socket, signals] { watch(loop, parent_socket, signals); }) {}
-
-  Monitor(const Monitor&) = delete;
-  Monitor& operator=(const Monitor&) = delete;
-
-  ~Monitor() {
-    ::eventfd_write(done_.get(), 1);
-    thread_.join();
-  }
-
- private:
-  void watch(afm::haptics::ServoLoop& loop, int parent_socket, int signals) {
-    // the servo's notes say already what is refused here
-    afm::haptics::enter_realtime(afm::haptics::kMonitorPriority, afm::haptics::PageLock::Leave);
-    std::array<pollfd, 3> watched{{{.fd = parent_socket, .events = POLLIN, .revents = 0},
-                                   {.fd = signals, .events = POLLIN, .revents = 0},
-                                   {.fd = done_.get(), .events = POLLIN, .revents = 0}}};
-    while (::poll(watched.data(), watched.size(), -1) < 0 && errno == EINTR) {
-    }
-    if (watched[2].revents != 0) return;
-    if (watched[1].revents != 0) {
-      loop.stop();
-    } else {
-      // nothing is ever sent: whatever this is, it is the end, or a reason to let go
-      loop.renderer_died();
-    }
-  }
-
-  afm::core::FileDescriptor done_;
-  std::thread thread_;
-};
 
 // SIGINT and SIGTERM become readable events; every thread that is made from here on inherits the mask.
 afm::core::FileDescriptor catch_signals() {
@@ -111,7 +73,7 @@ afm::core::FileDescriptor catch_signals() {
 }
 
 ExitCode run(const Options& options) {
-  const afm::core::FileDescriptor parent_socket(options.parent_socket);
+  afm::core::FileDescriptor parent_socket(options.parent_socket);
   auto segment = afm::scene::SharedSegment::attach(afm::core::FileDescriptor(options.segment));
   if (!segment) {
     afm::core::log_line(segment.error().message);
@@ -135,7 +97,12 @@ ExitCode run(const Options& options) {
   afm::haptics::ServoExit exit{};
   {
     const afm::haptics::EditThread edits((*loop)->edits());
-    const Monitor monitor(**loop, parent_socket.get(), signals.get());
+    const afm::app::RendererWatch watch(
+        **loop, std::move(parent_socket), signals,
+        {.seconds = options.linger_s,
+         .program = afm::app::executable_path(),
+         .segment = segment->descriptor(),
+         .arguments = afm::haptics::servo_arguments({.rate_hz = options.rate_hz}, std::string(options.haptics))});
     const auto grant = afm::haptics::enter_realtime(afm::haptics::kServoPriority, afm::haptics::PageLock::Lock);
     for (const std::string& note : grant.notes) afm::core::log_line(note);
     (*loop)->note_grant(grant);

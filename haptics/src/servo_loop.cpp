@@ -215,7 +215,7 @@ void ServoLoop::feel(std::size_t material) noexcept {
 }
 
 RendererLink ServoLoop::renderer_link(std::int64_t now_ns) const noexcept {
-  if (renderer_died_.load(std::memory_order_relaxed)) return RendererLink::Died;
+  if (presence_.load(std::memory_order_relaxed) != Presence::Here) return RendererLink::Died;
   if (leaving_ || stop_.load(std::memory_order_relaxed)) return RendererLink::Leaving;
   if (!heard_renderer_) return RendererLink::Absent;
   return now_ns - heartbeat_seen_ns_ > SafetyGovernor::kHangNs ? RendererLink::Hung : RendererLink::Alive;
@@ -286,7 +286,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physic
 
 bool ServoLoop::finished() const noexcept {
   const bool ending =
-      leaving_ || renderer_died_.load(std::memory_order_relaxed) || stop_.load(std::memory_order_relaxed);
+      leaving_ || presence_.load(std::memory_order_relaxed) == Presence::Died || stop_.load(std::memory_order_relaxed);
   return ending && governor_.released();
 }
 
@@ -313,7 +313,7 @@ ServoExit ServoLoop::run(const core::MonotonicClock& clock) noexcept {
 
   shared_.store(timing_);
   if (leaving_) return ServoExit::RendererLeft;
-  return renderer_died_.load(std::memory_order_relaxed) ? ServoExit::RendererDied : ServoExit::Stopped;
+  return presence_.load(std::memory_order_relaxed) == Presence::Here ? ServoExit::Stopped : ServoExit::RendererDied;
 }
 
 }  // namespace afm::haptics

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "core/clock.h"
@@ -100,10 +102,9 @@ core::Result<std::unique_ptr<ServoProcess>> ServoProcess::spawn(const std::strin
                                      std::to_string(kSegmentInChild),
                                      "--parent-socket",
                                      std::to_string(kLifelineInChild),
-                                     "--rate",
-                                     fmt::format("{}", settings.rate_hz),
-                                     "--haptics",
-                                     device};
+                                     "--linger",
+                                     fmt::format("{}", settings.linger_s)};
+  for (std::string& argument : servo_arguments(settings, device)) arguments.push_back(std::move(argument));
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
@@ -144,6 +145,25 @@ bool ServoProcess::ended_within(int milliseconds) noexcept {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return true;
+}
+
+std::unique_ptr<AdoptedServo> AdoptedServo::adopt(WaitingServo waiting, scene::RendererSide& side) {
+  waiting.stay();
+  return std::unique_ptr<AdoptedServo>(new AdoptedServo(std::move(waiting), side));
+}
+
+AdoptedServo::~AdoptedServo() {
+  if (!alive()) return;
+  side_.store(goodbye());
+  if (process_ended_within(waiting_.process, kLeaveMs)) return;
+  ::syscall(SYS_pidfd_send_signal, waiting_.process.get(), SIGTERM, nullptr, 0);
+  if (process_ended_within(waiting_.process, kTerminateMs)) return;
+  ::syscall(SYS_pidfd_send_signal, waiting_.process.get(), SIGKILL, nullptr, 0);
+}
+
+std::optional<int> AdoptedServo::exit_status() noexcept {
+  // its status goes to its own parent
+  return process_ended_within(waiting_.process, 0) ? std::optional(1) : std::nullopt;
 }
 
 core::Result<std::unique_ptr<ServoThread>> ServoThread::start(scene::SharedSegment& segment, scene::RendererSide& side,

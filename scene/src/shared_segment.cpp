@@ -142,6 +142,13 @@ std::optional<TipState> RendererSide::tip_state() noexcept {
   return state;
 }
 
+std::optional<Selection> RendererSide::last_selection() const noexcept { return layout_->selection.try_load(); }
+std::optional<HandScript> RendererSide::last_hand_script() const noexcept { return layout_->hand_script.try_load(); }
+std::optional<MaterialEdit> RendererSide::last_edit(std::uint32_t material) const noexcept {
+  AFM_CHECK(material < kMaxMaterials);
+  return layout_->edits[material].try_load();
+}
+
 std::optional<ServoTiming> RendererSide::servo_timing() const noexcept { return layout_->timing.load(); }
 
 std::optional<SharedDevice> RendererSide::device() noexcept {

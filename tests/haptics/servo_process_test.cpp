@@ -316,6 +316,22 @@ TEST(ServoProgram, RefusesADescriptorThatIsNoSegment) {
   EXPECT_THAT(said, HasSubstr("shared segment"));
 }
 
+// A touchafm of another build, older or newer than the servo beside it.
+TEST(ServoProgram, RefusesASegmentOfAnotherVersionAndPrintsBoth) {
+  constexpr off_t kVersionOffset = 8;
+  for (const std::uint32_t other : {kSegmentVersion - 1, kSegmentVersion + 1}) {
+    const SharedSegment segment = create_segment();
+    ASSERT_EQ(::pwrite(segment.descriptor(), &other, sizeof(other), kVersionOffset),
+              static_cast<ssize_t>(sizeof(other)));
+    const FileDescriptor inherited(::dup(segment.descriptor()));
+    const std::string number = std::to_string(inherited.get());
+    const auto [code, said] = run({kServoProgram, "--segment", number, "--parent-socket", "0"});
+    EXPECT_EQ(code, 1);
+    EXPECT_THAT(said, HasSubstr("segment of version " + std::to_string(other) + ": this program speaks version " +
+                                std::to_string(kSegmentVersion) + ";"));
+  }
+}
+
 TEST(ServoProgram, NeedsNeitherVulkanNorAWindow) {
   const auto [code, said] = run({"readelf", "--dynamic", kServoProgram});
   ASSERT_EQ(code, 0) << said;

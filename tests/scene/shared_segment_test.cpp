@@ -135,10 +135,12 @@ TEST(SharedSegment, IsSealedAgainstResizing) {
 }
 
 TEST(SharedSegment, PrintsBothVersionsWhenTheyDiffer) {
-  const SharedSegment segment = create_segment();
-  overwrite(segment, kVersionOffset, std::uint32_t{kSegmentVersion + 41});
-  EXPECT_THAT(attach_error(segment), HasSubstr("version " + std::to_string(kSegmentVersion + 41)));
-  EXPECT_THAT(attach_error(segment), HasSubstr("version " + std::to_string(kSegmentVersion) + ";"));
+  for (const std::uint32_t other : {kSegmentVersion - 1, kSegmentVersion + 1}) {
+    const SharedSegment segment = create_segment();
+    overwrite(segment, kVersionOffset, other);
+    EXPECT_THAT(attach_error(segment), HasSubstr("version " + std::to_string(other)));
+    EXPECT_THAT(attach_error(segment), HasSubstr("version " + std::to_string(kSegmentVersion) + ";"));
+  }
 }
 
 TEST(SharedSegment, RefusesOtherBlockSizes) {

@@ -24,6 +24,7 @@ struct ServoSettings {
   double rate_hz = 1000.0;   // 100 Hz to 10 kHz
   bool dead_man = false;     // the force lasts only as long as Turn-On is held
   std::int64_t spin_ns = 0;  // the end of every wait that is spent awake, for a punctual tick; 0 to half a period
+  double linger_s = 0;       // how long touchafm-servo keeps the device for another renderer after one has died
 };
 
 enum class ServoExit { RendererLeft, RendererDied, Stopped };
@@ -32,7 +33,7 @@ enum class ServoExit { RendererLeft, RendererDied, Stopped };
 // renderer shares but never waits for it.
 //
 // tick() and run() belong to one thread; they do not allocate, lock, log, throw or make a system call except to read
-// the clock and, in run(), to sleep. renderer_died() and stop() may be called from any thread. Edits take effect as
+// the clock and, in run(), to sleep. renderer_...() and stop() may be called from any thread. Edits take effect as
 // long as an EditThread serves edits().
 class ServoLoop {
  public:
@@ -49,7 +50,14 @@ class ServoLoop {
   // that has passed is skipped and counted, never caught up.
   ServoExit run(const core::MonotonicClock& clock) noexcept;
 
-  void renderer_died() noexcept { renderer_died_.store(true, std::memory_order_relaxed); }
+  // Both release the hand. With renderer_lost() the loop goes on without one, until renderer_returned() or
+  // renderer_died(), which ends it.
+  void renderer_lost() noexcept { presence_.store(Presence::Lost, std::memory_order_relaxed); }
+  void renderer_died() noexcept { presence_.store(Presence::Died, std::memory_order_relaxed); }
+
+  // Another renderer writes the same segment.
+  void renderer_returned() noexcept { presence_.store(Presence::Here, std::memory_order_relaxed); }
+
   void stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
 
   // For one thread beside the servo's (EditThread), as long as the loop is there.
@@ -100,7 +108,8 @@ class ServoLoop {
   bool leaving_ = false;
   std::int64_t heartbeat_seen_ns_ = 0;
   std::uint32_t refused_transforms_ = 0;
-  std::atomic<bool> renderer_died_{false};
+  enum class Presence { Here, Lost, Died };
+  std::atomic<Presence> presence_{Presence::Here};
   std::atomic<bool> stop_{false};
 
   scene::ServoTiming timing_;

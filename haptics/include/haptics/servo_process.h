@@ -11,6 +11,7 @@
 
 #include "core/file_descriptor.h"
 #include "core/result.h"
+#include "haptics/servo_handover.h"
 #include "haptics/servo_loop.h"
 #include "scene/shared_segment.h"
 
@@ -63,6 +64,25 @@ class ServoProcess final : public Servo {
   core::FileDescriptor lifeline_;
   scene::RendererSide& side_;
   std::optional<int> exit_status_;
+};
+
+// A servo that another renderer started, which has died. It is no child of this process.
+class AdoptedServo final : public Servo {
+ public:
+  // `side` is of the segment that came with it.
+  static std::unique_ptr<AdoptedServo> adopt(WaitingServo waiting, scene::RendererSide& side);
+
+  // Ends it as ServoProcess does.
+  ~AdoptedServo() override;
+
+  bool alive() noexcept override { return !exit_status().has_value(); }
+  std::optional<int> exit_status() noexcept override;  // 1, whatever it was
+
+ private:
+  AdoptedServo(WaitingServo waiting, scene::RendererSide& side) : waiting_(std::move(waiting)), side_(side) {}
+
+  WaitingServo waiting_;
+  scene::RendererSide& side_;
 };
 
 // The same loop as a thread of this process, for sanitizers and debuggers. Its pages are

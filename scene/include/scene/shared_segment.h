@@ -58,6 +58,12 @@ class RendererSide {
   void store(const HandScript& script) noexcept;
   void store(const RendererHeartbeat& heartbeat) noexcept;
 
+  // What this side stored last, for a process that takes the place of one that died: its revisions must go on from
+  // there. Empty if nothing was stored, or only half.
+  std::optional<Selection> last_selection() const noexcept;
+  std::optional<HandScript> last_hand_script() const noexcept;
+  std::optional<MaterialEdit> last_edit(std::uint32_t material) const noexcept;  // material < material_count
+
   // Empty before the servo's first tick, and if the servo died in the middle of a store.
   std::optional<TipState> tip_state() noexcept;
   std::optional<ServoTiming> servo_timing() const noexcept;  // some 5 times a second
