@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <glm/common.hpp>
@@ -83,17 +84,19 @@ core::Result<std::unique_ptr<Encounter>> Encounter::create(const scene::SharedMa
   try {
     Model model(std::in_place_type<physics::ApproachRetractModel>, *tables);
     if (material.dynamic != 0) model = dynamic_model(material, period_ns);
-    return std::unique_ptr<Encounter>(
-        new Encounter(std::move(model), *scaling, stored_energy_of(**tables, *scaling, device), edit_revision));
+    return std::unique_ptr<Encounter>(new Encounter(
+        std::move(model), *scaling, stored_energy_of(**tables, *scaling, device), *tables, edit_revision));
   } catch (const std::exception& error) {
     return refusal(material, core::ErrorCategory::Failed, error.what());
   }
 }
 
-Encounter::Encounter(Model model, const FitScaling& scaling, StoredEnergy stored_energy, std::uint32_t edit_revision)
+Encounter::Encounter(Model model, const FitScaling& scaling, StoredEnergy stored_energy,
+                     std::shared_ptr<const physics::LawTables> tables, std::uint32_t edit_revision)
     : model_(std::move(model)),
       scaling_(scaling),
       stored_energy_(std::move(stored_energy)),
+      tables_(std::move(tables)),
       slow_motion_(std::visit([](const auto& m) { return slow_motion_of(m); }, model_)),
       edit_revision_(edit_revision) {}
 
@@ -107,6 +110,20 @@ void Encounter::wait_for_lift() noexcept {
 
 physics::Phase Encounter::phase() const noexcept {
   return std::visit([](const auto& model) { return model.phase(); }, model_);
+}
+
+EnergyLedger::Law Encounter::energy(const physics::TipResponse& response, double hand_height_m) const noexcept {
+  const bool attached = response.phase == physics::Phase::Attached;
+  EnergyLedger::Law law{.stiffness_n_per_m = stored_energy_.stiffness_n_per_m(),
+                        .swings = std::holds_alternative<physics::DynamicModel>(model_)};
+  if (response.phase == physics::Phase::WaitForLift) return law;
+  law.stored_j = stored_energy_.at(attached ? scene::ContactPhase::Attached : scene::ContactPhase::Free, hand_height_m);
+  if (law.swings) {
+    const auto& branch = attached ? tables_->attached : tables_->free;
+    const double at_rest_n = scaling_.hand_force_n(branch.force(physics::Length(scaling_.z_m(hand_height_m))).si);
+    law.swing_n = std::abs(scaling_.hand_force_n(response.force.si) - at_rest_n);
+  }
+  return law;
 }
 
 }  // namespace afm::haptics

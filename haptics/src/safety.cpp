@@ -21,7 +21,8 @@ bool is_number(const GovernorInput& input) {
   const glm::dvec3& force_n = input.wanted_force_n;
   return std::isfinite(force_n.x) && std::isfinite(force_n.y) && std::isfinite(force_n.z) &&
          is_within_reach(input.hand_position_m) && std::isfinite(input.hand_height_m) &&
-         std::isfinite(input.stored_energy_j) && std::isfinite(input.stiffness_n_per_m);
+         std::isfinite(input.law_energy.stored_j) && std::isfinite(input.law_energy.stiffness_n_per_m) &&
+         std::isfinite(input.law_energy.swing_n);
 }
 
 }  // namespace
@@ -118,14 +119,17 @@ void SafetyGovernor::book(const GovernorInput& input) noexcept {
   const bool fresh = high_and_free(input) && input.time_ns >= damping_until_ns_;
   if (!state_.armed() || fresh) ledger_.recredit();
   if (!booked_.valid || input.phase == ContactPhase::WaitForLift || input.sample_moved) return;
-  const double stop_rise_j = output_.stop().stored_j(input.hand_position_m) - booked_.stop_stored_j;
-  ledger_.book(
-      {.moved_m = motion_.moved_m(),
-       .wanted_n = output_.wanted_n(),
-       .commanded_n = output_.command_n(),
-       .stored_rise_j = booked_.law_gain * (input.stored_energy_j - booked_.stored_j) + booked_.stop_gain * stop_rise_j,
-       .stiffness_n_per_m =
-           booked_.law_gain * booked_.stiffness_n_per_m + booked_.stop_gain * WorkspaceStop::kStiffnessNPerM});
+  if (input.law_energy.swings && input.phase != booked_.phase) return;
+  const double stop_j = output_.stop().stored_j(input.hand_position_m);
+  const bool in_stop = stop_j > 0.0 || booked_.stop_stored_j > 0.0;
+  ledger_.book({.moved_m = motion_.moved_m(),
+                .wanted_n = output_.wanted_n(),
+                .commanded_n = output_.command_n(),
+                .stored_rise_j = booked_.law_gain * (input.law_energy.stored_j - booked_.law.stored_j) +
+                                 booked_.stop_gain * (stop_j - booked_.stop_stored_j),
+                .stiffness_n_per_m = booked_.law_gain * booked_.law.stiffness_n_per_m +
+                                     (in_stop ? booked_.stop_gain * WorkspaceStop::kStiffnessNPerM : 0.0),
+                .swing_n = booked_.law_gain * booked_.law.swing_n});
 }
 
 bool SafetyGovernor::high_and_free(const GovernorInput& input) const noexcept {
@@ -174,9 +178,9 @@ void SafetyGovernor::remember(const GovernorInput& input) noexcept {
   booked_ = {.valid = state_.armed() && input.phase != ContactPhase::WaitForLift,
              .law_gain = gain_ * motors_.gain(),
              .stop_gain = gain_,
-             .stored_j = input.stored_energy_j,
-             .stop_stored_j = output_.stop().stored_j(input.hand_position_m),
-             .stiffness_n_per_m = input.stiffness_n_per_m};
+             .phase = input.phase,
+             .law = input.law_energy,
+             .stop_stored_j = output_.stop().stored_j(input.hand_position_m)};
 }
 
 }  // namespace afm::haptics

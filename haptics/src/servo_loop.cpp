@@ -121,11 +121,12 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
 
   physics::TipResponse response;
   double wanted_n = 0;
+  EnergyLedger::Law law_energy;
   if (encounter_ != nullptr) {
     response = encounter_->step(physics::Length(encounter_->scaling().z_m(hand_height_m_)));
     wanted_n = encounter_->scaling().hand_force_n(response.force.si);
+    law_energy = encounter_->energy(response, hand_height_m_);
   }
-  const ContactPhase phase = shared_phase(response.phase);
   bool pulled_off = false;
   for (std::uint32_t i = 0; i < response.event_count; ++i) {
     pulled_off = pulled_off || response.events[i].kind == physics::EventKind::JumpOffContact;
@@ -133,19 +134,17 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
 
   // from the contact point, so that a recording that knows no other frame gives the same bits
   renderer_ = renderer_link(now_ns);
-  const StoredEnergy* stored = encounter_ == nullptr ? nullptr : &encounter_->stored_energy();
   const auto output = governor_.step({.time_ns = now_ns,
                                       .hand_position_m = hand.position_m - device_.spec().contact_point_m,
                                       .wanted_force_n = wanted_n * normal_,
                                       .hand_height_m = hand_height_m_,
-                                      .phase = phase,
+                                      .phase = shared_phase(response.phase),
                                       .pulled_off = pulled_off,
                                       .turn_on = hand.turn_on,
                                       .device_healthy = hand.healthy,
                                       .motor_heat = hand.motor_heat,
                                       .renderer = renderer_,
-                                      .stored_energy_j = stored == nullptr ? 0.0 : stored->at(phase, hand_height_m_),
-                                      .stiffness_n_per_m = stored == nullptr ? 0.0 : stored->stiffness_n_per_m(),
+                                      .law_energy = law_energy,
                                       .sample_moved = std::exchange(sample_moved_, false)});
   device_.write(output.command);
   if (output.dropped && encounter_ != nullptr) encounter_->wait_for_lift();

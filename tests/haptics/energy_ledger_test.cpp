@@ -123,7 +123,6 @@ class Loop {
     for (std::uint32_t i = 0; i < response.event_count; ++i) {
       pulled_off = pulled_off || response.events[i].kind == afm::physics::EventKind::JumpOffContact;
     }
-    const auto& stored = encounter_->stored_energy();
     const auto output = governor_.step({.time_ns = time_ns_,
                                         .hand_position_m = position_m,
                                         .wanted_force_n = {0.0, wanted_n, 0.0},
@@ -132,17 +131,16 @@ class Loop {
                                         .pulled_off = pulled_off,
                                         .turn_on = turn_on,
                                         .renderer = RendererLink::Alive,
-                                        .stored_energy_j = stored.at(phase_, height_m),
-                                        .stiffness_n_per_m = stored.stiffness_n_per_m()});
+                                        .law_energy = encounter_->energy(response, height_m)});
     force_n_ = output.command.force_n();
     if (output.dropped) encounter_->wait_for_lift();
     most_excess_j = std::max(most_excess_j, governor_.ledger().excess_j());
     damped_ticks += governor_.ledger_damping_n_s_per_m() > 0.0 ? 1 : 0;
   }
 
-  // Lifts slowly and presses Turn-On until there is force; a fault takes two presses.
+  // Lifts slowly and presses Turn-On until there is force; a fault takes two presses, heat perhaps more.
   void arm() {
-    for (int press = 0; press < 3 && governor_.state() != ServoState::Running; ++press) {
+    for (int press = 0; press < 10 && governor_.state() != ServoState::Running; ++press) {
       turn_on = false;
       glm::dvec3 place_m = position_m_;
       const glm::dvec3 way_m = (glm::dvec3(0.0, kTopM, 0.0) - place_m) / 400.0;
@@ -256,5 +254,107 @@ INSTANTIATE_TEST_SUITE_P(Laws, EnergyLedgerOf,
                                          AnyLaw{"MaugisDugdale", Law::MaugisDugdale},
                                          AnyLaw{"LennardJones", Law::LennardJones}),
                          [](const auto& test) { return test.param.name; });
+
+class EnergyLedgerOfDynamics : public testing::TestWithParam<AnyLaw> {};
+
+// Warm levers of high and low quality: heat, ringing and jumps that take their time are no fault.
+TEST_P(EnergyLedgerOfDynamics, NeverActs) {
+  constexpr int kMaterials = 5;
+  constexpr int kTrips = 50;
+  std::mt19937_64 random(static_cast<std::uint64_t>(GetParam().law) + 1);
+  for (int i = 0; i < kMaterials; ++i) {
+    std::unique_ptr<Loop> loop;
+    while (loop == nullptr) {
+      auto material = random_material(random, GetParam().law);
+      material.dynamic = 1;
+      material.lever = {afm::physics::Frequency(12e3), i % 2 == 0 ? 2.5 : 100.0, afm::physics::Temperature(298.0)};
+      try {
+        loop = std::make_unique<Loop>(material);
+      } catch (const std::runtime_error&) {
+        // as above
+      }
+    }
+    for (int trip = 0; trip < kTrips; ++trip) {
+      if (loop->governor().state() != ServoState::Running) loop->arm();
+      if (HasFatalFailure()) return;
+      wander(*loop, random);
+      ASSERT_EQ(loop->damped_ticks, 0) << "material " << i << ", trip " << trip << ", excess "
+                                       << 1e6 * loop->most_excess_j << " uJ";
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, EnergyLedgerOfDynamics,
+                         testing::Values(AnyLaw{"Hertz", Law::Hertz}, AnyLaw{"Dmt", Law::Dmt}, AnyLaw{"Jkr", Law::Jkr},
+                                         AnyLaw{"MaugisDugdale", Law::MaugisDugdale},
+                                         AnyLaw{"LennardJones", Law::LennardJones}),
+                         [](const auto& test) { return test.param.name; });
+
+// Where the tip is when the program breaks, and where the hand is going: ways on which the fault gives energy at once.
+struct Fault {
+  std::string name;
+  Injected injected;
+  double from_m;
+  double speed_m_per_s;
+};
+
+class EnergyLedgerWithFault : public testing::TestWithParam<Fault> {
+ protected:
+  // Attached, at rest in `height_m`.
+  static void bring(Loop& loop, double height_m) {
+    loop.arm();
+    double y_m = kTopM;
+    for (const double target_m : {-0.010, height_m}) {
+      const double step_m = std::copysign(0.2 * kPeriodS, target_m - y_m);
+      for (; std::abs(target_m - y_m) > std::abs(step_m); y_m += step_m) loop.tick({0.0, y_m, 0.0});
+      for (int i = 0; i < 50; ++i) loop.tick({0.0, y_m = target_m, 0.0});
+    }
+    ASSERT_EQ(loop.phase(), ContactPhase::Attached);
+    ASSERT_EQ(loop.damped_ticks, 0);
+  }
+};
+
+TEST_P(EnergyLedgerWithFault, ActsWithinThreeTicks) {
+  for (const std::int32_t material : {afm::test::kMica, afm::test::kGold, afm::test::kSiliconNitride}) {
+    Loop loop(afm::test::paper_model().materials[static_cast<std::size_t>(material)]);
+    bring(loop, GetParam().from_m);
+    double y_m = GetParam().from_m;
+    const double step_m = GetParam().speed_m_per_s * kPeriodS;
+    for (int i = 0; i < 10; ++i) loop.tick({0.0, y_m += step_m, 0.0});
+    ASSERT_EQ(loop.damped_ticks, 0);
+    loop.injected = GetParam().injected;
+    int ticks = 0;
+    for (; loop.damped_ticks == 0 && ticks < 100; ++ticks) loop.tick({0.0, y_m += step_m, 0.0});
+    EXPECT_LE(ticks, 3);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, EnergyLedgerWithFault,
+                         testing::Values(Fault{"HalfMoreWhilePulledDown", Injected::HalfMore, 0.030, -0.05},
+                                         Fault{"HalfMoreWhilePushedUp", Injected::HalfMore, -0.020, 0.05},
+                                         Fault{"LateWhilePulledDown", Injected::FiveMillisecondsLate, 0.030, -0.2},
+                                         Fault{"LateWhilePressed", Injected::FiveMillisecondsLate, -0.005, -0.2},
+                                         Fault{"LateWhileLifted", Injected::FiveMillisecondsLate, 0.030, 0.2}),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(EnergyLedgerInTheLoop, TakesTheForceAwayWhereDampingDoesNotSuffice) {
+  Loop loop(afm::test::paper_model().materials[afm::test::kMica]);
+  loop.arm();
+  double y_m = kTopM;
+  while (y_m > -0.010) loop.tick({0.0, y_m -= 0.2 * kPeriodS, 0.0});
+  while (y_m < 0.045) loop.tick({0.0, y_m += 0.2 * kPeriodS, 0.0});
+  // a spring that is half as stiff again, let go from where it is stretched most
+  loop.injected = Injected::HalfMore;
+  int ticks = 0;
+  while (loop.governor().state() == ServoState::Running && ++ticks < 200) {
+    // too slow for damping to take much
+    loop.tick({0.0, y_m -= 0.05 * kPeriodS, 0.0});
+  }
+  EXPECT_EQ(loop.governor().state(), ServoState::Fading);
+  EXPECT_EQ(loop.governor().fault(), FaultCode::EnergyExceeded);
+  EXPECT_LT(loop.most_excess_j, 2.0 * EnergyLedger::kLimitJ);
+  for (ticks = 0; glm::length(loop.force_n()) > 0.0 && ticks < 100; ++ticks) loop.tick({0.0, y_m, 0.0});
+  EXPECT_LE(ticks, 21);
+}
 
 }  // namespace

@@ -32,7 +32,7 @@ const SafetyLimits kLimits{.period_ns = kPeriodNs, .force_cap_n = kCapN, .releas
 
 // A law of boundless stiffness may leak any energy: what a test here does to a hand is nothing for the ledger.
 constexpr double kNoLedger = 1e12;
-const GovernorInput kStart{.time_ns = 1'000'000'000, .stiffness_n_per_m = kNoLedger};
+const GovernorInput kStart{.time_ns = 1'000'000'000, .law_energy = {.stiffness_n_per_m = kNoLedger}};
 
 // A governor and the input of the next tick, which tests change.
 class Governor : public testing::Test {

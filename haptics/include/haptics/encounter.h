@@ -8,6 +8,7 @@
 
 #include "core/result.h"
 #include "haptics/device.h"
+#include "haptics/energy_ledger.h"
 #include "haptics/scaling.h"
 #include "haptics/stored_energy.h"
 #include "physics/dynamic_model.h"
@@ -42,16 +43,22 @@ class Encounter {
 
   const FitScaling& scaling() const noexcept { return scaling_; }
   const StoredEnergy& stored_energy() const noexcept { return stored_energy_; }
+
+  // For the ledger, after the step that gave this response, with the hand at this height.
+  EnergyLedger::Law energy(const physics::TipResponse& response, double hand_height_m) const noexcept;
+
   std::uint32_t edit_revision() const noexcept { return edit_revision_; }
 
  private:
   using Model = std::variant<physics::ApproachRetractModel, physics::DynamicModel>;
 
-  Encounter(Model model, const FitScaling& scaling, StoredEnergy stored_energy, std::uint32_t edit_revision);
+  Encounter(Model model, const FitScaling& scaling, StoredEnergy stored_energy,
+            std::shared_ptr<const physics::LawTables> tables, std::uint32_t edit_revision);
 
   Model model_;  // never without a value, so that visiting it cannot throw
   FitScaling scaling_;
   StoredEnergy stored_energy_;
+  std::shared_ptr<const physics::LawTables> tables_;  // at rest
   double slow_motion_;
   std::uint32_t edit_revision_;
 };

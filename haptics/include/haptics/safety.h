@@ -45,8 +45,7 @@ struct GovernorInput {
   bool device_healthy = true;
   double motor_heat = 0;  // as DeviceSample has it
   RendererLink renderer = RendererLink::Absent;
-  double stored_energy_j = 0;    // what the law holds at this height in this phase (haptics/stored_energy.h)
-  double stiffness_n_per_m = 0;  // no spring of the law is stiffer
+  EnergyLedger::Law law_energy;  // at this height in this phase
   bool sample_moved = false;     // since the tick before, by another hand, whose work is not this one's
 };
 
@@ -103,9 +102,9 @@ class SafetyGovernor {
     bool valid = false;
     double law_gain = 0;
     double stop_gain = 0;
-    double stored_j = 0;
+    scene::ContactPhase phase = scene::ContactPhase::WaitForLift;
+    EnergyLedger::Law law;
     double stop_stored_j = 0;
-    double stiffness_n_per_m = 0;
   };
 
   Findings find(const GovernorInput& input, std::int64_t elapsed_ns) noexcept;
