@@ -74,6 +74,11 @@ core::Result<void> HdapiDevice::start(Supervision supervision) {
   hd_.set_scheduler_rate(1'000'000'000 / kSchedulerPeriodNs);
   hdapi::take_newest_error(hd_);  // neither is vital
 
+  // asked in a frame, a device that cannot tell would look like one that failed
+  std::array<double, hdapi::kRoomForValues> heat{};
+  hd_.get_doubles(hdapi::kMotorTemperature, heat.data());
+  measures_heat_ = hdapi::take_newest_error(hd_).code == 0;
+
   const HdapiSchedulerHandle callback = hd_.schedule_asynchronous(&HdapiDevice::call, this, hdapi::kHighestPriority);
   HdapiError error = hdapi::take_newest_error(hd_);
   if (error.code == 0 && callback != hdapi::kInvalidCallback) {
@@ -118,7 +123,8 @@ DeviceSample HdapiDevice::read(std::int64_t now_ns) noexcept {
   if (const auto frame = frames_.try_load()) seen_ = *frame;
   return {.position_m = seen_.position_m,
           .turn_on = (seen_.buttons & hdapi::kFirstButton) != 0,
-          .healthy = seen_.ready != 0 && now_ns - seen_.time_ns <= kStallNs};
+          .healthy = seen_.ready != 0 && now_ns - seen_.time_ns <= kStallNs,
+          .motor_heat = seen_.motor_heat};
 }
 
 void HdapiDevice::write(const ForceCommand& command) noexcept {
@@ -182,6 +188,11 @@ void HdapiDevice::read_hand(std::int64_t now_ns) noexcept {
   std::array<std::int32_t, hdapi::kRoomForValues> buttons{};
   hd_.get_integers(hdapi::kButtons, buttons.data());
   frame_.buttons = static_cast<std::uint32_t>(buttons[0]);
+  if (measures_heat_) {
+    std::array<double, hdapi::kRoomForValues> heat{};
+    hd_.get_doubles(hdapi::kMotorTemperature, heat.data());
+    frame_.motor_heat = *std::max_element(heat.begin(), heat.end());
+  }
 
   const glm::dvec3 position_m = 1e-3 * glm::dvec3(mm[0], mm[1], mm[2]);
   bool inside = true;

@@ -31,6 +31,7 @@ inline constexpr std::uint32_t kCalibrationStyle = 0x2555;  // one integer, a bi
 inline constexpr std::uint32_t kNominalStiffness = 0x2602;  // N/mm
 inline constexpr std::uint32_t kNominalForce = 0x2603;
 inline constexpr std::uint32_t kNominalContinuousForce = 0x2604;
+inline constexpr std::uint32_t kMotorTemperature = 0x2605;   // a double a motor, 0 cold to 1 too hot
 inline constexpr std::uint32_t kVelocityLimit = 0x2606;      // mm/s
 inline constexpr std::uint32_t kForceImpulseLimit = 0x2607;  // N/ms
 inline constexpr std::uint32_t kForce = 0x2700;              // three doubles

@@ -23,6 +23,7 @@ using testing::HasSubstr;
 constexpr unsigned kWarm = 0x0200, kForce = 0x0201, kImpulse = 0x0202, kVelocity = 0x0203, kForceError = 0x0204;
 constexpr unsigned kFault = 0x0300, kBusy = 0x0301, kComm = 0x0302, kCommSetup = 0x0303, kTimer = 0x0304;
 constexpr unsigned kNominalForceProperty = 0x2603, kVelocityProperty = 0x2606, kImpulseProperty = 0x2607;
+constexpr unsigned kMotorTemperatureProperty = 0x2605;
 constexpr unsigned kCalibrated = 0x5000, kNeedsUpdate = 0x5001, kNeedsManualInput = 0x5002;
 
 HdapiFunctions mock_functions() { return *load_hdapi(AFM_MOCK_HD).functions; }
@@ -103,6 +104,30 @@ TEST(HdapiDevice, DividesTwoStepsOfTheServoThatFallBetweenTwoCallbacks) {
   EXPECT_EQ(bench.events.size(), 2U);
   EXPECT_LE(bench.largest_step_n, 0.08 + 1e-12);
   EXPECT_EQ(bench.health(), HdapiHealth::Ready);
+}
+
+TEST(HdapiDevice, TellsHowHotTheMotorsAreAndTheForceGivesWay) {
+  HdapiBench bench;
+  bench.hold_attached();
+  const double cold_n = bench.force_n;
+  mock_hd_set_limit(kMotorTemperatureProperty, 0.9);
+  bench.run(50);
+  EXPECT_NEAR(bench.state().motor_heat, 0.9, 1e-12);
+  EXPECT_LT(bench.state().thermal_gain, 0.8);
+  EXPECT_NEAR(bench.force_n, cold_n * bench.state().thermal_gain, 1e-3);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Running);
+  mock_hd_set_limit(kMotorTemperatureProperty, 1.0);
+  bench.run(150);
+  EXPECT_EQ(bench.force_n, 0.0);
+  EXPECT_EQ(bench.state().fault, FaultCode::MotorsHot);
+  EXPECT_EQ(bench.health(), HdapiHealth::Ready);
+}
+
+TEST(HdapiDevice, GoesWithoutATemperatureThatTheDeviceDoesNotMeasure) {
+  HdapiBench bench([] { mock_hd_set_limit(kMotorTemperatureProperty, -1.0); });
+  bench.run(100);
+  EXPECT_EQ(bench.health(), HdapiHealth::Ready);
+  EXPECT_EQ(bench.device->read(bench.clock.now_ns()).motor_heat, 0.0);
 }
 
 TEST(HdapiDevice, CapsTheForceOfAWeakDevice) {

@@ -339,6 +339,82 @@ TEST_F(Governor, DisarmsWithoutAFaultForAChangeOfMaterial) {
   EXPECT_EQ(governor_.fault(), FaultCode::None);
 }
 
+TEST_F(Governor, GivesForceOnlyWhileTurnOnIsHeldWithADeadMan) {
+  SafetyLimits limits = kLimits;
+  limits.dead_man = true;
+  restart(limits);
+  lift();
+  input_.turn_on = true;
+  steps(501);
+  ASSERT_EQ(governor_.state(), ServoState::Running);
+  input_.wanted_force_n = glm::dvec3(0.0, -kCapN, 0.0);
+  input_.phase = ContactPhase::Attached;
+  steps(100);
+  ASSERT_NEAR(step(), kCapN, kRounding);
+  input_.turn_on = false;
+  EXPECT_LE(ticks_to_zero(), 21);
+  EXPECT_EQ(governor_.state(), ServoState::Disarmed);
+  EXPECT_EQ(governor_.fault(), FaultCode::DeadManReleased);
+
+  // in the middle of the stroke nothing arms
+  input_.turn_on = true;
+  steps(100);
+  EXPECT_EQ(governor_.state(), ServoState::Disarmed);
+  input_.turn_on = false;
+  input_.wanted_force_n = glm::dvec3(0.0);
+  lift();
+  input_.turn_on = true;
+  steps(501);
+  EXPECT_EQ(governor_.state(), ServoState::Running);
+}
+
+TEST_F(Governor, DeratesWhatIsHeldForLongToTheContinuousRating) {
+  SafetyLimits limits = kLimits;
+  limits.continuous_force_n = 0.88;
+  restart(limits);
+  hold(kCapN);
+  double before_n = step();
+  for (int i = 0; i < 120'000; ++i) {
+    const double force_n = step();
+    ASSERT_LE(before_n - force_n, 1e-3);
+    before_n = force_n;
+  }
+  EXPECT_LE(before_n, 0.88);
+  EXPECT_EQ(governor_.state(), ServoState::Running);
+  EXPECT_GT(governor_.motors().heat(), ThermalBudget::kWarm);
+}
+
+TEST_F(Governor, TakesTheForceAwayFromMotorsThatTheDeviceCallsHot) {
+  hold(kCapN);
+  input_.motor_heat = 1.0;
+  EXPECT_NEAR(ticks_to_zero(), 90, 1);
+  EXPECT_EQ(governor_.fault(), FaultCode::MotorsHot);
+}
+
+TEST_F(Governor, StopsTheHandAtTheEndOfTheWorkspaceAndLetsGoOutside) {
+  SafetyLimits limits = kLimits;
+  limits.workspace_min_m = glm::dvec3(-0.080, -0.040, -0.035);
+  limits.workspace_max_m = glm::dvec3(0.080, 0.080, 0.035);
+  restart(limits);
+  arm();
+  for (; input_.hand_position_m.x < 0.080; input_.hand_position_m.x += 1e-4) step();
+  steps(500);
+  EXPECT_NEAR(force_n_.x, -0.75, 0.02);
+  EXPECT_EQ(governor_.state(), ServoState::Running);
+  for (; input_.hand_position_m.x < 0.0905; input_.hand_position_m.x += 1e-4) step();
+  EXPECT_EQ(governor_.state(), ServoState::Fading);
+  EXPECT_LE(ticks_to_zero(), 21);
+  EXPECT_EQ(governor_.fault(), FaultCode::OutOfWorkspace);
+}
+
+TEST_F(Governor, TripsEarlierForADeviceThatStandsLessSpeed) {
+  afm::haptics::DeviceSpec device = omni_like("slow");
+  device.max_speed_m_per_s = 0.5;
+  EXPECT_DOUBLE_EQ(safety_limits(device, kPeriodNs, kReleaseHeightM, false).trip_speed_m_per_s, 0.4);
+  device.max_speed_m_per_s = 10.0;
+  EXPECT_DOUBLE_EQ(safety_limits(device, kPeriodNs, kReleaseHeightM, false).trip_speed_m_per_s, 0.8);
+}
+
 // Any number a double can be, the ordinary ones more often.
 double any_double(std::mt19937_64& random) {
   switch (random() % 64) {

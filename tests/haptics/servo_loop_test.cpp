@@ -67,6 +67,7 @@ TEST_P(FullCycle, JumpsOnceEachWayWithTheForcesOfTheEquations) {
   EXPECT_EQ(off.force_after_n, 0.0);
 
   EXPECT_LT(in.time_ns, off.time_ns);
+  EXPECT_LT(bench_.state().ledger_j, 1e-6);
   EXPECT_EQ(bench_.state().servo_state, ServoState::Running);
   EXPECT_EQ(bench_.state().fault, FaultCode::None);
 }
@@ -132,6 +133,83 @@ TEST(ServoLoop, PullsTheHandDownAtSnapInAndLetsItFlyAtPullOff) {
   ASSERT_GT(bench.samples.end() - released, 60);
   EXPECT_NEAR(released->hand_height_m, 0.050, 1e-4);
   EXPECT_GT((released + 60)->hand_height_m, 0.057);
+}
+
+TEST(ServoLoop, TellsItsLimitsHeatAndEnergy) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  const TipState state = bench.state();
+  EXPECT_EQ(state.force_cap_n, 2.0);
+  EXPECT_EQ(state.slew_limit_n_per_s, 500.0);
+  EXPECT_GT(state.motor_heat, 0.0);
+  EXPECT_LT(state.motor_heat, 0.5);
+  EXPECT_EQ(state.thermal_gain, 1.0);
+  EXPECT_LT(state.ledger_j, 1e-6);
+  EXPECT_EQ(state.ledger_damping, 0.0);
+  EXPECT_EQ(state.dead_man, 0U);
+}
+
+// A relaxed hand: 0.1 kg, 1 N s/m, 100 N/m.
+TEST(ServoLoop, BrakesTheRecoilOfARelaxedHandAtPullOff) {
+  auto segment = SharedSegment::create(paper_model(), 0);
+  SimulatedDevice device(glm::dvec3(0.0, 0.060, 0.0),
+                         {.mass_kg = 0.1, .damping_n_s_per_m = 1.0, .grip_stiffness_n_per_m = 100.0});
+  auto loop = ServoLoop::create(*segment, device, {});
+  RendererSide renderer = segment->renderer_side();
+  renderer.store(Selection{.material = kMica, .revision = 1});
+  std::int64_t now_ns = 0;
+  double strongest_n = 0.0;
+  double recoil_m_per_s = 0.0;
+  const auto run = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      renderer.store(RendererHeartbeat{});
+      (*loop)->tick(now_ns += 1'000'000, 0);
+      const TipState state = *renderer.tip_state();
+      strongest_n = std::max(strongest_n, -state.hand_force_n[1]);
+      if (renderer.pop_event()) recoil_m_per_s = 0.0;
+      recoil_m_per_s = std::max(recoil_m_per_s, device.velocity_m_per_s().y);
+    }
+  };
+  run(500);
+  renderer.store(HandScript{.target_m = {0, 0.06, 0}, .revision = 1, .turn_on_pressed = 1});
+  run(600);
+  renderer.store(HandScript{.target_m = {0, -0.02, 0}, .duration_s = 1.0, .revision = 2});
+  run(1500);
+  renderer.store(HandScript{.target_m = {0, 0.075, 0}, .duration_s = 4.0, .revision = 3});
+  run(5000);
+  ASSERT_NEAR(strongest_n, 2.0, 0.02) << "torn off at full force";
+  EXPECT_EQ(renderer.tip_state()->phase, ContactPhase::Free);
+  EXPECT_EQ(renderer.tip_state()->servo_state, ServoState::Running);
+  EXPECT_LE(recoil_m_per_s, 0.35);
+  EXPECT_GT(recoil_m_per_s, 0.1) << "there was no recoil";
+}
+
+TEST(ServoLoop, GivesForceOnlyWhileTurnOnIsHeldWithADeadMan) {
+  auto segment = SharedSegment::create(paper_model(), 0);
+  SimulatedDevice device;
+  auto loop = ServoLoop::create(*segment, device, {.dead_man = true});
+  RendererSide renderer = segment->renderer_side();
+  renderer.store(Selection{.material = kMica, .revision = 1});
+  std::int64_t now_ns = 0;
+  const auto run = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      renderer.store(RendererHeartbeat{});
+      (*loop)->tick(now_ns += 1'000'000, 0);
+    }
+    return *renderer.tip_state();
+  };
+  run(100);
+  renderer.store(HandScript{.target_m = {0, 0.06, 0}, .revision = 1, .turn_on_pressed = 1});
+  run(600);
+  renderer.store(HandScript{.target_m = {0, -0.02, 0}, .duration_s = 0.5, .revision = 2, .turn_on_pressed = 1});
+  TipState state = run(1000);
+  EXPECT_EQ(state.dead_man, 1U);
+  EXPECT_EQ(state.servo_state, ServoState::Running);
+  ASSERT_GT(state.hand_force_n[1], 0.4);
+  renderer.store(HandScript{.target_m = {0, -0.02, 0}, .revision = 3});
+  state = run(25);
+  EXPECT_EQ(state.hand_force_n[1], 0.0);
+  EXPECT_EQ(state.fault, FaultCode::DeadManReleased);
 }
 
 TEST(ServoLoop, GivesNoForceBeforeTurnOn) {

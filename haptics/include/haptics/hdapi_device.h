@@ -70,6 +70,7 @@ class HdapiDevice final : public HapticDevice {
   struct Frame {
     std::int64_t time_ns = 0;
     glm::dvec3 position_m{0.0};
+    double motor_heat = 0;
     std::uint32_t buttons = 0;
     std::uint32_t ready = 0;
   };
@@ -100,6 +101,7 @@ class HdapiDevice final : public HapticDevice {
   DeviceSpec spec_;
   std::optional<HdapiSchedulerHandle> callback_;
   bool scheduler_started_ = false;
+  bool measures_heat_ = false;
 
   // between the threads
   core::LatestValue<Frame> frames_;

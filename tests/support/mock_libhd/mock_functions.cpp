@@ -55,6 +55,9 @@ double one_value(unsigned property) {
       return mock().velocity_limit_mm_per_s;
     case mock_hd::kImpulseLimit:
       return mock().impulse_limit_n_per_ms;
+    case mock_hd::kMotorTemperature:
+      if (mock().motor_temperature >= 0.0) return mock().motor_temperature;
+      [[fallthrough]];
     default:
       mock().push_error(mock_hd::kInvalidEnum);
       return 0.0;
@@ -250,6 +253,9 @@ void mock_hd_set_limit(unsigned property, double value) {
       break;
     case mock_hd::kImpulseLimit:
       mock().impulse_limit_n_per_ms = value;
+      break;
+    case mock_hd::kMotorTemperature:
+      mock().motor_temperature = value;
       break;
     default:
       mock().forbid("mock_hd_set_limit of an unknown property");

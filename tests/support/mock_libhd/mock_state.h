@@ -34,6 +34,7 @@ enum : unsigned {
   kStiffness = 0x2602,
   kNominalForce = 0x2603,
   kContinuousForce = 0x2604,
+  kMotorTemperature = 0x2605,
   kVelocityLimit = 0x2606,
   kImpulseLimit = 0x2607,
   kForce = 0x2700,
@@ -89,6 +90,7 @@ class Mock {
   double continuous_force_n = 0.88;
   double velocity_limit_mm_per_s = 1500.0;
   double stiffness_n_per_mm = 0.5;
+  double motor_temperature = 0.2;  // below zero: a device that does not measure it
 
   std::array<std::atomic<double>, 3> position_mm;
   std::atomic<int> buttons{0};
