@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/command.h"
+#include "app/haptics_benchmarks.h"
 #include "app/physics_benchmarks.h"
 
 namespace afm::app {
@@ -39,6 +40,7 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
   bench->footer("A bar that is not met changes no exit code.\nexample: touchafm bench physics");
   add_subject(*bench, context, "physics", "a tick and the tables of each law, the dynamics, a whole curve",
               physics_benchmarks);
+  add_haptics_benchmarks(*bench, context);
 }
 
 }  // namespace afm::app

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "app/command.h"
+
+namespace afm::app {
+
+// touchafm bench haptics: the work of a tick, the wake-ups of the real servo beside a renderer that draws as fast as it
+// can, and how long a force outlives its renderer.
+void add_haptics_benchmarks(CLI::App& bench, CommandContext& context);
+
+}  // namespace afm::app

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "app/servo_reaction.h"
+#include "app/servo_wake.h"
+#include "app/servo_work.h"
+
+// That the benchmarks of the servo measure something; how much is for people to judge.
+namespace afm::app {
+namespace {
+
+const std::string kProgram = AFM_BINARY_DIR "/bin/touchafm";
+
+TEST(ServoBenchmarks, TimeATickOfEachLawWithTheForceOn) {
+  const auto figures = measure_servo_work(2000);
+  ASSERT_TRUE(figures) << figures.error().message;
+  EXPECT_EQ(figures->size(), 7U);
+  for (const WorkFigure& figure : *figures) {
+    EXPECT_GT(figure.us.p50, 0.0) << figure.name;
+    EXPECT_LE(figure.us.p50, figure.us.p99) << figure.name;
+    EXPECT_LE(figure.us.p99, figure.us.p999) << figure.name;
+    EXPECT_LE(figure.us.p999, figure.us.max) << figure.name;
+    EXPECT_LE(figure.p99_bar_us, 20.0) << figure.name;
+  }
+}
+
+TEST(ServoBenchmarks, CountTheServosWakeUpsBesideAPlainLoop) {
+  int frames = 0;
+  const auto wake = measure_servo_wake(kProgram, 0.5, [&] { ++frames; });
+  ASSERT_TRUE(wake) << wake.error().message;
+  EXPECT_EQ(wake->servo.rate_hz, 1000.0);
+  EXPECT_GT(wake->servo.ticks, 0U);
+  EXPECT_GT(wake->plain.ticks, 0U);
+  EXPECT_EQ(wake->frames, static_cast<std::uint64_t>(frames));
+}
+
+TEST(ServoBenchmarks, SeeTheHandReleasedAfterTheRenderersEnd) {
+  for (const auto fate : {RendererFate::Killed, RendererFate::Stopped}) {
+    const auto lasted_ms = measure_reaction(kProgram, fate, 1);
+    ASSERT_TRUE(lasted_ms) << lasted_ms.error().message;
+    ASSERT_EQ(lasted_ms->size(), 1U);
+    // a fade of 20 ms, and 250 ms without a heartbeat before one of 90 ms
+    EXPECT_GT(lasted_ms->front(), fate == RendererFate::Killed ? 10.0 : 100.0);
+  }
+}
+
+}  // namespace
+}  // namespace afm::app
