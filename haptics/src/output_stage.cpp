@@ -51,7 +51,8 @@ FaultCode OutputStage::step(const OutputRequest& request) noexcept {
 
   wanted_n_ = law_n + arm_gain * stop_.spring_n(request.position_m);
   const glm::dvec3 clamped_n = shortened(target_n, cap_n_);
-  command_n_ = shortened(command_n_ + shortened(clamped_n - command_n_, largest_step_n), cap_n_);
+  // between two vectors within the cap there is none beyond it
+  command_n_ += shortened(clamped_n - command_n_, largest_step_n);
   if (request.too_fast) {
     cut();
     return FaultCode::VelocityTrip;
