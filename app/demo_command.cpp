@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -18,6 +19,8 @@
 #include "app/sweep.h"
 #include "app/whole_file.h"
 #include "core/log.h"
+#include "haptics/scaling.h"
+#include "haptics/simulated_device.h"
 #include "physics/quantity_text.h"
 #include "render/context.h"
 #include "render/image_file.h"
@@ -30,6 +33,7 @@ namespace {
 // Fig. 5 is drawn larger than the live wall.
 constexpr std::uint32_t kFigureEyeWidth = 1440;
 constexpr std::uint64_t kMostVariations = 9;
+constexpr double kCommonPushM = 0.012;                        // clear of the end of the workspace
 constexpr double kSlowestHand = 0.005, kFastestHand = 0.200;  // m/s
 
 struct DemoOptions {
@@ -39,10 +43,19 @@ struct DemoOptions {
   HandPath hand;
   ServoMode servo = ServoMode::Process;
   ModelName model;
+  scene::ScaleMode scale = scene::ScaleMode::Fit;
   std::string probe;              // a lever and tip instead of the materials' own; empty: none
   std::string measured;           // a curve file to be felt too; empty: none
   std::vector<std::string> vary;  // "spring-constant=0.1N/m:0.4N/m:3"
 };
+
+// On the common scale the sample lies lower.
+HandPath on_scale(scene::ScaleMode scale, HandPath path) {
+  if (scale == scene::ScaleMode::Common) {
+    path.push_m = haptics::Scaling::common_zero_m(haptics::SimulatedDevice().spec()) - kCommonPushM;
+  }
+  return path;
+}
 
 void say(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
 
@@ -95,11 +108,13 @@ core::Result<std::vector<FeltMaterial>> variations_of(const FeltMaterial& materi
 core::Result<DemoPlan> plan_demo(const Stage& stage, const std::optional<MeasuredMaterial>& measured,
                                  const DemoOptions& options) {
   DemoPlan plan;
+  plan.scale = options.scale;
   if (measured) plan.curves.push_back(measured->curve);
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
     if (measured && entry.name == measured->entry.name) {
       auto felt = felt_material(entry, plan.curves, 0);
       if (!felt) return tl::unexpected(felt.error());
+      felt->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
       plan.materials.push_back(std::move(*felt));
       plan.variations.emplace_back();
       continue;
@@ -108,6 +123,7 @@ core::Result<DemoPlan> plan_demo(const Stage& stage, const std::optional<Measure
     if (!setup) return tl::unexpected(setup.error());
     auto felt = felt_material(*setup);
     if (!felt) return tl::unexpected(felt.error());
+    felt->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
     auto variations = variations_of(*felt, options);
     if (!variations) return tl::unexpected(variations.error());
     plan.materials.push_back(std::move(*felt));
@@ -237,12 +253,13 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   say(fmt::format("drawing 2 x {} x {} pixels on {}", result.eye_width, result.eye_height, result.vulkan_device));
 
   {
-    const auto model =
-        shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), plan->materials, plan->curves);
+    const auto model = shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), plan->materials,
+                                    stage->wall_scene.height_fields(), plan->curves);
     if (!model) return tl::unexpected(model.error());
     auto servo = ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
     if (!servo) return tl::unexpected(servo.error());
-    Demonstration live(stage->wall_scene, stage->eyes, *plan, *renderer, **servo, clock, options.hand);
+    Demonstration live(stage->wall_scene, stage->eyes, *plan, *renderer, **servo, clock,
+                       on_scale(options.scale, options.hand));
     if (auto ran = live.run(result, say); !ran) return ran;
     renderer->wait();
   }
@@ -313,6 +330,15 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
       ->add_option("--measured", options->measured,
                    "a recorded curve to be felt too (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
       ->type_name("FILE");
+  static const std::map<std::string, scene::ScaleMode> kScales{{"common", scene::ScaleMode::Common},
+                                                               {"fit", scene::ScaleMode::Fit},
+                                                               {"compressed", scene::ScaleMode::Compressed}};
+  command
+      ->add_option("--scale", options->scale,
+                   "how nm and nN become mm and N in the hand: common, one scale for all samples; fit, one for each; "
+                   "compressed, fit with weak forces raised; default: fit")
+      ->transform(CLI::CheckedTransformer(kScales))
+      ->type_name("MODE");
   auto servo = std::make_shared<std::string>("process");
   command->add_option("--servo", *servo, "how the servo runs: process, or thread for debuggers and sanitizers")
       ->check(CLI::IsMember({"process", "thread"}))

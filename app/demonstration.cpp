@@ -145,7 +145,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   // the wand's ray and button choose, as they would in a visitor's hand
   const input::WandState wand = person_.wand(now_ns);
   const input::Selector::Result pointing = selector_.update(wand, targets_);
-  if (pointing.chosen) servo_.choose(static_cast<std::int32_t>(*pointing.chosen));
+  if (pointing.chosen) servo_.choose(static_cast<std::int32_t>(*pointing.chosen), plan_.scale);
 
   const Moment now = moment(wand, pointing);
   scene::SceneTransforms transforms;
@@ -229,7 +229,10 @@ Moment moment_of(const RecordedSession& session, std::size_t material, std::int6
 
   Moment then;
   then.material = material;
-  then.tip = {.z_m = sample.z_m, .deflection_m = sample.deflection_m};
+  then.tip = {.z_m = sample.z_m,
+              .deflection_m = sample.deflection_m,
+              .xy_m = {sample.tip_xy_m[0], sample.tip_xy_m[1]},
+              .surface_height_m = sample.surface_height_m};
   then.force_n = sample.force_n;
   then.servo_state = sample.servo_state;
   then.phase = sample.phase;

@@ -21,6 +21,7 @@ struct DemoPlan {
   std::vector<FeltMaterial> materials;
   std::vector<std::vector<FeltMaterial>> variations;  // one list per material
   std::vector<scene::SharedMeasuredCurve> curves;     // of measured materials
+  scene::ScaleMode scale = scene::ScaleMode::Fit;
 };
 
 // One live run of the paper's procedure on every material: the simulated person's wand and hand, the servo, and the

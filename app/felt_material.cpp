@@ -45,7 +45,7 @@ core::Result<FeltMaterial> felt(const ContactSetup& setup, const scene::SharedMa
                                 std::span<const scene::SharedMeasuredCurve> curves) {
   auto tables = haptics::felt_tables(parameters, curves);
   if (!tables) return tl::unexpected(tables.error());
-  auto scaling = haptics::FitScaling::create(**tables, haptics::SimulatedDevice().spec());
+  auto scaling = haptics::Scaling::fit(**tables, haptics::SimulatedDevice().spec());
   if (!scaling) return refusal(setup.material, scaling.error().category, scaling.error().message);
   return FeltMaterial{setup, parameters, physics::choose_law(parameters.interaction), std::move(*tables), *scaling};
 }
@@ -62,7 +62,9 @@ core::Result<FeltMaterial> felt_material(const ContactSetup& setup) {
 
 core::Result<FeltMaterial> felt_material(const FeltMaterial& material, const ContactSetup& changed) {
   auto felt = felt_material(changed);
-  if (felt) felt->setup = material.setup;
+  if (!felt) return felt;
+  felt->setup = material.setup;
+  felt->parameters.height_field = material.parameters.height_field;
   return felt;
 }
 

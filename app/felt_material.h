@@ -23,7 +23,7 @@ struct FeltMaterial {
   scene::SharedMaterial parameters;                  // what the servo gets
   physics::LawChoice contact;                        // its place on the adhesion map, and the law that suits it
   std::shared_ptr<const physics::LawTables> tables;  // of a dynamic lever, the same lever at rest
-  haptics::FitScaling scaling;                       // on the simulated hand
+  haptics::Scaling scaling;                          // Fit, on the simulated hand
 
   const physics::CycleFigures& figures() const { return tables->figures; }
   bool dynamic() const { return parameters.dynamic != 0; }
@@ -32,7 +32,7 @@ struct FeltMaterial {
 // Takes milliseconds. Fails with one line that names the material if it has no such law, or cannot be felt.
 core::Result<FeltMaterial> felt_material(const ContactSetup& setup);
 
-// The same material with other numbers, by which the law is chosen again where that was asked for.
+// The same sample with other numbers, by which the law is chosen again where that was asked for.
 core::Result<FeltMaterial> felt_material(const FeltMaterial& material, const ContactSetup& changed);
 
 // With exactly these parameters, as a session recorded them; `curves` as in SharedModel.

@@ -59,7 +59,7 @@ std::string scale_text(double m_per_m) {
 class Axes {
  public:
   void include(const FeltMaterial& material) {
-    const double reach_m = material.scaling.z_m(haptics::FitScaling::kStrokeM);
+    const double reach_m = material.scaling.release_z_m();
     const double push_n = material.tables->attached.force(physics::Length(-kPushShare * reach_m)).si;
     reach_nm_ = std::max(reach_nm_, reach_m * kNmPerM);
     pull_nn_ = std::max(pull_nn_, haptics::strongest_pull_n(*material.tables) * kNnPerN);

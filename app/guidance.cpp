@@ -3,7 +3,6 @@
 
 #include "app/live_servo.h"
 #include "haptics/safety.h"
-#include "haptics/scaling.h"
 
 namespace afm::app {
 
@@ -12,7 +11,7 @@ namespace {
 // Where the servo accepts Turn-On.
 bool is_lifted(const scene::TipState& tip) {
   return tip.phase == scene::ContactPhase::Free &&
-         tip.z_m * tip.hand_m_per_m >= haptics::FitScaling::kStrokeM + haptics::SafetyGovernor::kArmingMarginM;
+         (tip.z_m - tip.release_z_m) * tip.hand_m_per_m >= haptics::SafetyGovernor::kArmingMarginM;
 }
 
 std::string running(const scene::TipState& tip, bool ascending, int cycles) {

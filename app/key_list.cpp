@@ -9,9 +9,9 @@ render::DataPanel key_list(HandSource hand) {
   panel.subtitle = "F1 hides them";
   panel.rows = {{"Choose a sample", "left click, 1 to 9", ""}};
   if (hand == HandSource::Mouse) {
-    panel.rows.insert(panel.rows.end(),
-                      {{"Move the hand", "hold right button", "or the space bar, and drag; or the wheel"},
-                       {"Turn-On", "T", "or the middle button"}});
+    panel.rows.insert(panel.rows.end(), {{"Move the hand", "hold right button",
+                                          "or the space bar, and drag: up, down, sideways; or the wheel"},
+                                         {"Turn-On", "T", "or the middle button"}});
   }
   panel.rows.insert(panel.rows.end(), {{"Parameters", "F2", ""},
                                        {"Begin again", "R", ""},

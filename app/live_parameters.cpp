@@ -37,7 +37,7 @@ physics::ForceCurve predict(const FeltMaterial& material) {
 
 }  // namespace
 
-double cycle_reach_m(const FeltMaterial& material) { return material.scaling.z_m(haptics::FitScaling::kStrokeM); }
+double cycle_reach_m(const FeltMaterial& material) { return material.scaling.release_z_m(); }
 
 LiveParameters::LiveParameters(const FeltMaterial& loaded) : loaded_(loaded), now_(loaded), curve_(predict(loaded)) {}
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live_servo.h"
 
-#include "haptics/scaling.h"
-
 namespace afm::app {
 
 namespace {
@@ -22,8 +20,11 @@ bool is_retracting(double z_m, double deepest_z_m) { return z_m > deepest_z_m + 
 Moment moment_of(const scene::TipState& tip, bool retracting) {
   Moment now;
   if (tip.material >= 0) now.material = static_cast<std::size_t>(tip.material);
-  now.tip = {.z_m = tip.z_m, .deflection_m = tip.deflection_m};
-  if (tip.hand_m_per_m > 0.0) now.tip.z_joc_m = haptics::FitScaling::kStrokeM / tip.hand_m_per_m;
+  now.tip = {.z_m = tip.z_m,
+             .deflection_m = tip.deflection_m,
+             .z_joc_m = tip.release_z_m,
+             .xy_m = {tip.tip_xy_m[0], tip.tip_xy_m[1]},
+             .surface_height_m = tip.surface_height_m};
   now.force_n = tip.force_n;
   now.servo_state = tip.servo_state;
   now.phase = tip.phase;

@@ -83,7 +83,7 @@ LiveView::LiveView(const Stage& stage, const std::vector<FeltMaterial>& material
       swatches_(stage.wall_scene.swatch_targets()),
       eyes_(eyes_for(stage, settings.stereo)),
       wand_(stage.wall.screens.front(), stage.wall_scene.wand_grip_m()),
-      hand_(stage.wall_scene.sample_normal()),
+      hand_(stage.wall_scene.sample_normal(), stage.wall_scene.sample_right()),
       person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), HandPath{}),
       cycles_(stage.materials.materials.size()),
       edits_(materials),
@@ -95,7 +95,7 @@ core::Result<void> LiveView::start_servo() {
   servo_ = std::move(*servo);
   servo_error_.reset();
   stream_ = {};
-  hand_ = MouseHand(stage_.wall_scene.sample_normal());
+  hand_ = MouseHand(stage_.wall_scene.sample_normal(), stage_.wall_scene.sample_right());
   edits_.resend(*servo_);
   return {};
 }

@@ -2,6 +2,8 @@
 #include "app/mouse_hand.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace afm::app {
 
@@ -26,20 +28,21 @@ bool is_turn_on(const render::WindowEvent& event) {
 
 }  // namespace
 
-void MouseHand::drag_to(double cursor_y_px, double m_per_px) {
-  wanted_m_ = std::clamp(wanted_m_ + (grip_y_px_ - cursor_y_px) * m_per_px, kLowestM, kHighestM);
-  grip_y_px_ = cursor_y_px;
+void MouseHand::drag_to(const glm::dvec2& cursor_px, double m_per_px) {
+  const glm::dvec2 moved_m = m_per_px * glm::dvec2(cursor_px.x - grip_px_.x, grip_px_.y - cursor_px.y);
+  wanted_m_ = glm::clamp(wanted_m_ + moved_m, glm::dvec2(-kWidestM, kLowestM), glm::dvec2(kWidestM, kHighestM));
+  grip_px_ = cursor_px;
 }
 
 void MouseHand::take(const render::WindowEvent& event, double m_per_px, std::int64_t now_ns) {
   if (event.kind == Kind::Scroll) {
-    wanted_m_ = std::clamp(wanted_m_ + kWheelStepM * event.scroll, kLowestM, kHighestM);
+    wanted_m_.y = std::clamp(wanted_m_.y + kWheelStepM * event.scroll, kLowestM, kHighestM);
     return;
   }
   const bool down = event.kind == Kind::KeyDown || event.kind == Kind::ButtonDown;
   if (is_grip(event)) {
-    if (dragging()) drag_to(event.cursor_px.y, m_per_px);
-    grip_y_px_ = event.cursor_px.y;
+    if (dragging()) drag_to(event.cursor_px, m_per_px);
+    grip_px_ = event.cursor_px;
     grips_ = std::clamp(grips_ + (down ? 1 : -1), 0, 2);
   }
   if (is_turn_on(event)) {
@@ -49,15 +52,17 @@ void MouseHand::take(const render::WindowEvent& event, double m_per_px, std::int
 }
 
 void MouseHand::update(const glm::dvec2& cursor_px, double m_per_px, double frame_s, std::int64_t now_ns) {
-  if (dragging()) drag_to(cursor_px.y, m_per_px);
+  if (dragging()) drag_to(cursor_px, m_per_px);
   script_.turn_on_pressed = turn_on_held_ || now_ns < turn_on_until_ns_ ? 1 : 0;
 
   const double seconds = std::clamp(frame_s, 0.001, kLongestPathS);
   const double reach = kFastestMPerS * seconds;
-  const double next = std::clamp(wanted_m_, aim_m_ - reach, aim_m_ + reach);
+  const glm::dvec2 way = wanted_m_ - aim_m_;
+  const double length = glm::length(way);
+  const glm::dvec2 next = length > reach ? aim_m_ + reach / length * way : wanted_m_;
   if (next == aim_m_ && script_.revision != 0) return;
   aim_m_ = next;
-  const glm::dvec3 target = aim_m_ * normal_;
+  const glm::dvec3 target = aim_m_.x * right_ + aim_m_.y * normal_;
   script_.target_m = {target.x, target.y, target.z};
   script_.duration_s = seconds;
   ++script_.revision;

@@ -40,19 +40,21 @@ core::Error ended(int status) {
 
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
                                               std::span<const FeltMaterial> materials,
+                                              std::span<const scene::SharedHeightField> surfaces,
                                               std::span<const scene::SharedMeasuredCurve> curves) {
   if (scene.nodes.size() > scene::kMaxNodes || materials.size() > scene::kMaxMaterials ||
-      curves.size() > scene::kMaxMeasuredCurves) {
+      surfaces.size() > scene::kMaxHeightFields || curves.size() > scene::kMaxMeasuredCurves) {
     return core::failure(
         core::ErrorCategory::BadInputFile,
-        fmt::format("the scene has {} nodes, {} materials and {} measured curves; at most {}, {} and {} can be shared "
-                    "with the servo",
-                    scene.nodes.size(), materials.size(), curves.size(), scene::kMaxNodes, scene::kMaxMaterials,
-                    scene::kMaxMeasuredCurves));
+        fmt::format("the scene has {} nodes, {} materials, {} surfaces and {} measured curves; at most {}, {}, {} and "
+                    "{} can be shared with the servo",
+                    scene.nodes.size(), materials.size(), surfaces.size(), curves.size(), scene::kMaxNodes,
+                    scene::kMaxMaterials, scene::kMaxHeightFields, scene::kMaxMeasuredCurves));
   }
   scene::SharedModel model;
   model.node_count = static_cast<std::uint32_t>(scene.nodes.size());
   model.material_count = static_cast<std::uint32_t>(materials.size());
+  model.height_field_count = static_cast<std::uint32_t>(surfaces.size());
   model.curve_count = static_cast<std::uint32_t>(curves.size());
   model.sample_node = sample_node;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -68,6 +70,7 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
   }
   std::transform(materials.begin(), materials.end(), model.materials.begin(),
                  [](const FeltMaterial& material) { return material.parameters; });
+  std::copy(surfaces.begin(), surfaces.end(), model.height_fields.begin());
   std::copy(curves.begin(), curves.end(), model.curves.begin());
   return model;
 }
@@ -158,8 +161,9 @@ void ServoLink::go_on() {
   }
 }
 
-void ServoLink::choose(std::int32_t material) {
+void ServoLink::choose(std::int32_t material, scene::ScaleMode mode) {
   selection_.material = material;
+  selection_.scale_mode = mode;
   ++selection_.revision;
   side_.store(selection_);
 }

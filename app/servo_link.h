@@ -22,9 +22,10 @@ enum class ServoMode { Process, Thread };
 inline constexpr double kServoRateHz = 1000.0;
 
 // The shared model of a scene: its nodes at rest and what is felt. Fails if there are more of either than the segment
-// holds. `curves` are those that measured materials refer to.
+// holds. `curves` and `surfaces` are those that the materials refer to.
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
                                               std::span<const FeltMaterial> materials,
+                                              std::span<const scene::SharedHeightField> surfaces,
                                               std::span<const scene::SharedMeasuredCurve> curves = {});
 
 // The frame loop's end of the servo: starts it over a segment of its own, tells it what was chosen and where things
@@ -54,7 +55,10 @@ class ServoLink {
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
   std::uint64_t lost_samples() const { return side_.lost_samples(); }
 
-  void choose(std::int32_t material);
+  // The material under the tip, and the scale on which it is felt; both take effect once the tip is off the sample,
+  // with the force taken away first. Without a mode: that of the choice before, at first Fit.
+  void choose(std::int32_t material) { choose(material, selection_.scale_mode); }
+  void choose(std::int32_t material, scene::ScaleMode mode);
 
   // Other parameters for a material, by its index in the shared model; returns the revision of the edit. It takes
   // effect as a choice does: once the tip is off the sample, with the force taken away first, so that the hand has to

@@ -75,9 +75,11 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   for (const scene::MaterialEntry& entry : stage->materials.materials) {
     auto felt = felt_material(ContactSetup{entry, {}, {}});
     if (!felt) return tl::unexpected(felt.error());
+    felt->parameters.height_field = stage->wall_scene.height_field(materials.size());
     materials.push_back(std::move(*felt));
   }
-  const auto model = shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials);
+  const auto model = shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
+                                  stage->wall_scene.height_fields());
   if (!model) return tl::unexpected(model.error());
 
   auto window = render::Window::open(options.window);

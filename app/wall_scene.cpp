@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "physics/beam_shape.h"
 #include "physics/contact.h"
+#include "scene/height_field.h"
 
 namespace afm::app {
 
@@ -138,6 +139,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
     const std::string sample = "sample-" + material.name;
     look.sample = build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, w.sample_frame_);
     const scene::NodeIndex surface = build.node(sample + "/surface");
+    look.height_field = build.error() ? scene::kNoHeightField : w.height_field_of(model, surface);
     const std::string swatch = "swatch-" + material.name;
     look.swatch = build.model("swatch-" + model + ".glb", swatch, w.layout_);
     look.label = build.node(swatch + "/label");
@@ -164,6 +166,17 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   const Bounds stage = bounds_below(w.scene_, build.node("stage/stage"));
   w.stage_scale_ = kStageDrawnDiameter / (stage.high.x - stage.low.x);
   return w;
+}
+
+// Materials that share a model share its surface. More surfaces than the servo has room for are felt as planes.
+std::uint32_t WallScene::height_field_of(const std::string& model, scene::NodeIndex surface) {
+  const auto known = std::find(surface_models_.begin(), surface_models_.end(), model);
+  if (known != surface_models_.end()) return static_cast<std::uint32_t>(known - surface_models_.begin());
+  const auto field = scene::height_field_below(scene_, surface);
+  if (!field || height_fields_.size() == scene::kMaxHeightFields) return scene::kNoHeightField;
+  surface_models_.push_back(model);
+  height_fields_.push_back(*field);
+  return static_cast<std::uint32_t>(height_fields_.size() - 1);
 }
 
 double WallScene::parameter_factor(std::size_t material, const TipView& tip) const {
@@ -208,7 +221,16 @@ glm::dvec3 WallScene::sample_normal() const {
       dvec3(room_from_layout_ * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(0, 0, 1, 0)));
 }
 
+glm::dvec3 WallScene::sample_right() const {
+  return glm::normalize(
+      dvec3(room_from_layout_ * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(1, 0, 0, 0)));
+}
+
 glm::dvec3 WallScene::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(kWandGrip, 1.0)); }
+
+glm::dvec3 WallScene::below_tip(const Pose& pose) const {
+  return layout_per_m(pose) * dvec3(pose.tip.xy_m, pose.tip.surface_height_m);
+}
 
 void WallScene::place_probe(const Pose& pose, std::vector<dmat4>& local, render::BeamBend& bend) const {
   // everything in the sample's frame, in layout units; the lever runs along `along` towards the viewer, parallel to the
@@ -226,10 +248,11 @@ void WallScene::place_probe(const Pose& pose, std::vector<dmat4>& local, render:
     angle = std::atan(physics::beam_slope(1.0) * end / kLeverDrawnLength);
     end = -deflection - kTipDrawnLength * (1.0 - std::cos(angle));
   }
+  const dvec3 below = below_tip(pose);
   const double base_height = pose.tip.z_m * per_m + kTipDrawnLength;
 
-  // the chip is moved along the lever so that the apex stays over the same spot of the sample
-  const dvec3 clamp = up * base_height - along * (kLeverDrawnLength + kTipDrawnLength * std::sin(angle));
+  // the chip is moved along the lever so that the apex stays over its spot of the sample
+  const dvec3 clamp = below + up * base_height - along * (kLeverDrawnLength + kTipDrawnLength * std::sin(angle));
   const dmat4 frame_from_lever = frame_matrix(along, glm::cross(up, along), up, clamp);
 
   const dmat4 probe_from_cantilever = ancestor_from_node(scene_, lever_, cantilever_);
@@ -252,8 +275,8 @@ void WallScene::place_optics(const Pose& pose, std::vector<dmat4>& local) const 
     const dmat4 layout_from_parent = ancestor_from_node(scene_, layout_, *scene_.nodes[node].parent);
     local[node] = glm::inverse(layout_from_parent) * layout_from_node;
   };
-  const dvec3 above_apex(0.0, 0.0,
-                         (pose.tip.z_m - pose.tip.deflection_m) * layout_per_m(pose) + kTipDrawnLength + kBeamRadius);
+  const double apex = (pose.tip.z_m - pose.tip.deflection_m) * layout_per_m(pose);
+  const dvec3 above_apex = below_tip(pose) + dvec3(0.0, 0.0, apex + kTipDrawnLength + kBeamRadius);
   const dvec3 lever_end(scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(above_apex, 1.0));
 
   // the diode looks between the lever and the viewer, so that its four quadrants and the spot are seen

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,9 +23,11 @@ namespace afm::app {
 
 // What the picture shows of the tip: heights along the sample's normal, metres of the nanoworld.
 struct TipView {
-  double z_m = 0;           // piezo displacement
-  double deflection_m = 0;  // delta_c, positive towards the sample
-  double z_joc_m = 0;       // where the tip lets go with the parameters that it has now; 0: those of the material
+  double z_m = 0;               // piezo displacement
+  double deflection_m = 0;      // delta_c, positive towards the sample
+  double z_joc_m = 0;           // where the tip lets go with the parameters that it has now; 0: those of the material
+  glm::dvec2 xy_m{0.0};         // the tip's place in the sample's frame
+  double surface_height_m = 0;  // below the tip; Z and the deflection count from there
 };
 
 // How large things are drawn: metres of the nanoworld (or of the instrument) shown as one metre on the wall.
@@ -46,8 +51,13 @@ class WallScene {
   // The swatches as targets of the wand, in the order of the materials.
   std::vector<input::Target> swatch_targets() const;
 
-  // Outward normal of the sample in the room, unit.
+  // The surfaces that are felt, as they are drawn; and which of them a material has, scene::kNoHeightField for none.
+  std::span<const scene::SharedHeightField> height_fields() const { return height_fields_; }
+  std::uint32_t height_field(std::size_t material) const { return looks_[material].height_field; }
+
+  // Outward normal of the sample in the room, and its x axis, to the right; unit.
   glm::dvec3 sample_normal() const;
+  glm::dvec3 sample_right() const;
 
   // Where a simulated person holds the wand.
   glm::dvec3 wand_grip_m() const;
@@ -82,8 +92,10 @@ class WallScene {
     double stroke_m;           // from the deepest push to the highest lift
     double full_deflection_m;  // at pull-off
     double thickness_m;        // of the slab
+    std::uint32_t height_field;
   };
 
+  std::uint32_t height_field_of(const std::string& model, scene::NodeIndex surface);
   void place_probe(const Pose& pose, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
   void place_sample(const Pose& pose, std::vector<glm::dmat4>& local) const;
   void place_optics(const Pose& pose, std::vector<glm::dmat4>& local) const;
@@ -92,6 +104,7 @@ class WallScene {
   double layout_per_m(const Pose& pose) const;                              // layout units per metre of the nanoworld
   double side_width() const;                                                // of the panels beside the instrument
   glm::dvec3 swatch_place(std::size_t i) const;
+  glm::dvec3 below_tip(const Pose& pose) const;  // the surface's point, sample's frame, layout units
   std::vector<glm::dmat4> local_transforms(const Pose& pose, render::BeamBend& bend) const;
   std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;
   render::PanelPlacement panel(double left, double bottom, double width, double height) const;
@@ -99,6 +112,8 @@ class WallScene {
   scene::Scene scene_;
   std::vector<std::string> titles_;
   std::vector<MaterialLook> looks_;
+  std::vector<scene::SharedHeightField> height_fields_;
+  std::vector<std::string> surface_models_;  // of which model each of them is
   glm::dmat4 room_from_layout_{
       1.0};                // origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre
   double wall_width_ = 0;  // in layout units

@@ -15,12 +15,20 @@ namespace {
 constexpr auto kLookEvery = std::chrono::milliseconds(5);
 }  // namespace
 
+core::Result<std::unique_ptr<Encounter>> EditBuilder::encounter_of(const scene::MaterialEdit& edit) const {
+  auto tables = felt_tables(edit.material, curves_);
+  if (!tables) return tl::unexpected(tables.error());
+  const std::uint32_t surface = edit.material.height_field;
+  return Encounter::create(edit.material, edit.revision, std::move(*tables),
+                           surface < surfaces_.size() ? &surfaces_[surface] : nullptr, common_, device_, period_ns_);
+}
+
 void EditBuilder::build() {
   exchange_.bury();
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     const auto edit = edits_.new_edit(static_cast<std::uint32_t>(i));
     if (!edit) continue;
-    auto encounter = Encounter::create(edit->material, edit->revision, curves_, device_, period_ns_);
+    auto encounter = encounter_of(*edit);
     if (encounter) {
       exchange_.offer(i, std::move(*encounter));
     } else {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace afm::haptics {
 
@@ -12,6 +13,14 @@ namespace {
 
 constexpr double kKneeShare = 0.75;
 constexpr double kPushShareOfRadius = 0.1;
+constexpr double kRounding = 1e-9;  // relative
+
+// Where compression begins, in shares of the snap-in, or of the strongest pull without one; and where it is so weak
+// that it is left out.
+constexpr double kBendShareOfSnap = 0.5;
+constexpr double kBendShareOfPull = 0.1;
+constexpr double kLargestBend = 30.0;       // of the strongest pull
+constexpr double kFaintAtReleaseN = 0.045;  // on the hand; the governor arms below 0.05 N
 
 // What a hand at 50 mm/s passes in a tick: over less than that, the slope of a curve is not felt.
 constexpr double kHandStepM = 50e-6;
@@ -36,8 +45,23 @@ double faint_above_m(const physics::LawTables& tables, double faint_n) {
   return far_m;
 }
 
+// What of a material a scale has to make room for.
+struct Extent {
+  double reach_m = 0;   // Z that the stroke fills
+  double strong_n = 0;  // on the tip: what becomes as strong as the device may be
+};
+
+Extent extent_of(const physics::LawTables& tables) {
+  const double pull_n = strongest_pull_n(tables);
+  if (pull_n > 0.0) {
+    return {std::max(tables.figures.z_joc.si, faint_above_m(tables, Scaling::kFaintShare * pull_n)), pull_n};
+  }
+  const double push_m = kPushShareOfRadius * tables.interaction.tip_radius.si;
+  return {push_m * Scaling::kStrokeM / Scaling::kPushM, force_n(tables.attached, -push_m) / kKneeShare};
+}
+
 // The steepest rise of the hand's force on its way down a branch, between two heights of the hand.
-double steepest_n_per_m(const FitScaling& scaling, const Branch& branch, double lowest_m, double highest_m) {
+double steepest_n_per_m(const Scaling& scaling, const Branch& branch, double lowest_m, double highest_m) {
   double steepest = 0.0;
   double above_n = scaling.hand_force_n(force_n(branch, scaling.z_m(highest_m)));
   for (double height_m = highest_m - kHandStepM; height_m >= lowest_m; height_m -= kHandStepM) {
@@ -48,14 +72,43 @@ double steepest_n_per_m(const FitScaling& scaling, const Branch& branch, double 
   return steepest;
 }
 
-// The same on both branches, where they can be felt in the device's workspace.
-double steepest_n_per_m(const FitScaling& scaling, const physics::LawTables& tables, const DeviceSpec& device) {
+// How many times steeper than allowed the force rises on either branch, where it can be felt in the device's workspace.
+double excess_of_stiffness(const Scaling& scaling, const physics::LawTables& tables, const DeviceSpec& device) {
   const double lowest_m = device.workspace_min_m.y - device.contact_point_m.y;
   const double highest_m = device.workspace_max_m.y - device.contact_point_m.y;
-  const double jump_in_m = tables.figures.z_jtc.si * scaling.hand_m_per_m();
-  const double jump_off_m = tables.figures.z_joc.si * scaling.hand_m_per_m();
-  return std::max(steepest_n_per_m(scaling, tables.free, std::clamp(jump_in_m, lowest_m, highest_m), highest_m),
-                  steepest_n_per_m(scaling, tables.attached, lowest_m, std::clamp(jump_off_m, lowest_m, highest_m)));
+  const double jump_in_m = scaling.hand_height_m(tables.figures.z_jtc.si);
+  const double jump_off_m = scaling.hand_height_m(tables.figures.z_joc.si);
+  const double free = steepest_n_per_m(scaling, tables.free, std::clamp(jump_in_m, lowest_m, highest_m), highest_m);
+  const double attached =
+      steepest_n_per_m(scaling, tables.attached, lowest_m, std::clamp(jump_off_m, lowest_m, highest_m));
+  return std::max(free, attached) / std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
+}
+
+core::Result<void> check_force(const DeviceSpec& device) {
+  if (force_cap_n(device) >= Scaling::kFaintestPullN) return {};
+  return core::failure(core::ErrorCategory::DeviceMissing,
+                       fmt::format("the {} gives {:.2g} N at most, too little to feel; use a stronger device",
+                                   device.name, force_cap_n(device)));
+}
+
+core::Result<void> check_workspace(const DeviceSpec& device) {
+  const double above_m = device.workspace_max_m.y - device.contact_point_m.y;
+  if (above_m > Scaling::kStrokeM) return {};
+  return core::failure(
+      core::ErrorCategory::DeviceMissing,
+      fmt::format("cannot fit the stroke of {:.0f} mm to the {}: it reaches {:.0f} mm above the contact point",
+                  1e3 * Scaling::kStrokeM, device.name, 1e3 * above_m));
+}
+
+core::Result<void> check_extent(const Extent& extent) {
+  if (std::isnormal(extent.reach_m) && extent.reach_m > 0.0 && std::isnormal(extent.strong_n) && extent.strong_n > 0.0)
+    return {};
+  return refusal(fmt::format("there is nothing to feel: a pull of {:.3g} nN up to Z = {:.3g} nm", 1e9 * extent.strong_n,
+                             1e9 * extent.reach_m));
+}
+
+double common_stroke_m(const DeviceSpec& device) {
+  return device.workspace_max_m.y - device.contact_point_m.y - Scaling::kRecoilM - Scaling::common_zero_m(device);
 }
 
 }  // namespace
@@ -72,54 +125,98 @@ double strongest_pull_n(const physics::LawTables& tables) {
   return strongest_n;
 }
 
-core::Result<FitScaling> FitScaling::create(const physics::LawTables& tables, const DeviceSpec& device) {
-  const double cap_n = force_cap_n(device);
-  if (!(cap_n >= kFaintestPullN)) {
-    return core::failure(
-        core::ErrorCategory::DeviceMissing,
-        fmt::format("the {} gives {:.2g} N at most, too little to feel; use a stronger device", device.name, cap_n));
-  }
-  const double above_m = device.workspace_max_m.y - device.contact_point_m.y;
-  if (!(above_m > kStrokeM)) {
-    return core::failure(
-        core::ErrorCategory::DeviceMissing,
-        fmt::format("cannot fit the stroke of {:.0f} mm to the {}: it reaches {:.0f} mm above the contact point",
-                    1e3 * kStrokeM, device.name, 1e3 * above_m));
-  }
+core::Result<Scaling> Scaling::fit(const physics::LawTables& tables, const DeviceSpec& device) {
+  if (auto enough = check_force(device); !enough) return tl::unexpected(enough.error());
+  if (auto enough = check_workspace(device); !enough) return tl::unexpected(enough.error());
+  const Extent extent = extent_of(tables);
+  if (auto some = check_extent(extent); !some) return tl::unexpected(some.error());
+  Scaling scaling;
+  scaling.cap_n_ = force_cap_n(device);
+  scaling.hand_m_per_m_ = kStrokeM / extent.reach_m;
+  scaling.hand_n_per_n_ = scaling.cap_n_ / extent.strong_n;
 
-  const double pull_n = strongest_pull_n(tables);
-  const bool pulls = pull_n > 0.0;
-  const double push_m = kPushShareOfRadius * tables.interaction.tip_radius.si;
-  const double reach_m = std::max(tables.figures.z_joc.si, faint_above_m(tables, kFaintShare * pull_n));
-  const double reference_n = pulls ? pull_n : force_n(tables.attached, -push_m) / kKneeShare;
-  FitScaling scaling(pulls ? kStrokeM / reach_m : kPushM / push_m, cap_n / reference_n, cap_n);
-  if (!(scaling.hand_m_per_m_ > 0.0 && std::isfinite(scaling.hand_m_per_m_) && scaling.hand_n_per_n_ > 0.0 &&
-        std::isfinite(scaling.hand_n_per_n_))) {
-    return refusal(
-        fmt::format("there is nothing to feel: a pull of {:.3g} nN up to Z = {:.3g} nm", 1e9 * pull_n, 1e9 * reach_m));
-  }
-
-  const double limit_n_per_m = std::min(kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
   // a weaker scale bends at another depth, so that one step need not be enough
-  for (double steepest = steepest_n_per_m(scaling, tables, device); steepest > limit_n_per_m * (1.0 + 1e-9);
-       steepest = steepest_n_per_m(scaling, tables, device)) {
-    scaling.hand_n_per_n_ *= std::min(0.95, limit_n_per_m / steepest);
-    if (scaling.hand_n_per_n_ * reference_n < kFaintestPullN) {
+  for (double excess = excess_of_stiffness(scaling, tables, device); excess > 1.0 + kRounding;
+       excess = excess_of_stiffness(scaling, tables, device)) {
+    scaling.hand_n_per_n_ *= std::min(0.95, 1.0 / excess);
+    if (scaling.hand_n_per_n_ * extent.strong_n < kFaintestPullN) {
       return refusal(
           fmt::format("beside the stiffness of its contact, of which a hand can be given {:.0f} N/m, its force of "
                       "{:.3g} nN would be too faint to feel; use a softer lever",
-                      limit_n_per_m, 1e9 * reference_n));
+                      std::min(kMaxStiffnessNPerM, device.max_stiffness_n_per_m), 1e9 * extent.strong_n));
     }
   }
   return scaling;
 }
 
-double FitScaling::hand_force_n(double tip_force_n) const noexcept {
-  const double linear_n = hand_n_per_n_ * tip_force_n;
+core::Result<Scaling> Scaling::compressed(const physics::LawTables& tables, const DeviceSpec& device) {
+  auto scaling = fit(tables, device);
+  if (!scaling) return scaling;
+  scaling->mode_ = scene::ScaleMode::Compressed;
+  const double strong_n = extent_of(tables).strong_n;
+  const double snap_n = std::abs(tables.figures.force_after_jtc.si);
+  double bend_n = tables.figures.hysteretic && snap_n > 0.0 ? std::min(kBendShareOfSnap * snap_n, strong_n)
+                                                            : kBendShareOfPull * strong_n;
+  while (bend_n < kLargestBend * strong_n) {
+    scaling->bend_n_ = bend_n;
+    scaling->bend_gain_n_ = scaling->hand_n_per_n_ * strong_n / std::asinh(strong_n / bend_n);
+    // what pulls from afar must stay too weak to be felt where the force is turned on
+    const double afar_n = -scaling->hand_force_n(force_n(tables.free, scaling->release_z_m()));
+    const double excess = std::max(excess_of_stiffness(*scaling, tables, device), afar_n / kFaintAtReleaseN);
+    if (excess <= 1.0 + kRounding) return scaling;
+    bend_n *= std::clamp(excess, 1.002, 1.2);
+  }
+  // the contact is as stiff as the hand can stand without any compression
+  scaling->bend_n_ = 0.0;
+  return scaling;
+}
+
+double Scaling::common_zero_m(const DeviceSpec& device) noexcept {
+  return device.workspace_min_m.y - device.contact_point_m.y + kPushM;
+}
+
+core::Result<Scaling> Scaling::common(const physics::LawTables& tables, const DeviceSpec& device,
+                                      const CommonScale& scale) {
+  if (auto enough = check_force(device); !enough) return tl::unexpected(enough.error());
+  if (auto enough = check_workspace(device); !enough) return tl::unexpected(enough.error());
+  const Extent extent = extent_of(tables);
+  if (auto some = check_extent(extent); !some) return tl::unexpected(some.error());
+  Scaling scaling;
+  scaling.mode_ = scene::ScaleMode::Common;
+  scaling.cap_n_ = force_cap_n(device);
+  scaling.zero_m_ = common_zero_m(device);
+  scaling.hand_m_per_m_ = std::min(scale.hand_m_per_m, common_stroke_m(device) / extent.reach_m);
+  scaling.hand_n_per_n_ = std::min(scale.hand_n_per_n, scaling.cap_n_ / extent.strong_n);
+  scaling.release_m_ = scaling.hand_height_m(extent.reach_m);
+  for (double excess = excess_of_stiffness(scaling, tables, device); excess > 1.0 + kRounding;
+       excess = excess_of_stiffness(scaling, tables, device)) {
+    scaling.hand_n_per_n_ *= std::min(0.95, 1.0 / excess);
+  }
+  return scaling;
+}
+
+core::Result<CommonScale> Scaling::common_scale(std::span<const std::shared_ptr<const physics::LawTables>> materials,
+                                                const DeviceSpec& device) {
+  CommonScale scale{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (const auto& tables : materials) {
+    scale.hand_m_per_m = std::min(scale.hand_m_per_m, common_stroke_m(device) / extent_of(*tables).reach_m);
+  }
+  // the stiffness depends on both, so that the lengths come first
+  for (const auto& tables : materials) {
+    const auto alone = common(*tables, device, scale);
+    if (!alone) return tl::unexpected(alone.error());
+    scale.hand_n_per_n = std::min(scale.hand_n_per_n, alone->hand_n_per_n());
+  }
+  return scale;
+}
+
+double Scaling::hand_force_n(double tip_force_n) const noexcept {
+  const double wanted_n =
+      bend_n_ > 0.0 ? bend_gain_n_ * std::asinh(tip_force_n / bend_n_) : hand_n_per_n_ * tip_force_n;
   const double knee_n = kKneeShare * cap_n_;
-  if (linear_n <= knee_n) return linear_n;
+  if (wanted_n <= knee_n) return wanted_n;
   const double rest_n = cap_n_ - knee_n;
-  return knee_n + rest_n * std::tanh((linear_n - knee_n) / rest_n);
+  return knee_n + rest_n * std::tanh((wanted_n - knee_n) / rest_n);
 }
 
 }  // namespace afm::haptics

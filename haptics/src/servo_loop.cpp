@@ -64,35 +64,47 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
   const auto copy = std::make_unique<const scene::SharedModel>(segment.model());
   const scene::SharedModel& shared = *copy;
   if (auto valid = scene::validate(shared); !valid) return tl::unexpected(valid.error());
-  std::vector<std::unique_ptr<Encounter>> encounters;
-  encounters.reserve(shared.material_count);
+  std::vector<std::shared_ptr<const physics::LawTables>> tables;
   for (std::uint32_t i = 0; i < shared.material_count; ++i) {
-    auto encounter = Encounter::create(shared.materials[i], 0, std::span(shared.curves).first(shared.curve_count),
-                                       device.spec(), period_ns);
+    auto felt = felt_tables(shared.materials[i], std::span(shared.curves).first(shared.curve_count));
+    if (!felt) return tl::unexpected(felt.error());
+    tables.push_back(std::move(*felt));
+  }
+  auto common = Scaling::common_scale(tables, device.spec());
+  if (!common) return tl::unexpected(common.error());
+  if (shared.common_hand_m_per_m > 0) common = CommonScale{shared.common_hand_m_per_m, shared.common_hand_n_per_n};
+  std::vector<std::unique_ptr<Encounter>> encounters;
+  for (std::uint32_t i = 0; i < shared.material_count; ++i) {
+    const std::uint32_t surface = shared.materials[i].height_field;
+    auto encounter = Encounter::create(shared.materials[i], 0, tables[i],
+                                       surface < shared.height_field_count ? &shared.height_fields[surface] : nullptr,
+                                       *common, device.spec(), period_ns);
     if (!encounter) return tl::unexpected(encounter.error());
     encounters.push_back(std::move(*encounter));
   }
-  return std::unique_ptr<ServoLoop>(new ServoLoop(segment, shared, device, settings, std::move(encounters)));
+  return std::unique_ptr<ServoLoop>(new ServoLoop(segment, shared, device, settings, std::move(encounters), *common));
 }
 
 ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
-                     const ServoSettings& settings, std::vector<std::unique_ptr<Encounter>> encounters)
+                     const ServoSettings& settings, std::vector<std::unique_ptr<Encounter>> encounters,
+                     const CommonScale& common)
     : shared_(segment.servo_side()),
       device_(device),
       settings_(settings),
       period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
       exchange_(std::move(encounters)),
-      edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count}, device.spec(),
-             period_ns_, exchange_),
-      governor_(safety_limits(device.spec(), period_ns_, FitScaling::kStrokeM, settings.dead_man)),
+      edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
+             {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count}, common,
+             device.spec(), period_ns_, exchange_),
+      governor_(safety_limits(device.spec(), period_ns_, Scaling::kStrokeM, settings.dead_man)),
       hand_position_m_(device.spec().contact_point_m) {
   shared_.store(shared(device.spec()));
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
   const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
   std::array<double, 16> room_from_sample{};
   std::copy_n(glm::value_ptr(rest), room_from_sample.size(), room_from_sample.begin());
-  turn_sample(room_from_sample);
+  sample_.turn(room_from_sample);
   // a successor goes on with what was changed before it
   edits_.build();
 }
@@ -113,32 +125,31 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   if (device_healthy_) {
     hand_position_m_ = hand.position_m;
     hand_from_contact_m_ = hand.position_m - device_.spec().contact_point_m;
-    hand_height_m_ = glm::dot(hand_from_contact_m_, normal_);
   } else if (encounter_ != nullptr) {
     encounter_->wait_for_lift();
   }
   turn_on_ = hand.turn_on;
 
-  physics::TipResponse response;
-  double wanted_n = 0;
+  touch_ = {};
+  double height_m = glm::dot(hand_from_contact_m_, sample_.normal());
   EnergyLedger::Law law_energy;
   if (encounter_ != nullptr) {
-    response = encounter_->step(physics::Length(encounter_->scaling().z_m(hand_height_m_)));
-    wanted_n = encounter_->scaling().hand_force_n(response.force.si);
-    law_energy = encounter_->energy(response, hand_height_m_);
+    touch_ = encounter_->feel(sample_.in_sample(hand_from_contact_m_));
+    height_m = encounter_->scaling().hand_height_m(touch_.z_m);
+    law_energy = encounter_->energy(touch_);
   }
   bool pulled_off = false;
-  for (std::uint32_t i = 0; i < response.event_count; ++i) {
-    pulled_off = pulled_off || response.events[i].kind == physics::EventKind::JumpOffContact;
+  for (std::uint32_t i = 0; i < touch_.response.event_count; ++i) {
+    pulled_off = pulled_off || touch_.response.events[i].kind == physics::EventKind::JumpOffContact;
   }
 
   // from the contact point, so that a recording that knows no other frame gives the same bits
   renderer_ = renderer_link(now_ns);
   const auto output = governor_.step({.time_ns = now_ns,
                                       .hand_position_m = hand.position_m - device_.spec().contact_point_m,
-                                      .wanted_force_n = wanted_n * normal_,
-                                      .hand_height_m = hand_height_m_,
-                                      .phase = shared_phase(response.phase),
+                                      .wanted_force_n = sample_.in_device(touch_.hand_force_n),
+                                      .hand_height_m = height_m,
+                                      .phase = shared_phase(touch_.response.phase),
                                       .pulled_off = pulled_off,
                                       .turn_on = hand.turn_on,
                                       .device_healthy = hand.healthy,
@@ -152,8 +163,8 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   const glm::dvec3& force_n = output.command.force_n();
   state_.hand_force_n = {force_n.x, force_n.y, force_n.z};
   state_.hand_revision = hand.finished_script;
-  publish_events(now_ns, response);
-  publish(now_ns, wake_us, response);
+  publish_events(now_ns);
+  publish(now_ns, wake_us);
   previous_ns_ = now_ns;
   change_encounter();
 }
@@ -165,50 +176,52 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
     heard_renderer_ = true;
     leaving_ = leaving_ || heartbeat->leaving != 0;
   }
-  if (const auto transforms = shared_.new_transforms()) turn_sample(transforms->room_from_node[sample_node_]);
+  if (const auto transforms = shared_.new_transforms()) {
+    const SampleAxes before = sample_;
+    if (!sample_.turn(transforms->room_from_node[sample_node_])) ++refused_transforms_;
+    sample_moved_ = sample_moved_ || sample_ != before;
+  }
   if (const auto selection = shared_.new_selection()) chosen_ = *selection;
   if (const auto script = shared_.new_hand_script()) device_.follow(*script);
 }
 
-// The outward normal is +z of the sample's frame, which navigation only moves, turns and scales.
-void ServoLoop::turn_sample(const std::array<double, 16>& room_from_sample) noexcept {
-  const glm::dvec3 z_axis(room_from_sample[8], room_from_sample[9], room_from_sample[10]);
-  const double length = glm::length(z_axis);
-  if (std::isnormal(length)) {
-    sample_moved_ = sample_moved_ || normal_ != z_axis / length;
-    normal_ = z_axis / length;
-  } else {
-    ++refused_transforms_;
-  }
-}
-
 // The paper's procedure: choose, lift, press Turn-On. A choice waits until the tip is off the sample, then the force is
-// taken away, and only without force does the law change. An edit of the material under the tip does the same; no hand
-// feels that of another.
+// taken away, and only without force does the law or its scale change. An edit of the material under the tip does the
+// same; no hand feels that of another.
 void ServoLoop::change_encounter() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.take(i);
   }
   const bool valid = chosen_.material >= 0 && static_cast<std::size_t>(chosen_.material) < exchange_.size();
-  const bool other = valid && chosen_.revision != state_.selection_revision && chosen_.material != state_.material;
+  const bool other = valid && chosen_.revision != state_.selection_revision &&
+                     (chosen_.material != state_.material || chosen_.scale_mode != state_.scale_mode);
   const bool edited = encounter_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
   if (other || edited) {
     if (encounter_ != nullptr && encounter_->phase() == physics::Phase::Attached) return;
     governor_.disarm();
     if (!governor_.released()) return;
     if (edited) exchange_.take(static_cast<std::size_t>(state_.material));
-    feel(static_cast<std::size_t>(other ? chosen_.material : state_.material));
+    if (other) {
+      feel(static_cast<std::size_t>(chosen_.material), chosen_.scale_mode);
+    } else {
+      feel(static_cast<std::size_t>(state_.material), state_.scale_mode);
+    }
   }
   if (valid) state_.selection_revision = chosen_.revision;
 }
 
-void ServoLoop::feel(std::size_t material) noexcept {
+void ServoLoop::feel(std::size_t material, scene::ScaleMode mode) noexcept {
   encounter_ = &exchange_.current(material);
   encounter_->wait_for_lift();
   governor_.forget_motion();
+  encounter_->use(mode);
+  const Scaling& scaling = encounter_->scaling();
+  governor_.set_release_height(scaling.release_height_m());
   state_.material = static_cast<std::int32_t>(material);
-  state_.hand_m_per_m = encounter_->scaling().hand_m_per_m();
-  state_.hand_n_per_n = encounter_->scaling().hand_n_per_n();
+  state_.scale_mode = mode;
+  state_.hand_m_per_m = scaling.hand_m_per_m();
+  state_.hand_n_per_n = scaling.hand_n_per_n();
+  state_.release_z_m = scaling.release_z_m();
   state_.slow_motion = encounter_->slow_motion();
   state_.edit_revision = encounter_->edit_revision();
 }
@@ -220,7 +233,8 @@ RendererLink ServoLoop::renderer_link(std::int64_t now_ns) const noexcept {
   return now_ns - heartbeat_seen_ns_ > SafetyGovernor::kHangNs ? RendererLink::Hung : RendererLink::Alive;
 }
 
-void ServoLoop::publish_events(std::int64_t now_ns, const physics::TipResponse& response) noexcept {
+void ServoLoop::publish_events(std::int64_t now_ns) noexcept {
+  const physics::TipResponse& response = touch_.response;
   for (std::uint32_t i = 0; i < response.event_count; ++i) {
     const physics::ModelEvent& event = response.events[i];
     const double since_previous_ns = event.fraction * static_cast<double>(now_ns - previous_ns_);
@@ -235,10 +249,15 @@ void ServoLoop::publish_events(std::int64_t now_ns, const physics::TipResponse& 
   }
 }
 
-void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physics::TipResponse& response) noexcept {
+void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
+  const physics::TipResponse& response = touch_.response;
   ++state_.tick;
   state_.time_ns = now_ns;
-  state_.z_m = encounter_ != nullptr ? encounter_->scaling().z_m(hand_height_m_) : 0.0;
+  state_.z_m = touch_.z_m;
+  state_.tip_xy_m = {touch_.tip_xy_m.x, touch_.tip_xy_m.y};
+  state_.surface_height_m = touch_.surface_height_m;
+  const glm::dvec3 local_normal = sample_.in_device(touch_.normal);
+  state_.normal = {local_normal.x, local_normal.y, local_normal.z};
   state_.tip_height_m = response.tip_height.si;
   state_.deflection_m = response.cantilever_deflection.si;
   state_.sample_deformation_m = response.sample_deformation.si;
@@ -260,6 +279,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physic
 
   // without a material there is no curve to draw
   if (encounter_ == nullptr) return;
+  const glm::dvec3& normal = sample_.normal();
   const glm::dvec3 hand_force_n(state_.hand_force_n[0], state_.hand_force_n[1], state_.hand_force_n[2]);
   shared_.push(
       scene::TipSample{.time_ns = now_ns,
@@ -269,8 +289,8 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physic
                        .tip_height_m = state_.tip_height_m,
                        .deflection_m = state_.deflection_m,
                        .sample_deformation_m = state_.sample_deformation_m,
-                       .hand_height_m = hand_height_m_,
-                       .hand_force_n = glm::dot(hand_force_n, normal_),
+                       .hand_height_m = glm::dot(hand_from_contact_m_, normal),
+                       .hand_force_n = glm::dot(hand_force_n, normal),
                        .servo_state = state_.servo_state,
                        .phase = state_.phase,
                        .material = state_.material,
@@ -278,8 +298,12 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us, const physic
                        .edit_revision = state_.edit_revision,
                        .turn_on = turn_on_ ? 1U : 0U,
                        .renderer = renderer_,
+                       .scale_mode = state_.scale_mode,
                        .hand_from_contact_m = {hand_from_contact_m_.x, hand_from_contact_m_.y, hand_from_contact_m_.z},
-                       .sample_normal = {normal_.x, normal_.y, normal_.z},
+                       .sample_normal = {normal.x, normal.y, normal.z},
+                       .sample_x = {sample_.x().x, sample_.x().y, sample_.x().z},
+                       .tip_xy_m = state_.tip_xy_m,
+                       .surface_height_m = state_.surface_height_m,
                        .device_healthy = device_healthy_ ? 1U : 0U});
 }
 

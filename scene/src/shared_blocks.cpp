@@ -126,6 +126,11 @@ core::Result<void> validate(const SharedModel& model) {
   for (std::uint32_t i = 0; i < model.curve_count; ++i) {
     if (!plausible(model.curves[i])) return refusal(fmt::format("measured curve {} is not along rising Z", i));
   }
+  const bool no_scale = model.common_hand_m_per_m == 0 && model.common_hand_n_per_n == 0;
+  if (!no_scale && !(std::isnormal(model.common_hand_m_per_m) && model.common_hand_m_per_m > 0 &&
+                     std::isnormal(model.common_hand_n_per_n) && model.common_hand_n_per_n > 0)) {
+    return refusal("the common scale of the shared scene is of no use");
+  }
   if (model.height_field_count > kMaxHeightFields) {
     return refusal(fmt::format("the shared scene has {} surfaces: {} fit", model.height_field_count, kMaxHeightFields));
   }
@@ -166,19 +171,21 @@ bool plausible(const SharedDevice& device) {
 bool plausible(const TipState& state, const SharedModel& model) {
   return sane(state.z_m) && sane(state.tip_height_m) && sane(state.deflection_m) && sane(state.sample_deformation_m) &&
          sane(state.force_n) && all_sane(state.hand_position_m) && all_sane(state.hand_force_n) &&
-         std::isfinite(state.hand_m_per_m) && std::isfinite(state.hand_n_per_n) && positive(state.slow_motion) &&
-         all_sane(state.tip_xy_m) && sane(state.surface_height_m) && all_sane(state.normal) &&
-         sane(state.force_cap_n) && std::isfinite(state.slew_limit_n_per_s) && sane(state.motor_heat) &&
-         sane(state.thermal_gain) && sane(state.ledger_j) && sane(state.ledger_damping) && known(state.scale_mode) &&
-         known(state.servo_state) && known(state.phase) && known(state.fault) && within(state.material, model);
+         std::isfinite(state.hand_m_per_m) && std::isfinite(state.hand_n_per_n) && sane(state.release_z_m) &&
+         positive(state.slow_motion) && all_sane(state.tip_xy_m) && sane(state.surface_height_m) &&
+         all_sane(state.normal) && sane(state.force_cap_n) && std::isfinite(state.slew_limit_n_per_s) &&
+         sane(state.motor_heat) && sane(state.thermal_gain) && sane(state.ledger_j) && sane(state.ledger_damping) &&
+         known(state.scale_mode) && known(state.servo_state) && known(state.phase) && known(state.fault) &&
+         within(state.material, model);
 }
 
 bool plausible(const TipSample& sample, const SharedModel& model) {
   return sane(sample.z_m) && sane(sample.force_n) && sane(sample.tip_height_m) && sane(sample.deflection_m) &&
          sane(sample.sample_deformation_m) && sane(sample.hand_height_m) && sane(sample.hand_force_n) &&
-         all_sane(sample.hand_from_contact_m) && all_sane(sample.sample_normal) && all_sane(sample.tip_xy_m) &&
-         sane(sample.surface_height_m) && sample.device_healthy <= 1 && known(sample.renderer) &&
-         known(sample.scale_mode) && known(sample.servo_state) && known(sample.phase) && within(sample.material, model);
+         all_sane(sample.hand_from_contact_m) && all_sane(sample.sample_normal) && all_sane(sample.sample_x) &&
+         all_sane(sample.tip_xy_m) && sane(sample.surface_height_m) && sample.device_healthy <= 1 &&
+         known(sample.renderer) && known(sample.scale_mode) && known(sample.servo_state) && known(sample.phase) &&
+         within(sample.material, model);
 }
 
 bool plausible(const TipEvent& event, const SharedModel& model) {

@@ -18,6 +18,7 @@ scene::TipState tip(scene::ServoState state, scene::ContactPhase phase, double h
   tip.phase = phase;
   tip.hand_m_per_m = kHandMPerM;
   tip.z_m = hand_height_m / kHandMPerM;
+  tip.release_z_m = 0.05 / kHandMPerM;
   return tip;
 }
 

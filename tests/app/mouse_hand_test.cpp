@@ -21,13 +21,13 @@ class MouseHandTest : public ::testing::Test {
   void key(Kind kind, render::Key key, double y = 0.0) {
     hand_.take({.kind = kind, .key = key, .cursor_px = {0.0, y}}, kMPerPx, now_ns_);
   }
-  void frame(double cursor_y) {
+  void frame(double cursor_y, double cursor_x = 0.0) {
     now_ns_ += kFrameNs;
-    hand_.update({0.0, cursor_y}, kMPerPx, 1e-9 * kFrameNs, now_ns_);
+    hand_.update({cursor_x, cursor_y}, kMPerPx, 1e-9 * kFrameNs, now_ns_);
   }
 
   std::int64_t now_ns_ = 1'000'000'000;
-  MouseHand hand_{{0.0, 1.0, 0.0}};
+  MouseHand hand_{{0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};
 };
 
 TEST_F(MouseHandTest, FollowsTheCursorWhileTheRightButtonIsHeldAndOnlyThen) {
@@ -95,6 +95,24 @@ TEST_F(MouseHandTest, AClickBetweenTwoFramesIsAPressOfTurnOn) {
   button(Kind::ButtonDown, render::MouseButton::Middle, 0.0);
   for (int i = 0; i < 20; ++i) frame(0.0);
   EXPECT_EQ(hand_.script().turn_on_pressed, 1U);
+}
+
+TEST_F(MouseHandTest, GoesSidewaysAsFarAsASampleReaches) {
+  button(Kind::ButtonDown, render::MouseButton::Right, 0.0);
+  for (int i = 0; i < 100; ++i) frame(0.0, 30.0);
+  EXPECT_NEAR(hand_.aim_across_m(), 30.0 * kMPerPx, 1e-12);
+  EXPECT_NEAR(hand_.script().target_m[0], 30.0 * kMPerPx, 1e-12);
+  EXPECT_EQ(hand_.aim_m(), MouseHand::kRestM);
+  for (int i = 0; i < 100; ++i) frame(0.0, 1e6);
+  EXPECT_EQ(hand_.aim_across_m(), MouseHand::kWidestM);
+}
+
+TEST_F(MouseHandTest, IsNotFasterAslant) {
+  button(Kind::ButtonDown, render::MouseButton::Right, 0.0);
+  const glm::dvec2 before(hand_.aim_across_m(), hand_.aim_m());
+  frame(1e5, 1e5);
+  const glm::dvec2 moved = glm::dvec2(hand_.aim_across_m(), hand_.aim_m()) - before;
+  EXPECT_LT(1.875 * glm::length(moved) / hand_.script().duration_s, 0.5);
 }
 
 TEST_F(MouseHandTest, TheLeftButtonMovesNothing) {

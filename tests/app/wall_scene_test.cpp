@@ -61,6 +61,39 @@ TEST_F(WallSceneTest, TheApexStandsAtItsHeightHoweverTheLeverBends) {
   }
 }
 
+TEST_F(WallSceneTest, TheApexStandsOverTheDrawnSurfaceWhereverTheTipIs) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const double scale = scene_.drawn_scale(material).sample_m_per_m;
+    const scene::SharedHeightField& field = scene_.height_fields()[scene_.height_field(material)];
+    const auto surface = scene_.scene().find_node("sample-" + materials_.materials[material].name + "/surface").value();
+    const auto& drawn = scene_.scene().meshes[*scene_.scene().nodes[surface].mesh].primitives.front().vertices;
+    for (std::size_t vertex = 5; vertex < drawn.size(); vertex += 397) {
+      const glm::dvec3 place(drawn[vertex].position);
+      EXPECT_EQ(static_cast<double>(field.height_m[vertex]), place.z);
+      for (const double gap : {0.0, 3e-9}) {
+        const WallScene::Pose pose{
+            .material = material,
+            .tip = {.z_m = gap + 1e-9, .deflection_m = 1e-9, .xy_m = glm::dvec2(place), .surface_height_m = place.z}};
+        const render::FrameState state = frame(pose);
+        const glm::dvec3 vertex_m(state.room_from_node[surface] * glm::dvec4(place, 1.0));
+        const glm::dvec3 above_m = vertex_m + gap / scale * scene_.sample_normal();
+        EXPECT_NEAR(glm::length(origin_of(state, "probe/apex") - above_m), 0.0, 1e-9);
+      }
+    }
+  }
+}
+
+TEST_F(WallSceneTest, TheBeamOfLightFollowsTheTip) {
+  const glm::dvec2 there(4e-9, -3e-9);
+  const auto lever_end = [&](const glm::dvec2& xy) {
+    const render::FrameState state = frame({.material = 0, .tip = {.xy_m = xy, .surface_height_m = 0.5e-9}});
+    return glm::dvec3(state.room_from_node[scene_.scene().find_node("optics/beam-reflected").value()][3]);
+  };
+  const double scale = scene_.drawn_scale(0).sample_m_per_m;
+  EXPECT_NEAR(glm::length(lever_end(there) - lever_end({})), glm::length(there) / scale, 1e-9);
+  EXPECT_NEAR(glm::dot(lever_end(there) - lever_end({}), scene_.sample_right()), there.x / scale, 1e-9);
+}
+
 TEST_F(WallSceneTest, AStrokeFillsAThirdOfTheWallsHeight) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
     const double z_joc = physics::approach_retract_events(materials_.materials[material].interaction).z_joc.si;

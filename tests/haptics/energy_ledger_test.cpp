@@ -13,7 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "haptics/sample_axes.h"
 #include "servo_bench.h"
+#include "support/rough_surface.h"
 
 namespace {
 
@@ -21,11 +23,12 @@ using namespace afm::haptics;
 using afm::physics::Law;
 using afm::scene::ContactPhase;
 using afm::scene::FaultCode;
+using afm::scene::ScaleMode;
 using afm::scene::ServoState;
 
 constexpr std::int64_t kPeriodNs = 1'000'000;
 constexpr double kPeriodS = 1e-3;
-constexpr double kTopM = 0.060;
+constexpr double kTopM = 0.068;
 constexpr double kEncoderM = 0.055e-3;
 
 EnergyLedger::Tick falling_spring(double height_m, double moved_m, double force_share = 1.0) {
@@ -102,20 +105,25 @@ enum class Injected { Nothing, HalfMore, FiveMillisecondsLate };
 // Law, scale and governor in a loop that a test moves by its hand's height; without the servo around them.
 class Loop {
  public:
-  Loop(const afm::scene::SharedMaterial& material, std::int64_t period_ns = kPeriodNs)
+  explicit Loop(const afm::scene::SharedMaterial& material, std::int64_t period_ns = kPeriodNs,
+                const afm::scene::SharedHeightField* drawn = nullptr, ScaleMode mode = ScaleMode::Fit)
       : period_ns_(period_ns),
-        encounter_(afm::test::required(Encounter::create(material, 0, {}, omni_like("hand"), period_ns))),
-        governor_(safety_limits(omni_like("hand"), period_ns, FitScaling::kStrokeM, false)) {}
+        encounter_(afm::test::encounter_of(material, drawn, period_ns)),
+        governor_(safety_limits(omni_like("hand"), period_ns, Scaling::kStrokeM, false)) {
+    encounter_->use(mode);
+    governor_.set_release_height(encounter_->scaling().release_height_m());
+  }
 
   void tick(const glm::dvec3& position_m, std::int64_t late_ns = 0) {
     time_ns_ += period_ns_ + late_ns;
     position_m_ = position_m;
-    const double height_m = position_m.y;
-    const auto response = encounter_->step(afm::physics::Length(encounter_->scaling().z_m(height_m)));
+    const auto touch = encounter_->feel(sample_.in_sample(position_m));
+    const auto& response = touch.response;
+    const double height_m = encounter_->scaling().hand_height_m(touch.z_m);
     phase_ = static_cast<ContactPhase>(response.phase);
-    const double force_n = encounter_->scaling().hand_force_n(response.force.si);
+    const glm::dvec3 force_n = sample_.in_device(touch.hand_force_n);
     history_[ticks_ % history_.size()] = force_n;
-    double wanted_n = force_n;
+    glm::dvec3 wanted_n = force_n;
     if (injected == Injected::HalfMore) wanted_n = 1.5 * force_n;
     if (injected == Injected::FiveMillisecondsLate) wanted_n = history_[(ticks_ + 1) % history_.size()];
     ++ticks_;
@@ -125,13 +133,13 @@ class Loop {
     }
     const auto output = governor_.step({.time_ns = time_ns_,
                                         .hand_position_m = position_m,
-                                        .wanted_force_n = {0.0, wanted_n, 0.0},
+                                        .wanted_force_n = wanted_n,
                                         .hand_height_m = height_m,
                                         .phase = phase_,
                                         .pulled_off = pulled_off,
                                         .turn_on = turn_on,
                                         .renderer = RendererLink::Alive,
-                                        .law_energy = encounter_->energy(response, height_m)});
+                                        .law_energy = encounter_->energy(touch)});
     force_n_ = output.command.force_n();
     if (output.dropped) encounter_->wait_for_lift();
     most_excess_j = std::max(most_excess_j, governor_.ledger().excess_j());
@@ -166,8 +174,9 @@ class Loop {
  private:
   std::int64_t period_ns_;
   std::unique_ptr<Encounter> encounter_;
+  SampleAxes sample_;  // level
   SafetyGovernor governor_;
-  std::array<double, 6> history_{};  // the oldest is 5 ms old at 1 kHz
+  std::array<glm::dvec3, 6> history_{};  // the oldest is 5 ms old at 1 kHz
   std::size_t ticks_ = 0;
   std::int64_t time_ns_ = 1'000'000'000;
   glm::dvec3 position_m_{0.0, kTopM, 0.0};
@@ -221,13 +230,17 @@ TEST_P(EnergyLedgerOf, NeverActsOnTheIdealModel) {
   constexpr int kMaterials = 40;
   constexpr int kTrips = 400;
   std::mt19937_64 random(static_cast<std::uint64_t>(GetParam().law) + 1);
+  const auto rough = std::make_unique<afm::scene::SharedHeightField>(afm::test::rough_surface(3));
   int attached = 0;
   int armed = 0;
   for (int i = 0; i < kMaterials; ++i) {
     std::unique_ptr<Loop> loop;
     while (loop == nullptr) {
       try {
-        loop = std::make_unique<Loop>(random_material(random, GetParam().law));
+        // every other one on a surface that is nowhere flat, on one scale after the other
+        const auto mode = static_cast<ScaleMode>(i % 3);
+        loop = std::make_unique<Loop>(random_material(random, GetParam().law), kPeriodNs,
+                                      i % 2 == 0 ? nullptr : rough.get(), mode);
       } catch (const std::runtime_error&) {
         // not every set of numbers has such a law, or can be felt
       }

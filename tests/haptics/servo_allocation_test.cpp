@@ -8,6 +8,7 @@
 #include "servo_bench.h"
 #include "support/no_alloc.h"
 #include "support/no_lock.h"
+#include "support/rough_surface.h"
 
 namespace {
 
@@ -17,14 +18,14 @@ using afm::test::NoLock;
 using afm::test::ServoBench;
 
 TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsOverACycleWithAChangeOfMaterial) {
-  ServoBench bench;
+  ServoBench bench(afm::test::rough_model());
   bench.arm(afm::test::kMica);
 
-  // everything a tick may meet: both jumps, a choice, edits of this material and another, a new orientation, a hang,
-  // garbage; 10,000 ticks in all
+  // everything a tick may meet over a rough surface: both jumps, a choice of material and scale, edits of this material
+  // and another, a new orientation, a hang, garbage; 10,000 ticks in all
   afm::scene::SceneTransforms transforms;
   transforms.count = 2;
-  transforms.room_from_node[1][9] = 1.0;
+  transforms.room_from_node[1][0] = transforms.room_from_node[1][9] = 1.0;
   int phase = 0;
   for (int tick = 0; tick < 10'000; ++tick) {
     if (tick % 1250 == 0) {
@@ -36,7 +37,7 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsOverACycleWithAChangeOfMaterial
           bench.aim(0.072, 0.5);
           break;
         case 2:
-          bench.choose(afm::test::kGold);
+          bench.choose(afm::test::kGold, afm::scene::ScaleMode::Compressed);
           break;
         case 3:
           bench.aim(0.060, 0.0, true);

@@ -23,6 +23,16 @@ T required(core::Result<T> result) {
   return std::move(*result);
 }
 
+// An encounter as the servo makes it, with a scale to itself; `drawn` null for a plane. Throws as required() does.
+inline std::unique_ptr<haptics::Encounter> encounter_of(const scene::SharedMaterial& material,
+                                                        const scene::SharedHeightField* drawn = nullptr,
+                                                        std::int64_t period_ns = 1'000'000) {
+  const auto omni = haptics::omni_like("hand");
+  const auto tables = required(haptics::felt_tables(material, {}));
+  const auto common = required(haptics::Scaling::common_scale(std::vector{tables}, omni));
+  return required(haptics::Encounter::create(material, 0, tables, drawn, common, omni, period_ns));
+}
+
 // The servo, the simulated hand and the renderer's side of the segment, in time that only tick() moves.
 class ServoBench {
  public:
@@ -50,8 +60,8 @@ class ServoBench {
     return std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
   }
 
-  void choose(std::int32_t material) {
-    renderer.store(scene::Selection{.material = material, .revision = ++selection});
+  void choose(std::int32_t material, scene::ScaleMode mode = scene::ScaleMode::Fit) {
+    renderer.store(scene::Selection{.material = material, .revision = ++selection, .scale_mode = mode});
   }
 
   // Sends other parameters for a material and lets the builder work.
@@ -76,8 +86,8 @@ class ServoBench {
   }
 
   // The paper's procedure: choose, lift, press Turn-On; returns in Running with the button released.
-  void arm(std::int32_t material) {
-    choose(material);
+  void arm(std::int32_t material, scene::ScaleMode mode = scene::ScaleMode::Fit) {
+    choose(material, mode);
     move(kTop, 0.3);
     run(1.0);
     aim(kTop, 0.0, true);

@@ -59,7 +59,7 @@ class StoredEnergyOf : public testing::TestWithParam<AnyLaw> {
     mica.law = GetParam().law;
     mica.interaction.reduced_modulus.si = 51.5e9;
     tables_ = afm::test::required(afm::haptics::felt_tables(mica, {}));
-    encounter_ = afm::test::required(Encounter::create(mica, 0, {}, afm::haptics::omni_like("hand"), 1'000'000));
+    encounter_ = afm::test::encounter_of(mica);
   }
 
   double force_n(const afm::physics::BranchTable& branch, double height_m) const {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -17,10 +18,17 @@ namespace afm::haptics {
 // servo's: building allocates and takes milliseconds.
 class EditBuilder {
  public:
-  // `curves` as in SharedModel; `exchange` must outlive it.
-  EditBuilder(scene::EditSide edits, std::vector<scene::SharedMeasuredCurve> curves, const DeviceSpec& device,
+  // Curves and surfaces as in SharedModel; `common` as for the encounters that are there; `exchange` must outlive it.
+  EditBuilder(scene::EditSide edits, std::vector<scene::SharedMeasuredCurve> curves,
+              std::vector<scene::SharedHeightField> surfaces, const CommonScale& common, const DeviceSpec& device,
               std::int64_t period_ns, EncounterExchange& exchange)
-      : edits_(edits), curves_(std::move(curves)), device_(device), period_ns_(period_ns), exchange_(exchange) {}
+      : edits_(edits),
+        curves_(std::move(curves)),
+        surfaces_(std::move(surfaces)),
+        common_(common),
+        device_(device),
+        period_ns_(period_ns),
+        exchange_(exchange) {}
 
   // Builds what is new and frees what the servo has put aside. An edit that cannot be felt is logged and refused.
   void build();
@@ -29,8 +37,12 @@ class EditBuilder {
   std::uint32_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
  private:
+  core::Result<std::unique_ptr<Encounter>> encounter_of(const scene::MaterialEdit& edit) const;
+
   scene::EditSide edits_;
   std::vector<scene::SharedMeasuredCurve> curves_;
+  std::vector<scene::SharedHeightField> surfaces_;
+  CommonScale common_;
   DeviceSpec device_;
   std::int64_t period_ns_;
   EncounterExchange& exchange_;

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include "core/result.h"
 #include "haptics/device.h"
 #include "haptics/energy_ledger.h"
+#include "haptics/felt_surface.h"
 #include "haptics/scaling.h"
 #include "haptics/stored_energy.h"
 #include "physics/dynamic_model.h"
@@ -24,41 +29,78 @@ namespace afm::haptics {
 core::Result<std::shared_ptr<const physics::LawTables>> felt_tables(const scene::SharedMaterial& material,
                                                                     std::span<const scene::SharedMeasuredCurve> curves);
 
-// What the hand meets with one material under the tip: its law of force, and the scale on which it is felt.
+// One step of the tip over the sample; places and forces in the sample's frame.
+struct Touch {
+  physics::TipResponse response;
+  double z_m = 0;  // above the surface below the tip
+  glm::dvec2 tip_xy_m{0.0};
+  double surface_height_m = 0;
+  glm::dvec3 normal{0.0, 0.0, 1.0};  // of the surface below the tip, unit
+  glm::dvec3 hand_force_n{0.0};      // for the hand
+};
+
+// What the hand meets with one material under the tip: its law of force, its surface, and the scales on which it can be
+// felt.
+//
+// Z is measured from the surface below the tip, d = z - h(x, y), and the force on the hand is what the potential of
+// F(d) gives: F(d) (-dh/dx, -dh/dy, 1), along the local normal (docs/decisions/0007). So no path sideways gains energy
+// on a branch of the law, and the jumps have the law's forces wherever they happen. Sideways a hand's metre is as many
+// metres of the nanoworld as along z.
 //
 // create() takes milliseconds and allocates; the rest is for a tick of the servo.
 class Encounter {
  public:
-  // Fails as felt_tables() does, and if the device cannot show it at this tick period. `edit_revision` is of the
-  // MaterialEdit that the material came with, 0 for none.
+  // `tables` are felt_tables() of `material`, `drawn` is its surface, null for a plane; `common` is the scale that all
+  // materials share. Fails if the device cannot show it at this tick period. `edit_revision` is of the MaterialEdit
+  // that the material came with, 0 for none.
   static core::Result<std::unique_ptr<Encounter>> create(const scene::SharedMaterial& material,
                                                          std::uint32_t edit_revision,
-                                                         std::span<const scene::SharedMeasuredCurve> curves,
-                                                         const DeviceSpec& device, std::int64_t period_ns);
+                                                         std::shared_ptr<const physics::LawTables> tables,
+                                                         const scene::SharedHeightField* drawn,
+                                                         const CommonScale& common, const DeviceSpec& device,
+                                                         std::int64_t period_ns);
 
-  physics::TipResponse step(physics::Length z) noexcept;
+  // `hand_m`: from the device's contact point, along the sample's axes.
+  Touch feel(const glm::dvec3& hand_m) noexcept;
   void wait_for_lift() noexcept;
   physics::Phase phase() const noexcept;
   double slow_motion() const noexcept { return slow_motion_; }  // as in TipState
 
-  const FitScaling& scaling() const noexcept { return scaling_; }
-  const StoredEnergy& stored_energy() const noexcept { return stored_energy_; }
+  // Only without force: the hand would feel the step. Fit before the first call.
+  void use(scene::ScaleMode mode) noexcept { mode_ = mode; }
+  const Scaling& scaling() const noexcept { return scalings_[static_cast<std::size_t>(mode_)]; }
+  const FeltSurface& surface() const noexcept { return surface_; }
 
-  // For the ledger, after the step that gave this response, with the hand at this height.
-  EnergyLedger::Law energy(const physics::TipResponse& response, double hand_height_m) const noexcept;
+  // The potential of the force on the scale in use, by the height above the surface: Scaling::hand_height_m(z).
+  const StoredEnergy& stored_energy() const noexcept { return stored_energies_[static_cast<std::size_t>(mode_)]; }
+
+  // For the ledger, after the step that gave this touch.
+  EnergyLedger::Law energy(const Touch& touch) const noexcept;
 
   std::uint32_t edit_revision() const noexcept { return edit_revision_; }
 
  private:
   using Model = std::variant<physics::ApproachRetractModel, physics::DynamicModel>;
 
-  Encounter(Model model, const FitScaling& scaling, StoredEnergy stored_energy,
-            std::shared_ptr<const physics::LawTables> tables, std::uint32_t edit_revision);
+  using Scalings = std::array<Scaling, 3>;  // in the order of scene::ScaleMode
+
+  using StoredEnergies = std::vector<StoredEnergy>;  // likewise
+
+  Encounter(Model model, FeltSurface surface, const Scalings& scalings, StoredEnergies stored_energies,
+            std::shared_ptr<const physics::LawTables> tables, double force_cap_n, std::uint32_t edit_revision);
+
+  physics::TipResponse step(physics::Length z) noexcept;
+  double stiffness_n_per_m() const noexcept;
 
   Model model_;  // never without a value, so that visiting it cannot throw
-  FitScaling scaling_;
-  StoredEnergy stored_energy_;
+  FeltSurface surface_;
+  double steepest_slope_;
+  double largest_curvature_per_m_;
+  double force_cap_n_;
+  Scalings scalings_;
+  StoredEnergies stored_energies_;
   std::shared_ptr<const physics::LawTables> tables_;  // at rest
+  scene::ScaleMode mode_ = scene::ScaleMode::Fit;
   double slow_motion_;
   std::uint32_t edit_revision_;
 };

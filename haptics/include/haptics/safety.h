@@ -38,7 +38,7 @@ struct GovernorInput {
   std::int64_t time_ns = 0;
   glm::dvec3 hand_position_m{0.0};
   glm::dvec3 wanted_force_n{0.0};  // of the scaled model, before any limit
-  double hand_height_m = 0;        // above the contact point, along the sample's normal
+  double hand_height_m = 0;        // over the surface below the tip, counted as the release height
   scene::ContactPhase phase = scene::ContactPhase::WaitForLift;
   bool pulled_off = false;  // in this tick
   bool turn_on = false;

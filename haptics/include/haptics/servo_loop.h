@@ -15,6 +15,7 @@
 #include "haptics/encounter_exchange.h"
 #include "haptics/realtime.h"
 #include "haptics/safety.h"
+#include "haptics/sample_axes.h"
 #include "scene/shared_segment.h"
 
 namespace afm::haptics {
@@ -71,15 +72,15 @@ class ServoLoop {
 
  private:
   ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
-            const ServoSettings& settings, std::vector<std::unique_ptr<Encounter>> encounters);
+            const ServoSettings& settings, std::vector<std::unique_ptr<Encounter>> encounters,
+            const CommonScale& common);
 
   void read_shared_blocks(std::int64_t now_ns) noexcept;
-  void turn_sample(const std::array<double, 16>& room_from_sample) noexcept;
   void change_encounter() noexcept;
-  void feel(std::size_t material) noexcept;
+  void feel(std::size_t material, scene::ScaleMode mode) noexcept;
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
-  void publish(std::int64_t now_ns, std::uint32_t wake_us, const physics::TipResponse& response) noexcept;
-  void publish_events(std::int64_t now_ns, const physics::TipResponse& response) noexcept;
+  void publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
+  void publish_events(std::int64_t now_ns) noexcept;
   bool finished() const noexcept;
 
   scene::ServoSide shared_;
@@ -93,14 +94,14 @@ class ServoLoop {
 
   Encounter* encounter_ = nullptr;  // of the material under the tip, null before the first choice
   scene::Selection chosen_;         // the newest choice, perhaps not in effect yet
-  glm::dvec3 normal_{0.0, 1.0, 0.0};
+  SampleAxes sample_;
   bool sample_moved_ = false;  // in this tick
   glm::dvec3 hand_position_m_;
   glm::dvec3 hand_from_contact_m_{0.0};
   bool turn_on_ = false;
   bool device_healthy_ = true;
   RendererLink renderer_ = RendererLink::Absent;
-  double hand_height_m_ = 0;
+  Touch touch_;  // of this tick
   scene::TipState state_;
   std::int64_t previous_ns_ = 0;
 

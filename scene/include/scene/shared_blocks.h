@@ -72,10 +72,15 @@ struct SharedHeightField {
 struct SharedModel {
   std::uint32_t node_count = 0;
   std::uint32_t material_count = 0;
-  std::uint32_t sample_node = 0;  // its orientation turns the force: +z of this node is the outward normal
+  std::uint32_t sample_node =
+      0;  // its orientation turns the force: the axes of this node are those of its surface, +z outwards
   std::uint32_t curve_count = 0;
   std::uint32_t height_field_count = 0;
   std::uint32_t padding = 0;
+  // the common scale, as in TipState; 0: the one that suits all of these materials. A replay has the one it was felt
+  // on.
+  double common_hand_m_per_m = 0;
+  double common_hand_n_per_n = 0;
   std::array<SharedNode, kMaxNodes> nodes{};
   std::array<SharedMaterial, kMaxMaterials> materials{};
   std::array<SharedMeasuredCurve, kMaxMeasuredCurves> curves{};
@@ -187,6 +192,7 @@ struct TipState {
   std::array<double, 3> hand_force_n{};  // after the safety governor: what the device got
   double hand_m_per_m = 0;               // position scale: metres of hand per metre of Z
   double hand_n_per_n = 0;               // force scale: newtons on the hand per newton on the tip
+  double release_z_m = 0;                // Z at and above which the tip is free, whatever it did before
   double slow_motion = 1;                // seconds that a second of the lever's physics takes; 1 without dynamics
   std::array<double, 2> tip_xy_m{};      // the tip's place over the sample, in the sample's frame
   double surface_height_m = 0;           // of the surface below the tip, along +z of the sample
@@ -230,9 +236,11 @@ struct TipSample {
   std::uint32_t turn_on = 0;        // 1: the button was held
   RendererLink renderer = RendererLink::Absent;
   ScaleMode scale_mode = ScaleMode::Fit;
-  // device frame, from where Z = 0: with turn_on, renderer and the sample's normal all that a replay needs
+  // device frame, from the device's contact point: with turn_on, renderer and the sample's normal all that a replay
+  // needs
   std::array<double, 3> hand_from_contact_m{};
   std::array<double, 3> sample_normal{0.0, 1.0, 0.0};  // +z of the sample's frame, unit
+  std::array<double, 3> sample_x{1.0, 0.0, 0.0};       // +x of the sample's frame, unit
   std::array<double, 2> tip_xy_m{};                    // as in TipState
   double surface_height_m = 0;                         // as in TipState
   std::uint32_t device_healthy = 1;                    // 0: the device failed, and the hand's place is the last known

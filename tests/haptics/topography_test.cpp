@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "haptics/encounter.h"
+#include "haptics/sample_axes.h"
+#include "physics/contact.h"
+#include "servo_bench.h"
+#include "support/rough_surface.h"
+
+namespace {
+
+using namespace afm::haptics;
+using afm::physics::Phase;
+using afm::scene::ScaleMode;
+using afm::test::kGold;
+using afm::test::kMica;
+using afm::test::kSiliconNitride;
+using afm::test::required;
+using afm::test::rough_model;
+using afm::test::ServoBench;
+
+afm::physics::ApproachRetractEvents calculated(std::int32_t material) {
+  return afm::physics::approach_retract_events(
+      afm::test::paper_model().materials[static_cast<std::size_t>(material)].interaction);
+}
+
+class Topography : public testing::TestWithParam<std::tuple<std::int32_t, ScaleMode>> {
+ protected:
+  static constexpr double kStepM = 20e-6;  // of a hand in a tick
+
+  const std::int32_t material_ = std::get<std::int32_t>(GetParam());
+  const std::unique_ptr<afm::scene::SharedModel> model_ = std::make_unique<afm::scene::SharedModel>(rough_model());
+  const std::unique_ptr<Encounter> encounter_ = make();
+  std::mt19937 random_{static_cast<std::uint32_t>(material_) + 11};
+
+  std::unique_ptr<Encounter> make() const {
+    const DeviceSpec omni = omni_like("an Omni");
+    std::vector<std::shared_ptr<const afm::physics::LawTables>> tables;
+    for (std::uint32_t i = 0; i < model_->material_count; ++i) {
+      tables.push_back(required(felt_tables(model_->materials[i], {})));
+    }
+    const auto index = static_cast<std::size_t>(material_);
+    auto encounter =
+        required(Encounter::create(model_->materials[index], 0, tables[index], model_->height_fields.data(),
+                                   *Scaling::common_scale(tables, omni), omni, 1'000'000));
+    encounter->use(std::get<ScaleMode>(GetParam()));
+    return encounter;
+  }
+
+  double random(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+
+  // Height of the hand for a Z above the plane of z = 0.
+  double height(double z_m) const { return encounter_->scaling().hand_height_m(z_m); }
+
+  // Attaches the tip at this place and leaves it at `height_m`.
+  void attach(const glm::dvec2& xy_m, double height_m) {
+    for (const double at : {height(2.0 * calculated(material_).z_joc.si), height(-5e-9), height_m}) {
+      encounter_->feel(glm::dvec3(xy_m, at));
+    }
+    ASSERT_EQ(encounter_->phase(), Phase::Attached);
+  }
+};
+
+TEST_P(Topography, JumpsWithTheForcesOfTheEquationsWhereverItIs) {
+  const auto expected = calculated(material_);
+  for (int i = 0; i < 200; ++i) {
+    const glm::dvec2 xy(random(-0.07, 0.07), random(-0.07, 0.07));
+    std::vector<afm::physics::ModelEvent> events;
+    const double top = height(expected.z_joc.si) + 0.01, bottom = height(-3e-9) - 0.005;
+    const double step = random(20e-6, 400e-6);
+    const auto feel = [&](double at) {
+      const Touch touch = encounter_->feel(glm::dvec3(xy, at));
+      for (std::uint32_t k = 0; k < touch.response.event_count; ++k) events.push_back(touch.response.events[k]);
+    };
+    for (double at = top; at > bottom; at -= step) feel(at);
+    for (double at = bottom; at < top; at += step) feel(at);
+    ASSERT_EQ(events.size(), 2U);
+    ASSERT_NEAR(events[0].z.si, expected.z_jtc.si, 1e-9 * expected.z_jtc.si);
+    ASSERT_NEAR(events[0].force_after.si, -expected.f_attr.si, 1e-9 * expected.f_attr.si);
+    ASSERT_NEAR(events[1].z.si, expected.z_joc.si, 1e-9 * expected.z_joc.si);
+    ASSERT_NEAR(events[1].force_before.si, -expected.f_ad.si, 1e-9 * expected.f_ad.si);
+  }
+}
+
+TEST_P(Topography, PushesAlongTheNormalOfTheSurfaceBelowTheTip) {
+  for (int i = 0; i < 2000; ++i) {
+    const glm::dvec2 xy(random(-0.03, 0.03), random(-0.03, 0.03));
+    attach(xy, height(random(-3e-9, 1e-9)));
+    const Touch touch = encounter_->feel(glm::dvec3(xy, height(random(-3e-9, 1e-9))));
+    const auto place = encounter_->surface().at(touch.tip_xy_m);
+    EXPECT_EQ(touch.surface_height_m, place.height_m);
+    EXPECT_NEAR(glm::length(glm::cross(touch.hand_force_n, touch.normal)), 0.0, 1e-12);
+    EXPECT_NEAR(touch.hand_force_n.z, encounter_->scaling().hand_force_n(touch.response.force.si), 1e-15);
+    EXPECT_LE(glm::length(touch.hand_force_n), 1.1 * std::abs(touch.hand_force_n.z) + 1e-15);
+  }
+}
+
+TEST_P(Topography, TakesAndGivesNoEnergyOnClosedPathsOfOneBranch) {
+  for (int path = 0; path < 60; ++path) {
+    // a closed curve of three tones in each direction, in space
+    glm::dvec3 amplitude[3], phase[3];
+    for (int tone = 0; tone < 3; ++tone) {
+      amplitude[tone] = {random(0.0, 0.01), random(0.0, 0.01), random(0.0, 0.001)};
+      phase[tone] = {random(0.0, 6.28), random(0.0, 6.28), random(0.0, 6.28)};
+    }
+    const glm::dvec3 middle(random(-0.01, 0.01), random(-0.01, 0.01), height(-2e-9));
+    const auto at = [&](double turn) {
+      glm::dvec3 place = middle;
+      for (int tone = 0; tone < 3; ++tone) {
+        place += amplitude[tone] * glm::sin((tone + 1.0) * 6.283185307179586 * turn + phase[tone]);
+      }
+      return place;
+    };
+    attach(glm::dvec2(at(0.0)), at(0.0).z);
+    constexpr int kSteps = 4000;
+    double work_j = 0, moved_j = 0;
+    Touch before = encounter_->feel(at(0.0));
+    for (int i = 1; i <= kSteps; ++i) {
+      const glm::dvec3 step = at(static_cast<double>(i) / kSteps) - at((i - 1.0) / kSteps);
+      const Touch here = encounter_->feel(at(static_cast<double>(i) / kSteps));
+      ASSERT_EQ(here.response.phase, Phase::Attached);
+      const double part_j = glm::dot(0.5 * (before.hand_force_n + here.hand_force_n), step);
+      work_j += part_j;
+      moved_j += std::abs(part_j);
+      before = here;
+    }
+    // of the trapezoidal rule over a path of some 20 micrometres a step
+    ASSERT_LE(std::abs(work_j), 1e-4 * moved_j + 1e-9);
+  }
+}
+
+TEST_P(Topography, GivesAForceThatNeverJumpsOnABranch) {
+  // along z the law's stiffness, and the compressed one's; sideways force times curvature, and stiffness times slope
+  const double stiffness = 2.0 * Scaling::kMaxStiffnessNPerM;
+  glm::dvec3 at(0.0, 0.0, height(-2e-9));
+  attach(glm::dvec2(at), at.z);
+  Touch before = encounter_->feel(at);
+  for (int i = 0; i < 50'000; ++i) {
+    glm::dvec3 next = at + kStepM * glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1));
+    next.z = std::clamp(next.z, height(-4e-9), height(0.0));
+    const Touch here = encounter_->feel(next);
+    ASSERT_EQ(here.response.phase, Phase::Attached);
+    ASSERT_LE(glm::length(here.hand_force_n - before.hand_force_n), stiffness * glm::length(next - at) + 1e-12);
+    at = next;
+    before = here;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Papers, Topography,
+                         testing::Combine(testing::Values(kMica, kGold, kSiliconNitride),
+                                          testing::Values(ScaleMode::Common, ScaleMode::Fit, ScaleMode::Compressed)));
+
+// ---- the whole servo ----
+
+std::array<double, 16> turned(const glm::dmat4& turn) {
+  // the sample's +z up, its +x to the right
+  const glm::dmat4 room_from_sample = turn * glm::dmat4(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0.3, 1.5, -0.2, 1);
+  std::array<double, 16> numbers{};
+  std::copy_n(glm::value_ptr(room_from_sample), numbers.size(), numbers.begin());
+  return numbers;
+}
+
+class TurnedSample : public testing::Test {
+ protected:
+  // Presses the tip on the sample, the room turned by `turn`, and returns what the servo says.
+  static afm::scene::TipState press(const glm::dmat4& turn) {
+    ServoBench bench(rough_model());
+    afm::scene::SceneTransforms transforms;
+    transforms.count = 2;
+    transforms.room_from_node[1] = turned(turn);
+    bench.renderer.store(transforms);
+    const auto aim = [&](const glm::dvec3& place, double seconds, bool pressed) {
+      const glm::dvec3 target(turn * glm::dvec4(place, 0.0));
+      bench.renderer.store(afm::scene::HandScript{.target_m = {target.x, target.y, target.z},
+                                                  .duration_s = seconds,
+                                                  .revision = ++bench.script,
+                                                  .turn_on_pressed = pressed ? 1U : 0U});
+    };
+    bench.choose(kMica);
+    aim({0.007, 0.060, 0.004}, 0.3, false);
+    bench.run(1.3);
+    aim({0.007, 0.060, 0.004}, 0.0, true);
+    bench.run(0.8);
+    aim({0.007, -0.02, 0.004}, 0.5, false);
+    bench.run(2.0);
+    EXPECT_EQ(bench.state().servo_state, afm::scene::ServoState::Running);
+    return bench.state();
+  }
+
+  static glm::dvec3 vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+};
+
+TEST_F(TurnedSample, TurnsHeightAxesAndForceTogether) {
+  const afm::scene::TipState level = press(glm::dmat4(1.0));
+  ASSERT_GT(glm::length(vector(level.hand_force_n)), 0.2);
+  EXPECT_GT(std::abs(level.normal[0]) + std::abs(level.normal[2]), 0.01) << "the place is flat";
+  EXPECT_NEAR(glm::length(glm::cross(vector(level.normal), glm::normalize(vector(level.hand_force_n)))), 0.0, 1e-12);
+
+  const double thirty = glm::radians(30.0);
+  for (const glm::dvec3& axis :
+       {glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::normalize(glm::dvec3(1, 2, -1)), glm::dvec3(0, 1, 0)}) {
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), thirty, axis);
+    const afm::scene::TipState state = press(turn);
+    // the simulated hand's friction and quantiser are along the device's axes: it rests a little elsewhere
+    const glm::dvec3 normal(vector(state.normal)), force(vector(state.hand_force_n));
+    EXPECT_NEAR(glm::length(glm::cross(normal, glm::normalize(force))), 0.0, 1e-12);
+    EXPECT_GT(glm::length(glm::dvec3(turn * glm::dvec4(vector(level.normal), 0.0)) - vector(level.normal)), 0.02);
+    EXPECT_LT(glm::length(glm::dvec3(turn * glm::dvec4(vector(level.normal), 0.0)) - normal), 0.05);
+    EXPECT_NEAR(state.tip_xy_m[0], level.tip_xy_m[0], 0.2e-9);
+    EXPECT_NEAR(state.tip_xy_m[1], level.tip_xy_m[1], 0.2e-9);
+  }
+}
+
+TEST(SampleAxes, TurnWhatTheHandMeetsExactly) {
+  const auto model = std::make_unique<afm::scene::SharedModel>(rough_model());
+  const auto encounter = afm::test::encounter_of(model->materials[kMica], model->height_fields.data());
+  const auto press = [&](const glm::dmat4& turn) {
+    SampleAxes axes;
+    EXPECT_TRUE(axes.turn(turned(turn)));
+    encounter->wait_for_lift();
+    glm::dvec3 force_n(0.0);
+    for (const double height : {0.06, -0.02, -0.01}) {
+      const glm::dvec3 hand(turn * glm::dvec4(0.007, height, 0.004, 0.0));
+      force_n = axes.in_device(encounter->feel(axes.in_sample(hand)).hand_force_n);
+    }
+    return force_n;
+  };
+  const glm::dvec3 level = press(glm::dmat4(1.0));
+  ASSERT_GT(glm::length(level), 0.1);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int i = 0; i < 100; ++i) {
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), i == 0 ? glm::radians(30.0) : 3.0 * any(random),
+                                        glm::normalize(glm::dvec3(any(random), any(random), any(random) + 2.0)));
+    EXPECT_LT(glm::length(press(turn) - glm::dvec3(turn * glm::dvec4(level, 0.0))), 1e-12);
+  }
+}
+
+TEST(SampleAxes, IgnoreSizeAndPlace) {
+  SampleAxes axes, small;
+  EXPECT_TRUE(axes.turn(turned(glm::dmat4(1.0))));
+  EXPECT_TRUE(small.turn(turned(glm::scale(glm::dmat4(1.0), glm::dvec3(1e-3)))));
+  EXPECT_LT(glm::length(axes.normal() - small.normal()) + glm::length(axes.x() - small.x()), 1e-15);
+}
+
+TEST(SampleAxes, StayWhereATransformIsNoUse) {
+  SampleAxes axes;
+  ASSERT_TRUE(axes.turn(turned(glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(1, 1, 0)))));
+  const glm::dvec3 normal = axes.normal();
+  std::array<double, 16> flat = turned(glm::dmat4(1.0));
+  flat[8] = flat[9] = flat[10] = 0.0;
+  EXPECT_FALSE(axes.turn(flat));
+  std::array<double, 16> sheared = turned(glm::dmat4(1.0));
+  for (std::size_t i = 0; i < 3; ++i) sheared[i] = -2.0 * sheared[8 + i];
+  EXPECT_FALSE(axes.turn(sheared));
+  std::array<double, 16> endless = turned(glm::dmat4(1.0));
+  endless[0] = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(axes.turn(endless));
+  EXPECT_EQ(axes.normal(), normal);
+}
+
+}  // namespace
