@@ -27,6 +27,7 @@ void add_doctor_command(CLI::App& app, CommandContext& context);
 void add_material_command(CLI::App& app, CommandContext& context);
 void add_paper_command(CLI::App& app, CommandContext& context);
 void add_render_command(CLI::App& app, CommandContext& context);
+void add_replay_command(CLI::App& app, CommandContext& context);
 void add_view_command(CLI::App& app, CommandContext& context);
 void add_wall_command(CLI::App& app, CommandContext& context);
 

@@ -41,7 +41,7 @@ struct DemoOptions {
   StageFiles files;
   std::uint32_t eye_width = 960;
   HandPath hand;
-  ServoMode servo = ServoMode::Process;
+  ServoChoice servo;
   ModelName model;
   scene::ScaleMode scale = scene::ScaleMode::Fit;
   std::string probe;              // a lever and tip instead of the materials' own; empty: none
@@ -359,7 +359,7 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
                                          *model, known_models()));
       }
       options->model = *name;
-      options->servo = *servo == "thread" ? ServoMode::Thread : ServoMode::Process;
+      options->servo.mode = *servo == "thread" ? ServoMode::Thread : ServoMode::Process;
       return run_demo(*options, context.program_path);
     };
   });

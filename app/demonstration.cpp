@@ -88,29 +88,23 @@ core::Result<RecordedSession> Demonstration::feel(std::size_t material, DemoResu
                         title, restarts, reason(servo_.tip().fault)));
       }
       progress(fmt::format("  the servo released the hand: {}; lifting again", reason(servo_.tip().fault)));
-      begin_session(material, edit_revision_);
+      recorder_.begin_again();
+      forget_cycle(material);
       events_told = 0;
     }
-    for (; current_ == material && events_told < session_.events.size(); ++events_told) {
-      const scene::TipEvent& e = session_.events[events_told];
+    const std::vector<scene::TipEvent>& events = recorder_.session().events;
+    for (; events_told < events.size() && events[events_told].material == static_cast<std::int32_t>(material);
+         ++events_told) {
+      const scene::TipEvent& e = events[events_told];
       const bool in = e.kind == scene::TipEventKind::JumpToContact;
       progress(fmt::format("  {:<17} Z = {:8.4f} nm   pull {:8.5f} nN", in ? "jump to contact" : "jump off contact",
                            e.z_m * 1e9, -(in ? e.force_after_n : e.force_before_n) * 1e9));
     }
     if (auto patient = keep_patience(title, stroke_seconds, result); !patient) return tl::unexpected(patient.error());
   }
-  session_.material = materials_[material].setup.material.name;
-  session_.parameters = materials_[material].parameters;
-  if (const std::uint32_t curve = session_.parameters.measured_curve; curve != scene::kNoMeasuredCurve) {
-    session_.curve = plan_.curves[curve];
-  }
-  const scene::TipState& tip = servo_.tip();
-  session_.realtime = tip.realtime != 0;
-  session_.hand_m_per_m = tip.hand_m_per_m;
-  session_.hand_n_per_n = tip.hand_n_per_n;
-  session_.slow_motion = tip.slow_motion;
-  session_.rate_hz = kServoRateHz;
-  return session_;
+  RecordedSession session = recorder_.session();
+  session.material = materials_[material].setup.material.name;
+  return session;
 }
 
 core::Result<void> Demonstration::keep_patience(const std::string& title, double step_seconds,
@@ -166,25 +160,18 @@ core::Result<void> Demonstration::take_news(std::int64_t now_ns) {
       *news,
       [&](const scene::TipSample& sample) {
         const auto material = static_cast<std::size_t>(sample.material);
-        // another material, or the same with other parameters, has taken effect
-        if (current_ != material || edit_revision_ != sample.edit_revision)
-          begin_session(material, sample.edit_revision);
+        if (recorder_.add(sample, servo_)) forget_cycle(material);
         curves_[material].add(sample);
-        session_.samples.push_back(sample);
         deepest_z_m_ = std::min(deepest_z_m_, sample.z_m);
       },
       [&](const scene::TipEvent& event) {
-        if (!current_) return;
-        curves_[*current_].add(event);
-        session_.events.push_back(event);
+        curves_[static_cast<std::size_t>(event.material)].add(event);
+        recorder_.add(event);
       });
   return {};
 }
 
-void Demonstration::begin_session(std::size_t material, std::uint32_t edit_revision) {
-  current_ = material;
-  edit_revision_ = edit_revision;
-  session_ = {};
+void Demonstration::forget_cycle(std::size_t material) {
   curves_[material] = {};
   deepest_z_m_ = std::numeric_limits<double>::infinity();
 }

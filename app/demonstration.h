@@ -9,6 +9,7 @@
 #include "app/live_servo.h"
 #include "app/report.h"
 #include "app/servo_link.h"
+#include "app/session_recorder.h"
 #include "app/simulated_person.h"
 #include "core/clock.h"
 #include "render/renderer.h"
@@ -46,7 +47,7 @@ class Demonstration {
   void wait_for_renderer();
   core::Result<void> step(DemoResult& result);
   core::Result<void> take_news(std::int64_t now_ns);
-  void begin_session(std::size_t material, std::uint32_t edit_revision);
+  void forget_cycle(std::size_t material);
   Moment moment(const input::WandState& wand, const input::Selector::Result& pointing) const;
   std::string guidance() const;
 
@@ -62,9 +63,7 @@ class Demonstration {
   input::Selector selector_;
   std::vector<input::Target> targets_;
 
-  std::optional<std::size_t> current_;  // whose session is being recorded, and with which edit
-  std::uint32_t edit_revision_ = 0;
-  RecordedSession session_;
+  SessionRecorder recorder_;
   double deepest_z_m_ = 0;
   TipStream stream_;
   std::vector<CycleCurve> curves_;

@@ -52,6 +52,7 @@ int run(int count, char** arguments) {
   afm::app::add_material_command(app, context);
   afm::app::add_paper_command(app, context);
   afm::app::add_render_command(app, context);
+  afm::app::add_replay_command(app, context);
   afm::app::add_wall_command(app, context);
   afm::app::add_devices_command(app, context);
   afm::app::add_doctor_command(app, context);

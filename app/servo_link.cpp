@@ -76,31 +76,29 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
 }
 
 core::Result<std::unique_ptr<ServoLink>> ServoLink::start(const scene::SharedModel& model, std::uint64_t scene_digest,
-                                                          ServoMode mode, const std::string& program,
-                                                          const std::string& haptic_device, double linger_s) {
-  const auto choice = parse_haptic_choice(haptic_device);
-  if (!choice) return tl::unexpected(choice.error());
+                                                          const ServoChoice& choice, const std::string& program) {
+  const auto device = parse_haptic_choice(choice.haptic_device);
+  if (!device) return tl::unexpected(device.error());
   const std::string servo = std::filesystem::path(program).replace_filename("touchafm-servo").string();
-  const haptics::ServoSettings settings{.rate_hz = kServoRateHz, .linger_s = linger_s};
-  if (auto taken = take_waiting_servo(model, scene_digest, settings, haptic_device, servo)) {
-    std::unique_ptr<ServoLink> link(new ServoLink(std::move(taken->segment)));
+  if (auto taken = take_waiting_servo(model, scene_digest, choice.settings, choice.haptic_device, servo)) {
+    std::unique_ptr<ServoLink> link(new ServoLink(std::move(taken->segment), choice.settings));
     link->go_on();
     link->servo_ = haptics::AdoptedServo::adopt(std::move(taken->servo), link->side_);
     return link;
   }
   auto segment = scene::SharedSegment::create(model, scene_digest);
   if (!segment) return tl::unexpected(segment.error());
-  std::unique_ptr<ServoLink> link(new ServoLink(std::move(*segment)));
+  std::unique_ptr<ServoLink> link(new ServoLink(std::move(*segment), choice.settings));
 
-  if (mode == ServoMode::Process) {
-    auto process = haptics::ServoProcess::spawn(servo, link->segment_, link->side_, settings, haptic_device);
+  if (choice.mode == ServoMode::Process) {
+    auto process =
+        haptics::ServoProcess::spawn(servo, link->segment_, link->side_, choice.settings, choice.haptic_device);
     if (!process) return tl::unexpected(process.error());
     link->servo_ = std::move(*process);
   } else {
-    auto opened = open_haptic_device(*choice, link->clock_);
+    auto opened = open_haptic_device(*device, link->clock_);
     if (!opened) return tl::unexpected(opened.error());
-    auto thread =
-        haptics::ServoThread::start(link->segment_, link->side_, {.rate_hz = kServoRateHz}, std::move(opened->device));
+    auto thread = haptics::ServoThread::start(link->segment_, link->side_, choice.settings, std::move(opened->device));
     if (!thread) return tl::unexpected(thread.error());
     link->servo_ = std::move(*thread);
   }
@@ -122,6 +120,8 @@ core::Result<ServoLink::News> ServoLink::poll(std::int64_t now_ns) {
   while (const auto sample = side_.pop_sample()) news.samples.push_back(*sample);
   while (const auto event = side_.pop_event()) news.events.push_back(*event);
 
+  // stored before the servo's first tick
+  if (device_.name.front() == '\0') device_ = side_.device().value_or(device_);
   if (!servo_->alive()) {
     return tl::unexpected(ended(servo_->exit_status().value_or(-1)));
   }
@@ -130,8 +130,20 @@ core::Result<ServoLink::News> ServoLink::poll(std::int64_t now_ns) {
 
 std::uint32_t ServoLink::change(std::size_t material, const scene::SharedMaterial& parameters) {
   AFM_CHECK(material < segment_.model().material_count);
-  side_.store(scene::MaterialEdit{.material = parameters, .revision = ++edits_}, static_cast<std::uint32_t>(material));
-  return edits_;
+  edits_.push_back(parameters);
+  const std::uint32_t revision = edit_base_ + static_cast<std::uint32_t>(edits_.size());
+  side_.store(scene::MaterialEdit{.material = parameters, .revision = revision}, static_cast<std::uint32_t>(material));
+  return revision;
+}
+
+const scene::SharedMaterial& ServoLink::parameters(std::size_t material, std::uint32_t edit_revision) const {
+  const std::size_t index = std::size_t{edit_revision} - edit_base_ - 1;  // huge where it is none of ours
+  return index < edits_.size() ? edits_[index] : segment_.model().materials[material];
+}
+
+void ServoLink::place(const scene::SceneTransforms& transforms) {
+  room_from_sample_ = transforms.room_from_node[segment_.model().sample_node];
+  side_.store(transforms);
 }
 
 void ServoLink::script(const scene::HandScript& script) {
@@ -151,7 +163,7 @@ void ServoLink::go_on() {
   for (std::uint32_t i = 0; i < model.material_count; ++i) {
     const auto edit = side_.last_edit(i);
     if (!edit) continue;
-    edits_ = std::max(edits_, edit->revision);
+    edit_base_ = std::max(edit_base_, edit->revision);
     edited.push_back(i);
   }
   for (const std::size_t i : edited) change(i, model.materials[i]);

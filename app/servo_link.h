@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,6 +22,13 @@ enum class ServoMode { Process, Thread };
 
 inline constexpr double kServoRateHz = 1000.0;
 
+// How a servo is run, and what it holds.
+struct ServoChoice {
+  ServoMode mode = ServoMode::Process;
+  std::string haptic_device = "sim";  // what parse_haptic_choice() takes
+  haptics::ServoSettings settings{.rate_hz = kServoRateHz};
+};
+
 // The shared model of a scene: its nodes at rest and what is felt. Fails if there are more of either than the segment
 // holds. `curves` and `surfaces` are those that the materials refer to.
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
@@ -32,12 +40,11 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
 // are, and takes every sample and event. One thread.
 class ServoLink {
  public:
-  // `program` is the running touchafm; touchafm-servo lies beside it. `haptic_device` is what parse_haptic_choice()
-  // takes. A servo that waits since its renderer died is taken over, if it is of the same scene, device and settings
-  // and if `linger_s`, how long this one would wait, is not zero; otherwise it is told to leave first.
+  // `program` is the running touchafm; touchafm-servo lies beside it. A servo that waits since its renderer died is
+  // taken over, if it is of the same scene, device and settings and if settings.linger_s, how long this one would wait,
+  // is not zero; otherwise it is told to leave first.
   static core::Result<std::unique_ptr<ServoLink>> start(const scene::SharedModel& model, std::uint64_t scene_digest,
-                                                        ServoMode mode, const std::string& program,
-                                                        const std::string& haptic_device = "sim", double linger_s = 0);
+                                                        const ServoChoice& choice, const std::string& program);
 
   struct News {
     std::vector<scene::TipSample> samples;
@@ -53,6 +60,14 @@ class ServoLink {
 
   const scene::TipState& tip() const { return tip_; }
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
+  const haptics::ServoSettings& settings() const { return settings_; }
+  const scene::SharedDevice& device() const { return device_; }  // what the servo holds, once poll() has seen its state
+  const scene::SharedModel& model() const { return segment_.model(); }
+  const std::array<double, 16>& room_from_sample() const { return room_from_sample_; }  // as placed last
+
+  // What a material is felt with after this edit, 0 for none.
+  const scene::SharedMaterial& parameters(std::size_t material, std::uint32_t edit_revision) const;
+
   std::uint64_t lost_samples() const { return side_.lost_samples(); }
 
   // The material under the tip, and the scale on which it is felt; both take effect once the tip is off the sample,
@@ -65,19 +80,24 @@ class ServoLink {
   // lift and Turn-On has to be pressed again. tip().edit_revision says when, tip().edit_refused if these cannot be felt
   // (the servo's log line says why). Edits may come as fast as they like: of each material the newest counts.
   std::uint32_t change(std::size_t material, const scene::SharedMaterial& parameters);
-  void place(const scene::SceneTransforms& transforms) { side_.store(transforms); }
+  void place(const scene::SceneTransforms& transforms);
   void script(const scene::HandScript& script);
 
  private:
-  explicit ServoLink(scene::SharedSegment segment) : segment_(std::move(segment)), side_(segment_.renderer_side()) {}
+  ServoLink(scene::SharedSegment segment, const haptics::ServoSettings& settings)
+      : settings_(settings), segment_(std::move(segment)), side_(segment_.renderer_side()) {}
 
   void go_on();
 
+  haptics::ServoSettings settings_;
   core::MonotonicClock clock_;  // of a device in a thread of this process
   scene::SharedSegment segment_;
   scene::RendererSide side_;
   scene::Selection selection_;
-  std::uint32_t edits_ = 0;
+  std::vector<scene::SharedMaterial> edits_;  // all that were sent
+  std::uint32_t edit_base_ = 0;               // the predecessor's newest edit; the first of ours is the next
+  std::array<double, 16> room_from_sample_{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  scene::SharedDevice device_;
   scene::TipState tip_;
   std::uint32_t script_base_ = 0;  // the predecessor's newest script
   std::uint64_t beats_ = 0;

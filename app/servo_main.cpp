@@ -29,13 +29,11 @@ namespace {
 using namespace std::string_view_literals;
 using afm::app::ExitCode;
 
-constexpr double kDefaultRateHz = 1000.0;
-
 struct Options {
   int segment = -1;
   int parent_socket = -1;
-  double rate_hz = kDefaultRateHz;
-  double linger_s = 0;
+  afm::haptics::ServoSettings settings;
+  int dead_man = 0;  // 0 or 1
   std::string_view haptics = "sim";
 };
 
@@ -53,12 +51,15 @@ std::optional<Options> parse_options(int count, char** arguments) {
     const std::string_view value = arguments[i + 1];
     const bool parsed = (name == "--segment"sv && parse(value, options.segment)) ||
                         (name == "--parent-socket"sv && parse(value, options.parent_socket)) ||
-                        (name == "--rate"sv && parse(value, options.rate_hz)) ||
-                        (name == "--linger"sv && parse(value, options.linger_s)) || name == "--haptics"sv;
+                        (name == "--rate"sv && parse(value, options.settings.rate_hz)) ||
+                        (name == "--linger"sv && parse(value, options.settings.linger_s)) ||
+                        (name == "--spin"sv && parse(value, options.settings.spin_ns)) ||
+                        (name == "--dead-man"sv && parse(value, options.dead_man)) || name == "--haptics"sv;
     if (name == "--haptics"sv) options.haptics = value;
     if (!parsed) return std::nullopt;
   }
   if (options.segment < 0 || options.parent_socket < 0) return std::nullopt;
+  options.settings.dead_man = options.dead_man != 0;
   return options;
 }
 
@@ -88,7 +89,7 @@ ExitCode run(const Options& options) {
     afm::core::log_line(opened.error().message);
     return afm::app::exit_code(opened.error().category);
   }
-  auto loop = afm::haptics::ServoLoop::create(*segment, *opened->device, {.rate_hz = options.rate_hz});
+  auto loop = afm::haptics::ServoLoop::create(*segment, *opened->device, options.settings);
   if (!loop) {
     afm::core::log_line(loop.error().message);
     return afm::app::exit_code(loop.error().category);
@@ -99,10 +100,10 @@ ExitCode run(const Options& options) {
     const afm::haptics::EditThread edits((*loop)->edits());
     const afm::app::RendererWatch watch(
         **loop, std::move(parent_socket), signals,
-        {.seconds = options.linger_s,
+        {.seconds = options.settings.linger_s,
          .program = afm::app::executable_path(),
          .segment = segment->descriptor(),
-         .arguments = afm::haptics::servo_arguments({.rate_hz = options.rate_hz}, std::string(options.haptics))});
+         .arguments = afm::haptics::servo_arguments(options.settings, std::string(options.haptics))});
     const auto grant = afm::haptics::enter_realtime(afm::haptics::kServoPriority, afm::haptics::PageLock::Lock);
     for (const std::string& note : grant.notes) afm::core::log_line(note);
     (*loop)->note_grant(grant);

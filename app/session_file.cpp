@@ -22,8 +22,9 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "session records are little-endian");
 
 constexpr std::string_view kMagic = "AFMS";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
+using scene::SharedHeightField;
 using scene::TipEvent;
 using scene::TipSample;
 
@@ -62,12 +63,16 @@ bool take_all(std::string_view& bytes, std::vector<T>& values) {
   return std::all_of(values.begin(), values.end(), [&](T& value) { return take(bytes, value); });
 }
 
+template <std::size_t Count>
+bool finite(const std::array<double, Count>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
 bool finite(const TipSample& s) {
   return std::isfinite(s.z_m) && std::isfinite(s.force_n) && std::isfinite(s.tip_height_m) &&
          std::isfinite(s.deflection_m) && std::isfinite(s.sample_deformation_m) && std::isfinite(s.hand_height_m) &&
-         std::isfinite(s.hand_force_n) &&
-         std::all_of(s.hand_from_contact_m.begin(), s.hand_from_contact_m.end(),
-                     [](double m) { return std::isfinite(m); });
+         std::isfinite(s.hand_force_n) && finite(s.hand_from_contact_m) && finite(s.sample_normal) &&
+         finite(s.tip_xy_m) && std::isfinite(s.surface_height_m);
 }
 
 bool finite(const TipEvent& e) {
@@ -152,12 +157,47 @@ std::uint32_t branch_of(const nlohmann::json& json, std::span<physics::MeasuredP
   return count;
 }
 
+nlohmann::json json_of(const scene::SharedDevice& device) {
+  nlohmann::json json{{"name", device.name.data()},
+                      {"max_force_N", device.max_force_n},
+                      {"max_continuous_force_N", device.max_continuous_force_n},
+                      {"max_stiffness_N_per_m", device.max_stiffness_n_per_m},
+                      {"workspace_min_m", device.workspace_min_m},
+                      {"workspace_max_m", device.workspace_max_m}};
+  // what is not limited has no entry
+  if (std::isfinite(device.max_slew_n_per_s)) json["max_slew_N_per_s"] = device.max_slew_n_per_s;
+  if (std::isfinite(device.max_speed_m_per_s)) json["max_speed_m_per_s"] = device.max_speed_m_per_s;
+  return json;
+}
+
+scene::SharedDevice device_of(const nlohmann::json& json) {
+  scene::SharedDevice device{.name = {},
+                             .max_force_n = json.at("max_force_N").get<double>(),
+                             .max_continuous_force_n = json.at("max_continuous_force_N").get<double>(),
+                             .max_stiffness_n_per_m = json.at("max_stiffness_N_per_m").get<double>(),
+                             .max_slew_n_per_s = json.value("max_slew_N_per_s", HUGE_VAL),
+                             .max_speed_m_per_s = json.value("max_speed_m_per_s", HUGE_VAL),
+                             .workspace_min_m = json.at("workspace_min_m").get<std::array<double, 3>>(),
+                             .workspace_max_m = json.at("workspace_max_m").get<std::array<double, 3>>()};
+  const auto name = json.at("name").get<std::string>();
+  std::copy_n(name.begin(), std::min(name.size(), device.name.size() - 1), device.name.begin());
+  return device;
+}
+
 nlohmann::json header_of(const RecordedSession& session) {
-  nlohmann::json header{{"material", session.material},         {"parameters", json_of(session.parameters)},
-                        {"rate_hz", session.rate_hz},           {"realtime", session.realtime},
-                        {"hand_m_per_m", session.hand_m_per_m}, {"hand_N_per_N", session.hand_n_per_n},
-                        {"slow_motion", session.slow_motion},   {"sample_bytes", sizeof(TipSample)},
-                        {"event_bytes", sizeof(TipEvent)}};
+  nlohmann::json header{{"material", session.material},
+                        {"parameters", json_of(session.parameters)},
+                        {"rate_hz", session.rate_hz},
+                        {"realtime", session.realtime},
+                        {"hand_m_per_m", session.hand_m_per_m},
+                        {"hand_N_per_N", session.hand_n_per_n},
+                        {"slow_motion", session.slow_motion},
+                        {"room_from_sample", session.room_from_sample},
+                        {"device", json_of(session.device)},
+                        {"dead_man", session.dead_man},
+                        {"sample_bytes", sizeof(TipSample)},
+                        {"event_bytes", sizeof(TipEvent)},
+                        {"surface_bytes", sizeof(SharedHeightField)}};
   if (const auto& curve = session.curve) {
     header["measured"] = {{"approach", json_of(std::span(curve->approach).first(curve->approach_count))},
                           {"retract", json_of(std::span(curve->retract).first(curve->retract_count))}};
@@ -175,6 +215,9 @@ RecordedSession session_of(const nlohmann::json& header) {
   session.hand_m_per_m = header.at("hand_m_per_m").get<double>();
   session.hand_n_per_n = header.at("hand_N_per_N").get<double>();
   session.slow_motion = header.at("slow_motion").get<double>();
+  session.room_from_sample = header.at("room_from_sample").get<std::array<double, 16>>();
+  session.device = device_of(header.at("device"));
+  session.dead_man = header.at("dead_man").get<bool>();
   if (const auto measured = header.find("measured"); measured != header.end()) {
     scene::SharedMeasuredCurve& curve = session.curve.emplace();
     curve.approach_count = branch_of(measured->at("approach"), curve.approach);
@@ -194,6 +237,23 @@ const TipEvent* RecordedSession::find(scene::TipEventKind kind) const {
   return found == events.end() ? nullptr : &*found;
 }
 
+std::unique_ptr<scene::SharedModel> model_of(const RecordedSession& session) {
+  auto model = std::make_unique<scene::SharedModel>();
+  model->node_count = 1;
+  model->nodes[0].parent_from_node = session.room_from_sample;
+  model->material_count = 2;
+  model->materials[0] = model->materials[1] = session.parameters;
+  if (session.curve) {
+    model->curve_count = 1;
+    model->curves[0] = *session.curve;
+  }
+  if (session.surface) {
+    model->height_field_count = 1;
+    model->height_fields[0] = *session.surface;
+  }
+  return model;
+}
+
 core::Result<void> save_session(const RecordedSession& session, const std::string& path) {
   const std::string header = header_of(session).dump();
   std::string bytes(kMagic);
@@ -202,6 +262,12 @@ core::Result<void> save_session(const RecordedSession& session, const std::strin
   bytes += header;
   put_all(bytes, session.samples);
   put_all(bytes, session.events);
+  if (session.surface) {
+    put(bytes, std::uint64_t{1});
+    put(bytes, *session.surface);
+  } else {
+    put(bytes, std::uint64_t{0});
+  }
   put(bytes, fnv1a(bytes));
   return write_file(path, bytes);
 }
@@ -235,15 +301,23 @@ core::Result<RecordedSession> load_session(const std::string& path) {
     const nlohmann::json header = nlohmann::json::parse(body.substr(0, header_size));
     body.remove_prefix(header_size);
     RecordedSession session = session_of(header);
-    if (header.at("sample_bytes") != sizeof(TipSample) || header.at("event_bytes") != sizeof(TipEvent)) {
+    if (header.at("sample_bytes") != sizeof(TipSample) || header.at("event_bytes") != sizeof(TipEvent) ||
+        header.at("surface_bytes") != sizeof(SharedHeightField)) {
       return bad("its records have another size than this program's; record it again");
     }
-    if (!take_all(body, session.samples) || !take_all(body, session.events) || !body.empty()) {
+    std::vector<SharedHeightField> surface;
+    if (!take_all(body, session.samples) || !take_all(body, session.events) || !take_all(body, surface) ||
+        surface.size() > 1 || !body.empty()) {
       return bad("its records do not fill the file; record it again");
     }
-    if (const auto valid = scene::validate(session.parameters, session.curve ? 1 : 0, scene::kMaxHeightFields);
-        !valid) {
+    if (!surface.empty()) session.surface = surface.front();
+    session.parameters.height_field = session.surface ? 0 : scene::kNoHeightField;
+    if (const auto valid = scene::validate(*model_of(session)); !valid) {
       return bad(valid.error().message + "; record it again");
+    }
+    if (!scene::plausible(session.device)) return bad("its device has limits that cannot be; record it again");
+    if (!(session.rate_hz > 0 && std::isfinite(session.hand_m_per_m) && std::isfinite(session.hand_n_per_n))) {
+      return bad("its rate or its scale cannot be; record it again");
     }
     if (session.samples.empty()) return bad("it holds no sample; record it again");
     const auto is_finite = [](const auto& record) { return finite(record); };

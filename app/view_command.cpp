@@ -31,7 +31,7 @@ struct ViewOptions {
   ViewSettings settings;
   std::uint32_t eye_width = 0;  // 0: the window's
   double frame_rate = 0;        // 0: the display's
-  ServoMode servo = ServoMode::Process;
+  ServoChoice servo;
   bool validate = false;
 };
 
@@ -159,7 +159,7 @@ void add_view_command(CLI::App& app, CommandContext& context) {
       ->type_name("DEVICE");
   static const std::map<std::string, ServoMode> kServos{{"process", ServoMode::Process}, {"thread", ServoMode::Thread}};
   command
-      ->add_option("--servo", options->servo,
+      ->add_option("--servo", options->servo.mode,
                    "how the servo runs: process, or thread for debuggers and sanitizers; default: process")
       ->transform(CLI::CheckedTransformer(kServos))
       ->type_name("HOW");

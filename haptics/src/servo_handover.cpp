@@ -126,7 +126,8 @@ std::vector<std::string> split(std::string_view text) {
 }  // namespace
 
 std::vector<std::string> servo_arguments(const ServoSettings& settings, const std::string& device) {
-  return {"--rate", fmt::format("{}", settings.rate_hz), "--haptics", device};
+  return {"--rate",     fmt::format("{}", settings.rate_hz), "--spin",    std::to_string(settings.spin_ns),
+          "--dead-man", settings.dead_man ? "1" : "0",       "--haptics", device};
 }
 
 core::Result<HandoverPort> HandoverPort::open(const std::string& program) {

@@ -196,9 +196,11 @@ void ServoLoop::change_encounter() noexcept {
   const bool other = valid && chosen_.revision != state_.selection_revision &&
                      (chosen_.material != state_.material || chosen_.scale_mode != state_.scale_mode);
   const bool edited = encounter_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
+  changing_ = false;
   if (other || edited) {
     if (encounter_ != nullptr && encounter_->phase() == physics::Phase::Attached) return;
     governor_.disarm();
+    changing_ = true;
     if (!governor_.released()) return;
     if (edited) exchange_.take(static_cast<std::size_t>(state_.material));
     if (other) {
@@ -214,6 +216,7 @@ void ServoLoop::feel(std::size_t material, scene::ScaleMode mode) noexcept {
   encounter_ = &exchange_.current(material);
   encounter_->wait_for_lift();
   governor_.forget_motion();
+  changing_ = false;
   encounter_->use(mode);
   const Scaling& scaling = encounter_->scaling();
   governor_.set_release_height(scaling.release_height_m());
@@ -304,7 +307,8 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                        .sample_x = {sample_.x().x, sample_.x().y, sample_.x().z},
                        .tip_xy_m = state_.tip_xy_m,
                        .surface_height_m = state_.surface_height_m,
-                       .device_healthy = device_healthy_ ? 1U : 0U});
+                       .device_healthy = device_healthy_ ? 1U : 0U,
+                       .changing = changing_ ? 1U : 0U});
 }
 
 bool ServoLoop::finished() const noexcept {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "app/whole_file.h"
+#include "haptics/device.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
@@ -32,6 +33,10 @@ RecordedSession example() {
   session.parameters.lever = {physics::Frequency(12e3), 2.5, physics::Temperature(298.0)};
   session.slow_motion = 37.0;
   session.rate_hz = 1000.0;
+  session.dead_man = true;
+  session.room_from_sample[13] = 1.5;
+  session.device = haptics::shared(haptics::omni_like("an Omni"));
+  session.device.max_slew_n_per_s = 400.0;
   session.realtime = true;
   session.hand_m_per_m = 3.57e6;
   session.hand_n_per_n = 1.43e9;
@@ -73,6 +78,13 @@ TEST(SessionFile, ComesBackAsItWasSaved) {
   EXPECT_EQ(loaded->parameters.lever.quality_factor, 2.5);
   EXPECT_EQ(loaded->slow_motion, 37.0);
   EXPECT_FALSE(loaded->curve);
+  EXPECT_FALSE(loaded->surface);
+  EXPECT_TRUE(loaded->dead_man);
+  EXPECT_EQ(loaded->room_from_sample[13], 1.5);
+  EXPECT_STREQ(loaded->device.name.data(), "an Omni");
+  EXPECT_EQ(loaded->device.max_slew_n_per_s, 400.0);
+  EXPECT_TRUE(std::isinf(loaded->device.max_speed_m_per_s));
+  EXPECT_EQ(loaded->device.workspace_min_m, example().device.workspace_min_m);
   EXPECT_EQ(loaded->hand_n_per_n, 1.43e9);
   ASSERT_EQ(loaded->samples.size(), 1000U);
   EXPECT_EQ(loaded->samples[999].z_m, example().samples[999].z_m);
@@ -111,7 +123,7 @@ TEST(SessionFile, AlteredInAnyByteIsRefused) {
 TEST(SessionFile, OfAnotherVersionNamesBoth) {
   const support::ScratchFolder folder;
   EXPECT_THAT(error_of(folder.write("new.afms", std::string("AFMS\x09\0\0\0", 8))),
-              HasSubstr("version 9, this program reads version 2"));
+              HasSubstr("version 9, this program reads version 3"));
 }
 
 TEST(SessionFile, CarriesTheCurveThatWasFelt) {
@@ -129,6 +141,32 @@ TEST(SessionFile, CarriesTheCurveThatWasFelt) {
   ASSERT_TRUE(loaded->curve);
   EXPECT_EQ(loaded->curve->retract_count, 2U);
   EXPECT_EQ(loaded->curve->retract[1].force.si, -0.2e-9);
+}
+
+TEST(SessionFile, CarriesTheSurfaceThatWasFelt) {
+  const support::ScratchFolder folder;
+  RecordedSession session = example();
+  scene::SharedHeightField& surface = session.surface.emplace();
+  surface.columns = surface.rows = 5;
+  surface.spacing_m = 10e-9;
+  surface.height_m[7] = 1.25e-9F;
+  ASSERT_TRUE(save_session(session, folder.file("t.afms")).has_value());
+  const auto loaded = load_session(folder.file("t.afms"));
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().message;
+  EXPECT_EQ(loaded->surface.value().height_m, surface.height_m);
+  EXPECT_EQ(loaded->parameters.height_field, 0U);
+
+  surface.height_m[8] = std::nanf("");
+  ASSERT_TRUE(save_session(session, folder.file("t.afms")).has_value());
+  EXPECT_THAT(error_of(folder.file("t.afms")), HasSubstr("no grid of heights"));
+}
+
+TEST(SessionFile, OfADeviceThatCannotBeIsRefused) {
+  const support::ScratchFolder folder;
+  RecordedSession session = example();
+  session.device.max_force_n = -1.0;
+  ASSERT_TRUE(save_session(session, folder.file("d.afms")).has_value());
+  EXPECT_THAT(error_of(folder.file("d.afms")), HasSubstr("its device has limits that cannot be"));
 }
 
 TEST(SessionFile, WithParametersThatNoMicroscopeHasIsRefused) {

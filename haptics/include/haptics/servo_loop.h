@@ -100,6 +100,7 @@ class ServoLoop {
   glm::dvec3 hand_from_contact_m_{0.0};
   bool turn_on_ = false;
   bool device_healthy_ = true;
+  bool changing_ = false;  // the force was taken away for what is to be felt next
   RendererLink renderer_ = RendererLink::Absent;
   Touch touch_;  // of this tick
   scene::TipState state_;

@@ -244,7 +244,7 @@ struct TipSample {
   std::array<double, 2> tip_xy_m{};                    // as in TipState
   double surface_height_m = 0;                         // as in TipState
   std::uint32_t device_healthy = 1;                    // 0: the device failed, and the hand's place is the last known
-  std::uint32_t padding = 0;
+  std::uint32_t changing = 0;                          // 1: another choice, or an edit, has taken the force away
 };
 
 enum class TipEventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2 };
