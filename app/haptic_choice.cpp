@@ -49,13 +49,15 @@ core::Result<haptics::OpenedDevice> open_recording(const std::string& file) {
 
 core::Result<HapticChoice> parse_haptic_choice(std::string_view text) {
   if (text == "auto") return HapticChoice{haptics::DeviceChoice::Auto, {}};
-  if (text == "sim") return HapticChoice{haptics::DeviceChoice::Simulated, {}};
+  if (text == "sim" || text == "mouse") return HapticChoice{haptics::DeviceChoice::Simulated, {}};
   if (text == "hdapi") return HapticChoice{haptics::DeviceChoice::Hdapi, {}};
+  if (text == "gamepad") return HapticChoice{haptics::DeviceChoice::Gamepad, {}};
   if (text.starts_with(kReplay) && text.size() > kReplay.size()) {
     return HapticChoice{haptics::DeviceChoice::Simulated, std::string(text.substr(kReplay.size()))};
   }
-  return core::failure(core::ErrorCategory::WrongUsage,
-                       fmt::format("there is no haptic device \"{}\": choose auto, sim, hdapi or replay:FILE", text));
+  return core::failure(
+      core::ErrorCategory::WrongUsage,
+      fmt::format("there is no haptic device \"{}\": choose auto, sim, mouse, hdapi, gamepad or replay:FILE", text));
 }
 
 core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choice, const core::Clock& clock) {

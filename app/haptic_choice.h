@@ -15,7 +15,8 @@ struct HapticChoice {
   std::string replay_file;  // not empty: a session whose hand is played, and no device
 };
 
-// "auto", "sim", "hdapi" or "replay:FILE"; anything else is wrong usage.
+// "auto", "sim", "mouse", "hdapi", "gamepad" or "replay:FILE"; anything else is wrong usage. A mouse is for the servo
+// the simulated hand, which the window moves.
 core::Result<HapticChoice> parse_haptic_choice(std::string_view text);
 
 // Opens it, where the environment says (probe_settings()). DeviceMissing: it is not there. BadInputFile: the session

@@ -23,14 +23,18 @@ using scene::RendererLink;
 using scene::TipEvent;
 using scene::TipSample;
 
-// The hand of one sample after the other.
+// The hand of one sample after the other. The motors' heat, which is older than the session, is told as if the device
+// had measured it: the governor goes by the larger of that and its own estimate, which began cold and is never larger.
 class RecordedHand final : public haptics::HapticDevice {
  public:
   explicit RecordedHand(const RecordedSession& session) : spec_(haptics::spec_of(session.device)) {}
 
   void show(const TipSample& sample, bool healthy) {
     const auto& [x, y, z] = sample.hand_from_contact_m;
-    now_ = {.position_m = glm::dvec3(x, y, z), .turn_on = sample.turn_on != 0, .healthy = healthy};
+    now_ = {.position_m = glm::dvec3(x, y, z),
+            .turn_on = sample.turn_on != 0,
+            .healthy = healthy,
+            .motor_heat = sample.motor_heat};
   }
 
   const haptics::DeviceSpec& spec() const noexcept override { return spec_; }

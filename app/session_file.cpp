@@ -72,7 +72,7 @@ bool finite(const TipSample& s) {
   return std::isfinite(s.z_m) && std::isfinite(s.force_n) && std::isfinite(s.tip_height_m) &&
          std::isfinite(s.deflection_m) && std::isfinite(s.sample_deformation_m) && std::isfinite(s.hand_height_m) &&
          std::isfinite(s.hand_force_n) && finite(s.hand_from_contact_m) && finite(s.sample_normal) &&
-         finite(s.tip_xy_m) && std::isfinite(s.surface_height_m);
+         finite(s.tip_xy_m) && std::isfinite(s.surface_height_m) && std::isfinite(s.motor_heat);
 }
 
 bool finite(const TipEvent& e) {

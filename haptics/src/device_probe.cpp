@@ -6,15 +6,15 @@
 #include <optional>
 #include <utility>
 
+#include "haptics/gamepad_device.h"
 #include "haptics/hdapi_device.h"
 #include "haptics/hdapi_library.h"
 #include "haptics/simulated_device.h"
+#include "sdl_library.h"
 
 namespace afm::haptics {
 
 namespace {
-
-constexpr const char* kSimulatedHand = "simulated hand";
 
 // The dynamic linker repeats the name that it was given.
 std::string without_name(const LibraryAttempt& attempt) {
@@ -57,17 +57,57 @@ core::Result<std::unique_ptr<HapticDevice>> open_hdapi(const ProbeSettings& sett
   return std::unique_ptr<HapticDevice>(std::move(*device));
 }
 
+core::Result<std::unique_ptr<HapticDevice>> open_gamepad(GamepadDevice::Wanted wanted, const core::Clock& clock,
+                                                         std::vector<ProbeLine>& lines) {
+  const auto refused = [&](const core::Error& error) {
+    lines.push_back({kGamepad, false, error.message});
+    return core::failure(error.category, "no gamepad: " + error.message);
+  };
+  const auto sdl = load_sdl();
+  if (!sdl) return refused(sdl.error());
+  auto device = GamepadDevice::open(*sdl, clock, wanted);
+  if (!device) return refused(device.error());
+  lines.push_back({kGamepad, true, (*device)->spec().name});
+  return std::unique_ptr<HapticDevice>(std::move(*device));
+}
+
+void look_for_gamepads(std::vector<ProbeLine>& lines) {
+  const auto sdl = load_sdl();
+  const auto found = sdl ? GamepadDevice::list(*sdl) : tl::unexpected(sdl.error());
+  if (!found) {
+    lines.push_back({kGamepad, false, found.error().message});
+    return;
+  }
+  if (found->empty()) lines.push_back({kGamepad, false, "none is plugged in, or none can be opened"});
+  for (const GamepadDevice::Facts& pad : *found) {
+    const char* shows = pad.force_feedback ? "force feedback"
+                        : pad.rumble       ? "rumble"
+                                           : "moves the hand, shows no force";
+    lines.push_back({kGamepad, true, fmt::format("{}: {}", pad.name, shows)});
+  }
+}
+
 }  // namespace
 
 core::Result<OpenedDevice> open_device(DeviceChoice choice, const ProbeSettings& settings, const core::Clock& clock) {
   OpenedDevice opened;
-  if (choice != DeviceChoice::Simulated) {
+  if (choice == DeviceChoice::Auto || choice == DeviceChoice::Hdapi) {
     auto device = open_hdapi(settings, clock, opened.lines);
     if (device) {
       opened.device = std::move(*device);
       return opened;
     }
     if (choice == DeviceChoice::Hdapi) return tl::unexpected(device.error());
+  }
+  if (choice == DeviceChoice::Auto || choice == DeviceChoice::Gamepad) {
+    using Wanted = GamepadDevice::Wanted;
+    // a gamepad that lies on the desk must not take the hand away from the mouse
+    auto device = open_gamepad(choice == DeviceChoice::Auto ? Wanted::ForceFeedback : Wanted::Any, clock, opened.lines);
+    if (device) {
+      opened.device = std::move(*device);
+      return opened;
+    }
+    if (choice == DeviceChoice::Gamepad) return tl::unexpected(device.error());
   }
   opened.device = std::make_unique<SimulatedDevice>();
   opened.lines.push_back({kSimulatedHand, true, "needs no device"});
@@ -86,6 +126,7 @@ std::vector<ProbeLine> probe_devices(const ProbeSettings& settings) {
                                         1e3 * (spec->workspace_max_m.z - spec->workspace_min_m.z))
                           : spec.error().message});
   }
+  look_for_gamepads(lines);
   lines.push_back({kSimulatedHand, true, "needs no device"});
   return lines;
 }

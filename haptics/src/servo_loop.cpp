@@ -307,6 +307,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                        .sample_x = {sample_.x().x, sample_.x().y, sample_.x().z},
                        .tip_xy_m = state_.tip_xy_m,
                        .surface_height_m = state_.surface_height_m,
+                       .motor_heat = state_.motor_heat,
                        .device_healthy = device_healthy_ ? 1U : 0U,
                        .changing = changing_ ? 1U : 0U});
 }

@@ -183,9 +183,9 @@ bool plausible(const TipSample& sample, const SharedModel& model) {
   return sane(sample.z_m) && sane(sample.force_n) && sane(sample.tip_height_m) && sane(sample.deflection_m) &&
          sane(sample.sample_deformation_m) && sane(sample.hand_height_m) && sane(sample.hand_force_n) &&
          all_sane(sample.hand_from_contact_m) && all_sane(sample.sample_normal) && all_sane(sample.sample_x) &&
-         all_sane(sample.tip_xy_m) && sane(sample.surface_height_m) && sample.device_healthy <= 1 && sample.changing <= 1 &&
-         known(sample.renderer) && known(sample.scale_mode) && known(sample.servo_state) && known(sample.phase) &&
-         within(sample.material, model);
+         all_sane(sample.tip_xy_m) && sane(sample.surface_height_m) && sane(sample.motor_heat) &&
+         sample.device_healthy <= 1 && sample.changing <= 1 && known(sample.renderer) && known(sample.scale_mode) &&
+         known(sample.servo_state) && known(sample.phase) && within(sample.material, model);
 }
 
 bool plausible(const TipEvent& event, const SharedModel& model) {

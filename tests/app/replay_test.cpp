@@ -228,6 +228,21 @@ TEST(Replay, GivesFaultsHangsAndLateTicksAgain) {
   for (const RecordedSession& session : recording.sessions) expect_same(session);
 }
 
+TEST(Replay, GivesForcesThatWerePutDownForHotMotorsAgain) {
+  Recording recording;
+  recording.choose(test::kMica);
+  recording.arm();
+  recording.aim(-0.030, 0.5);  // holds more than the motors stand for ever
+  recording.run(60'000);
+  EXPECT_LT(recording.state().thermal_gain, 1.0);
+  recording.aim(0.065, 0.7);
+  recording.run(1500);
+  recording.choose(test::kGold);
+  recording.cycle();
+  ASSERT_EQ(recording.sessions.size(), 2U);
+  for (const RecordedSession& session : recording.sessions) expect_same(session);
+}
+
 TEST(Replay, FindsOneBitThatIsNotTheSame) {
   Recording recording;
   recording.choose(test::kMica);

@@ -13,9 +13,10 @@
 namespace afm::haptics {
 
 enum class DeviceChoice {
-  Auto,       // HDAPI if it answers, the simulated hand otherwise
+  Auto,       // HDAPI if it answers, else a joystick with force feedback, else the simulated hand
   Simulated,  // the simulated hand
   Hdapi,      // a device behind the vendor's library, or an error
+  Gamepad,    // a joystick with force feedback, else any gamepad that SDL2 knows, or an error
 };
 
 // What a lab may set; empty: the usual. app/ takes them from the environment variables of these names.
@@ -27,7 +28,9 @@ struct ProbeSettings {
 };
 
 // One thing that was looked for and what came of it: lower case, no full stop.
-inline constexpr const char* kHdapiDevice = "hdapi device";  // a subject
+inline constexpr const char* kHdapiDevice = "hdapi device";  // subjects
+inline constexpr const char* kGamepad = "gamepad";
+inline constexpr const char* kSimulatedHand = "simulated hand";
 struct ProbeLine {
   std::string subject;
   bool usable = false;

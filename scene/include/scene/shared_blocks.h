@@ -243,6 +243,7 @@ struct TipSample {
   std::array<double, 3> sample_x{1.0, 0.0, 0.0};       // +x of the sample's frame, unit
   std::array<double, 2> tip_xy_m{};                    // as in TipState
   double surface_height_m = 0;                         // as in TipState
+  double motor_heat = 0;                               // as in TipState
   std::uint32_t device_healthy = 1;                    // 0: the device failed, and the hand's place is the last known
   std::uint32_t changing = 0;                          // 1: another choice, or an edit, has taken the force away
 };

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace afm::haptics {
+
+// What two motors with eccentric weights do, 0 to 1: the heavy, slow one and the light, quick one.
+struct Rumble {
+  double heavy = 0;
+  double light = 0;
+};
+
+// Tells by rumble what a force would tell. A jump, which is a change within kWindow ticks that no hand on a spring
+// brings about, shakes the heavy motor: shortly when the pull sets in (the tip snaps in), three times as long when it
+// goes (the tip lets go). The light one hums in proportion to the force. For a tick of the servo; one step a tick of
+// about a millisecond.
+class ForceRumble {
+ public:
+  static constexpr std::size_t kWindow = 4;
+  static constexpr double kJumpN = 0.06;  // at 0.1 m/s a spring of 40 N/m changes by a quarter of that
+  static constexpr std::int64_t kSnapNs = 40'000'000;
+  static constexpr std::int64_t kReleaseNs = 120'000'000;
+  static constexpr double kHumShare = 0.35;
+  static constexpr double kFaintN = 0.02;  // less is silence
+
+  explicit ForceRumble(double cap_n) : cap_n_(cap_n) {}
+
+  // `force_n`: magnitude of the force on the hand, finite.
+  Rumble step(double force_n, std::int64_t now_ns) noexcept;
+
+ private:
+  double cap_n_;
+  std::array<double, kWindow> before_n_{};  // of the last steps
+  std::size_t oldest_ = 0;
+  std::int64_t shakes_until_ns_ = 0;
+};
+
+}  // namespace afm::haptics
