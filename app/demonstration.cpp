@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/interruption.h"
+#include "app/servo_rows.h"
 
 namespace afm::app {
 
@@ -182,6 +183,7 @@ Moment Demonstration::moment(const input::WandState& wand, const input::Selector
   now.wand = wand;
   now.guidance = guidance();
   now.curves = curves_;
+  now.servo = servo_rows(servo_.tip(), servo_.timing(), servo_.device());
   return now;
 }
 

@@ -155,6 +155,9 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
   } else {
     frame.data_panel = {.title = "No material yet", .subtitle = "point at a swatch and press", .rows = {}};
   }
+  if (!moment.compare_all) {
+    frame.data_panel.rows.insert(frame.data_panel.rows.end(), moment.servo.begin(), moment.servo.end());
+  }
   frame.banner = banner(moment);
   return frame;
 }

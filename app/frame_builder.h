@@ -36,6 +36,7 @@ struct Moment {
   std::optional<std::size_t> hovered;
   std::optional<input::WandState> wand;
   std::string guidance;
+  std::vector<render::DataRow> servo;  // servo_rows()
   // one per material, empty while it has not been felt; the current one is drawn in front
   std::span<const CycleCurve> curves;
   bool compare_all = false;  // the finale: all curves together, large, and what was felt

@@ -27,6 +27,8 @@ std::string running(const scene::TipState& tip, bool ascending, int cycles) {
 
 std::string guidance(const scene::TipState& tip, bool ascending, int cycles) {
   if (tip.material < 0) return "Point at a sample and press";
+  const bool released = tip.servo_state == scene::ServoState::Disarmed && tip.fault != scene::FaultCode::None;
+  const std::string why = released ? std::string("Force off: ") + reason(tip.fault) + ". " : std::string();
   switch (tip.servo_state) {
     case scene::ServoState::Arming:
       return "Hold still: the force is coming on";
@@ -38,10 +40,12 @@ std::string guidance(const scene::TipState& tip, bool ascending, int cycles) {
       if (tip.phase != scene::ContactPhase::WaitForLift) return running(tip, ascending, cycles);
       break;
     case scene::ServoState::Disarmed:
-      if (is_lifted(tip)) return "Press Turn-On to feel the force";
+      if (is_lifted(tip)) {
+        return why + (tip.dead_man != 0 ? "Press Turn-On and keep it held" : "Press Turn-On to feel the force");
+      }
       break;
   }
-  return "Lift the tip to its top";
+  return why + "Lift the tip to its top";
 }
 
 }  // namespace afm::app

@@ -5,7 +5,7 @@
 
 namespace afm::app {
 
-enum class HandSource { Mouse, Simulated };
+enum class HandSource { Mouse, Simulated, Device };
 
 // What the live window's keys and buttons do, for the wall.
 render::DataPanel key_list(HandSource hand);

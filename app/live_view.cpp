@@ -13,7 +13,9 @@
 #include "app/interruption.h"
 #include "app/key_list.h"
 #include "app/panel_hit.h"
+#include "app/servo_rows.h"
 #include "core/log.h"
+#include "haptics/device_probe.h"
 #include "input/selection.h"
 #include "render/control_layout.h"
 
@@ -97,10 +99,16 @@ core::Result<void> LiveView::start_servo() {
   stream_ = {};
   hand_ = MouseHand(stage_.wall_scene.sample_normal(), stage_.wall_scene.sample_right());
   edits_.resend(*servo_);
+  if (settings_.first_material) choose(*settings_.first_material);
   return {};
 }
 
 core::Result<void> LiveView::run() {
+  if (!settings_.record_folder.empty()) {
+    auto folder = SessionFolder::open(settings_.record_folder);
+    if (!folder) return tl::unexpected(folder.error());
+    folder_ = std::move(*folder);
+  }
   if (auto started = start_servo(); !started) return started;
   hand_moved_ns_ = clock_.now_ns();
   while (!leaving_ && !interrupted()) {
@@ -118,6 +126,8 @@ core::Result<void> LiveView::run() {
     draw(input.cursor_px, now_ns);
     pace(now_ns);
   }
+  recorder_.finish();
+  keep_session();
   servo_.reset();  // the hand is released while the last picture still stands
   if (servo_error_) return tl::unexpected(*servo_error_);
   return {};
@@ -254,7 +264,8 @@ double LiveView::hand_m_per_px() const { return kHandPerPicture / picture().plac
 void LiveView::move_hand(const glm::dvec2& cursor_px, std::int64_t now_ns) {
   const double frame_s = static_cast<double>(now_ns - std::exchange(hand_moved_ns_, now_ns)) * 1e-9;
   if (servo_error_) return;
-  if (settings_.hand == HandSource::Mouse) {
+  if (hand() == HandSource::Device) return;
+  if (hand() == HandSource::Mouse) {
     hand_.update(cursor_px, hand_m_per_px(), frame_s, now_ns);
     servo_->script(hand_.script());
     return;
@@ -267,6 +278,23 @@ void LiveView::move_hand(const glm::dvec2& cursor_px, std::int64_t now_ns) {
   servo_->script(person_.hand());
 }
 
+// The mouse moves nothing but the simulated hand, which stands in where no device was found.
+HandSource LiveView::hand() const {
+  const std::string_view device = servo_->device().name.data();
+  const bool another = !device.empty() && device != haptics::kSimulatedHand;
+  return settings_.hand == HandSource::Mouse && another ? HandSource::Device : settings_.hand;
+}
+
+// A folder that has become full or read-only ends the recording, not the view.
+void LiveView::keep_session() {
+  const auto session = recorder_.take_finished();
+  if (!session || !folder_) return;
+  if (auto kept = folder_->keep(*session); !kept) {
+    core::log_line(kept.error().message + "; nothing more is recorded");
+    folder_.reset();
+  }
+}
+
 void LiveView::take_news(std::int64_t now_ns) {
   if (servo_error_) return;
   const auto news = servo_->poll(now_ns);
@@ -276,9 +304,16 @@ void LiveView::take_news(std::int64_t now_ns) {
     return;
   }
   stream_.take(
-      *news, [&](const scene::TipSample& sample) { cycles_.add(sample); },
+      *news,
+      [&](const scene::TipSample& sample) {
+        cycles_.add(sample);
+        if (!folder_) return;
+        recorder_.add(sample, *servo_);
+        keep_session();
+      },
       [&](const scene::TipEvent& event) {
         cycles_.add(event);
+        recorder_.add(event);
         core::log_line(text_of(event));
       });
   const scene::TipState& tip = servo_->tip();
@@ -296,6 +331,7 @@ Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
   now.hovered = pointed.swatch;
   now.wand = wand_.towards(pointed.point_m, now_ns);
   now.guidance = guidance(servo_->tip(), cycles_.ascending(), cycles_.cycles());
+  now.servo = servo_rows(servo_->tip(), servo_->timing(), servo_->device());
   if (servo_error_) {
     now.servo_state = scene::ServoState::Fault;
     now.guidance = "The servo has ended: no force reaches the hand. R starts it again";
@@ -334,7 +370,7 @@ void LiveView::add_parameters(const Pointed& pointed, render::FrameState& frame)
 
 void LiveView::arrange_panels(render::FrameState& frame) const {
   if (keys_shown_) {
-    frame.data_panel = key_list(settings_.hand);
+    frame.data_panel = key_list(hand());
     frame.data_placement = stage_.wall_scene.parameter_placement();
     frame.control_placement = render::kNoPlacement;
     return;

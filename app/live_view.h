@@ -16,6 +16,8 @@
 #include "app/mouse_wand.h"
 #include "app/parameter_edits.h"
 #include "app/servo_link.h"
+#include "app/session_folder.h"
+#include "app/session_recorder.h"
 #include "app/simulated_person.h"
 #include "app/stage_setup.h"
 #include "core/clock.h"
@@ -32,6 +34,8 @@ struct ViewSettings {
   glm::uvec2 eye_px{0};         // as the renderer was made
   bool fixed_eye_size = false;  // else the eyes get as many pixels as the window has for them
   double most_frames_per_s = 60.0;
+  std::optional<std::size_t> first_material;  // chosen whenever a servo has been started
+  std::string record_folder;                  // for the sessions of what is felt; empty: none is kept
 };
 
 // The live window: a person's mouse points, chooses and moves the hand of the servo; every frame shows the newest state
@@ -61,8 +65,10 @@ class LiveView {
   std::uint32_t eyes_beside() const;  // how many eyes stand beside each other in the picture
   WallPicture picture() const;
   double hand_m_per_px() const;
+  HandSource hand() const;
   void move_hand(const glm::dvec2& cursor_px, std::int64_t now_ns);
   void take_news(std::int64_t now_ns);
+  void keep_session();
   void draw(const glm::dvec2& cursor_px, std::int64_t now_ns);
 
   // What a ray points at: a target of the open parameter panel, the tab that opens it, or a swatch.
@@ -100,6 +106,8 @@ class LiveView {
   TipStream stream_;
   FeltCycles cycles_;
   ParameterEdits edits_;
+  std::optional<SessionFolder> folder_;
+  SessionRecorder recorder_;
   scene::ServoState told_state_ = scene::ServoState::Disarmed;
   std::string guidance_;  // as it was told last
 

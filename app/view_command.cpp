@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <memory>
@@ -11,7 +12,9 @@
 
 #include "app/command.h"
 #include "app/felt_material.h"
+#include "app/haptic_choice.h"
 #include "app/live_view.h"
+#include "app/session_file.h"
 #include "app/stage_setup.h"
 #include "core/log.h"
 #include "render/context.h"
@@ -25,13 +28,16 @@ namespace {
 constexpr std::uint32_t kSmallestWindow = 64, kLargestWindow = 16384;
 constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // a second; the servo lets go after 250 ms of silence
 
+constexpr double kLingerS = 10.0;
+
 struct ViewOptions {
   StageFiles files;
   render::WindowOptions window{.title = "TouchAFM"};
   ViewSettings settings;
   std::uint32_t eye_width = 0;  // 0: the window's
   double frame_rate = 0;        // 0: the display's
-  ServoChoice servo;
+  ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = kLingerS}};
+  std::int64_t spin_us = 0;
   bool validate = false;
 };
 
@@ -67,6 +73,30 @@ core::Result<void> check_validation(render::Context& context) {
                        fmt::format("the Vulkan validation layer gave {} messages; they stand above", messages.size()));
 }
 
+// Who moves the hand, and on what a recorded one goes.
+core::Result<void> set_hand(const Stage& stage, const std::string& device, ViewSettings& settings) {
+  const auto choice = parse_haptic_choice(device);
+  if (!choice) return tl::unexpected(choice.error());
+  if (device == "sim") settings.hand = HandSource::Simulated;
+  if (choice->device == haptics::DeviceChoice::Hdapi || choice->device == haptics::DeviceChoice::Gamepad) {
+    settings.hand = HandSource::Device;
+  }
+  if (choice->replay_file.empty()) return {};
+  settings.hand = HandSource::Device;
+  const auto session = load_session(choice->replay_file);
+  if (!session) return tl::unexpected(session.error());
+  const auto& materials = stage.materials.materials;
+  const auto found =
+      std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == session->material; });
+  if (found == materials.end()) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("the session {} was felt on {}, which is not shown: add --material {}",
+                                     choice->replay_file, session->material, session->material));
+  }
+  settings.first_material = static_cast<std::size_t>(found - materials.begin());
+  return {};
+}
+
 core::Result<void> run_view(const ViewOptions& options, const std::string& program) {
   const core::MonotonicClock clock;
   auto stage = load_stage(options.files);
@@ -78,6 +108,8 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
     felt->parameters.height_field = stage->wall_scene.height_field(materials.size());
     materials.push_back(std::move(*felt));
   }
+  ViewSettings settings = options.settings;
+  if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
   const auto model = shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
                                   stage->wall_scene.height_fields());
   if (!model) return tl::unexpected(model.error());
@@ -88,7 +120,6 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
                                        render::Presentation::Window);
   if (!context) return tl::unexpected(context.error());
 
-  ViewSettings settings = options.settings;
   const std::uint32_t beside = settings.stereo == StereoMode::SideBySide ? 2 : 1;
   const render::RendererOptions drawing = stage->renderer_options(
       options.eye_width > 0 ? options.eye_width : stage->eye_width_within(window->size_px(), beside));
@@ -102,8 +133,11 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : window->refresh_hz();
   core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}; F1 shows the keys", drawing.eye_width,
                              drawing.eye_height, context->device_name()));
+  ServoChoice servo = options.servo;
+  servo.settings.spin_ns = 1000 * options.spin_us;
+  if (servo.mode == ServoMode::Thread) servo.settings.linger_s = 0;  // it ends with this program
   const auto start_servo = [&] {
-    return ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
+    return ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), servo, program);
   };
   LiveView live(*stage, materials, *window, *renderer, *presenter, start_servo, clock, settings);
   if (auto ran = live.run(); !ran) return ran;
@@ -133,6 +167,34 @@ void add_picture_options(CLI::App& command, ViewOptions& options) {
       ->type_name("RATE");
 }
 
+void add_servo_options(CLI::App& command, ViewOptions& options) {
+  command
+      .add_option(
+          "--haptics", options.servo.haptic_device,
+          "whose hand feels: mouse, sim for a simulated person, hdapi, gamepad, replay:FILE for a recorded one, "
+          "or auto for the best device there is, else the mouse; default: mouse")
+      ->type_name("DEVICE");
+  command.add_option("--record", options.settings.record_folder, "keep what is felt in DIR, a session for each sample")
+      ->type_name("DIR");
+  command.add_flag("--dead-man", options.servo.settings.dead_man, "force only as long as Turn-On is held");
+  command.add_option("--servo-rate", options.servo.settings.rate_hz, "of the servo, 100 Hz to 10 kHz")
+      ->check(CLI::Range(100.0, 10'000.0))
+      ->capture_default_str()
+      ->type_name("HZ");
+  command
+      .add_option(
+          "--spin", options.spin_us,
+          "how long the servo stays awake before each tick to be more punctual, at most half a period; default: 0")
+      ->check(CLI::Range(0, 5000))
+      ->type_name("MICROSECONDS");
+  command
+      .add_option("--linger", options.servo.settings.linger_s,
+                  "how long the servo keeps its device for another touchafm view if this one dies, 0 to 600")
+      ->check(CLI::Range(0.0, 600.0))
+      ->capture_default_str()
+      ->type_name("SECONDS");
+}
+
 }  // namespace
 
 void add_view_command(CLI::App& app, CommandContext& context) {
@@ -151,18 +213,13 @@ void add_view_command(CLI::App& app, CommandContext& context) {
   add_picture_options(*command, *options);
   auto size = std::make_shared<std::string>("1280x960");
   command->add_option("--size", *size, "size of the window in pixels")->capture_default_str()->type_name("WxH");
-  static const std::map<std::string, HandSource> kHands{{"mouse", HandSource::Mouse}, {"sim", HandSource::Simulated}};
-  command
-      ->add_option("--haptics", options->settings.hand,
-                   "whose hand feels: mouse, or sim for a simulated person; default: mouse")
-      ->transform(CLI::CheckedTransformer(kHands))
-      ->type_name("DEVICE");
   static const std::map<std::string, ServoMode> kServos{{"process", ServoMode::Process}, {"thread", ServoMode::Thread}};
   command
       ->add_option("--servo", options->servo.mode,
                    "how the servo runs: process, or thread for debuggers and sanitizers; default: process")
       ->transform(CLI::CheckedTransformer(kServos))
       ->type_name("HOW");
+  add_servo_options(*command, *options);
   command->add_flag("--validate", options->validate, "check every Vulkan call; any message ends in exit code 1");
   command->callback([options, size, &context] {
     context.chosen = [options, size, &context]() -> core::Result<void> {

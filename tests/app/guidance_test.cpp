@@ -7,6 +7,7 @@
 namespace afm::app {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // Mica under the tip at this height of the hand.
@@ -42,6 +43,16 @@ TEST(Guidance, SaysWhyTheForceWasTakenAway) {
   scene::TipState fault = tip(scene::ServoState::Fault, scene::ContactPhase::WaitForLift, 0.0);
   fault.fault = scene::FaultCode::VelocityTrip;
   EXPECT_THAT(guidance(fault, false, 0), HasSubstr("faster than is safe"));
+
+  scene::TipState released = tip(scene::ServoState::Disarmed, scene::ContactPhase::Free, 0.060);
+  released.fault = scene::FaultCode::LateTick;
+  EXPECT_THAT(guidance(released, true, 0), AllOf(HasSubstr("20 ms late"), HasSubstr("Press Turn-On")));
+}
+
+TEST(Guidance, AsksToHoldTheButtonThatTheForceHangsOn) {
+  scene::TipState lifted = tip(scene::ServoState::Disarmed, scene::ContactPhase::Free, 0.060);
+  lifted.dead_man = 1;
+  EXPECT_THAT(guidance(lifted, true, 0), HasSubstr("keep it held"));
 }
 
 }  // namespace
