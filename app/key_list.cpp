@@ -14,6 +14,7 @@ render::DataPanel key_list(HandSource hand) {
                                          {"Turn-On", "T", "or the middle button"}});
   }
   panel.rows.insert(panel.rows.end(), {{"Parameters", "F2", ""},
+                                       {"Scale of the hand", "M", "fit, compressed, common"},
                                        {"Begin again", "R", ""},
                                        {"Hide the panels", "P", ""},
                                        {"Swap the eyes", "S", ""},

@@ -158,6 +158,9 @@ void LiveView::handle_key(render::Key key) {
     case render::Key::F11:
       window_.set_full_screen(!window_.full_screen());
       break;
+    case render::Key::M:
+      next_scale();
+      break;
     case render::Key::P:
       panels_hidden_ = !panels_hidden_;
       break;
@@ -211,11 +214,24 @@ std::optional<std::size_t> LiveView::material() const {
 
 void LiveView::choose(std::size_t material) {
   if (servo_error_) return;
-  servo_->choose(static_cast<std::int32_t>(material));
+  servo_->choose(static_cast<std::int32_t>(material), settings_.scale);
   if (settings_.hand == HandSource::Simulated) {
     person_.begin(swatches_[material].center_m, static_cast<std::int32_t>(material), clock_.now_ns());
   }
   core::log_line("chosen: " + stage_.materials.materials[material].title);
+}
+
+// Felt once the tip is off the sample, as another material is.
+void LiveView::next_scale() {
+  using scene::ScaleMode;
+  const ScaleMode now = settings_.scale;
+  settings_.scale = now == ScaleMode::Fit          ? ScaleMode::Compressed
+                    : now == ScaleMode::Compressed ? ScaleMode::Common
+                                                   : ScaleMode::Fit;
+  core::log_line(std::string("scale ") + text_of(settings_.scale));
+  if (const auto current = material(); current && !servo_error_) {
+    servo_->choose(static_cast<std::int32_t>(*current), settings_.scale);
+  }
 }
 
 // Everything as after the start: also the way to go on after the servo has died.

@@ -34,8 +34,9 @@ struct ViewSettings {
   glm::uvec2 eye_px{0};         // as the renderer was made
   bool fixed_eye_size = false;  // else the eyes get as many pixels as the window has for them
   double most_frames_per_s = 60.0;
-  std::optional<std::size_t> first_material;  // chosen whenever a servo has been started
-  std::string record_folder;                  // for the sessions of what is felt; empty: none is kept
+  scene::ScaleMode scale = scene::ScaleMode::Fit;  // M goes on to the next
+  std::optional<std::size_t> first_material;       // chosen whenever a servo has been started
+  std::string record_folder;                       // for the sessions of what is felt; empty: none is kept
 };
 
 // The live window: a person's mouse points, chooses and moves the hand of the servo; every frame shows the newest state
@@ -59,6 +60,7 @@ class LiveView {
   void handle_key(render::Key key);
   void click(const glm::dvec2& cursor_px);
   void choose(std::size_t material);
+  void next_scale();
   void reset();
 
   void fit_renderer(std::int64_t now_ns);

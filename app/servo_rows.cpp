@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kWarmEnoughToTell = 0.5;
 
+}  // namespace
+
 const char* text_of(scene::ScaleMode mode) {
   switch (mode) {
     case scene::ScaleMode::Common:
@@ -24,8 +26,6 @@ const char* text_of(scene::ScaleMode mode) {
   }
   return "compressed: weak forces are raised";
 }
-
-}  // namespace
 
 std::vector<render::DataRow> servo_rows(const scene::TipState& tip, const scene::ServoTiming& timing,
                                         const scene::SharedDevice& device) {

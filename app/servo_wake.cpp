@@ -13,7 +13,7 @@ namespace afm::app {
 
 core::Result<ServoWake> measure_servo_wake(const std::string& program, double seconds,
                                            const std::function<void()>& draw) {
-  auto link = ServoLink::start(mica_alone(), 0, ServoMode::Process, program);
+  auto link = ServoLink::start(mica_alone(), 0, {}, program);
   if (!link) return tl::unexpected(link.error());
   (*link)->choose(0);
 

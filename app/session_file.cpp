@@ -72,7 +72,7 @@ bool finite(const TipSample& s) {
   return std::isfinite(s.z_m) && std::isfinite(s.force_n) && std::isfinite(s.tip_height_m) &&
          std::isfinite(s.deflection_m) && std::isfinite(s.sample_deformation_m) && std::isfinite(s.hand_height_m) &&
          std::isfinite(s.hand_force_n) && finite(s.hand_from_contact_m) && finite(s.sample_normal) &&
-         finite(s.tip_xy_m) && std::isfinite(s.surface_height_m) && std::isfinite(s.motor_heat);
+         finite(s.sample_x) && finite(s.tip_xy_m) && std::isfinite(s.surface_height_m) && std::isfinite(s.motor_heat);
 }
 
 bool finite(const TipEvent& e) {
@@ -246,6 +246,10 @@ std::unique_ptr<scene::SharedModel> model_of(const RecordedSession& session) {
   if (session.curve) {
     model->curve_count = 1;
     model->curves[0] = *session.curve;
+  }
+  if (!session.samples.empty() && session.samples.front().scale_mode == scene::ScaleMode::Common) {
+    model->common_hand_m_per_m = session.hand_m_per_m;  // what other materials asked for as well
+    model->common_hand_n_per_n = session.hand_n_per_n;
   }
   if (session.surface) {
     model->height_field_count = 1;

@@ -34,6 +34,8 @@ Key key_of(int key) {
       return Key::F2;
     case GLFW_KEY_F11:
       return Key::F11;
+    case GLFW_KEY_M:
+      return Key::M;
     case GLFW_KEY_P:
       return Key::P;
     case GLFW_KEY_R:

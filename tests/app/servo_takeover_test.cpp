@@ -40,7 +40,7 @@ bool eventually(const std::function<bool()>& condition) {
 }
 
 auto start(double linger_s, std::uint64_t digest = kScene) {
-  return ServoLink::start(test::paper_model(), digest, ServoMode::Process, kProgram, "sim", linger_s);
+  return ServoLink::start(test::paper_model(), digest, {.settings = {.linger_s = linger_s}}, kProgram);
 }
 
 bool until(ServoLink& link, const std::function<bool(const scene::TipState&)>& condition) {
