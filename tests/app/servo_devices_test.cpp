@@ -128,6 +128,9 @@ TEST_F(ServoDevices, RefusesADeviceThatItDoesNotKnow) {
     ASSERT_TRUE(servo);
     EXPECT_EQ(exit_code(**servo), 2) << choice;
   }
+  auto no_pad = start("gamepad");
+  ASSERT_TRUE(no_pad);
+  EXPECT_EQ(exit_code(**no_pad), 4);
   auto no_file = start("replay:/nowhere/x.afms");
   ASSERT_TRUE(no_file);
   EXPECT_EQ(exit_code(**no_file), 3);
@@ -143,6 +146,8 @@ RecordedSession record_cycle() {
   RecordedSession session;
   session.material = "mica";
   session.parameters = test::paper_model().materials[test::kMica];
+  session.device = haptics::shared(device.spec());
+  session.room_from_sample = test::paper_model().nodes[1].parent_from_node;
   session.rate_hz = 1000.0;
   std::uint32_t revision = 0;
   for (std::int64_t ms = 1; ms <= 2500; ++ms) {

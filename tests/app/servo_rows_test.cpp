@@ -33,13 +33,13 @@ TEST(ServoRows, TellLimitsScaleAndPunctualityWithTheirUnits) {
   timing.rate_hz = 1000.0;
   timing.ticks = 1000;
   timing.missed = 3;
-  timing.wake_us[37] = 1000;
-  timing.wake_max_us = 37;
+  timing.wake_us[37] = 1000;  // from 37 to below 38
+  timing.wake_max_us = 38;
   const std::string all = text(tip, timing);
   EXPECT_THAT(all, HasSubstr("Scale of the hand: 3.57 mm/nm, 1.43 N/nN (compressed"));
   EXPECT_THAT(all, HasSubstr("Force at most: 2 N, 500 N/s (Omni)"));
   EXPECT_THAT(all, HasSubstr("Servo: 1000 Hz, not real-time"));
-  EXPECT_THAT(all, HasSubstr("p99 37 \u00b5s, 3 of 1003 ticks missed"));
+  EXPECT_THAT(all, HasSubstr("p99 38 \u00b5s, 3 of 1003 ticks missed"));
   EXPECT_THAT(all, Not(HasSubstr("Motors")));
 }
 
