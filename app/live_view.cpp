@@ -23,8 +23,10 @@ namespace afm::app {
 
 namespace {
 
-constexpr double kHiddenPauseS = 0.05;                 // between two heartbeats of a window that nobody sees
-constexpr std::int64_t kSteadyNs = 250'000'000;        // a window that keeps its size for so long is drawn sharp
+constexpr double kHiddenPauseS = 0.05;           // between two heartbeats of a window that nobody sees
+constexpr std::int64_t kSteadyNs = 250'000'000;  // a window that keeps its size for so long is drawn sharp
+constexpr std::int64_t kMinuteNs = 60'000'000'000;
+constexpr std::size_t kMostRestarts = 3;               // a minute
 constexpr double kDrawnHandM = 0.085;                  // of the hand, shown as a third of the wall's height
 constexpr double kHandPerPicture = 3.0 * kDrawnHandM;  // so that the tip follows the cursor on the wall
 
@@ -311,12 +313,29 @@ void LiveView::keep_session() {
   }
 }
 
+// One that died is replaced, without force until the hand lifts and Turn-On is pressed; one that dies again and again,
+// or that cannot have its device, needs a person.
+void LiveView::lose_servo(const core::Error& error, std::int64_t now_ns) {
+  servo_error_ = error;
+  core::log_line(error.message);
+  while (!restarts_ns_.empty() && now_ns - restarts_ns_.front() > kMinuteNs) restarts_ns_.pop_front();
+  if (error.category != core::ErrorCategory::Failed || restarts_ns_.size() >= kMostRestarts) return;
+  restarts_ns_.push_back(now_ns);
+  const auto felt = material();
+  if (auto started = start_servo(); !started) {
+    core::log_line(started.error().message);
+    return;
+  }
+  core::log_line("the servo was started again by itself: lift, then press Turn-On");
+  told_state_ = scene::ServoState::Disarmed;
+  if (felt) choose(*felt);
+}
+
 void LiveView::take_news(std::int64_t now_ns) {
   if (servo_error_) return;
   const auto news = servo_->poll(now_ns);
   if (!news) {
-    servo_error_ = news.error();
-    core::log_line(servo_error_->message);
+    lose_servo(news.error(), now_ns);
     return;
   }
   stream_.take(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -56,6 +57,7 @@ class LiveView {
 
  private:
   core::Result<void> start_servo();
+  void lose_servo(const core::Error& error, std::int64_t now_ns);
   void handle(const render::WindowEvent& event, std::int64_t now_ns);
   void handle_key(render::Key key);
   void click(const glm::dvec2& cursor_px);
@@ -105,6 +107,7 @@ class LiveView {
 
   std::unique_ptr<ServoLink> servo_;
   std::optional<core::Error> servo_error_;  // the servo has ended
+  std::deque<std::int64_t> restarts_ns_;    // of servos that died, within the last minute
   TipStream stream_;
   FeltCycles cycles_;
   ParameterEdits edits_;
