@@ -62,7 +62,8 @@ bool plausible(const SharedHeightField& field) {
   const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxHeightFieldSide; };
   if (!counted(field.columns) || !counted(field.rows) || !positive(field.spacing_m)) return false;
   const std::size_t count = std::size_t{field.columns} * field.rows;
-  return std::all_of(field.height_m.begin(), field.height_m.begin() + count, [](float h) { return sane(double{h}); });
+  return std::all_of(field.height_m.begin(), field.height_m.begin() + count,
+                     [](float h) { return sane(static_cast<double>(h)); });
 }
 
 }  // namespace
