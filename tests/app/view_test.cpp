@@ -19,6 +19,7 @@
 #include "render/image_file.h"
 #include "support/live_program.h"
 #include "support/run_program.h"
+#include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
 // The real window on an X server without a screen, driven by xdotool as a hand drives a mouse and keys. Vulkan's calls
@@ -214,6 +215,22 @@ TEST_F(ViewTest, StartsAServoThatDiesThreeTimesAMinuteAndThenAsksForKeyR) {
   EXPECT_EQ(view.ends(), 1) << view.said();
 }
 
+TEST_F(ViewTest, RecordsASessionThatReplaysBitForBit) {
+  const support::ScratchFolder folder;
+  support::LiveProgram view(command({"--haptics", "sim", "--record", folder.file("kept")}), display_.name());
+  ASSERT_TRUE(view.says("Point at a sample")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  xdotool("key 1");
+  ASSERT_TRUE(view.says("chosen: Mica")) << view.said();
+  ASSERT_TRUE(view.says("jump off contact")) << view.said();
+  view.signal(SIGINT);
+  EXPECT_EQ(view.ends(), 0) << view.said();
+  EXPECT_THAT(view.said(), HasSubstr("recorded: "));
+  const auto replayed = support::run_program(AFM_PROGRAM " replay " + folder.file("kept/session-mica.afms"));
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+  EXPECT_THAT(replayed.out, HasSubstr("is the same, bit for bit"));
+}
+
 TEST(View, SaysWhatIsWrongInOneLine) {
   const auto none = support::run_program("env -u WAYLAND_DISPLAY DISPLAY= " AFM_PROGRAM " view");
   EXPECT_EQ(none.exit_code, 4);
@@ -221,6 +238,11 @@ TEST(View, SaysWhatIsWrongInOneLine) {
   const auto size = support::run_program(AFM_PROGRAM " view --size 1280");
   EXPECT_EQ(size.exit_code, 2);
   EXPECT_THAT(size.err, HasSubstr("\"1280\" is not WIDTHxHEIGHT"));
+  const auto device = support::run_program(AFM_PROGRAM " view --haptics falcon");
+  EXPECT_EQ(device.exit_code, 2);
+  EXPECT_THAT(device.err, HasSubstr("choose auto, sim, mouse, hdapi, gamepad or replay:FILE"));
+  const auto session = support::run_program(AFM_PROGRAM " view --haptics replay:/nowhere/x.afms");
+  EXPECT_EQ(session.exit_code, 3);
   const auto mode = support::run_program(AFM_PROGRAM " view --stereo checkerboard");
   EXPECT_EQ(mode.exit_code, 2);
   EXPECT_THAT(mode.err, HasSubstr("side-by-side"));
