@@ -155,9 +155,6 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
   } else {
     frame.data_panel = {.title = "No material yet", .subtitle = "point at a swatch and press", .rows = {}};
   }
-  if (!moment.compare_all) {
-    frame.data_panel.rows.insert(frame.data_panel.rows.end(), moment.servo.begin(), moment.servo.end());
-  }
   frame.banner = banner(moment);
   return frame;
 }
@@ -210,6 +207,11 @@ render::Banner FrameBuilder::banner(const Moment& moment) const {
       "sample and motion: 1 m = {}     lever: 1 m = {}     tip: 1 m = {}     deflection \u00d7{:.0f} against the lever",
       scale_text(scale.sample_m_per_m), scale_text(scale.lever_m_per_m), scale_text(scale.tip_m_per_m),
       scale.lever_m_per_m / scale.sample_m_per_m);
+  // on a line of its own
+  for (const render::DataRow& row : moment.servo) {
+    banner.scale +=
+        fmt::format("{}{}: {} ({})", &row == &moment.servo.front() ? "\n" : "     ", row.name, row.value, row.source);
+  }
   return banner;
 }
 

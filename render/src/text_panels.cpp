@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "panel_painting.h"
 
@@ -86,7 +87,12 @@ void paint(Canvas& canvas, const DataPanel& panel) {
 
 void paint(Canvas& canvas, const Banner& banner) {
   canvas.plate();
-  const float content = text_height_mm(TextStyle::Guidance) + 16.0F + text_height_mm(TextStyle::Body);
+  // the scale may have a second line
+  const std::size_t end = banner.scale.find('\n');
+  const std::string_view more =
+      end == std::string::npos ? std::string_view() : std::string_view(banner.scale).substr(end + 1);
+  const float third = more.empty() ? 0.0F : text_height_mm(TextStyle::Body) + 8.0F;
+  const float content = text_height_mm(TextStyle::Guidance) + 16.0F + text_height_mm(TextStyle::Body) + third;
   const float top = std::max(12.0F, 0.5F * (canvas.size_mm().y - content));
   const float right = canvas.size_mm().x - kMargin;
   const float state_left = banner.state_word.empty() ? right : paint_state(canvas, banner, right, top + 2.0F);
@@ -96,7 +102,12 @@ void paint(Canvas& canvas, const Banner& banner) {
   canvas.text({kMargin, top + lift}, TextStyle::Guidance, palette::kInk, banner.guidance, Align::Left, scale);
 
   const float second = top + text_height_mm(TextStyle::Guidance) + 16.0F;
-  canvas.text({kMargin, second}, TextStyle::Body, palette::kMuted, banner.scale);
+  canvas.text({kMargin, second}, TextStyle::Body, palette::kMuted, banner.scale.substr(0, end));
+  if (!more.empty()) {
+    const float whole = right - kMargin;
+    const float shrink = std::min(1.0F, whole / std::max(canvas.text_width_mm(TextStyle::Body, more), 1.0F));
+    canvas.text({kMargin, second + third}, TextStyle::Body, palette::kMuted, more, Align::Left, shrink);
+  }
   if (!banner.warning.empty()) {
     const float width = canvas.text_width_mm(TextStyle::Body, banner.warning);
     paint_shape(canvas, StateShape::Triangle, {right - width - 30.0F, second + 21.0F}, 17.0F, palette::kOrange);
