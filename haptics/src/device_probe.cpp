@@ -78,7 +78,7 @@ void look_for_gamepads(std::vector<ProbeLine>& lines) {
     lines.push_back({kGamepad, false, found.error().message});
     return;
   }
-  if (found->empty()) lines.push_back({kGamepad, false, "none is plugged in, or none can be opened"});
+  if (found->empty()) lines.push_back({kGamepad, false, GamepadDevice::kNone});
   for (const GamepadDevice::Facts& pad : *found) {
     const char* shows = pad.force_feedback ? "force feedback"
                         : pad.rumble       ? "rumble"

@@ -78,7 +78,7 @@ core::Result<std::unique_ptr<GamepadDevice>> GamepadDevice::open(const SdlFuncti
   if (best == ports->end()) {
     return core::failure(core::ErrorCategory::DeviceMissing,
                          ports->empty()
-                             ? "none is plugged in, or none can be opened; touchafm doctor says what mends it"
+                             ? kNone
                              : fmt::format("{} has no force feedback; --haptics gamepad takes it all the same",
                                            ports->front()->facts().name));
   }

@@ -43,6 +43,10 @@ class GamepadDevice final : public HapticDevice {
   static constexpr double kFastestMPerS = 0.10;  // of the aim of a game controller
   static constexpr double kReachM = 0.060;       // of the aim of a joystick, to either side
 
+  // What is said when there is no gamepad, with the line that mends the rights to one.
+  static constexpr const char* kNone =
+      "none is plugged in, or none may be opened: then sudo usermod -aG input \"$(id -un)\" and log in again";
+
   // What is plugged in.
   struct Facts {
     std::string name;
