@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/haply_device.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <thread>
+
+#include "core/clock.h"
+#include "haply_service.h"
+#include "haptics/safety.h"
+
+namespace {
+
+using afm::haptics::GovernorInput;
+using afm::haptics::HaplyDevice;
+using afm::haptics::SafetyGovernor;
+using afm::test::HaplyService;
+using testing::HasSubstr;
+
+const afm::core::MonotonicClock kClock;
+constexpr auto kPatience = std::chrono::seconds(20);
+
+bool eventually(const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+// Somebody who renews a pull of up to 1 N, through the only thing that can make one.
+class Servo {
+ public:
+  explicit Servo(HaplyDevice& device) : device_(device) {}
+
+  // One tick; gives the command's vertical force.
+  double tick() {
+    now_ns_ += 1'000'000;
+    GovernorInput input{.time_ns = now_ns_, .hand_position_m = {0.0, 0.18, 0.12}, .hand_height_m = 0.06};
+    input.phase = afm::scene::ContactPhase::Free;
+    input.renderer = afm::scene::RendererLink::Alive;
+    input.turn_on = ++ticks_ > 100;
+    if (governor_.state() == afm::scene::ServoState::Running) input.wanted_force_n = {0.0, -1.0, 0.0};
+    const auto output = governor_.step(input);
+    device_.write(output.command);
+    return output.command.force_n().y;
+  }
+  bool pulls_with_one_newton() {
+    for (int i = 0; i < 1000; ++i) {
+      if (std::abs(tick() + 1.0) < 1e-9) return true;
+    }
+    return false;
+  }
+
+ private:
+  HaplyDevice& device_;
+  SafetyGovernor governor_{1'000'000, 2.0, 0.05};
+  std::int64_t now_ns_ = 0;
+  int ticks_ = 0;
+};
+
+TEST(HaplyDevice, GivesThePlaceAndTheButtonAndTakesTheForce) {
+  HaplyService service;
+  const auto device = HaplyDevice::open(kClock, service.port());
+  ASSERT_TRUE(device) << device.error().message;
+  service.up_m = 0.15;
+  service.button = true;
+  ASSERT_TRUE(eventually([&] {
+    const auto sample = (*device)->read(kClock.now_ns());
+    return sample.healthy && sample.turn_on && sample.position_m == glm::dvec3(0.01, 0.15, 0.12);
+  }));
+
+  Servo servo(**device);
+  ASSERT_TRUE(servo.pulls_with_one_newton());
+  // down is the service's -z; nothing else moves
+  EXPECT_TRUE(eventually([&] {
+    servo.tick();
+    const auto forces = service.forces();
+    return std::any_of(forces.begin(), forces.end(), [](const auto& f) { return std::abs(f.z + 1.0) < 1e-9; });
+  }));
+  for (const auto& force : service.forces()) {
+    EXPECT_EQ(force.x, 0.0);
+    EXPECT_EQ(force.y, 0.0);
+    EXPECT_GE(force.z, -1.0);
+    EXPECT_LE(force.z, 0.0);
+  }
+}
+
+TEST(HaplyDevice, FadesToZeroWhenTheServoStopsWriting) {
+  HaplyService service;
+  const auto device = HaplyDevice::open(kClock, service.port());
+  ASSERT_TRUE(device) << device.error().message;
+  Servo servo(**device);
+  ASSERT_TRUE(servo.pulls_with_one_newton());
+  ASSERT_TRUE(eventually([&] {
+    servo.tick();
+    return service.forces().back().z < -0.5;
+  }));
+  EXPECT_TRUE(eventually([&] { return service.forces().back().z == 0.0; }));
+}
+
+TEST(HaplyDevice, SendsZeroBeforeItLeaves) {
+  HaplyService service;
+  auto device = HaplyDevice::open(kClock, service.port());
+  ASSERT_TRUE(device) << device.error().message;
+  Servo servo(**device);
+  ASSERT_TRUE(servo.pulls_with_one_newton());
+  ASSERT_TRUE(eventually([&] {
+    servo.tick();
+    return service.forces().back().z < -0.5;
+  }));
+  device->reset();
+  EXPECT_TRUE(eventually([&] { return service.forces().back().z == 0.0; }));
+}
+
+TEST(HaplyDevice, IsNotHealthyWhileTheServiceIsSilentOrGoneAndComesBack) {
+  HaplyService service;
+  const auto device = HaplyDevice::open(kClock, service.port());
+  ASSERT_TRUE(device) << device.error().message;
+  const auto healthy = [&] { return (*device)->read(kClock.now_ns()).healthy; };
+  ASSERT_TRUE(eventually(healthy));
+
+  service.manner = HaplyService::Manner::Silent;
+  EXPECT_TRUE(eventually([&] { return !healthy(); }));
+  service.manner = HaplyService::Manner::Proper;
+  EXPECT_TRUE(eventually(healthy));
+  service.manner = HaplyService::Manner::Babbling;
+  EXPECT_TRUE(eventually([&] { return !healthy(); }));
+  service.manner = HaplyService::Manner::Proper;
+  EXPECT_TRUE(eventually(healthy));
+  service.hang_up();
+  EXPECT_TRUE(eventually([&] { return !healthy(); }));
+  EXPECT_TRUE(eventually(healthy));
+}
+
+TEST(HaplyDevice, SaysWhatIsMissing) {
+  std::uint16_t free_port = 0;
+  {
+    const HaplyService service(HaplyService::Manner::NoDevice);
+    const auto none = HaplyDevice::open(kClock, service.port());
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message, HasSubstr("no inverse3 within 2 s"));
+    free_port = service.port();
+  }
+  const auto nobody = HaplyDevice::open(kClock, free_port);
+  ASSERT_FALSE(nobody);
+  EXPECT_EQ(nobody.error().category, afm::core::ErrorCategory::DeviceMissing);
+  EXPECT_THAT(nobody.error().message, HasSubstr("no haply inverse service at port"));
+}
+
+// Whoever else listens there must not hold touchafm up for ever.
+TEST(HaplyDevice, GivesUpOnOneWhoNeverShakesHands) {
+  boost::asio::io_context context;
+  boost::asio::ip::tcp::acceptor mute(context, {boost::asio::ip::address_v4::loopback(), 0});
+  const auto device = HaplyDevice::open(kClock, mute.local_endpoint().port());
+  ASSERT_FALSE(device);
+  EXPECT_THAT(device.error().message, HasSubstr("no haply inverse service"));
+}
+
+}  // namespace
