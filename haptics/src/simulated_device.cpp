@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <limits>
 
 #include "core/check.h"
 
@@ -15,15 +17,18 @@ double minimum_jerk(double t) { return t * t * t * (10.0 + t * (6.0 * t - 15.0))
 
 }  // namespace
 
-SimulatedDevice::SimulatedDevice(const glm::dvec3& start_m, const HandImpedance& hand)
+SimulatedDevice::SimulatedDevice(const glm::dvec3& start_m, const HandImpedance& hand, const DeviceFlaws& flaws)
     : spec_(omni_like("simulated hand")),
       hand_(hand),
+      flaws_(flaws),
       path_from_m_(start_m),
       path_to_m_(start_m),
       aim_m_(start_m),
       position_m_(start_m) {
   AFM_CHECK(hand.mass_kg > 0 && hand.damping_n_s_per_m >= 0 &&
             hand.damping_n_s_per_m * hand.damping_n_s_per_m < 4.0 * hand.mass_kg * hand.grip_stiffness_n_per_m);
+  AFM_CHECK(flaws.quantum_m >= 0 && flaws.friction_n >= 0 && flaws.delay_ns >= 0 && flaws.delay_ns <= 16'000'000);
+  passed_.fill({.time_ns = std::numeric_limits<std::int64_t>::min(), .position_m = start_m});
 }
 
 DeviceSample SimulatedDevice::read(std::int64_t now_ns) noexcept {
@@ -37,7 +42,7 @@ DeviceSample SimulatedDevice::read(std::int64_t now_ns) noexcept {
 
   if (static_cast<double>(now_ns - path_begin_ns_) >= 1e9 * path_duration_s_) finished_script_ = script_;
   if (next_.revision != script_) begin_next_script();
-  return {.position_m = position_m_,
+  return {.position_m = reported_m(now_ns),
           .turn_on = next_.turn_on_pressed != 0,
           .healthy = true,
           .finished_script = finished_script_};
@@ -57,12 +62,34 @@ void SimulatedDevice::begin_next_script() noexcept {
   path_to_m_ = glm::dvec3(next_.target_m[0], next_.target_m[1], next_.target_m[2]);
 }
 
+// The newest place that is old enough, in the steps of the encoders.
+glm::dvec3 SimulatedDevice::reported_m(std::int64_t now_ns) noexcept {
+  newest_ = (newest_ + 1) % kPassed;
+  passed_[newest_] = {.time_ns = now_ns, .position_m = position_m_};
+  std::size_t i = newest_;
+  for (std::size_t back = 1; back < kPassed && passed_[i].time_ns > now_ns - flaws_.delay_ns; ++back) {
+    i = (newest_ + kPassed - back) % kPassed;
+  }
+  const glm::dvec3& place_m = passed_[i].position_m;
+  return flaws_.quantum_m > 0 ? flaws_.quantum_m * glm::round(place_m / flaws_.quantum_m) : place_m;
+}
+
+// Against the motion; of a hand that rests, against what would move it, and no more than that.
+double SimulatedDevice::friction_n(int axis, double aim_m) const noexcept {
+  const double speed = velocity_m_per_s_[axis];
+  if (speed != 0.0) return -std::copysign(flaws_.friction_n, speed);
+  const double moving_n = force_n_[axis] + hand_.grip_stiffness_n_per_m * (aim_m - position_m_[axis]);
+  return -std::clamp(moving_n, -flaws_.friction_n, flaws_.friction_n);
+}
+
 // The motion follows x(t) = lag + aim(t) + y(t), with aim(t) = a + b t, the steady lag F/k - c b/k, and the free
 // oscillation y'' + 2 s y' + w^2 y = 0 from where the hand is.
 void SimulatedDevice::advance(int axis, double seconds, double aim_from_m, double aim_to_m) noexcept {
   if (seconds <= 0) return;
   const double aim_speed = (aim_to_m - aim_from_m) / seconds;
-  const double lag = (force_n_[axis] - hand_.damping_n_s_per_m * aim_speed) / hand_.grip_stiffness_n_per_m;
+  const double rubbing_n = friction_n(axis, aim_to_m);
+  const double speed_before = velocity_m_per_s_[axis];
+  const double lag = (force_n_[axis] + rubbing_n - hand_.damping_n_s_per_m * aim_speed) / hand_.grip_stiffness_n_per_m;
   const double decay = hand_.damping_n_s_per_m / (2.0 * hand_.mass_kg);
   const double omega = std::sqrt(hand_.grip_stiffness_n_per_m / hand_.mass_kg - decay * decay);
 
@@ -77,6 +104,8 @@ void SimulatedDevice::advance(int axis, double seconds, double aim_from_m, doubl
       envelope * ((quadrature * omega - decay * y) * cosine - (y * omega + decay * quadrature) * sine);
   position_m_[axis] = aim_to_m + lag + y_after;
   velocity_m_per_s_[axis] = aim_speed + y_speed_after;
+  // friction stops a motion, it does not turn it round
+  if (flaws_.friction_n > 0 && speed_before * velocity_m_per_s_[axis] < 0.0) velocity_m_per_s_[axis] = 0.0;
 
   // the mechanical end of the workspace takes all the momentum
   const double inside = std::clamp(position_m_[axis], spec_.workspace_min_m[axis], spec_.workspace_max_m[axis]);

@@ -36,9 +36,11 @@ inline std::unique_ptr<haptics::Encounter> encounter_of(const scene::SharedMater
 // The servo, the simulated hand and the renderer's side of the segment, in time that only tick() moves.
 class ServoBench {
  public:
-  explicit ServoBench(const scene::SharedModel& model = paper_model(), double rate_hz = 1000.0)
+  explicit ServoBench(const scene::SharedModel& model = paper_model(), double rate_hz = 1000.0,
+                      const haptics::DeviceFlaws& flaws = {})
       : segment(required(scene::SharedSegment::create(model, 0))),
         renderer(segment.renderer_side()),
+        device(glm::dvec3(0.0, kTop, 0.0), {}, flaws),
         loop(required(haptics::ServoLoop::create(segment, device, {.rate_hz = rate_hz}))) {}
 
   // One tick `late_ns` after its time.

@@ -113,6 +113,21 @@ INSTANTIATE_TEST_SUITE_P(
              "At" + std::to_string(std::lround(1e3 * std::get<1>(test.param))) + "mmPerS";
     });
 
+// With an Omni's encoders, its friction and a tick of delay: the band of the hysteresis is wider than all of it.
+TEST(ServoLoop, JumpsOnceEachWayOnADeviceWithFlaws) {
+  for (const std::int32_t material : {kMica, kGold, kSiliconNitride}) {
+    ServoBench bench(paper_model(), 1000.0, afm::haptics::kOmniFlaws);
+    bench.arm(material);
+    bench.move(-0.015, 2.0);
+    bench.move(0.075, 3.0);
+    ASSERT_EQ(bench.events.size(), 2U) << material;
+    const auto expected = calculated(material);
+    EXPECT_NEAR(bench.events[0].force_after_n / -expected.f_attr.si, 1.0, 1e-9);
+    EXPECT_NEAR(bench.events[1].force_before_n / -expected.f_ad.si, 1.0, 1e-9);
+    EXPECT_EQ(bench.state().fault, FaultCode::None);
+  }
+}
+
 TEST(ServoLoop, PullsTheHandDownAtSnapInAndLetsItFlyAtPullOff) {
   ServoBench bench;
   bench.arm(kMica);

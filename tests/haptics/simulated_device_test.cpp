@@ -97,6 +97,33 @@ TEST(SimulatedHand, StopsAtTheEndsOfItsWorkspace) {
   EXPECT_EQ(device.velocity_m_per_s().y, 0.0);
 }
 
+TEST(FlawedHand, TellsItsPlaceInStepsAndLate) {
+  constexpr double kQuantum = 55e-6;
+  constexpr std::int64_t kDelayNs = 5 * kMs;
+  SimulatedDevice exact(glm::dvec3(0.0)), flawed(glm::dvec3(0.0), {}, {.quantum_m = kQuantum, .delay_ns = kDelayNs});
+  std::vector<double> places;
+  for (SimulatedDevice* device : {&exact, &flawed}) {
+    device->follow({.target_m = {0.0, 0.05, 0.0}, .duration_s = 0.3, .revision = 1});
+  }
+  for (int i = 0; i < 400; ++i) {
+    places.push_back(exact.read(i * kMs).position_m.y);
+    const double told = flawed.read(i * kMs).position_m.y;
+    EXPECT_EQ(told, kQuantum * std::round(told / kQuantum));
+    EXPECT_NEAR(told, places[static_cast<std::size_t>(std::max(0, i - 5))], 0.5 * kQuantum * (1.0 + 1e-9));
+  }
+}
+
+TEST(FlawedHand, StaysWhereFrictionHoldsItAgainstItsAim) {
+  SimulatedDevice device(glm::dvec3(0.0), {}, {.friction_n = 0.26});
+  device.follow(jump_to(0.001));  // the grip pulls with 0.2 N
+  for (int i = 0; i < 1000; ++i) EXPECT_NEAR(device.read(i * kMs).position_m.y, 0.0, 1e-6);
+  device.follow({.target_m = {0.0, 0.010, 0.0}, .duration_s = 0.0, .revision = 2});  // with 2 N
+  double rests_at = 0;
+  for (int i = 1000; i < 3000; ++i) rests_at = device.read(i * kMs).position_m.y;
+  EXPECT_NEAR(rests_at, 0.010, 0.26 / kGrip);
+  EXPECT_NEAR(device.velocity_m_per_s().y, 0.0, 1e-3);
+}
+
 TEST(SimulatedHand, LivesThroughPausesOfAnyLength) {
   SimulatedDevice device(glm::dvec3(0.0));
   device.follow({.target_m = {0.0, 0.04, 0.0}, .duration_s = 0.5, .revision = 1});

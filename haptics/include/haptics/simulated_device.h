@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
 #include "haptics/device.h"
 
 namespace afm::haptics {
@@ -12,19 +16,31 @@ struct HandImpedance {
   double grip_stiffness_n_per_m = 200.0;
 };
 
+// What a real device adds; nothing by default. An Omni's encoders step by 0.055 mm, and its joints rub with up to 0.26
+// N (its maker's sheet, by way of the research on haptics).
+struct DeviceFlaws {
+  double quantum_m = 0;       // of the place that is reported
+  std::int64_t delay_ns = 0;  // of that place, 16 ms at most; what lies between two ticks is not reported
+  double friction_n = 0;      // Coulomb's, on each axis
+};
+
+inline constexpr DeviceFlaws kOmniFlaws{.quantum_m = 55e-6, .delay_ns = 1'000'000, .friction_n = 0.26};
+
 // A person at an Omni: the hand hangs by its grip's stiffness on an aim that moves along minimum-jerk paths (Flash &
 // Hogan 1985), and the force of the device moves the hand. So attraction really pulls it down, and pull-off lets it
 // fly.
 //
 // Between two reads the force is constant and the aim is taken as straight, and the motion is solved in closed form:
 // deterministic given the times of the ticks, exact at any tick length, bounded in cost. The workspace ends in
-// inelastic stops.
+// inelastic stops. Friction acts against the motion with which a tick begins; a hand that it stops rests until the
+// next.
 //
 // A person who tears at 2 N must aim 10 mm above the place where the tip lets go (2 N / 200 N/m).
 class SimulatedDevice final : public HapticDevice {
  public:
   // The hand rests where it is put. The impedance must be oscillatory: c^2 < 4 m k.
-  explicit SimulatedDevice(const glm::dvec3& start_m = glm::dvec3(0.0, 0.060, 0.0), const HandImpedance& hand = {});
+  explicit SimulatedDevice(const glm::dvec3& start_m = glm::dvec3(0.0, 0.060, 0.0), const HandImpedance& hand = {},
+                           const DeviceFlaws& flaws = {});
 
   const DeviceSpec& spec() const noexcept override { return spec_; }
   DeviceSample read(std::int64_t now_ns) noexcept override;
@@ -36,10 +52,13 @@ class SimulatedDevice final : public HapticDevice {
  private:
   glm::dvec3 aim_m(std::int64_t now_ns) const noexcept;
   void advance(int axis, double seconds, double aim_from_m, double aim_to_m) noexcept;
+  double friction_n(int axis, double aim_m) const noexcept;
+  glm::dvec3 reported_m(std::int64_t now_ns) noexcept;
   void begin_next_script() noexcept;
 
   DeviceSpec spec_;
   HandImpedance hand_;
+  DeviceFlaws flaws_;
   scene::HandScript next_;  // the newest that was heard, possibly the one under way
 
   // the path under way, and where the aim was at the last read
@@ -56,6 +75,15 @@ class SimulatedDevice final : public HapticDevice {
   glm::dvec3 force_n_{0.0};
   std::int64_t time_ns_ = 0;
   bool started_ = false;
+
+  // the places of the last ticks, the newest at `newest_`
+  struct Passed {
+    std::int64_t time_ns = 0;
+    glm::dvec3 position_m{0.0};
+  };
+  static constexpr std::size_t kPassed = 256;
+  std::array<Passed, kPassed> passed_{};
+  std::size_t newest_ = 0;
 };
 
 }  // namespace afm::haptics
