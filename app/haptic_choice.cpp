@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cstdint>
 #include <cstdlib>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -51,13 +54,15 @@ core::Result<HapticChoice> parse_haptic_choice(std::string_view text) {
   if (text == "auto") return HapticChoice{haptics::DeviceChoice::Auto, {}};
   if (text == "sim" || text == "mouse") return HapticChoice{haptics::DeviceChoice::Simulated, {}};
   if (text == "hdapi") return HapticChoice{haptics::DeviceChoice::Hdapi, {}};
+  if (text == "haply") return HapticChoice{haptics::DeviceChoice::Haply, {}};
   if (text == "gamepad") return HapticChoice{haptics::DeviceChoice::Gamepad, {}};
   if (text.starts_with(kReplay) && text.size() > kReplay.size()) {
     return HapticChoice{haptics::DeviceChoice::Simulated, std::string(text.substr(kReplay.size()))};
   }
   return core::failure(
       core::ErrorCategory::WrongUsage,
-      fmt::format("there is no haptic device \"{}\": choose auto, sim, mouse, hdapi, gamepad or replay:FILE", text));
+      fmt::format("there is no haptic device \"{}\": choose auto, sim, mouse, hdapi, haply, gamepad or replay:FILE",
+                  text));
 }
 
 core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choice, const core::Clock& clock) {
@@ -68,7 +73,18 @@ core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choic
 }
 
 haptics::ProbeSettings probe_settings() {
-  return {.hd_library = variable(haptics::kHdLibraryVariable), .hd_device = variable(haptics::kHdDeviceVariable)};
+  haptics::ProbeSettings settings{.hd_library = variable(haptics::kHdLibraryVariable),
+                                  .hd_device = variable(haptics::kHdDeviceVariable)};
+  const std::string port = variable(haptics::kHaplyPortVariable);
+  std::uint16_t number = 0;
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+  if (error == std::errc() && end == port.data() + port.size() && number > 0) {
+    settings.haply_port = number;
+  } else if (!port.empty()) {
+    core::log_line(fmt::format("{}: \"{}\" is no port, 1 to 65535: {} is used", haptics::kHaplyPortVariable, port,
+                               settings.haply_port));
+  }
+  return settings;
 }
 
 }  // namespace afm::app

@@ -172,7 +172,7 @@ void add_servo_options(CLI::App& command, ViewOptions& options) {
   command
       .add_option(
           "--haptics", options.servo.haptic_device,
-          "whose hand feels: mouse, sim for a simulated person, hdapi, gamepad, replay:FILE for a recorded one, "
+          "whose hand feels: mouse, sim for a simulated person, hdapi, haply, gamepad, replay:FILE for a recorded one, "
           "or auto for the best device there is, else the mouse; default: mouse")
       ->type_name("DEVICE");
   command.add_option("--record", options.settings.record_folder, "keep what is felt in DIR, a session for each sample")

@@ -57,6 +57,17 @@ core::Result<std::unique_ptr<HapticDevice>> open_hdapi(const ProbeSettings& sett
   return std::unique_ptr<HapticDevice>(std::move(*device));
 }
 
+core::Result<std::unique_ptr<HapticDevice>> open_haply(const ProbeSettings& settings, const core::Clock& clock,
+                                                       std::vector<ProbeLine>& lines) {
+  auto device = HaplyDevice::open(clock, settings.haply_port);
+  if (!device) {
+    lines.push_back({kHaplyDevice, false, device.error().message});
+    return tl::unexpected(device.error());
+  }
+  lines.push_back({kHaplyDevice, true, (*device)->spec().name});
+  return std::unique_ptr<HapticDevice>(std::move(*device));
+}
+
 core::Result<std::unique_ptr<HapticDevice>> open_gamepad(GamepadDevice::Wanted wanted, const core::Clock& clock,
                                                          std::vector<ProbeLine>& lines) {
   const auto refused = [&](const core::Error& error) {
@@ -91,23 +102,21 @@ void look_for_gamepads(std::vector<ProbeLine>& lines) {
 
 core::Result<OpenedDevice> open_device(DeviceChoice choice, const ProbeSettings& settings, const core::Clock& clock) {
   OpenedDevice opened;
-  if (choice == DeviceChoice::Auto || choice == DeviceChoice::Hdapi) {
-    auto device = open_hdapi(settings, clock, opened.lines);
-    if (device) {
-      opened.device = std::move(*device);
-      return opened;
-    }
-    if (choice == DeviceChoice::Hdapi) return tl::unexpected(device.error());
-  }
-  if (choice == DeviceChoice::Auto || choice == DeviceChoice::Gamepad) {
+  const auto open = [&](DeviceChoice kind) {
+    if (kind == DeviceChoice::Hdapi) return open_hdapi(settings, clock, opened.lines);
+    if (kind == DeviceChoice::Haply) return open_haply(settings, clock, opened.lines);
     using Wanted = GamepadDevice::Wanted;
     // a gamepad that lies on the desk must not take the hand away from the mouse
-    auto device = open_gamepad(choice == DeviceChoice::Auto ? Wanted::ForceFeedback : Wanted::Any, clock, opened.lines);
+    return open_gamepad(choice == DeviceChoice::Auto ? Wanted::ForceFeedback : Wanted::Any, clock, opened.lines);
+  };
+  for (const DeviceChoice kind : {DeviceChoice::Hdapi, DeviceChoice::Haply, DeviceChoice::Gamepad}) {
+    if (choice != DeviceChoice::Auto && choice != kind) continue;
+    auto device = open(kind);
     if (device) {
       opened.device = std::move(*device);
       return opened;
     }
-    if (choice == DeviceChoice::Gamepad) return tl::unexpected(device.error());
+    if (choice == kind) return tl::unexpected(device.error());
   }
   opened.device = std::make_unique<SimulatedDevice>();
   opened.lines.push_back({kSimulatedHand, true, "needs no device"});
@@ -126,6 +135,9 @@ std::vector<ProbeLine> probe_devices(const ProbeSettings& settings) {
                                         1e3 * (spec->workspace_max_m.z - spec->workspace_min_m.z))
                           : spec.error().message});
   }
+  const auto haply = HaplyDevice::query(settings.haply_port);
+  lines.push_back({kHaplyDevice, haply.has_value(),
+                   haply ? fmt::format("its service answers at port {}", settings.haply_port) : haply.error().message});
   look_for_gamepads(lines);
   lines.push_back({kSimulatedHand, true, "needs no device"});
   return lines;

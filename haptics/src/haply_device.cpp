@@ -58,6 +58,8 @@ core::Result<std::unique_ptr<HaplyDevice>> HaplyDevice::open(const core::Clock& 
   return device;
 }
 
+core::Result<void> HaplyDevice::query(std::uint16_t port) { return HaplyLink().connect(port); }
+
 HaplyDevice::HaplyDevice(const core::Clock& clock, std::uint16_t port, std::unique_ptr<HaplyLink> link)
     : clock_(clock), port_(port), spec_(inverse3()), link_(std::move(link)), thread_([this] { serve(); }) {}
 

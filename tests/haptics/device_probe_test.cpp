@@ -29,8 +29,9 @@ class DeviceProbe : public testing::Test {
     mock_hd_use_thread();
   }
 
-  const ProbeSettings mock{.hd_library = AFM_MOCK_HD, .hd_device = {}};
-  const ProbeSettings nowhere{.hd_library = "/nowhere/libHD.so", .hd_device = {}};
+  // port 1 has no service
+  const ProbeSettings mock{.hd_library = AFM_MOCK_HD, .hd_device = {}, .haply_port = 1};
+  const ProbeSettings nowhere{.hd_library = "/nowhere/libHD.so", .hd_device = {}, .haply_port = 1};
   const MonotonicClock clock;
 };
 
@@ -46,16 +47,18 @@ TEST_F(DeviceProbe, FallsBackToTheSimulatedHandAndSaysWhy) {
   const auto no_library = open_device(DeviceChoice::Auto, nowhere, clock);
   ASSERT_TRUE(no_library);
   EXPECT_EQ(no_library->device->spec().name, "simulated hand");
-  EXPECT_THAT(no_library->lines,
-              ElementsAre(line("hdapi library /nowhere/libHD.so", false, "No such file"),
-                          line("gamepad", false, "none is plugged in"), line("simulated hand", true, "")));
+  EXPECT_THAT(
+      no_library->lines,
+      ElementsAre(line("hdapi library /nowhere/libHD.so", false, "No such file"), line("haply device", false, "port 1"),
+                  line("gamepad", false, "none is plugged in"), line("simulated hand", true, "")));
 
   mock_hd_fail_init("*", kNotConnected, 100);
   const auto no_device = open_device(DeviceChoice::Auto, mock, clock);
   ASSERT_TRUE(no_device);
-  EXPECT_THAT(no_device->lines,
-              ElementsAre(line("libmock_hd.so", true, "loaded"), line("hdapi device", false, "mock: not connected"),
-                          line("gamepad", false, ""), line("simulated hand", true, "")));
+  EXPECT_THAT(
+      no_device->lines,
+      ElementsAre(line("libmock_hd.so", true, "loaded"), line("hdapi device", false, "mock: not connected"),
+                  line("haply device", false, "port 1"), line("gamepad", false, ""), line("simulated hand", true, "")));
 }
 
 TEST_F(DeviceProbe, DoesNotReplaceADeviceThatWasNamed) {
@@ -68,6 +71,11 @@ TEST_F(DeviceProbe, DoesNotReplaceADeviceThatWasNamed) {
   const auto no_device = open_device(DeviceChoice::Hdapi, mock, clock);
   ASSERT_FALSE(no_device);
   EXPECT_EQ(no_device.error().category, ErrorCategory::DeviceMissing);
+
+  const auto no_haply = open_device(DeviceChoice::Haply, mock, clock);
+  ASSERT_FALSE(no_haply);
+  EXPECT_EQ(no_haply.error().category, ErrorCategory::DeviceMissing);
+  EXPECT_THAT(no_haply.error().message, HasSubstr("no haply inverse service at port 1"));
 
   const auto no_gamepad = open_device(DeviceChoice::Gamepad, mock, clock);
   ASSERT_FALSE(no_gamepad);
@@ -86,7 +94,8 @@ TEST_F(DeviceProbe, ListsWhatIsThereWithoutStartingIt) {
   EXPECT_THAT(probe_devices(mock),
               ElementsAre(line("libmock_hd.so", true, "loaded"),
                           line("hdapi device", true, "3.3 N at most, 0.88 N for ever, 160 x 120 x 70 mm"),
-                          line("gamepad", false, "none is plugged in"), line("simulated hand", true, "")));
+                          line("haply device", false, "port 1"), line("gamepad", false, "none is plugged in"),
+                          line("simulated hand", true, "")));
   EXPECT_STREQ(mock_hd_call(0), "init");
   EXPECT_STREQ(mock_hd_call(1), "disable_device");
   EXPECT_EQ(mock_hd_call(2), nullptr);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,27 +9,32 @@
 #include "core/clock.h"
 #include "core/result.h"
 #include "haptics/device.h"
+#include "haptics/haply_device.h"
 
 // Which haptic device a person gets, and why.
 namespace afm::haptics {
 
 enum class DeviceChoice {
-  Auto,       // HDAPI if it answers, else a joystick with force feedback, else the simulated hand
+  Auto,       // HDAPI if it answers, else Haply's, else a joystick with force feedback, else the simulated hand
   Simulated,  // the simulated hand
   Hdapi,      // a device behind the vendor's library, or an error
+  Haply,      // an Inverse3 behind its maker's service, or an error
   Gamepad,    // a joystick with force feedback, else any gamepad that SDL2 knows, or an error
 };
 
 // What a lab may set; empty: the usual. app/ takes them from the environment variables of these names.
 inline constexpr const char* kHdLibraryVariable = "TOUCHAFM_HD_LIBRARY";
 inline constexpr const char* kHdDeviceVariable = "TOUCHAFM_HD_DEVICE";
+inline constexpr const char* kHaplyPortVariable = "TOUCHAFM_HAPLY_PORT";
 struct ProbeSettings {
   std::string hd_library;  // path or name of the vendor's library
   std::string hd_device;   // the device's name in the vendor's set-up
+  std::uint16_t haply_port = HaplyDevice::kServicePort;
 };
 
 // One thing that was looked for and what came of it: lower case, no full stop.
 inline constexpr const char* kHdapiDevice = "hdapi device";  // subjects
+inline constexpr const char* kHaplyDevice = "haply device";
 inline constexpr const char* kGamepad = "gamepad";
 inline constexpr const char* kSimulatedHand = "simulated hand";
 struct ProbeLine {

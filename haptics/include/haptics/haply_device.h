@@ -39,6 +39,9 @@ class HaplyDevice final : public HapticDevice {
   // is the one whose time read() is given.
   static core::Result<std::unique_ptr<HaplyDevice>> open(const core::Clock& clock, std::uint16_t port = kServicePort);
 
+  // Whether the service answers; nothing is started.
+  static core::Result<void> query(std::uint16_t port = kServicePort);
+
   ~HaplyDevice() override;  // after a message of zero force
 
   const DeviceSpec& spec() const noexcept override { return spec_; }
