@@ -36,12 +36,17 @@ bool eventually(const std::function<bool()>& condition) {
 // Somebody who renews a pull of up to 1 N, through the only thing that can make one.
 class Servo {
  public:
-  explicit Servo(HaplyDevice& device) : device_(device) {}
+  explicit Servo(HaplyDevice& device)
+      : device_(device), governor_(safety_limits(device.spec(), 1'000'000, 0.05, false)) {}
 
   // One tick; gives the command's vertical force.
   double tick() {
     now_ns_ += 1'000'000;
-    GovernorInput input{.time_ns = now_ns_, .hand_position_m = {0.0, 0.18, 0.12}, .hand_height_m = 0.06};
+    GovernorInput input;
+    input.time_ns = now_ns_;
+    input.hand_position_m = {0.0, 0.06, 0.0};
+    input.hand_height_m = 0.06;
+    input.law_energy.stiffness_n_per_m = 1e6;  // a force that no law gives
     input.phase = afm::scene::ContactPhase::Free;
     input.renderer = afm::scene::RendererLink::Alive;
     input.turn_on = ++ticks_ > 100;
@@ -59,7 +64,7 @@ class Servo {
 
  private:
   HaplyDevice& device_;
-  SafetyGovernor governor_{1'000'000, 2.0, 0.05};
+  SafetyGovernor governor_;
   std::int64_t now_ns_ = 0;
   int ticks_ = 0;
 };
