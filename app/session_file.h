@@ -36,8 +36,8 @@ struct RecordedSession {
   const scene::TipEvent* find(scene::TipEventKind kind) const;  // the first one, or null
 };
 
-// The scene of a session for a servo that is to feel it again: one node, the sample, and its material twice, because the
-// session may end with the choice of another.
+// The scene of a session for a servo that is to feel it again: one node, the sample, and its material twice, because
+// the session may end with the choice of another.
 std::unique_ptr<scene::SharedModel> model_of(const RecordedSession& session);
 
 // A session file (.afms): "AFMS", a version, a JSON header with the material, its law, all parameters, the device's
