@@ -29,6 +29,15 @@ inline void refuse_allocation(const char* what) {
 
 }  // namespace afm::test
 
+// ThreadSanitizer brings operators of its own, and there the guard guards nothing; every other build has it.
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define AFM_TEST_SANITIZES_THREADS
+#endif
+#endif
+
+#if !defined(AFM_TEST_SANITIZES_THREADS) && !defined(__SANITIZE_THREAD__)
+
 // The plain forms reach these; the standard library's array and nothrow forms are defined by them. Not inlined, because
 // gcc 12 then takes the pair of operator new and free() for a mistake.
 [[gnu::noinline]] void* operator new(std::size_t size) {
@@ -52,3 +61,5 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
 void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { operator delete(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { operator delete(memory); }
+
+#endif
