@@ -127,7 +127,7 @@ glm::dvec3 HaplyDevice::force_for(std::int64_t now_ns) {
   if (const auto command = commands_.try_load()) command_ = *command;
   const std::int64_t elapsed_ns = std::max<std::int64_t>(0, now_ns - force_ns_);
   force_ns_ = now_ns;
-  const bool stale = closing_.load() || now_ns - command_.time_ns > kStaleNs;
+  const bool stale = now_ns - command_.time_ns > kStaleNs;
   // in whole nanoseconds, so that the fade ends at exactly zero
   trust_ns_ =
       std::clamp<std::int64_t>(trust_ns_ + (stale ? -elapsed_ns * (kReturnNs / kReleaseNs) : elapsed_ns), 0, kReturnNs);
