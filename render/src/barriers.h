@@ -13,6 +13,9 @@ struct ImageUse {
   vk::PipelineStageFlags2 stages;
   vk::AccessFlags2 access;
   vk::ImageLayout layout = vk::ImageLayout::eUndefined;
+
+  // The same, and what the image holds is not needed any more: to be waited for, not to be kept.
+  constexpr ImageUse discarded() const { return {stages, access, vk::ImageLayout::eUndefined}; }
 };
 
 inline vk::ImageMemoryBarrier2 image_barrier(vk::Image image, vk::ImageAspectFlags aspect, const ImageUse& before,

@@ -2,6 +2,7 @@
 #include "eye_targets.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "barriers.h"
 #include "pipelines.h"
@@ -11,27 +12,33 @@ namespace {
 
 constexpr ImageUse kColorWritten{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
                                  vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal};
-constexpr ImageUse kColorDiscarded{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-                                   vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eUndefined};
-constexpr ImageUse kDepthDiscarded{vk::PipelineStageFlagBits2::eLateFragmentTests,
-                                   vk::AccessFlagBits2::eDepthStencilAttachmentWrite, vk::ImageLayout::eUndefined};
 constexpr ImageUse kDepthTested{
     vk::PipelineStageFlagBits2::eEarlyFragmentTests | vk::PipelineStageFlagBits2::eLateFragmentTests,
     vk::AccessFlagBits2::eDepthStencilAttachmentRead | vk::AccessFlagBits2::eDepthStencilAttachmentWrite,
     vk::ImageLayout::eDepthAttachmentOptimal};
+// a resolve writes depth, too, in the stage and with the access of colour
+constexpr ImageUse kDepthResolved{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+                                  vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eDepthAttachmentOptimal};
 
-// The eye images between frames: composed or copied by whoever asks.
-constexpr ImageUse kEyesRead{vk::PipelineStageFlagBits2::eFragmentShader | vk::PipelineStageFlagBits2::eCopy,
-                             vk::AccessFlagBits2::eShaderSampledRead | vk::AccessFlagBits2::eTransferRead,
-                             vk::ImageLayout::eShaderReadOnlyOptimal};
-constexpr ImageUse kEyesDiscarded{vk::PipelineStageFlagBits2::eFragmentShader | vk::PipelineStageFlagBits2::eCopy,
-                                  vk::AccessFlagBits2::eNone, vk::ImageLayout::eUndefined};
+// The eyes' colour and depth between frames: composed, measured or copied by whoever asks.
+constexpr ImageUse kColorRead{vk::PipelineStageFlagBits2::eFragmentShader | vk::PipelineStageFlagBits2::eCopy,
+                              vk::AccessFlagBits2::eShaderSampledRead | vk::AccessFlagBits2::eTransferRead,
+                              vk::ImageLayout::eShaderReadOnlyOptimal};
+constexpr ImageUse kDepthRead = kColorRead;
 
 constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
+constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
+
 // Objects may reach this many half screens beyond the screen's middle.
 constexpr float kLargestGuardBand = 8.0F;
 
-constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
+// The attachment is drawn with many samples, and what it held goes, with one, to where it pointed before.
+void resolve(vk::RenderingAttachmentInfo& attachment, vk::ImageView multisampled, vk::ResolveModeFlagBits mode) {
+  attachment.resolveImageView = std::exchange(attachment.imageView, multisampled);
+  attachment.resolveImageLayout = attachment.imageLayout;
+  attachment.resolveMode = mode;
+  attachment.storeOp = vk::AttachmentStoreOp::eDontCare;
+}
 
 }  // namespace
 
@@ -60,13 +67,19 @@ EyeTargets::Set EyeTargets::create_set(const Device& device, std::uint32_t layer
                                      .layers = layers,
                                      .samples = samples_});
     set.multisampled_view = create_view(device, set.multisampled, kColor, 0, layers);
+    set.multisampled_depth = create_image(device, "eyes multisampled depth",
+                                          {.format = kDepthFormat,
+                                           .extent = extent_,
+                                           .usage = Usage::eDepthStencilAttachment | Usage::eTransientAttachment,
+                                           .layers = layers,
+                                           .samples = samples_});
+    set.multisampled_depth_view = create_view(device, set.multisampled_depth, kDepth, 0, layers);
   }
   set.depth = create_image(device, "eyes depth",
                            {.format = kDepthFormat,
                             .extent = extent_,
-                            .usage = Usage::eDepthStencilAttachment | Usage::eTransientAttachment,
-                            .layers = layers,
-                            .samples = samples_});
+                            .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferSrc,
+                            .layers = layers});
   set.depth_view = create_view(device, set.depth, kDepth, 0, layers);
   set.resolved = create_image(device, "eyes",
                               {.format = kEyeFormat,
@@ -76,36 +89,35 @@ EyeTargets::Set EyeTargets::create_set(const Device& device, std::uint32_t layer
   set.resolved_view = create_view(device, set.resolved, kColor, 0, layers);
   for (std::uint32_t layer = 0; layer < layers; ++layer) {
     set.eye_views.push_back(create_view(device, set.resolved, kColor, layer, 1));
+    set.eye_depth_views.push_back(create_view(device, set.depth, kDepth, layer, 1));
   }
   return set;
 }
 
 void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass) const {
   const Set& set = sets_[pass];
-  const bool resolve = samples_ != vk::SampleCountFlagBits::e1;
-  record_barriers(command, {image_barrier(*set.resolved.image, kColor, kEyesDiscarded, kColorWritten),
-                            image_barrier(*set.depth.image, kDepth, kDepthDiscarded, kDepthTested)});
-  if (resolve) {
-    record_barriers(command, {image_barrier(*set.multisampled.image, kColor, kColorDiscarded, kColorWritten)});
-  }
-
   // the background covers every pixel that nothing else does, so no colour needs to be cleared
   vk::RenderingAttachmentInfo color{.imageView = *set.resolved_view,
                                     .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
                                     .loadOp = vk::AttachmentLoadOp::eDontCare,
                                     .storeOp = vk::AttachmentStoreOp::eStore};
-  if (resolve) {
-    color.imageView = *set.multisampled_view;
-    color.storeOp = vk::AttachmentStoreOp::eDontCare;
-    color.resolveMode = vk::ResolveModeFlagBits::eAverage;
-    color.resolveImageView = *set.resolved_view;
-    color.resolveImageLayout = vk::ImageLayout::eColorAttachmentOptimal;
+  vk::RenderingAttachmentInfo depth{.imageView = *set.depth_view,
+                                    .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
+                                    .loadOp = vk::AttachmentLoadOp::eClear,
+                                    .storeOp = vk::AttachmentStoreOp::eStore,
+                                    .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};
+  if (samples_ == vk::SampleCountFlagBits::e1) {
+    record_barriers(command, {image_barrier(*set.resolved.image, kColor, kColorRead.discarded(), kColorWritten),
+                              image_barrier(*set.depth.image, kDepth, kDepthRead.discarded(), kDepthTested)});
+  } else {
+    record_barriers(command,
+                    {image_barrier(*set.resolved.image, kColor, kColorRead.discarded(), kColorWritten),
+                     image_barrier(*set.depth.image, kDepth, kDepthRead.discarded(), kDepthResolved),
+                     image_barrier(*set.multisampled.image, kColor, kColorWritten.discarded(), kColorWritten),
+                     image_barrier(*set.multisampled_depth.image, kDepth, kDepthTested.discarded(), kDepthTested)});
+    resolve(color, *set.multisampled_view, vk::ResolveModeFlagBits::eAverage);
+    resolve(depth, *set.multisampled_depth_view, vk::ResolveModeFlagBits::eSampleZero);
   }
-  const vk::RenderingAttachmentInfo depth{.imageView = *set.depth_view,
-                                          .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
-                                          .loadOp = vk::AttachmentLoadOp::eClear,
-                                          .storeOp = vk::AttachmentStoreOp::eDontCare,
-                                          .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};
   command.beginRendering({.renderArea = {.extent = extent_},
                           .layerCount = 1,
                           .viewMask = view_mask(),
@@ -116,17 +128,27 @@ void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass)
 }
 
 void EyeTargets::end(const vk::raii::CommandBuffer& command, std::size_t pass) const {
+  const Set& set = sets_[pass];
   command.endRendering();
-  record_barriers(command, {image_barrier(*sets_[pass].resolved.image, kColor, kColorWritten, kEyesRead)});
+  record_barriers(command,
+                  {image_barrier(*set.resolved.image, kColor, kColorWritten, kColorRead),
+                   image_barrier(*set.depth.image, kDepth,
+                                 samples_ == vk::SampleCountFlagBits::e1 ? kDepthTested : kDepthResolved, kDepthRead)});
+}
+
+EyeTargets::Place EyeTargets::place(scene::Eye eye) const {
+  const std::uint32_t index = eye == scene::Eye::Left ? 0 : 1;
+  return sets_.size() == 1 ? Place{.set = &sets_.front(), .layer = index} : Place{.set = &sets_[index], .layer = 0};
 }
 
 EyeTargets::EyeImage EyeTargets::eye(scene::Eye eye) const {
-  const std::size_t index = eye == scene::Eye::Left ? 0 : 1;
-  const std::size_t set = sets_.size() == 1 ? 0 : index;
-  const std::size_t layer = sets_.size() == 1 ? index : 0;
-  return {.image = *sets_[set].resolved.image,
-          .layer = static_cast<std::uint32_t>(layer),
-          .view = *sets_[set].eye_views[layer]};
+  const auto [set, layer] = place(eye);
+  return {.image = *set->resolved.image, .layer = layer, .view = *set->eye_views[layer]};
+}
+
+EyeTargets::EyeImage EyeTargets::depth(scene::Eye eye) const {
+  const auto [set, layer] = place(eye);
+  return {.image = *set->depth.image, .layer = layer, .view = *set->eye_depth_views[layer]};
 }
 
 }  // namespace afm::render

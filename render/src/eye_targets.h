@@ -40,16 +40,28 @@ class EyeTargets {
   };
   EyeImage eye(scene::Eye eye) const;
 
+  // Reversed infinite depth of each pixel's first sample, 0 where nothing was drawn; kDepthFormat, as eye() sampled or
+  // copied from in eShaderReadOnlyOptimal.
+  EyeImage depth(scene::Eye eye) const;
+
  private:
   struct Set {
-    DeviceImage multisampled;  // unused at one sample
+    DeviceImage multisampled;  // this and its depth are unused at one sample
+    DeviceImage multisampled_depth;
     DeviceImage depth;
     DeviceImage resolved;
     vk::raii::ImageView multisampled_view{nullptr};
+    vk::raii::ImageView multisampled_depth_view{nullptr};
     vk::raii::ImageView depth_view{nullptr};
     vk::raii::ImageView resolved_view{nullptr};
     std::vector<vk::raii::ImageView> eye_views;  // one a layer
+    std::vector<vk::raii::ImageView> eye_depth_views;
   };
+  struct Place {
+    const Set* set = nullptr;
+    std::uint32_t layer = 0;
+  };
+  Place place(scene::Eye eye) const;
   Set create_set(const Device& device, std::uint32_t layers) const;
 
   vk::Extent2D extent_;
