@@ -124,6 +124,15 @@ core::Result<std::array<scene::EyeView, 2>> eyes_at_sweet_spot(const scene::Wall
   return eyes;
 }
 
+WallScene::Pose pose_of(const Moment& moment) {
+  return {.material = moment.material,
+          .tip = moment.tip,
+          .hovered = moment.hovered,
+          .wand = moment.wand,
+          .instrument = moment.compare_all ? WallScene::Instrument::Hidden : WallScene::Instrument::Shown,
+          .navigation = moment.navigation};
+}
+
 std::string stage_of_cycle(const Moment& moment, double z_jtc_m) {
   if (moment.phase == scene::ContactPhase::WaitForLift) return "lift the tip";
   if (moment.phase == scene::ContactPhase::Free) {
@@ -141,12 +150,7 @@ FrameBuilder::FrameBuilder(const WallScene& wall_scene, const std::vector<FeltMa
 render::FrameState FrameBuilder::build(const Moment& moment) const {
   render::FrameState frame;
   frame.eyes = eyes_;
-  wall_scene_->place({.material = moment.material,
-                      .tip = moment.tip,
-                      .hovered = moment.hovered,
-                      .wand = moment.wand,
-                      .instrument = moment.compare_all ? WallScene::Instrument::Hidden : WallScene::Instrument::Shown},
-                     frame);
+  wall_scene_->place(pose_of(moment), frame);
   frame.force_panel = force_panel(moment);
   if (moment.compare_all) {
     frame.data_panel = felt_panel(moment.felt);

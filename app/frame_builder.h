@@ -35,6 +35,7 @@ struct Moment {
   double slow_motion = 1;  // as in TipState
   std::optional<std::size_t> hovered;
   std::optional<input::WandState> wand;
+  glm::dmat4 navigation{1.0};  // as in WallScene::Pose
   std::string guidance;
   std::vector<render::DataRow> servo;  // servo_rows()
   // one per material, empty while it has not been felt; the current one is drawn in front
@@ -42,6 +43,9 @@ struct Moment {
   bool compare_all = false;  // the finale: all curves together, large, and what was felt
   std::vector<Felt> felt;
 };
+
+// What WallScene places.
+WallScene::Pose pose_of(const Moment& moment);
 
 // The part of the cycle in words, with the letters of the paper's Fig. 2.
 std::string stage_of_cycle(const Moment& moment, double z_jtc_m);

@@ -121,16 +121,16 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
                                        render::Presentation::Window);
   if (!context) return tl::unexpected(context.error());
 
-  const std::uint32_t beside = settings.stereo == StereoMode::SideBySide ? 2 : 1;
   const render::RendererOptions drawing = stage->renderer_options(
-      options.eye_width > 0 ? options.eye_width : stage->eye_width_within(window->size_px(), beside));
+      options.eye_width > 0 ? options.eye_width
+                            : stage->eye_width_within(window->size_px(), eyes_beside(settings.picture.stereo)));
   auto renderer = render::Renderer::create(*context, stage->wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   auto presenter = render::Presenter::create(*context, *window, *renderer);
   if (!presenter) return tl::unexpected(presenter.error());
 
-  settings.eye_px = {drawing.eye_width, drawing.eye_height};
-  settings.fixed_eye_size = options.eye_width > 0;
+  settings.picture.eye_px = {drawing.eye_width, drawing.eye_height};
+  settings.picture.fixed_eye_size = options.eye_width > 0;
   settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : window->refresh_hz();
   core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}; F1 shows the keys", drawing.eye_width,
                              drawing.eye_height, context->device_name()));
@@ -151,11 +151,12 @@ void add_picture_options(CLI::App& command, ViewOptions& options) {
                                                         {"right", StereoMode::Right},
                                                         {"side-by-side", StereoMode::SideBySide}};
   command
-      .add_option("--stereo", options.settings.stereo,
+      .add_option("--stereo", options.settings.picture.stereo,
                   "how the eyes are shown: mono, left, right, side-by-side; default: mono")
       ->transform(CLI::CheckedTransformer(kModes))
       ->type_name("MODE");
-  command.add_flag("--swap-eyes", options.settings.swap_eyes, "left and right exchanged; S does it while it runs");
+  command.add_flag("--swap-eyes", options.settings.picture.swap_eyes,
+                   "left and right exchanged; S does it while it runs");
   command.add_flag("--fullscreen", options.window.full_screen, "fill the monitor; F11 does it while it runs");
   command
       .add_option("--eye-width", options.eye_width,

@@ -302,6 +302,10 @@ std::vector<dmat4> WallScene::local_transforms(const Pose& pose, render::BeamBen
   place_probe(pose, local, bend);
   place_sample(pose, local);
   place_optics(pose, local);
+  if (pose.navigation != dmat4(1.0)) {
+    const dmat4 navigated = glm::inverse(room_from_layout_) * pose.navigation * room_from_layout_;
+    for (const scene::NodeIndex root : {sample_frame_, optics_}) local[root] = navigated * local[root];
+  }
   for (std::size_t i = 0; i < looks_.size(); ++i) local[looks_[i].swatch] = glm::translate(dmat4(1.0), swatch_place(i));
   if (pose.wand) place_wand(pose, local);
   return local;

@@ -76,6 +76,7 @@ class WallScene {
     std::optional<std::size_t> hovered{};
     std::optional<input::WandState> wand{};
     Instrument instrument = Instrument::Shown;
+    glm::dmat4 navigation{1.0};  // room from room: where sample and instrument have been moved, turned and scaled to
   };
 
   // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.

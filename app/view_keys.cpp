@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/view_keys.h"
+
+#include <array>
+
+namespace afm::app {
+
+namespace {
+
+struct KeyBinding {
+  render::Key key;
+  ViewAction action;
+  const char* what;  // as the list on the wall says it
+  const char* key_name;
+  const char* note;
+};
+
+constexpr std::array kBindings{
+    KeyBinding{render::Key::F2, ViewAction::ShowParameters, "Parameters", "F2", ""},
+    KeyBinding{render::Key::M, ViewAction::NextScale, "Scale of the hand", "M", "fit, compressed, common"},
+    KeyBinding{render::Key::R, ViewAction::BeginAgain, "Begin again", "R", ""},
+    KeyBinding{render::Key::P, ViewAction::HidePanels, "Hide the panels", "P", ""},
+    KeyBinding{render::Key::S, ViewAction::SwapEyes, "Swap the eyes", "S", ""},
+    KeyBinding{render::Key::F11, ViewAction::FullScreen, "Full screen", "F11", ""},
+    KeyBinding{render::Key::Escape, ViewAction::Leave, "End", "Esc", ""},
+    KeyBinding{render::Key::F1, ViewAction::ShowKeys, nullptr, "F1", ""},
+};
+
+}  // namespace
+
+std::optional<ViewAction> action_of(render::Key key) {
+  for (const KeyBinding& binding : kBindings) {
+    if (binding.key == key) return binding.action;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> digit(render::Key key) {
+  if (key < render::Key::Digit1 || key > render::Key::Digit9) return std::nullopt;
+  return static_cast<std::size_t>(key) - static_cast<std::size_t>(render::Key::Digit1);
+}
+
+render::DataPanel key_list(HandSource hand) {
+  render::DataPanel panel;
+  panel.title = "Keys";
+  panel.subtitle = "F1 hides them";
+  panel.rows = {{"Choose a sample", "left click, 1 to 9", ""}};
+  if (hand == HandSource::Mouse) {
+    panel.rows.insert(panel.rows.end(), {{"Move the hand", "hold right button",
+                                          "or the space bar, and drag: up, down, sideways; or the wheel"},
+                                         {"Turn-On", "T", "or the middle button"}});
+  }
+  for (const KeyBinding& binding : kBindings) {
+    if (binding.what != nullptr) panel.rows.push_back({binding.what, binding.key_name, binding.note});
+  }
+  return panel;
+}
+
+}  // namespace afm::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+
+#include "app/mouse_wand.h"
+#include "app/stage_setup.h"
+#include "render/presenter.h"
+#include "render/renderer.h"
+
+namespace afm::app {
+
+enum class StereoMode { Mono, Left, Right, SideBySide };
+
+struct PictureSettings {
+  StereoMode stereo = StereoMode::Mono;
+  bool swap_eyes = false;
+  glm::uvec2 eye_px{0};         // as the renderer was made
+  bool fixed_eye_size = false;  // else the eyes get as many pixels as the window has for them
+};
+
+// How many eyes stand beside each other in the picture.
+std::uint32_t eyes_beside(StereoMode mode);
+
+// How the live window shows the wall: for which eyes, in which layout, how large. The main thread alone.
+class ViewPicture {
+ public:
+  // All but the settings must outlive it.
+  ViewPicture(const Stage& stage, render::Window& window, render::Renderer& renderer, render::Presenter& presenter,
+              const PictureSettings& settings);
+
+  // Once a frame: the eye images get the pixels that the window has for them, once it has stopped changing.
+  void fit(std::int64_t now_ns);
+
+  void swap_eyes();
+
+  // What the next frame is drawn for, and where it will lie in the window.
+  WallPicture picture() const;
+
+  // Draws and shows a frame; calls `while_waiting` often.
+  void show(const render::FrameState& frame, const std::function<void()>& while_waiting);
+
+ private:
+  const Stage& stage_;
+  render::Window& window_;
+  render::Renderer& renderer_;
+  render::Presenter& presenter_;
+  PictureSettings settings_;
+  std::array<scene::EyeView, 2> eyes_;  // left and right of the stage, or twice the middle
+  glm::uvec2 eye_size_px_;              // as the renderer draws
+  glm::uvec2 window_size_px_{0};
+  std::int64_t window_steady_since_ns_ = 0;
+};
+
+}  // namespace afm::app
