@@ -59,6 +59,7 @@ std::vector<Triangle> triangles_below(const Scene& scene, NodeIndex root) {
     }
     if (!root_from_node[i] || !node.mesh) continue;
     for (const Primitive& primitive : scene.meshes[*node.mesh].primitives) {
+      if (primitive.topology != Topology::Triangles) continue;
       const auto corner = [&](std::size_t index) {
         return glm::dvec3(*root_from_node[i] *
                           glm::dvec4(glm::dvec3(primitive.vertices[primitive.indices[index]].position), 1.0));

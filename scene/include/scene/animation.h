@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace afm::scene {
+
+using NodeIndex = std::uint32_t;
+
+enum class Interpolation { Step, Linear, CubicSpline };
+
+// A value over time: `width` numbers a key; with CubicSpline three times as many, in-tangent, value and out-tangent.
+// There is at least one key, and the times rise.
+struct Track {
+  Interpolation interpolation = Interpolation::Linear;
+  std::size_t width = 0;
+  std::vector<float> times_s;
+  std::vector<float> values;
+};
+
+// What an animation does with one node; what has no track keeps its value at rest.
+struct AnimatedNode {
+  NodeIndex node = 0;
+  glm::dvec3 translation{0.0};
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+  glm::dvec3 scale{1.0};
+  std::optional<Track> translations{};
+  std::optional<Track> rotations{};  // x, y, z, w
+  std::optional<Track> scales{};
+  std::optional<Track> weights{};
+};
+
+struct Animation {
+  std::string name;
+  std::vector<AnimatedNode> nodes;
+  float length_s = 0.0F;  // the last key's time
+};
+
+// The value at a time, which is held before the first and behind the last key. Rotations are turned on the shortest
+// great circle (glTF 2.0, appendix C). Writes `track.width` numbers.
+void sample(const Track& track, float time_s, std::vector<float>& value);
+glm::dquat sample_rotation(const Track& track, float time_s);
+
+// What bends a mesh: one matrix a joint, from the mesh into the joint's frame at rest.
+struct Skin {
+  std::string name;
+  std::vector<NodeIndex> joints;
+  std::vector<glm::mat4> joint_from_mesh;
+};
+
+}  // namespace afm::scene
