@@ -258,8 +258,7 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
     if (!model) return tl::unexpected(model.error());
     auto servo = ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
     if (!servo) return tl::unexpected(servo.error());
-    Demonstration live(stage->wall_scene, stage->eyes, *plan, *renderer, **servo, clock,
-                       on_scale(options.scale, options.hand));
+    Demonstration live(*stage, *plan, *renderer, **servo, clock, on_scale(options.scale, options.hand));
     if (auto ran = live.run(result, say); !ran) return ran;
     renderer->wait();
   }

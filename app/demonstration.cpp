@@ -21,19 +21,19 @@ constexpr int kMostRestarts = 5;
 
 }  // namespace
 
-Demonstration::Demonstration(const WallScene& wall_scene, const std::array<scene::EyeView, 2>& eyes,
-                             const DemoPlan& plan, render::Renderer& renderer, ServoLink& servo,
+Demonstration::Demonstration(const Stage& stage, const DemoPlan& plan, render::Renderer& renderer, ServoLink& servo,
                              const core::Clock& clock, const HandPath& path)
-    : wall_scene_(wall_scene),
+    : wall_scene_(stage.wall_scene),
+      guidance_(stage.guidance),
       plan_(plan),
       materials_(plan.materials),
-      frames_(wall_scene, materials_, eyes),
+      frames_(wall_scene_, materials_, stage.eyes),
       renderer_(renderer),
       servo_(servo),
       clock_(clock),
       path_(path),
-      person_(wall_scene.wand_grip_m(), wall_scene.sample_normal(), path),
-      targets_(wall_scene.swatch_targets()),
+      person_(wall_scene_.wand_grip_m(), wall_scene_.sample_normal(), path),
+      targets_(wall_scene_.swatch_targets()),
       curves_(materials_.size()) {}
 
 core::Result<void> Demonstration::run(DemoResult& result, const Progress& progress) {
@@ -181,31 +181,31 @@ Moment Demonstration::moment(const input::WandState& wand, const input::Selector
   Moment now = moment_of(servo_.tip(), is_retracting(servo_.tip().z_m, deepest_z_m_));
   now.hovered = pointing.hovered;
   now.wand = wand;
-  now.guidance = guidance();
+  now.guidance = guidance_.text(hint());
   now.curves = curves_;
   now.servo = servo_rows(servo_.tip(), servo_.timing(), servo_.device());
   return now;
 }
 
-std::string Demonstration::guidance() const {
+Hint Demonstration::hint() const {
   using Step = SimulatedPerson::Step;
   switch (person_.step()) {
     case Step::PointAtSwatch:
     case Step::PressSelect:
-      return "Point at a sample and press";
+      return Hint::ChooseSample;
     case Step::Lift:
-      return "Lift the pen to its top";
+      return Hint::Lift;
     case Step::PressTurnOn:
-      return "Press Turn-On to feel the force";
+      return Hint::TurnOn;
     case Step::MoveDown:
-      return "Move down until the beam bends";
+      return Hint::MoveDown;
     case Step::MoveUp:
-      return "Move up until it lets go";
+      return Hint::MoveUp;
     case Step::Rest:
     case Step::Done:
       break;
   }
-  return "One full cycle: approach and retract";
+  return Hint::LetGo;
 }
 
 Moment moment_of(const RecordedSession& session, std::size_t material, std::int64_t time_ns,

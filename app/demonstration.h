@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "app/frame_builder.h"
+#include "app/guidance.h"
 #include "app/live_servo.h"
 #include "app/report.h"
 #include "app/servo_link.h"
 #include "app/session_recorder.h"
 #include "app/simulated_person.h"
+#include "app/stage_setup.h"
 #include "core/clock.h"
 #include "render/renderer.h"
 
@@ -32,8 +34,8 @@ class Demonstration {
   using Progress = std::function<void(const std::string&)>;
 
   // Everything must outlive it.
-  Demonstration(const WallScene& wall_scene, const std::array<scene::EyeView, 2>& eyes, const DemoPlan& plan,
-                render::Renderer& renderer, ServoLink& servo, const core::Clock& clock, const HandPath& path);
+  Demonstration(const Stage& stage, const DemoPlan& plan, render::Renderer& renderer, ServoLink& servo,
+                const core::Clock& clock, const HandPath& path);
 
   // Until every cycle is done. Fails when the servo dies, when something that must happen does not, or on SIGINT or
   // SIGTERM. Fills sessions, variations, frame times and the servo's timing of the result.
@@ -49,9 +51,10 @@ class Demonstration {
   core::Result<void> take_news(std::int64_t now_ns);
   void forget_cycle(std::size_t material);
   Moment moment(const input::WandState& wand, const input::Selector::Result& pointing) const;
-  std::string guidance() const;
+  Hint hint() const;
 
   const WallScene& wall_scene_;
+  const Guidance& guidance_;
   const DemoPlan& plan_;
   std::vector<FeltMaterial> materials_;  // as they are felt now
   FrameBuilder frames_;

@@ -6,7 +6,6 @@
 #include <thread>
 #include <utility>
 
-#include "app/guidance.h"
 #include "app/interruption.h"
 #include "app/servo_rows.h"
 #include "core/log.h"
@@ -193,11 +192,11 @@ Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
   now.curves = cycles.curves();
   now.hovered = pointed.swatch;
   now.wand = wand_.towards(pointed.point_m, now_ns);
-  now.guidance = guidance(servo.tip(), cycles.ascending(), cycles.cycles());
+  now.guidance = stage_.guidance.line(servo.tip(), cycles.ascending(), cycles.cycles());
   now.servo = servo_rows(servo.tip(), servo.timing(), servo.device());
   if (!servo_.running()) {
     now.servo_state = scene::ServoState::Fault;
-    now.guidance = "The servo has ended: no force reaches the hand. R starts it again";
+    now.guidance = stage_.guidance.text(Hint::ServoEnded);
   }
   return now;
 }

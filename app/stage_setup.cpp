@@ -66,7 +66,9 @@ core::Result<Stage> load_stage(const StageFiles& files) {
   auto wall_scene =
       WallScene::load(files.assets_dir, *materials, wall->screens.front(), wall->viewers.front().sweet_spot.position_m);
   if (!wall_scene) return tl::unexpected(wall_scene.error());
-  return Stage{std::move(*materials), std::move(*wall), *eyes, std::move(*wall_scene)};
+  auto guidance = Guidance::load(files.guidance.empty() ? files.assets_dir + "/guidance/en.toml" : files.guidance);
+  if (!guidance) return tl::unexpected(guidance.error());
+  return Stage{std::move(*materials), std::move(*wall), *eyes, std::move(*wall_scene), std::move(*guidance)};
 }
 
 void add_stage_options(CLI::App& command, StageFiles& files, const CommandContext& context) {
@@ -78,6 +80,10 @@ void add_stage_options(CLI::App& command, StageFiles& files, const CommandContex
   command
       .add_option("--materials", files.materials,
                   "material file (TOML) of your own, shown instead of mica, gold and silicon nitride of the paper")
+      ->type_name("FILE");
+  command
+      .add_option("--guidance", files.guidance,
+                  "what the wall tells a person to do, in another language (TOML, such as assets/guidance/de.toml)")
       ->type_name("FILE");
   command.add_option("--assets", files.assets_dir, "folder of the models, walls and materials")->type_name("DIR");
 }

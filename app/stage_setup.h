@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/guidance.h"
 #include "app/wall_scene.h"
 #include "core/result.h"
 #include "render/renderer.h"
@@ -23,6 +24,7 @@ inline constexpr std::size_t kMostMaterials = 9;
 struct StageFiles {
   std::string assets_dir;
   std::string wall;                         // empty: the paper's wall in the assets
+  std::string guidance;                     // empty: English, in the assets
   std::string materials;                    // a file of the user's own; empty: none
   std::vector<std::string> shown;           // names; empty: those of the user's file, or the paper's three
   std::vector<scene::MaterialEntry> added;  // shown behind those
@@ -34,6 +36,7 @@ struct Stage {
   scene::Wall wall;
   std::array<scene::EyeView, 2> eyes;
   WallScene wall_scene;
+  Guidance guidance;
 
   // Square pixels: the height follows the wall's proportions.
   render::RendererOptions renderer_options(std::uint32_t eye_width) const;
