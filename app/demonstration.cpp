@@ -34,6 +34,7 @@ Demonstration::Demonstration(const Stage& stage, const DemoPlan& plan, render::R
       path_(path),
       person_(wall_scene_.wand_grip_m(), wall_scene_.sample_normal(), path),
       targets_(wall_scene_.swatch_targets()),
+      between_eyes_m_(0.5 * (stage.eyes[0].eye_position_m + stage.eyes[1].eye_position_m)),
       curves_(materials_.size()) {}
 
 core::Result<void> Demonstration::run(DemoResult& result, const Progress& progress) {
@@ -139,7 +140,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
 
   // the wand's ray and button choose, as they would in a visitor's hand
   const input::WandState wand = person_.wand(now_ns);
-  const input::Selector::Result pointing = selector_.update(wand, targets_);
+  const input::Selector::Result pointing = selector_.update(wand, between_eyes_m_, targets_);
   if (pointing.chosen) servo_.choose(static_cast<std::int32_t>(*pointing.chosen), plan_.scale);
 
   const Moment now = moment(wand, pointing);

@@ -65,6 +65,7 @@ class Demonstration {
   SimulatedPerson person_;
   input::Selector selector_;
   std::vector<input::Target> targets_;
+  glm::dvec3 between_eyes_m_;
 
   SessionRecorder recorder_;
   double deepest_z_m_ = 0;

@@ -25,8 +25,8 @@ input::WandState MouseWand::towards(const glm::dvec3& target_m, std::int64_t now
   return {.time_ns = now_ns,
           .position_m = grip_m_,
           .room_from_wand = glm::rotation(glm::dvec3(0.0, 0.0, -1.0), direction),
-          .pose_valid = true,
-          .select_pressed = false};
+          .orientation_valid = true,
+          .connected = true};
 }
 
 glm::dvec3 MouseWand::wall_point(const input::Ray& ray) const {

@@ -61,8 +61,10 @@ WandState SimulatedWand::state(std::int64_t now_ns) const {
   state.time_ns = now_ns;
   state.position_m = grip_m_;
   state.room_from_wand = looking_along(aim_direction(now_ns) + tremor);
-  state.pose_valid = true;
-  state.select_pressed = now_ns >= press_start_ns_ && now_ns < press_end_ns_;
+  state.orientation_valid = true;
+  state.position_valid = true;
+  state.connected = true;
+  if (now_ns >= press_start_ns_ && now_ns < press_end_ns_) state.buttons = bit(WandButton::Select);
   return state;
 }
 

@@ -13,8 +13,8 @@
 #include "named_entries.h"
 #include "physics/quantity_text.h"
 #include "scene/shared_blocks.h"
+#include "scene/toml_fault.h"
 #include "sourced_table.h"
-#include "toml_fault.h"
 
 namespace afm::scene {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "toml_fault.h"
+#include "scene/toml_fault.h"
 
 namespace afm::scene {
 

@@ -12,8 +12,8 @@
 #include "physics/cantilever.h"
 #include "physics/interaction.h"
 #include "physics/quantity_text.h"
+#include "scene/toml_fault.h"
 #include "sourced_table.h"
-#include "toml_fault.h"
 
 namespace afm::scene {
 namespace {

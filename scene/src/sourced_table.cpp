@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "toml_fault.h"
+#include "scene/toml_fault.h"
 
 namespace afm::scene {
 

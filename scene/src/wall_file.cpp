@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "physics/quantity_text.h"
+#include "scene/toml_fault.h"
 #include "scene/wall.h"
-#include "toml_fault.h"
 
 namespace afm::scene {
 

@@ -58,8 +58,8 @@ TEST(Pick, FindsNothingBehindTheWand) {
 
 WandState pointing_at_first(bool pressed) {
   WandState wand;
-  wand.pose_valid = true;
-  wand.select_pressed = pressed;
+  wand.orientation_valid = true;
+  if (pressed) wand.buttons = bit(WandButton::Select);
   return wand;
 }
 
@@ -77,7 +77,7 @@ TEST(Selector, ChoosesNothingWithoutAPose) {
   const std::vector<Target> targets{{{0.0, 0.0, -2.0}, 0.2}};
   Selector selector;
   WandState lost = pointing_at_first(true);
-  lost.pose_valid = false;
+  lost.orientation_valid = false;
   const Selector::Result result = selector.update(lost, targets);
   EXPECT_EQ(result.hovered, std::nullopt);
   EXPECT_EQ(result.chosen, std::nullopt);

@@ -38,9 +38,9 @@ TEST(SimulatedWand, HoversOnlyTheSwatchThatItAimsAtWhileItsHandTrembles) {
 TEST(SimulatedWand, HoldsTheButtonAsLongAsItWasTold) {
   SimulatedWand wand({0, 1, 2});
   wand.press(0.2, kSecond);
-  EXPECT_FALSE(wand.state(kSecond - 1).select_pressed);
-  EXPECT_TRUE(wand.state(kSecond).select_pressed);
-  EXPECT_FALSE(wand.state(kSecond + kSecond / 5).select_pressed);
+  EXPECT_FALSE(wand.state(kSecond - 1).pressed(WandButton::Select));
+  EXPECT_TRUE(wand.state(kSecond).pressed(WandButton::Select));
+  EXPECT_FALSE(wand.state(kSecond + kSecond / 5).pressed(WandButton::Select));
 }
 
 }  // namespace

@@ -21,8 +21,13 @@ struct Target {
 // ray hits, the nearest to the wand. The bubble ray of Lu, Yu and Shi (2020) with angular distance.
 std::optional<std::size_t> pick(const Ray& ray, double cone_rad, std::span<const Target> targets);
 
+// Whether the eye sees the middle of a target: no other target stands before it. What the hand could point at round a
+// corner, but the person does not see, is not what is meant (Argelaguet and Andujar 2009).
+bool seen_from(const glm::dvec3& eye_m, std::size_t target, std::span<const Target> targets);
+
 // Turns pointing and pressing into a choice: a target is chosen when the select button goes down while the ray is on
-// it.
+// it. Of the targets that the eye sees, the ray snaps to the nearest within kPickConeRad, and lets it go for another
+// only when that one is nearer by kStickRad: a hand that trembles between two of them does not flicker.
 class Selector {
  public:
   struct Result {
@@ -30,14 +35,17 @@ class Selector {
     std::optional<std::size_t> chosen;  // only in the frame of the press
   };
 
-  // Once a frame. An invalid pose hovers nothing and chooses nothing.
-  Result update(const WandState& wand, std::span<const Target> targets);
+  // Once a frame; the targets keep their order. A wand that points nowhere hovers nothing and chooses nothing.
+  Result update(const WandState& wand, const glm::dvec3& eye_m, std::span<const Target> targets);
 
  private:
+  std::optional<std::size_t> hovered_;
   bool was_pressed_ = false;
 };
 
 // Snapping distance of the bubble ray.
 inline constexpr double kPickConeRad = 5.0 * 3.14159265358979323846 / 180.0;
+// Twice the jitter of a hand at rest (0.5 degrees RMS, tests/input/simulated_user_test.cpp).
+inline constexpr double kStickRad = 1.0 * 3.14159265358979323846 / 180.0;
 
 }  // namespace afm::input

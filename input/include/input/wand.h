@@ -7,13 +7,36 @@
 
 namespace afm::input {
 
-// What every wand gives, whatever it is made of. Room frame, metres; the ray leaves the wand along its -z.
+// By what they do, whatever they are called on the device; the values are bits of WandState::buttons.
+enum class WandButton : std::uint32_t {
+  Select = 1,     // chooses what the ray points at
+  Grab = 2,       // held: the scene moves with the wand
+  Scale = 4,      // held: the wand makes the scene larger and smaller
+  Home = 8,       // the scene goes back to where it was
+  Recenter = 16,  // where the wand points now is straight ahead
+};
+
+constexpr std::uint32_t bit(WandButton button) { return static_cast<std::uint32_t>(button); }
+
+// How a wand moves the scene while Grab is held: by its pose, or by pushing a cap that springs back.
+enum class WandMotion : std::uint32_t { Absolute = 0, Rate = 1 };
+
+// What every wand gives, whatever it is made of. Room frame, metres, right-handed, +y up; the ray leaves the wand along
+// its -z. Trivially copyable, so that it crosses threads by core::LatestValue.
 struct WandState {
-  std::int64_t time_ns = 0;
+  std::int64_t time_ns = 0;  // when the newest report came in
   glm::dvec3 position_m{0.0};
   glm::dquat room_from_wand{1.0, 0.0, 0.0, 0.0};
-  bool pose_valid = false;
-  bool select_pressed = false;
+  bool orientation_valid = false;  // without it the wand points nowhere
+  bool position_valid = false;     // else position_m is where the hand is taken to be
+  bool connected = false;
+  WandMotion motion = WandMotion::Absolute;
+  std::uint32_t buttons = 0;  // of WandButton
+  // how far the cap or the stick is pushed along, and turned about, the room's axes: -1 to 1
+  glm::dvec3 push{0.0};
+  glm::dvec3 turn{0.0};
+
+  bool pressed(WandButton button) const { return (buttons & bit(button)) != 0; }
 };
 
 struct Ray {

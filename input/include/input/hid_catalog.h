@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "input/hid_mapping.h"
+#include "input/hid_report.h"
+
+namespace afm::input {
+
+// As an HID device introduces itself.
+struct HidIdentity {
+  std::uint16_t vendor = 0;
+  std::uint16_t product = 0;
+  std::uint16_t usage_page = 0;
+  std::uint16_t usage = 0;
+};
+
+struct KnownHid {
+  std::string name;
+  std::function<std::unique_ptr<HidDriver>()> make;  // empty: known not to be a wand
+};
+
+// What is known of a device, empty for one that nobody has described. A mapping comes before what is built in.
+std::optional<KnownHid> identify(const HidIdentity& device, std::span<const HidMapping> mappings);
+
+}  // namespace afm::input

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+// What HID wands have in common: bytes of a report in, what the hand did out.
+namespace afm::input {
+
+using Bytes = std::span<const std::uint8_t>;
+
+// Little-endian numbers; `at` must lie within the bytes.
+constexpr std::uint16_t unsigned16(Bytes bytes, std::size_t at) {
+  return static_cast<std::uint16_t>(bytes[at] | (bytes[at + 1] << 8));
+}
+constexpr std::int16_t signed16(Bytes bytes, std::size_t at) {
+  return static_cast<std::int16_t>(unsigned16(bytes, at));
+}
+constexpr std::uint32_t unsigned32(Bytes bytes, std::size_t at) {
+  return unsigned16(bytes, at) | (static_cast<std::uint32_t>(unsigned16(bytes, at + 2)) << 16);
+}
+
+// One reading of gyroscope and accelerometer in the wand's frame: x to the right, y out of its upper side, z towards
+// the hand, so that it points along -z. A wand at rest reads +1 g upwards.
+struct ImuSample {
+  glm::dvec3 rate_rad_per_s{0.0};
+  glm::dvec3 acceleration_g{0.0};
+};
+
+// What one report says; what it does not mention is empty and stays as it was. `push` and `turn` as in WandState.
+struct HidInput {
+  std::optional<glm::dvec3> push;
+  std::optional<glm::dvec3> turn;
+  std::optional<std::uint32_t> buttons;  // of WandButton
+  std::array<ImuSample, 3> imu;
+  std::size_t imu_count = 0;                   // over the time since the report before, evenly
+  bool has_gyro = true;                        // of the imu samples
+  std::optional<double> yaw_from_forward_rad;  // of a wand that sees a beacon straight ahead
+};
+
+// A feature report that a device must be asked for after opening, `times` times.
+struct FeatureRequest {
+  std::uint8_t id = 0;
+  std::size_t size = 0;
+  int times = 1;
+};
+
+// One device's protocol. Total functions over bytes: whatever comes, an answer or a refusal. One thread.
+class HidDriver {
+ public:
+  HidDriver() = default;
+  HidDriver(const HidDriver&) = delete;
+  HidDriver& operator=(const HidDriver&) = delete;
+  virtual ~HidDriver() = default;
+
+  // Empty: not a report that the device sends, or damaged.
+  virtual std::optional<HidInput> read(Bytes report) = 0;
+
+  // Whether the cap or the stick steers the ray; else the wand is pointed by turning it.
+  virtual bool steered() const { return false; }
+
+  // Output reports that make the device send what read() understands.
+  virtual std::vector<std::vector<std::uint8_t>> set_up() const { return {}; }
+
+  // The calibration that the device keeps, if any; what it is without is used when it makes no sense.
+  virtual std::optional<FeatureRequest> calibration() const { return std::nullopt; }
+  virtual void calibrate(std::span<const std::vector<std::uint8_t>> reports) { static_cast<void>(reports); }
+};
+
+}  // namespace afm::input

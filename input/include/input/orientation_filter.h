@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include "input/hid_report.h"
+
+namespace afm::input {
+
+// How a wand is turned, from its gyroscope and accelerometer: Mahony, Hamel and Pflimlin (2008), the explicit
+// complementary filter, with the direction of gravity alone. Tilt is absolute; heading starts at zero and drifts with
+// what is left of the gyroscope's bias, which is measured whenever the wand lies still. One thread.
+class OrientationFilter {
+ public:
+  // `duration_s` > 0 since the sample before. Without a gyroscope the tilt follows gravity and the heading stands
+  // still.
+  void add(const ImuSample& sample, double duration_s, bool has_gyro = true);
+
+  bool valid() const { return started_; }
+  const glm::dquat& level_from_wand() const { return level_from_wand_; }  // +y of the level frame is up
+  const glm::dvec3& bias_rad_per_s() const { return bias_; }
+
+  // Angle from -z to where the wand points, about +y; 0 where it points straight up or down.
+  double heading_rad() const;
+
+ private:
+  void start(const glm::dvec3& up);
+  void watch_rest(const ImuSample& sample, double duration_s);
+
+  glm::dquat level_from_wand_{1.0, 0.0, 0.0, 0.0};
+  glm::dvec3 bias_{0.0};
+  bool started_ = false;
+
+  // of the stretch of time that is being watched
+  glm::dvec3 rate_low_{0.0}, rate_high_{0.0}, rate_sum_{0.0};
+  glm::dvec3 pull_low_{0.0}, pull_high_{0.0};
+  double watched_s_ = 0.0;
+  int watched_samples_ = 0;
+};
+
+}  // namespace afm::input

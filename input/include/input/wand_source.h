@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include "core/latest_value.h"
+#include "input/wand.h"
+
+namespace afm::input {
+
+// Where a wand's state comes from. Used by one thread, which may wait in it.
+class WandSource {
+ public:
+  WandSource() = default;
+  WandSource(const WandSource&) = delete;
+  WandSource& operator=(const WandSource&) = delete;
+  virtual ~WandSource() = default;
+
+  // Takes what has come in, waiting for it for 10 ms at most, and returns the newest state. Never fails: a wand that is
+  // not there is not `connected`.
+  virtual WandState poll() = 0;
+};
+
+// Polls a source on a thread of its own, off the render thread, and publishes the newest state.
+class WandThread {
+ public:
+  explicit WandThread(std::unique_ptr<WandSource> source);
+  WandThread(const WandThread&) = delete;
+  WandThread& operator=(const WandThread&) = delete;
+  ~WandThread();
+
+  // Any thread. Not connected before the first state has come.
+  WandState newest() const { return newest_.load().value_or(WandState{}); }
+
+ private:
+  void run();
+
+  std::unique_ptr<WandSource> source_;
+  core::LatestValue<WandState> newest_;
+  std::atomic<bool> ending_{false};
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace afm::input
