@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtx/quaternion.hpp>
 #include <numbers>
 #include <vector>
 
@@ -56,6 +57,8 @@ TEST(Pick, FindsNothingBehindTheWand) {
   EXPECT_EQ(pick({{0, 0, 0}, {0, 0, -1}}, kPickConeRad, targets), std::nullopt);
 }
 
+constexpr glm::dvec3 kEye(0.0, 0.3, 0.0);
+
 WandState pointing_at_first(bool pressed) {
   WandState wand;
   wand.orientation_valid = true;
@@ -66,11 +69,11 @@ WandState pointing_at_first(bool pressed) {
 TEST(Selector, ChoosesOnceForEachPress) {
   const std::vector<Target> targets{{{0.0, 0.0, -2.0}, 0.2}};
   Selector selector;
-  EXPECT_EQ(selector.update(pointing_at_first(false), targets).hovered, 0U);
-  EXPECT_EQ(selector.update(pointing_at_first(true), targets).chosen, 0U);
-  EXPECT_EQ(selector.update(pointing_at_first(true), targets).chosen, std::nullopt);
-  EXPECT_EQ(selector.update(pointing_at_first(false), targets).chosen, std::nullopt);
-  EXPECT_EQ(selector.update(pointing_at_first(true), targets).chosen, 0U);
+  EXPECT_EQ(selector.update(pointing_at_first(false), kEye, targets).hovered, 0U);
+  EXPECT_EQ(selector.update(pointing_at_first(true), kEye, targets).chosen, 0U);
+  EXPECT_EQ(selector.update(pointing_at_first(true), kEye, targets).chosen, std::nullopt);
+  EXPECT_EQ(selector.update(pointing_at_first(false), kEye, targets).chosen, std::nullopt);
+  EXPECT_EQ(selector.update(pointing_at_first(true), kEye, targets).chosen, 0U);
 }
 
 TEST(Selector, ChoosesNothingWithoutAPose) {
@@ -78,9 +81,35 @@ TEST(Selector, ChoosesNothingWithoutAPose) {
   Selector selector;
   WandState lost = pointing_at_first(true);
   lost.orientation_valid = false;
-  const Selector::Result result = selector.update(lost, targets);
+  const Selector::Result result = selector.update(lost, kEye, targets);
   EXPECT_EQ(result.hovered, std::nullopt);
   EXPECT_EQ(result.chosen, std::nullopt);
+}
+
+TEST(Selector, TakesAButtonThatStayedDownWhileThePoseWasLostForNoNewPress) {
+  const std::vector<Target> targets{{{0.0, 0.0, -2.0}, 0.2}};
+  Selector selector;
+  selector.update(pointing_at_first(true), kEye, targets);
+  WandState lost = pointing_at_first(true);
+  lost.orientation_valid = false;
+  selector.update(lost, kEye, targets);
+  EXPECT_EQ(selector.update(pointing_at_first(true), kEye, targets).chosen, std::nullopt);
+}
+
+// The hand is low and points below the front target at the one behind it, which the eye cannot see.
+TEST(Selector, HoversWhatTheEyeSeesThoughTheHandReachesBehindIt) {
+  const std::vector<Target> targets{{{0.0, 0.0, -2.0}, 0.3}, {{0.0, 0.0, -3.0}, 0.2}};
+  const glm::dvec3 eye(0.0, 0.0, 0.0);
+  EXPECT_TRUE(seen_from(eye, 0, targets));
+  EXPECT_FALSE(seen_from(eye, 1, targets));
+  WandState wand = pointing_at_first(false);
+  wand.position_m = {0.0, -0.8, 0.0};
+  const glm::dvec3 direction = glm::normalize(glm::dvec3(0.0, 0.69, -3.0));
+  wand.room_from_wand = glm::rotation(glm::dvec3(0.0, 0.0, -1.0), direction);
+  ASSERT_EQ(pick(ray_of(wand), kPickConeRad, targets), 1U);
+  Selector selector;
+  EXPECT_EQ(selector.update(wand, eye, targets).hovered, 0U);
+  EXPECT_EQ(Selector().update(wand, {0.0, 2.0, 0.0}, targets).hovered, 1U);
 }
 
 }  // namespace

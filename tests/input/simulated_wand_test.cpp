@@ -31,7 +31,7 @@ TEST(SimulatedWand, HoversOnlyTheSwatchThatItAimsAtWhileItsHandTrembles) {
   wand.aim_at(swatches[1].center_m, 0.5, 0);
   Selector selector;
   for (std::int64_t t = kSecond; t < 11 * kSecond; t += kSecond / 60) {
-    ASSERT_EQ(selector.update(wand.state(t), swatches).hovered, 1U) << "at " << t << " ns";
+    ASSERT_EQ(selector.update(wand.state(t), {0.0, 1.65, 2.5}, swatches).hovered, 1U) << "at " << t << " ns";
   }
 }
 

@@ -1,0 +1,446 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "input/dualsense.h"
+#include "input/hid_catalog.h"
+#include "input/hid_mapping.h"
+#include "input/joycon.h"
+#include "input/psmove.h"
+#include "input/spacemouse.h"
+#include "input/wand.h"
+#include "input/wiimote.h"
+
+namespace afm::input {
+namespace {
+
+using Report = std::vector<std::uint8_t>;
+constexpr double kRadPerDegree = std::numbers::pi / 180.0;
+
+Report from_hex(const std::string& text) {
+  std::istringstream in(text);
+  Report report;
+  for (unsigned byte = 0; in >> std::hex >> byte;) report.push_back(static_cast<std::uint8_t>(byte));
+  return report;
+}
+
+// ---- the rows hid_* of the research's test vectors ----
+
+struct Row {
+  std::string convention;
+  Report report;
+  std::vector<long> expected;
+};
+
+std::vector<Row> hid_rows() {
+  std::ifstream file(AFM_SOURCE_DIR "/tests/scene/data/stereo_cases.csv");
+  std::vector<Row> rows;
+  for (std::string line; std::getline(file, line);) {
+    std::vector<std::string> cells;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+    if (cells.size() < 6 || cells[1] != "hid") continue;
+    std::istringstream numbers(cells[5]);
+    Row row{cells[2], from_hex(cells[4]), {}};
+    for (long number = 0; numbers >> number;) row.expected.push_back(number);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<long> parsed(const Row& row) {
+  const auto refused = std::vector<long>{-1};
+  if (row.convention.rfind("spacemouse", 0) == 0) {
+    const auto report = parse_spacemouse(row.report);
+    if (!report) return refused;
+    std::vector<long> values{row.report[0]};
+    for (const auto& triple : {report->translation, report->rotation}) {
+      if (triple) values.insert(values.end(), triple->begin(), triple->end());
+    }
+    if (report->buttons) values.push_back(static_cast<long>(*report->buttons));
+    return values;
+  }
+  if (row.convention.rfind("wiimote", 0) == 0) {
+    const auto report = parse_wiimote(row.report);
+    return report ? std::vector<long>{report->buttons} : refused;
+  }
+  const auto report = parse_dualsense(row.report);
+  if (!report) return refused;
+  const DualSenseReport& r = *report;
+  return {r.left_stick[0],   r.left_stick[1],   r.right_stick[0],  r.right_stick[1],
+          r.triggers[0],     r.triggers[1],     r.sequence,        r.buttons[0] & 15,
+          r.buttons[0] >> 4, r.gyro[0],         r.gyro[1],         r.gyro[2],
+          r.acceleration[0], r.acceleration[1], r.acceleration[2], static_cast<long>(r.ticks)};
+}
+
+TEST(ResearchVectors, OfHidReportsAreReadAsTheySay) {
+  const std::vector<Row> rows = hid_rows();
+  ASSERT_EQ(rows.size(), 6U);
+  for (const Row& row : rows) EXPECT_EQ(parsed(row), row.expected) << row.convention;
+}
+
+// ---- SpaceMouse ----
+
+TEST(SpaceMouse, OfTheWirelessKindSaysAllSixAxesInOneReport) {
+  const auto report = parse_spacemouse(from_hex("01 5e 01 a2 fe 10 00 f4 ff 00 00 5d 01"));
+  ASSERT_TRUE(report && report->translation && report->rotation);
+  EXPECT_EQ(*report->translation, (std::array<std::int16_t, 3>{350, -350, 16}));
+  EXPECT_EQ(*report->rotation, (std::array<std::int16_t, 3>{-12, 0, 349}));
+}
+
+TEST(SpaceMouse, RefusesReportsOfAnyOtherLength) {
+  for (const std::size_t size : {0U, 1U, 2U, 6U, 8U, 12U}) {
+    Report report(size, 0);
+    if (size > 0) report[0] = 1;
+    EXPECT_FALSE(parse_spacemouse(report)) << size;
+    if (size > 0) report[0] = 2;
+    EXPECT_FALSE(parse_spacemouse(report)) << size;
+  }
+  EXPECT_FALSE(parse_spacemouse(from_hex("03")));
+  EXPECT_FALSE(parse_spacemouse(from_hex("17 00 00 00 00 00 00")));
+}
+
+TEST(SpaceMouse, MovesThingsAlongTheRoomsAxes) {
+  const auto driver = spacemouse_driver();
+  // pushed to the right, towards the user, and pressed down
+  const auto push = driver->read(from_hex("01 5e 01 5e 01 5e 01"));
+  ASSERT_TRUE(push && push->push);
+  EXPECT_EQ(*push->push, glm::dvec3(1.0, -1.0, 1.0));
+  // beyond the nominal stop
+  EXPECT_EQ(*driver->read(from_hex("02 f4 01 00 00 00 00"))->turn, glm::dvec3(1.0, 0.0, 0.0));
+}
+
+TEST(SpaceMouse, HasAMeaningForEveryButton) {
+  const auto driver = spacemouse_driver();
+  EXPECT_EQ(driver->read(from_hex("03 01 00"))->buttons, bit(WandButton::Select));
+  EXPECT_EQ(driver->read(from_hex("03 02 00"))->buttons, bit(WandButton::Grab));
+  EXPECT_EQ(driver->read(from_hex("03 03 00"))->buttons, bit(WandButton::Scale));
+  EXPECT_EQ(driver->read(from_hex("03 04 00"))->buttons, bit(WandButton::Home));
+  EXPECT_EQ(driver->read(from_hex("03 00 00"))->buttons, 0U);
+}
+
+// ---- Wii Remote ----
+
+TEST(WiiRemote, SaysWhichWayIsUpInTenBits) {
+  // flat on a table: x and y at rest, z at one g, 512 + 104 = 616 = 154 * 4
+  const auto report = parse_wiimote(from_hex("31 00 00 80 80 9a"));
+  ASSERT_TRUE(report && report->acceleration);
+  EXPECT_EQ(*report->acceleration, (std::array<std::uint16_t, 3>{512, 512, 616}));
+  // the low bits stand among the buttons
+  const auto fine = parse_wiimote(from_hex("31 60 60 80 80 9a"));
+  EXPECT_EQ(*fine->acceleration, (std::array<std::uint16_t, 3>{515, 514, 618}));
+  EXPECT_EQ(fine->buttons, 0U);
+}
+
+TEST(WiiRemote, SeesDotsInBothLayouts) {
+  // x = 0x2a1, y = 0x1b2
+  const auto extended = parse_wiimote(from_hex("33 00 00 80 80 9a a1 b2 65 ff ff ff ff ff ff ff ff ff"));
+  ASSERT_TRUE(extended && extended->dots[0]);
+  EXPECT_EQ(extended->dots[0]->x, 0x2a1);
+  EXPECT_EQ(extended->dots[0]->y, 0x1b2);
+  EXPECT_FALSE(extended->dots[1] || extended->dots[2] || extended->dots[3]);
+  const auto basic = parse_wiimote(from_hex("37 00 00 80 80 9a a1 b2 65 11 22 ff ff ff ff ff 00 00 00 00 00 00"));
+  ASSERT_TRUE(basic && basic->dots[0] && basic->dots[1]);
+  EXPECT_EQ(basic->dots[0]->x, 0x2a1);
+  EXPECT_EQ(basic->dots[0]->y, 0x1b2);
+  EXPECT_EQ(basic->dots[1]->x, 0x111);
+  EXPECT_EQ(basic->dots[1]->y, 0x122);
+  EXPECT_FALSE(basic->dots[2] || basic->dots[3]);
+}
+
+TEST(WiiRemote, RefusesShortReports) {
+  for (const int id : {0x30, 0x31, 0x33, 0x37}) {
+    const std::size_t whole = id == 0x30 ? 3 : id == 0x31 ? 6 : id == 0x33 ? 18 : 22;
+    Report report(whole, 0);
+    report[0] = static_cast<std::uint8_t>(id);
+    EXPECT_TRUE(parse_wiimote(report)) << id;
+    report.pop_back();
+    EXPECT_FALSE(parse_wiimote(report)) << id;
+  }
+}
+
+// ---- DualSense ----
+
+Report dualsense_bluetooth() {
+  Report report(78, 0);
+  report[0] = 0x31;
+  report[2] = 200;        // left stick to the right
+  report[9] = 0x28;       // cross
+  report[23 + 3] = 0x20;  // 8192 along y
+  const std::uint32_t crc = sony_crc32(0xA1, Bytes(report).first(74));
+  for (std::size_t i = 0; i < 4; ++i) report[74 + i] = static_cast<std::uint8_t>(crc >> (8 * i));
+  return report;
+}
+
+TEST(DualSense, IsBelievedOverBluetoothOnlyWithItsChecksum) {
+  Report report = dualsense_bluetooth();
+  const auto good = parse_dualsense(report);
+  ASSERT_TRUE(good);
+  EXPECT_EQ(good->left_stick[0], 200);
+  EXPECT_EQ(good->acceleration[1], 8192);
+  for (const std::size_t damaged : {1U, 30U, 77U}) {
+    Report bad = report;
+    bad[damaged] ^= 0x10;
+    EXPECT_FALSE(parse_dualsense(bad)) << damaged;
+  }
+  report.pop_back();
+  EXPECT_FALSE(parse_dualsense(report));
+}
+
+// The check value of CRC-32, of "123456789".
+TEST(DualSense, HasTheChecksumOfTheStandard) {
+  const std::string rest = "23456789";
+  EXPECT_EQ(sony_crc32('1', Bytes(reinterpret_cast<const std::uint8_t*>(rest.data()), rest.size())), 0xCBF43926U);
+}
+
+TEST(DualSense, AtRestFeelsOneGUpwards) {
+  const auto driver = dualsense_driver();
+  const auto input = driver->read(dualsense_bluetooth());
+  ASSERT_TRUE(input && input->imu_count == 1);
+  EXPECT_NEAR(input->imu[0].acceleration_g.y, 1.0, 1e-12);
+  EXPECT_EQ(input->buttons, bit(WandButton::Select));
+  EXPECT_NEAR(input->push->x, 72.0 / 127.0, 1e-12);
+}
+
+TEST(DualSense, CalibrationTurnsCountsIntoDegreesASecond) {
+  Report report(41, 0);
+  report[0] = 5;
+  const auto put = [&](std::size_t at, std::int16_t value) {
+    report[at] = static_cast<std::uint8_t>(value & 0xFF);
+    report[at + 1] = static_cast<std::uint8_t>((value >> 8) & 0xFF);
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    put(1 + 2 * i, 7);
+    put(7 + 4 * i, 8847);
+    put(9 + 4 * i, -8833);
+    put(23 + 4 * i, 8200);
+    put(25 + 4 * i, -8184);
+  }
+  put(19, 540);
+  put(21, 540);
+  const DualSenseCalibration calibration = parse_dualsense_calibration(report);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR((8847 - calibration.gyro_bias[i]) * calibration.gyro_gain[i], 540.0 * kRadPerDegree, 1e-9);
+    EXPECT_NEAR((8200 - calibration.acceleration_bias[i]) * calibration.acceleration_gain[i], 1.0, 1e-12);
+    EXPECT_NEAR((-8184 - calibration.acceleration_bias[i]) * calibration.acceleration_gain[i], -1.0, 1e-12);
+  }
+}
+
+TEST(DualSense, CalibrationWithoutSenseLeavesNominalNumbers) {
+  Report zeros(41, 0);
+  zeros[0] = 5;
+  for (const Report& report : {Report{}, Report{5, 1}, zeros}) {
+    const DualSenseCalibration calibration = parse_dualsense_calibration(report);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(calibration.gyro_gain[i], kRadPerDegree / 16.0, 1e-15);
+      EXPECT_NEAR(calibration.acceleration_gain[i], 1.0 / 8192.0, 1e-15);
+    }
+  }
+}
+
+// ---- Joy-Con ----
+
+Report joycon_report() {
+  Report report(49, 0);
+  report[0] = 0x30;
+  report[3] = 0x08;  // A
+  report[5] = 0x04;  // right arrow
+  for (const std::size_t stick : {6U, 9U}) {
+    report[stick] = 0x00;
+    report[stick + 1] = 0x08;  // x = 0x800
+    report[stick + 2] = 0x80;  // y = 0x800
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    report[13 + 12 * i + 5] = 0x10;  // 4096 along its z
+    report[19 + 12 * i + 4] = 100;   // about its z
+  }
+  return report;
+}
+
+TEST(JoyCon, SaysThreeReadingsAReportAndWhichWayIsUp) {
+  const auto left = joycon_driver(JoyConSide::Left)->read(joycon_report());
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->imu_count, 3U);
+  EXPECT_NEAR(left->imu[2].acceleration_g.y, 1.0, 1e-12);
+  EXPECT_NEAR(left->imu[2].rate_rad_per_s.y, 100.0 / 14.247 * kRadPerDegree, 1e-12);
+  EXPECT_NEAR(glm::length(*left->push), 0.0, 1e-12);
+  EXPECT_EQ(left->buttons, bit(WandButton::Select));
+  // the sensor of the right one stands on its head
+  const auto right = joycon_driver(JoyConSide::Right)->read(joycon_report());
+  EXPECT_NEAR(right->imu[0].acceleration_g.y, -1.0, 1e-12);
+  EXPECT_EQ(right->buttons, bit(WandButton::Select));
+}
+
+TEST(JoyCon, RefusesOtherReports) {
+  Report report = joycon_report();
+  report.pop_back();
+  EXPECT_FALSE(parse_joycon(report));
+  report.push_back(0);
+  report[0] = 0x3f;
+  EXPECT_FALSE(parse_joycon(report));
+}
+
+// ---- PS Move ----
+
+void put16(Report& report, std::size_t at, int value) {
+  report[at] = static_cast<std::uint8_t>(value & 0xFF);
+  report[at + 1] = static_cast<std::uint8_t>((value >> 8) & 0xFF);
+}
+
+TEST(PsMove, CountsFromTheMiddleInItsFirstModelAndFromZeroInItsSecond) {
+  Report report(49, 0);
+  report[0] = 1;
+  put16(report, 13, 0x8000 + 4326);
+  put16(report, 25, 0x8000 - 100);
+  const auto first = parse_psmove(PsMoveModel::Zcm1, report);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->acceleration[0][0], 4326);
+  EXPECT_EQ(first->gyro[0][0], -100);
+  put16(report, 13, -4326);
+  const auto second = parse_psmove(PsMoveModel::Zcm2, report);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->acceleration[0][0], -4326);
+  report.resize(48);
+  EXPECT_FALSE(parse_psmove(PsMoveModel::Zcm1, report));
+  EXPECT_TRUE(parse_psmove(PsMoveModel::Zcm2, report));
+  report.resize(43);
+  EXPECT_FALSE(parse_psmove(PsMoveModel::Zcm2, report));
+}
+
+TEST(PsMove, TakesItsGainsFromTheBlocksOfItsCalibrationInAnyOrder) {
+  // the joined memory, and the three reports that carry it
+  Report memory(143, 0);
+  for (const std::size_t at : {0x2aU, 0x2cU, 0x2eU}) put16(memory, at, 0x8000 + 10);
+  for (const std::size_t at : {0x46U, 0x50U, 0x5aU}) put16(memory, at, 0x8000 + 10 + 6700);
+  for (const std::size_t at : {0x16U, 0x1eU, 0x08U}) put16(memory, at, 0x8000 + 4400);
+  for (const std::size_t at : {0x0aU, 0x24U, 0x14U}) put16(memory, at, 0x8000 - 4300);
+  std::vector<Report> blocks;
+  const std::array<std::pair<std::uint8_t, std::size_t>, 3> kParts{{{0x82, 96}, {0x00, 2}, {0x01, 49}}};
+  for (const auto& [number, begin] : kParts) {
+    Report block{0x10, number};
+    block.insert(block.end(), memory.begin() + static_cast<long>(begin),
+                 memory.begin() + static_cast<long>(begin) + 47);
+    blocks.push_back(block);
+  }
+  const PsMoveCalibration calibration = parse_psmove_calibration(PsMoveModel::Zcm1, blocks);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(6700 * calibration.gyro_gain[i], 80.0 * 2.0 * std::numbers::pi / 60.0, 1e-9);
+    EXPECT_NEAR((4400 - calibration.acceleration_bias[i]) * calibration.acceleration_gain[i], 1.0, 1e-12);
+  }
+  blocks.pop_back();
+  EXPECT_NE(parse_psmove_calibration(PsMoveModel::Zcm1, blocks).gyro_gain, calibration.gyro_gain);
+}
+
+// ---- a device of one's own ----
+
+HidMapping mapping_of_a_stick() {
+  HidMapping mapping;
+  mapping.name = "stick";
+  mapping.vendor = 0x1234;
+  mapping.product = 0x5678;
+  mapping.axes.push_back({.quantity = HidMapping::Quantity::Push,
+                          .axis = 0,
+                          .report = 1,
+                          .byte = 1,
+                          .bit = 4,
+                          .bits = 12,
+                          .is_signed = false,
+                          .center = 2048,
+                          .scale = -2047,
+                          .dead_zone = 0.1});
+  mapping.buttons.push_back({.button = WandButton::Grab, .report = 1, .byte = 3, .bit = 7});
+  return mapping;
+}
+
+TEST(MappedWand, ReadsTwelveBitsAcrossTwoBytesTurnedRoundWithADeadZone) {
+  const auto driver = mapped_driver(mapping_of_a_stick());
+  EXPECT_TRUE(driver->steered());
+  EXPECT_EQ(driver->read(from_hex("01 f0 ff 80"))->push->x, -1.0);
+  EXPECT_EQ(driver->read(from_hex("01 f0 ff 80"))->buttons, bit(WandButton::Grab));
+  EXPECT_EQ(driver->read(from_hex("01 00 80 00"))->push->x, 0.0);
+  EXPECT_EQ(driver->read(from_hex("01 00 88 00"))->push->x, 0.0) << "within the dead zone";
+  EXPECT_NEAR(driver->read(from_hex("01 10 00 00"))->push->x, 1.0, 1e-12);
+}
+
+TEST(MappedWand, ReadsSignedNumbers) {
+  HidMapping mapping = mapping_of_a_stick();
+  mapping.axes[0] = {.quantity = HidMapping::Quantity::Turn,
+                     .axis = 2,
+                     .report = 0,
+                     .byte = 0,
+                     .bit = 0,
+                     .bits = 16,
+                     .is_signed = true,
+                     .center = 0,
+                     .scale = 350,
+                     .dead_zone = 0};
+  mapping.buttons.clear();
+  EXPECT_EQ(mapped_driver(mapping)->read(from_hex("a2 fe"))->turn->z, -1.0);
+  EXPECT_NEAR(mapped_driver(mapping)->read(from_hex("af 00"))->turn->z, 0.5, 1e-12);
+}
+
+TEST(MappedWand, RefusesShortAndForeignReports) {
+  const auto driver = mapped_driver(mapping_of_a_stick());
+  EXPECT_FALSE(driver->read(from_hex("01 f0 ff")));
+  EXPECT_FALSE(driver->read(from_hex("02 f0 ff 80")));
+  EXPECT_FALSE(driver->read({}));
+}
+
+// ---- which device is what ----
+
+TEST(Catalog, KnowsWandsAndWhatOnlyLooksLikeOne) {
+  EXPECT_TRUE(identify({0x046d, 0xc626, 1, 8}, {})->make);
+  EXPECT_TRUE(identify({0x256f, 0xc635, 1, 8}, {})->make);
+  EXPECT_FALSE(identify({0x256f, 0xc652, 1, 2}, {})->make) << "the mouse in a receiver";
+  constexpr std::array<std::uint16_t, 7> kMice{0xc650, 0xc651, 0xc653, 0xc658, 0xc664, 0xc665, 0xc668};
+  for (const std::uint16_t mouse : kMice) {
+    const auto known = identify({0x256f, mouse, 1, 2}, {});
+    ASSERT_TRUE(known) << mouse;
+    EXPECT_FALSE(known->make) << mouse;
+  }
+  EXPECT_TRUE(identify({0x256f, 0xc699, 1, 8}, {})->make) << "a cap that is built later";
+  EXPECT_FALSE(identify({0x256f, 0xc699, 1, 2}, {}));
+  EXPECT_FALSE(identify({0x1234, 0x5678, 1, 4}, {}));
+  const std::vector<HidMapping> mappings{mapping_of_a_stick()};
+  EXPECT_EQ(identify({0x1234, 0x5678, 1, 4}, mappings)->name, "stick");
+}
+
+TEST(EveryDriver, SurvivesWhateverBytesComeAndStaysFinite) {
+  std::vector<std::unique_ptr<HidDriver>> drivers;
+  drivers.push_back(spacemouse_driver());
+  drivers.push_back(wiimote_driver());
+  drivers.push_back(dualsense_driver());
+  drivers.push_back(psmove_driver(PsMoveModel::Zcm1));
+  drivers.push_back(psmove_driver(PsMoveModel::Zcm2));
+  drivers.push_back(joycon_driver(JoyConSide::Right));
+  drivers.push_back(mapped_driver(mapping_of_a_stick()));
+  std::mt19937 random(11);
+  int taken = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    Report report(random() % 90);
+    for (std::uint8_t& byte : report) byte = static_cast<std::uint8_t>(random());
+    constexpr std::array<std::uint8_t, 9> kNumbers{0x01, 0x02, 0x03, 0x30, 0x31, 0x33, 0x37, 0x10, 0x05};
+    if (!report.empty()) report[0] = kNumbers[random() % kNumbers.size()];
+    for (const auto& driver : drivers) {
+      const auto input = driver->read(report);
+      if (!input) continue;
+      ++taken;
+      EXPECT_LE(glm::length(input->push.value_or(glm::dvec3(0.0))), std::sqrt(3.0) + 1e-12);
+      for (std::size_t k = 0; k < input->imu_count; ++k) {
+        EXPECT_TRUE(std::isfinite(glm::length(input->imu[k].rate_rad_per_s)));
+      }
+    }
+  }
+  EXPECT_GT(taken, 1000);
+}
+
+}  // namespace
+}  // namespace afm::input
