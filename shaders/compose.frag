@@ -9,6 +9,18 @@ layout(set = 0, binding = AFM_BINDING_RIGHT_EYE) uniform sampler2D right_eye;
 layout(push_constant) uniform Compose { ComposeBlock compose; };
 layout(location = 0) out vec4 out_color;
 
+// The eye's colour at a place in pixels of a whole eye image: the pixel itself where nothing is scaled, else bilinear
+// within what is drawn.
+vec4 eye_color(bool right, vec2 place) {
+  right = right && compose.mode.w == 0;
+  if (compose.placement.zw == vec2(1.0) && compose.drawn.xy == vec2(1.0)) {
+    return right ? texelFetch(right_eye, ivec2(place), 0) : texelFetch(left_eye, ivec2(place), 0);
+  }
+  vec2 texels = vec2(compose.mode.yz);
+  vec2 uv = min(place / texels * compose.drawn.xy, compose.drawn.xy - 0.5 / texels);
+  return right ? textureLod(right_eye, uv, 0.0) : textureLod(left_eye, uv, 0.0);
+}
+
 void main() {
   vec2 place = (gl_FragCoord.xy - compose.placement.xy) * compose.placement.zw;
   bool right = compose.mode.x == AFM_LAYOUT_RIGHT;
@@ -16,11 +28,5 @@ void main() {
     right = true;
     place.x -= float(compose.mode.y);
   }
-  if (compose.placement.z == 1.0 && compose.placement.w == 1.0) {
-    ivec2 pixel = ivec2(place);
-    out_color = right ? texelFetch(right_eye, pixel, 0) : texelFetch(left_eye, pixel, 0);
-  } else {
-    vec2 uv = place / vec2(compose.mode.yz);
-    out_color = right ? textureLod(right_eye, uv, 0.0) : textureLod(left_eye, uv, 0.0);
-  }
+  out_color = eye_color(right, place);
 }

@@ -51,7 +51,8 @@ struct CanvasBlock {
 
 // push constants of the compose pass
 struct ComposeBlock {
-  ivec4 mode;      // x: AFM_LAYOUT_*, y, z: width and height of an eye image in pixels
+  ivec4 mode;      // x: AFM_LAYOUT_*, y, z: width and height of an eye image in pixels, w: 1: both eyes see the left one's
+  vec4 drawn;      // xy: the share of the eye images, from their upper left corner, that is drawn
   vec4 placement;  // xy: where the picture begins in the target, pixels; zw: pixels of the picture to one of the target
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 
 #include "vulkan.h"
@@ -18,8 +19,13 @@ struct ImageUse {
   constexpr ImageUse discarded() const { return {stages, access, vk::ImageLayout::eUndefined}; }
 };
 
+struct LayerRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = VK_REMAINING_ARRAY_LAYERS;
+};
+
 inline vk::ImageMemoryBarrier2 image_barrier(vk::Image image, vk::ImageAspectFlags aspect, const ImageUse& before,
-                                             const ImageUse& after) {
+                                             const ImageUse& after, LayerRange layers = {}) {
   return {.srcStageMask = before.stages,
           .srcAccessMask = before.access,
           .dstStageMask = after.stages,
@@ -29,8 +35,10 @@ inline vk::ImageMemoryBarrier2 image_barrier(vk::Image image, vk::ImageAspectFla
           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
           .image = image,
-          .subresourceRange = {
-              .aspectMask = aspect, .levelCount = VK_REMAINING_MIP_LEVELS, .layerCount = VK_REMAINING_ARRAY_LAYERS}};
+          .subresourceRange = {.aspectMask = aspect,
+                               .levelCount = VK_REMAINING_MIP_LEVELS,
+                               .baseArrayLayer = layers.first,
+                               .layerCount = layers.count}};
 }
 
 inline void record_barriers(const vk::raii::CommandBuffer& command,

@@ -102,9 +102,12 @@ vk::raii::Pipeline Composer::create_pipeline_for(vk::Format format) const {
 void Composer::record(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, Layout layout, vk::Extent2D target,
                       const vk::Rect2D& place) const {
   const vk::Extent2D eye = eyes_.extent();
+  const vk::Extent2D drawn = eyes_.drawing().extent;
   const vk::Extent2D picture = extent(layout);
   const ComposeBlock block{
-      .mode = glm::ivec4(shader_mode(layout), static_cast<int>(eye.width), static_cast<int>(eye.height), 0),
+      .mode = glm::ivec4(shader_mode(layout), static_cast<int>(eye.width), static_cast<int>(eye.height),
+                         eyes_.same_eyes() ? 1 : 0),
+      .drawn = glm::vec4(drawn.width, drawn.height, 0.0F, 0.0F) / glm::vec4(eye.width, eye.height, 1.0F, 1.0F),
       .placement = glm::vec4(place.offset.x, place.offset.y,
                              static_cast<float>(picture.width) / static_cast<float>(place.extent.width),
                              static_cast<float>(picture.height) / static_cast<float>(place.extent.height))};

@@ -239,6 +239,8 @@ void Device::create_device(Presentation presentation) {
                                          .enabledExtensionCount = presentation == Presentation::Window ? 1U : 0U,
                                          .ppEnabledExtensionNames = extensions.data()});
   queue_ = device_.getQueue(queue_family_, 0);
+  const auto properties = physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+  clips_first_view_only_ = properties.get<vk::PhysicalDeviceDriverProperties>().driverID == vk::DriverId::eMesaLlvmpipe;
   pool_ = vk::raii::CommandPool(
       device_, {.flags = vk::CommandPoolCreateFlagBits::eTransient, .queueFamilyIndex = queue_family_});
 }
@@ -284,6 +286,23 @@ std::uint32_t Device::memory_type(std::uint32_t type_bits, vk::MemoryPropertyFla
   // the specification promises host-visible coherent and device-local memory for every resource used here
   AFM_CHECK(type < properties.memoryTypeCount);
   return type;
+}
+
+std::uint64_t Device::largest_heap_bytes() const {
+  const auto properties = physical_.getMemoryProperties();
+  vk::DeviceSize largest = 0;
+  for (std::uint32_t i = 0; i < properties.memoryHeapCount; ++i) {
+    largest = std::max(largest, properties.memoryHeaps[i].size);
+  }
+  return largest;
+}
+
+void Device::wait_idle() const noexcept {
+  try {
+    device_.waitIdle();
+  } catch (const vk::SystemError&) {
+    // lost, or without memory: said by whatever needs the device next
+  }
 }
 
 void Device::run_once(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {

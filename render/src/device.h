@@ -49,6 +49,14 @@ class Device {
   // here.
   std::uint32_t memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags wanted) const;
 
+  // Mesa 22.3's lavapipe draws a triangle that is clipped into the first view of a multiview pass alone.
+  bool clips_first_view_only() const { return clips_first_view_only_; }
+
+  // Before what the device may still use is destroyed. A lost device uses nothing.
+  void wait_idle() const noexcept;
+
+  std::uint64_t largest_heap_bytes() const;
+
   // Records with `record`, submits and waits: for uploads at start and for reading back.
   void run_once(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
 
@@ -76,6 +84,7 @@ class Device {
   std::string name_;
   std::uint32_t queue_family_ = 0;
   bool naming_ = false;
+  bool clips_first_view_only_ = false;
   vk::raii::Device device_{nullptr};
   vk::raii::Queue queue_{nullptr};
   vk::raii::CommandPool pool_{nullptr};

@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "barriers.h"
+#include "eye_pipelines.h"
 #include "memory.h"
 #include "render/renderer.h"
 
@@ -11,33 +13,52 @@ namespace afm::render {
 
 inline constexpr vk::Format kEyeFormat = vk::Format::eR8G8B8A8Unorm;  // holds sRGB values, see tone.glsl
 inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
+inline constexpr std::uint32_t kBothEyes = 0b11;  // the view mask of a multiview pass
 
-// The images that eyes are drawn into. With Multiview one set of two layers; with TwoPasses a set for each eye, because
-// Mesa 22.3's lavapipe leaves garbage in layer 1 of a multisampled image that is drawn as a base layer.
+// How the eyes of one frame are drawn.
+struct EyeDrawing {
+  EyePass pass = EyePass::Both;
+  std::size_t pass_count = 1;  // of single passes: 2, or 1 where both eyes see the same
+  vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+  vk::Extent2D extent{};  // drawn, from the upper left corner on
+
+  bool operator==(const EyeDrawing&) const = default;
+};
+
+// The images that eyes are drawn into: colour and depth of two layers, the left eye's first. What is drawn with more
+// samples goes through attachments that are made when first needed. Mesa 22.3's lavapipe neither draws into layer 1 of
+// a multisampled image as a base layer, nor resolves into one: so single passes share attachments of one layer, and the
+// second one resolves into images of its own, which are copied.
 class EyeTargets {
  public:
   EyeTargets(const Device& device, const RendererOptions& options);
 
-  std::size_t pass_count() const { return sets_.size(); }
-  std::uint32_t view_mask() const { return sets_.size() == 1 ? 0b11U : 0U; }
   vk::Extent2D extent() const { return extent_; }
-  vk::SampleCountFlagBits samples() const { return samples_; }
 
   // How much larger than the eye image the viewport is; clip space is shrunk by as much, so that the picture stays and
-  // triangles across its border are cut by the scissor instead of being clipped. Mesa 22.3's lavapipe draws a clipped
-  // triangle into the first view of a multiview pass only; what crosses the near plane is still lost there.
+  // triangles across its border are cut by the scissor instead of being clipped, which some devices do wrong (see
+  // Device::clips_first_view_only()).
   float guard_band() const { return guard_band_; }
+
+  // To be called before a frame is recorded; from then on the getters below speak of that frame.
+  void begin_frame(const EyeDrawing& drawing);
 
   // Everything between them is drawn into the eyes of that pass; viewport and scissor are set. Afterwards the eye
   // images can be sampled.
   void begin(const vk::raii::CommandBuffer& command, std::size_t pass) const;
   void end(const vk::raii::CommandBuffer& command, std::size_t pass) const;
 
+  const EyeDrawing& drawing() const { return drawing_; }
+
+  // Both eyes see the same, and it lies in the left one's images.
+  bool same_eyes() const { return drawing_.pass == EyePass::Single && drawing_.pass_count == 1; }
+
   struct EyeImage {
     vk::Image image;
     std::uint32_t layer = 0;
     vk::ImageView view;  // of this eye alone
   };
+  // Only drawing().extent of it is drawn.
   EyeImage eye(scene::Eye eye) const;
 
   // Reversed infinite depth of each pixel's first sample, 0 where nothing was drawn; kDepthFormat, as eye() sampled or
@@ -45,29 +66,40 @@ class EyeTargets {
   EyeImage depth(scene::Eye eye) const;
 
  private:
-  struct Set {
-    DeviceImage multisampled;  // this and its depth are unused at one sample
-    DeviceImage multisampled_depth;
-    DeviceImage depth;
-    DeviceImage resolved;
-    vk::raii::ImageView multisampled_view{nullptr};
-    vk::raii::ImageView multisampled_depth_view{nullptr};
-    vk::raii::ImageView depth_view{nullptr};
-    vk::raii::ImageView resolved_view{nullptr};
-    std::vector<vk::raii::ImageView> eye_views;  // one a layer
-    std::vector<vk::raii::ImageView> eye_depth_views;
+  struct Target {
+    DeviceImage image;
+    vk::raii::ImageView both{nullptr};
+    std::vector<vk::raii::ImageView> single;  // one a layer
   };
-  struct Place {
-    const Set* set = nullptr;
+  struct Multisampled {
+    DeviceImage color, depth;
+    vk::raii::ImageView color_view{nullptr}, depth_view{nullptr};
+  };
+  // What a pass fills: both layers, or one.
+  struct Filled {
+    const Target& color;
+    const Target& depth;
     std::uint32_t layer = 0;
+    LayerRange layers;
   };
-  Place place(scene::Eye eye) const;
-  Set create_set(const Device& device, std::uint32_t layers) const;
+  Filled filled(std::size_t pass) const;
+  bool copies(std::size_t pass) const { return resolves() && pass == 1; }
+  void copy_second(const vk::raii::CommandBuffer& command) const;
+  Target create_target(const char* name, vk::Format format, std::uint32_t layers) const;
+  Multisampled create_multisampled(std::uint32_t layers) const;
+  const Multisampled& multisampled() const { return multisampled_[drawing_.pass == EyePass::Both ? 0 : 1]; }
+  std::uint32_t layer(scene::Eye eye) const { return eye == scene::Eye::Left || same_eyes() ? 0 : 1; }
+  bool resolves() const { return drawing_.samples != vk::SampleCountFlagBits::e1; }
 
+  const Device* device_;
   vk::Extent2D extent_;
-  vk::SampleCountFlagBits samples_ = vk::SampleCountFlagBits::e1;
   float guard_band_ = 1.0F;
-  std::vector<Set> sets_;
+  Target color_;
+  Target depth_;
+  Target second_color_;  // where the second of two passes resolves into
+  Target second_depth_;
+  std::array<Multisampled, 2> multisampled_;  // of two layers, and of one
+  EyeDrawing drawing_;
 };
 
 }  // namespace afm::render

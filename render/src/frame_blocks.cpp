@@ -7,8 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/mat3x3.hpp>
-#include <numeric>
-#include <utility>
 
 #include "core/check.h"
 
@@ -80,23 +78,6 @@ void mark_highlighted(const FrameState& frame, const SceneGeometry& geometry, st
       glowing[node] = 1;
     }
   }
-}
-
-void sort_draws(const FrameState& frame, const SceneGeometry& geometry, std::vector<std::uint32_t>& order) {
-  const auto& draws = geometry.draws();
-  const glm::dvec3 viewer = 0.5 * (frame.eyes[0].eye_position_m + frame.eyes[1].eye_position_m);
-  const auto distance = [&](std::uint32_t i) {
-    const auto center = frame.room_from_node[draws[i].node] * glm::dvec4(glm::dvec3(draws[i].center), 1.0);
-    return glm::distance(viewer, glm::dvec3(center));
-  };
-  order.resize(draws.size());
-  std::iota(order.begin(), order.end(), 0U);
-  const auto blended = order.begin() + static_cast<std::ptrdiff_t>(geometry.opaque_count());
-  const auto nearer = [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(distance(a), a) < std::pair(distance(b), b);
-  };
-  std::sort(order.begin(), blended, nearer);
-  std::sort(blended, order.end(), [&](std::uint32_t a, std::uint32_t b) { return nearer(b, a); });
 }
 
 void write_draw_blocks(const FrameState& frame, const SceneGeometry& geometry, const std::vector<std::uint8_t>& glowing,

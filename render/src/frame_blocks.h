@@ -27,10 +27,6 @@ glm::dmat3 normal_matrix(const glm::dmat4& room_from_node);
 // Which nodes glow: the highlighted ones with all that hangs below them.
 void mark_highlighted(const FrameState& frame, const SceneGeometry& geometry, std::vector<std::uint8_t>& glowing);
 
-// The order in which the geometry's draws are best drawn: opaque ones from near to far, so that what is hidden is not
-// shaded, then blended ones from far to near. By the distance of the boxes' centres from between the eyes.
-void sort_draws(const FrameState& frame, const SceneGeometry& geometry, std::vector<std::uint32_t>& order);
-
 // One block for each of the geometry's draws, `stride` bytes apart from `blocks` on.
 void write_draw_blocks(const FrameState& frame, const SceneGeometry& geometry, const std::vector<std::uint8_t>& glowing,
                        std::byte* blocks, std::size_t stride);

@@ -12,6 +12,8 @@ constexpr auto kUniform = vk::DescriptorType::eUniformBuffer;
 constexpr auto kDynamicUniform = vk::DescriptorType::eUniformBufferDynamic;
 constexpr auto kSampled = vk::DescriptorType::eCombinedImageSampler;
 
+constexpr std::uint32_t kMostPasses = 2;
+
 // The smallest distance of blocks of `size` bytes that a dynamic offset can express.
 std::uint32_t aligned_stride(const Device& device, std::size_t size) {
   const auto alignment = device.physical().getProperties().limits.minUniformBufferOffsetAlignment;
@@ -69,42 +71,45 @@ vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device) {
 }
 
 FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, const ShadowMap& shadow_map,
-                     std::size_t pass_count, std::size_t draw_count)
-    : pool_(*device, vk::CommandPoolCreateInfo{.queueFamilyIndex = device.queue_family()}),
+                     std::size_t draw_count)
+    : pool_(*device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                               .queueFamilyIndex = device.queue_family()}),
+      commands_(*device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 2}),
       draw_stride_(aligned_stride(device, sizeof(DrawBlock))),
-      draws_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * draw_stride_,
-                                vk::BufferUsageFlagBits::eUniformBuffer)),
-      descriptor_pool_(create_pool(device, static_cast<std::uint32_t>(pass_count))) {
-  commands_ = std::move(
-      vk::raii::CommandBuffers(
-          *device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1})
-          .front());
-  for (std::size_t pass = 0; pass < pass_count; ++pass) {
+      draw_blocks_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * draw_stride_,
+                                      vk::BufferUsageFlagBits::eUniformBuffer)),
+      descriptor_pool_(create_pool(device, kMostPasses)) {
+  for (std::uint32_t pass = 0; pass < kMostPasses; ++pass) {
     uniforms_.push_back(
         create_host_buffer(device, "frame uniforms", sizeof(FrameBlock), vk::BufferUsageFlagBits::eUniformBuffer));
     sets_.push_back(
         std::move(vk::raii::DescriptorSets(
                       *device, {.descriptorPool = *descriptor_pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})
                       .front()));
-    write_set(device, *sets_.back(), uniforms_.back(), draws_, shadow_map);
+    write_set(device, *sets_.back(), uniforms_.back(), draw_blocks_, shadow_map);
   }
 }
 
-void FrameSlot::write(const FrameState& frame, const SceneGeometry& geometry, const EyeTargets& eyes) {
-  const glm::vec2 size(static_cast<float>(eyes.extent().width), static_cast<float>(eyes.extent().height));
+bool FrameSlot::Recorded::take(const DrawList& new_draws, const EyeDrawing& new_drawing, std::uint64_t new_panels) {
+  if (anything && draws == new_draws && drawing == new_drawing && panels == new_panels) {
+    return false;
+  }
+  draws = new_draws;
+  drawing = new_drawing;
+  panels = new_panels;
+  anything = true;
+  return true;
+}
+
+void FrameSlot::write(const FrameState& frame, const SceneGeometry& geometry, const EyeDrawing& drawing,
+                      float guard_band) {
+  const glm::vec2 size(static_cast<float>(drawing.extent.width), static_cast<float>(drawing.extent.height));
   for (std::size_t pass = 0; pass < uniforms_.size(); ++pass) {
-    const FrameBlock block = make_frame_block(frame, pass, size, eyes.guard_band());
+    const FrameBlock block = make_frame_block(frame, pass, size, guard_band);
     std::memcpy(uniforms_[pass].mapped, &block, sizeof(block));
   }
-  sort_draws(frame, geometry, draw_order_);
   mark_highlighted(frame, geometry, glowing_);
-  write_draw_blocks(frame, geometry, glowing_, draws_.mapped, draw_stride_);
-}
-
-const vk::raii::CommandBuffer& FrameSlot::begin_commands() const {
-  pool_.reset();
-  commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-  return commands_;
+  write_draw_blocks(frame, geometry, glowing_, draw_blocks_.mapped, draw_stride_);
 }
 
 }  // namespace afm::render

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "draw_list.h"
 #include "eye_targets.h"
 #include "frame_blocks.h"
 #include "memory.h"
@@ -16,33 +17,46 @@ vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device);
 // What one frame in flight owns: its commands, uniforms and draw blocks. Reused once the frame is finished.
 class FrameSlot {
  public:
-  FrameSlot(const Device& device, vk::DescriptorSetLayout layout, const ShadowMap& shadow_map, std::size_t pass_count,
-            std::size_t draw_count);
+  FrameSlot(const Device& device, vk::DescriptorSetLayout layout, const ShadowMap& shadow_map, std::size_t draw_count);
 
   // Writes everything that the frame's shaders read.
-  void write(const FrameState& frame, const SceneGeometry& geometry, const EyeTargets& eyes);
+  void write(const FrameState& frame, const SceneGeometry& geometry, const EyeDrawing& drawing, float guard_band);
 
-  // Resets and begins the slot's command buffer.
-  const vk::raii::CommandBuffer& begin_commands() const;
-
+  // The frame's set of a pass: with the left eye's view first, or the right one's.
   vk::DescriptorSet set(std::size_t pass) const { return *sets_[pass]; }
 
   // Bytes from one draw's block to the next: dynamic offsets of binding AFM_BINDING_DRAW are multiples of it.
   std::uint32_t draw_stride() const { return draw_stride_; }
 
-  // The draws' places in the order in which they are drawn.
-  const std::vector<std::uint32_t>& draw_order() const { return draw_order_; }
+  // What the frame draws; the slot only keeps its memory.
+  DrawList draws;
 
+  // Commands that are recorded for one frame, and commands that stay for as many frames as `recorded` says.
+  const vk::raii::CommandBuffer& painting() const { return commands_[0]; }
+  const vk::raii::CommandBuffer& drawing() const { return commands_[1]; }
+
+  // All that the commands of drawing() depend on.
+  struct Recorded {
+    DrawList draws;
+    EyeDrawing drawing;
+    std::uint64_t panels = 0;  // as Panels::revision()
+    bool anything = false;
+
+    // Whether something is another than before, and has been taken.
+    bool take(const DrawList& new_draws, const EyeDrawing& new_drawing, std::uint64_t new_panels);
+  };
+  Recorded recorded;
+
+  bool painted = false;           // panels, in the slot's newest frame
   std::uint64_t finished_at = 0;  // the timeline's value when the slot's newest frame is finished
 
  private:
   vk::raii::CommandPool pool_;
-  vk::raii::CommandBuffer commands_{nullptr};
+  vk::raii::CommandBuffers commands_{nullptr};
   std::vector<Buffer> uniforms_;  // one for each pass
   std::uint32_t draw_stride_;
-  Buffer draws_;
+  Buffer draw_blocks_;
   std::vector<std::uint8_t> glowing_;
-  std::vector<std::uint32_t> draw_order_;
   vk::raii::DescriptorPool descriptor_pool_{nullptr};
   std::vector<vk::raii::DescriptorSet> sets_;
 };

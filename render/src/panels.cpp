@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "barriers.h"
 #include "panel_painting.h"
@@ -21,6 +22,8 @@ namespace {
 constexpr vk::Format kTextureFormat = kEyeFormat;
 constexpr double kLargestTexture = 4096.0;
 constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
+
+const Label kNoLabel{.text = {}, .highlighted = false, .placement = kNoPlacement};
 
 constexpr std::array<vk::VertexInputBindingDescription, 1> kBindings{{{.binding = 0, .stride = sizeof(ImDrawVert)}}};
 constexpr std::array<vk::VertexInputAttributeDescription, 3> kAttributes{
@@ -54,18 +57,14 @@ vk::raii::PipelineLayout create_rectangle_layout(const Device& device, vk::Descr
       device, {.sets = sets, .push_stages = vk::ShaderStageFlagBits::eVertex, .push_size = sizeof(PanelBlock)});
 }
 
-vk::raii::Pipeline create_rectangle_pipeline(const Device& device, vk::PipelineLayout layout, const EyeTargets& eyes) {
-  return create_pipeline(device, {.name = "panels",
-                                  .vertex_code = shaders::panel_vert,
-                                  .fragment_code = shaders::panel_frag,
-                                  .layout = layout,
-                                  .topology = vk::PrimitiveTopology::eTriangleStrip,
-                                  .color_format = kEyeFormat,
-                                  .depth_format = kDepthFormat,
-                                  .samples = eyes.samples(),
-                                  .view_mask = eyes.view_mask(),
-                                  .blending = Blending::Premultiplied,
-                                  .depth = DepthUse::TestOnly});
+PipelineRequest rectangle_request(vk::PipelineLayout layout) {
+  return {.name = "panels",
+          .vertex_code = shaders::panel_vert,
+          .fragment_code = shaders::panel_frag,
+          .layout = layout,
+          .topology = vk::PrimitiveTopology::eTriangleStrip,
+          .blending = Blending::Premultiplied,
+          .depth = DepthUse::TestOnly};
 }
 
 glm::dvec2 size_m(const PanelPlacement& placement) {
@@ -83,7 +82,7 @@ void reserve(const Device& device, Buffer& buffer, const char* name, std::size_t
 
 void Panels::ContextDeleter::operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 
-Panels::Panels(const Device& device, PanelFonts fonts, const EyeTargets& eyes, vk::DescriptorSetLayout frame_set_layout)
+Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout)
     : device_(device),
       fonts_(std::move(fonts)),
       imgui_(ImGui::CreateContext(fonts_.atlas.get())),
@@ -93,7 +92,7 @@ Panels::Panels(const Device& device, PanelFonts fonts, const EyeTargets& eyes, v
                                                      .push_size = sizeof(CanvasBlock)})),
       canvas_pipeline_(create_canvas_pipeline(device, *canvas_layout_)),
       rectangle_layout_(create_rectangle_layout(device, frame_set_layout, *texture_layout_)),
-      rectangle_pipeline_(create_rectangle_pipeline(device, *rectangle_layout_, eyes)),
+      rectangle_pipeline_(device, rectangle_request(*rectangle_layout_)),
       sampler_(*device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                               .minFilter = vk::Filter::eLinear,
                                               .addressModeU = vk::SamplerAddressMode::eClampToEdge,
@@ -162,31 +161,36 @@ vk::raii::DescriptorSet Panels::create_set(const vk::raii::DescriptorPool& pool,
   return std::move(sets.front());
 }
 
+Panels::Texture Panels::create_texture(vk::Extent2D extent) const {
+  Texture texture;
+  texture.image = create_image(device_, "panel",
+                               {.format = kTextureFormat,
+                                .extent = extent,
+                                .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
+  texture.view = create_view(device_, texture.image, kColor, 0, 1);
+  texture.pool = create_pool();
+  texture.set = create_set(texture.pool, *texture.view);
+  return texture;
+}
+
 // Gives the panel a texture of its placement's size; true if it is a new one.
 bool Panels::resize(Panel& panel) {
   const glm::dvec2 texels =
       glm::clamp(glm::ceil(size_m(panel.placement) * 1000.0 * static_cast<double>(fonts_.texels_per_mm)),
                  glm::dvec2(1.0), glm::dvec2(kLargestTexture));
   const vk::Extent2D extent{static_cast<std::uint32_t>(texels.x), static_cast<std::uint32_t>(texels.y)};
-  if (panel.texture.extent == extent) {
+  if (panel.texture.image.extent == extent) {
     return false;
   }
-  device_->waitIdle();  // the frames in flight may still show the old texture
-  panel.texture = create_image(device_, "panel",
-                               {.format = kTextureFormat,
-                                .extent = extent,
-                                .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
-  panel.view = create_view(device_, panel.texture, kColor, 0, 1);
-  panel.set = nullptr;
-  panel.pool = create_pool();
-  panel.set = create_set(panel.pool, *panel.view);
+  retired_[slot_].push_back(std::exchange(panel.texture, create_texture(extent)));
+  ++revision_;
   return true;
 }
 
 template <class Content>
 void Panels::paint_on(Panel& panel, const Content& content) {
   ImGui::SetCurrentContext(imgui_.get());
-  const vk::Extent2D extent = panel.texture.extent;
+  const vk::Extent2D extent = panel.texture.image.extent;
   ImGui::GetIO().DisplaySize = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
   ImGui::NewFrame();
   Canvas canvas(*ImGui::GetBackgroundDrawList(), fonts_, glm::vec2(size_m(panel.placement) * 1000.0));
@@ -214,9 +218,13 @@ void Panels::paint_on(Panel& panel, const Content& content) {
 
 template <class Content>
 void Panels::update(Panel& panel, const Content& content, const PanelPlacement& placement) {
-  panel.placement = placement;
   const glm::dvec2 size = size_m(placement);
-  panel.shown = size.x > 0.0 && size.y > 0.0;
+  const bool shown = size.x > 0.0 && size.y > 0.0;
+  if (panel.placement != placement || panel.shown != shown) {
+    ++revision_;
+  }
+  panel.placement = placement;
+  panel.shown = shown;
   if (!panel.shown) {
     return;
   }
@@ -228,44 +236,42 @@ void Panels::update(Panel& panel, const Content& content, const PanelPlacement& 
   }
 }
 
-void Panels::copy_geometry(Geometry& geometry) const {
+bool Panels::update(const FrameState& frame, std::size_t slot) {
+  slot_ = slot;
+  retired_[slot].clear();
+  paintings_.clear();
+  vertices_.clear();
+  indices_.clear();
+  commands_.clear();
+  labels_.resize(std::max(labels_.size(), frame.labels.size()));
+  update(force_, frame.force_panel, frame.force_placement);
+  update(data_, frame.data_panel, frame.data_placement);
+  update(banner_, frame.banner, frame.banner_placement);
+  update(control_, frame.control_panel, frame.control_placement);
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    const Label& label = i < frame.labels.size() ? frame.labels[i] : kNoLabel;
+    update(labels_[i], label, label.placement);
+  }
+  return !paintings_.empty();
+}
+
+void Panels::record_textures(const vk::raii::CommandBuffer& command, std::size_t slot) {
+  Geometry& geometry = geometry_[slot];
   const std::size_t vertex_bytes = vertices_.size() * sizeof(ImDrawVert);
   const std::size_t index_bytes = indices_.size() * sizeof(ImDrawIdx);
   reserve(device_, geometry.vertices, "panel vertices", vertex_bytes, vk::BufferUsageFlagBits::eVertexBuffer);
   reserve(device_, geometry.indices, "panel indices", index_bytes, vk::BufferUsageFlagBits::eIndexBuffer);
   std::memcpy(geometry.vertices.mapped, vertices_.data(), vertex_bytes);
   std::memcpy(geometry.indices.mapped, indices_.data(), index_bytes);
-}
-
-void Panels::record_textures(const vk::raii::CommandBuffer& command, std::size_t slot, const FrameState& frame) {
-  paintings_.clear();
-  vertices_.clear();
-  indices_.clear();
-  commands_.clear();
-  if (labels_.size() != frame.labels.size()) {
-    device_->waitIdle();
-    labels_.resize(frame.labels.size());
-  }
-  update(force_, frame.force_panel, frame.force_placement);
-  update(data_, frame.data_panel, frame.data_placement);
-  update(banner_, frame.banner, frame.banner_placement);
-  update(control_, frame.control_panel, frame.control_placement);
-  for (std::size_t i = 0; i < labels_.size(); ++i) {
-    update(labels_[i], frame.labels[i], frame.labels[i].placement);
-  }
-  if (paintings_.empty()) {
-    return;
-  }
-  copy_geometry(geometry_[slot]);
   for (const Painting& painting : paintings_) {
-    record_painting(command, geometry_[slot], painting);
+    record_painting(command, geometry, painting);
   }
 }
 
 void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geometry& geometry,
                              const Painting& painting) const {
   const Panel& panel = *painting.panel;
-  const vk::Extent2D extent = panel.texture.extent;
+  const vk::Extent2D extent = panel.texture.image.extent;
   const ImageUse discarded{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eNone,
                            vk::ImageLayout::eUndefined};
   const ImageUse drawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
@@ -273,8 +279,8 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
                        vk::ImageLayout::eColorAttachmentOptimal};
   const ImageUse sampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
                          vk::ImageLayout::eShaderReadOnlyOptimal};
-  record_barriers(command, {image_barrier(*panel.texture.image, kColor, discarded, drawn)});
-  const vk::RenderingAttachmentInfo color{.imageView = *panel.view,
+  record_barriers(command, {image_barrier(*panel.texture.image.image, kColor, discarded, drawn)});
+  const vk::RenderingAttachmentInfo color{.imageView = *panel.texture.view,
                                           .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
                                           .loadOp = vk::AttachmentLoadOp::eClear,
                                           .storeOp = vk::AttachmentStoreOp::eStore};
@@ -301,17 +307,18 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
                         static_cast<std::int32_t>(painting.first_vertex + draw.VtxOffset), 0);
   }
   command.endRendering();
-  record_barriers(command, {image_barrier(*panel.texture.image, kColor, drawn, sampled)});
+  record_barriers(command, {image_barrier(*panel.texture.image.image, kColor, drawn, sampled)});
 }
 
-void Panels::record_rectangles(const vk::raii::CommandBuffer& command, vk::DescriptorSet frame_set) const {
-  command.bindPipeline(vk::PipelineBindPoint::eGraphics, *rectangle_pipeline_);
+void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing,
+                               vk::DescriptorSet frame_set) {
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, rectangle_pipeline_.get(drawing.pass, drawing.samples));
   command.setCullMode(vk::CullModeFlagBits::eNone);
   const auto show = [&](const Panel& panel) {
     if (!panel.shown) {
       return;
     }
-    const std::array sets{frame_set, *panel.set};
+    const std::array sets{frame_set, *panel.texture.set};
     command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *rectangle_layout_, 0, sets, std::uint32_t{0});
     const PanelBlock block{.lower_left = glm::vec4(glm::vec3(panel.placement.lower_left_m), 1.0F),
                            .right = glm::vec4(glm::vec3(panel.placement.right_m), 0.0F),

@@ -22,26 +22,36 @@ inline constexpr std::size_t kFramesInFlight = 2;
 // and shown on its rectangle in the room. Panels without area are neither painted nor shown.
 class Panels {
  public:
-  Panels(const Device& device, PanelFonts fonts, const EyeTargets& eyes, vk::DescriptorSetLayout frame_set_layout);
+  Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout);
   ~Panels();
 
-  // Paints what has changed; outside any rendering. `slot` numbers the frame in flight, whose previous use is over.
-  void record_textures(const vk::raii::CommandBuffer& command, std::size_t slot, const FrameState& frame);
+  // Takes a frame's panels; whether one of them must be painted again. `slot` numbers the frame in flight, whose
+  // previous use is over.
+  bool update(const FrameState& frame, std::size_t slot);
 
-  // Shows all panels, blended over what is there; inside an eye pass.
-  void record_rectangles(const vk::raii::CommandBuffer& command, vk::DescriptorSet frame_set) const;
+  // Paints what has changed; outside any rendering.
+  void record_textures(const vk::raii::CommandBuffer& command, std::size_t slot);
+
+  // Shows all panels, blended over what is there; inside an eye pass. What it records stays right until revision()
+  // changes.
+  void record_rectangles(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing,
+                         vk::DescriptorSet frame_set);
+  std::uint64_t revision() const { return revision_; }
 
  private:
   struct ContextDeleter {
     void operator()(ImGuiContext* context) const;
   };
-  struct Panel {
-    PanelPlacement placement;
-    std::variant<std::monostate, ForcePanel, DataPanel, Banner, ControlPanel, Label> painted;  // what the texture shows
-    DeviceImage texture;
+  struct Texture {
+    DeviceImage image;
     vk::raii::ImageView view{nullptr};
     vk::raii::DescriptorPool pool{nullptr};  // of one set: panels come and go with the labels
     vk::raii::DescriptorSet set{nullptr};
+  };
+  struct Panel {
+    PanelPlacement placement;
+    std::variant<std::monostate, ForcePanel, DataPanel, Banner, ControlPanel, Label> painted;  // what the texture shows
+    Texture texture;
     bool shown = false;
   };
   // Vertices and indices of everything painted in one frame.
@@ -65,7 +75,7 @@ class Panels {
   template <class Content>
   void paint_on(Panel& panel, const Content& content);
   bool resize(Panel& panel);
-  void copy_geometry(Geometry& geometry) const;
+  Texture create_texture(vk::Extent2D extent) const;
   void record_painting(const vk::raii::CommandBuffer& command, const Geometry& geometry,
                        const Painting& painting) const;
 
@@ -76,7 +86,7 @@ class Panels {
   vk::raii::PipelineLayout canvas_layout_;
   vk::raii::Pipeline canvas_pipeline_;
   vk::raii::PipelineLayout rectangle_layout_;
-  vk::raii::Pipeline rectangle_pipeline_;
+  EyePipeline rectangle_pipeline_;
   vk::raii::Sampler sampler_;
   DeviceImage atlas_;
   vk::raii::ImageView atlas_view_{nullptr};
@@ -88,6 +98,11 @@ class Panels {
   Panel banner_;
   Panel control_;
   std::vector<Panel> labels_;
+  std::uint64_t revision_ = 0;
+
+  // what the frames before the slot's may still show: freed when the slot comes round again
+  std::array<std::vector<Texture>, kFramesInFlight> retired_;
+  std::size_t slot_ = 0;
 
   // what this frame paints; kept to reuse its memory
   std::vector<Painting> paintings_;

@@ -56,7 +56,7 @@ struct Presenter::Parts {
         finished(*device, vk::FenceCreateInfo{}) {}
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
-  ~Parts() { device->waitIdle(); }
+  ~Parts() { device.wait_idle(); }
 
   core::Result<void> choose_format();
   bool follow_window();

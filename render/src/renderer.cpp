@@ -3,10 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "core/check.h"
+#include "explained.h"
 #include "readback.h"
 #include "renderer_parts.h"
 
@@ -18,6 +23,12 @@ vk::raii::Semaphore create_timeline(const Device& device) {
   return vk::raii::Semaphore(*device, vk::SemaphoreCreateInfo{.pNext = &type});
 }
 
+// Colour and depth of 4 bytes each, in both eyes, with one sample and with all.
+double bytes_of_eyes(const RendererOptions& options) {
+  const double images = 2.0 * (4.0 + 4.0) * (options.samples > 1 ? 1.0 + options.samples : 1.0);
+  return images * static_cast<double>(options.eye_width) * static_cast<double>(options.eye_height);
+}
+
 core::Result<void> check_options(const Device& device, const RendererOptions& options) {
   const auto limits = device.physical().getProperties().limits;
   const auto largest = limits.maxImageDimension2D / 2;  // side by side is twice as wide
@@ -27,6 +38,15 @@ core::Result<void> check_options(const Device& device, const RendererOptions& op
                          fmt::format("cannot draw eye images of {}x{} pixels on {}: choose 1 to {} pixels each way",
                                      options.eye_width, options.eye_height, device.name(), largest));
   }
+  const double needed_gb = 1e-9 * bytes_of_eyes(options);
+  const double memory_gb = 1e-9 * static_cast<double>(device.largest_heap_bytes());
+  if (needed_gb > memory_gb) {
+    return core::failure(
+        core::ErrorCategory::Failed,
+        fmt::format("cannot draw eye images of {}x{} pixels on {}: they need {:.1f} GB of its {:.1f} GB; choose fewer "
+                    "pixels",
+                    options.eye_width, options.eye_height, device.name(), needed_gb, memory_gb));
+  }
   const auto counts = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
   if (options.samples != 1 && (options.samples != 4 || !(counts & vk::SampleCountFlagBits::e4))) {
     return core::failure(core::ErrorCategory::Failed, fmt::format("cannot draw {} samples a pixel on {}: choose 1 or 4",
@@ -35,23 +55,32 @@ core::Result<void> check_options(const Device& device, const RendererOptions& op
   return {};
 }
 
+bool see_the_same(const std::array<scene::EyeView, 2>& eyes) {
+  return eyes[0].projection == eyes[1].projection && eyes[0].view == eyes[1].view &&
+         eyes[0].eye_position_m == eyes[1].eye_position_m;
+}
+
 }  // namespace
 
 Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, const RendererOptions& the_options,
                        PanelFonts fonts)
     : device(the_device),
       options(the_options),
+      detail{.scale = 1.0, .samples = options.samples},
       eyes(device, options),
       geometry(device, scene),
       node_count(scene.nodes.size()),
       shadow_map(device),
       frame_set_layout(create_frame_set_layout(device)),
-      scene_pass(device, eyes, *frame_set_layout),
-      panels(device, std::move(fonts), eyes, *frame_set_layout),
+      scene_pass(device, *frame_set_layout),
+      panels(device, std::move(fonts), *frame_set_layout),
       composer(device, eyes),
       timeline(create_timeline(device)) {
   for (std::size_t i = 0; i < kFramesInFlight; ++i) {
-    slots.emplace_back(device, *frame_set_layout, shadow_map, eyes.pass_count(), geometry.draws().size());
+    slots.emplace_back(device, *frame_set_layout, shadow_map, geometry.draws().size());
+    if (options.time_passes && PassClock::works_on(device)) {
+      clocks.emplace_back(device);
+    }
   }
 }
 
@@ -60,18 +89,90 @@ void Renderer::Parts::wait_for(std::uint64_t value) const {
   AFM_CHECK(device->waitSemaphores(info, std::numeric_limits<std::uint64_t>::max()) == vk::Result::eSuccess);
 }
 
-void Renderer::Parts::record(const vk::raii::CommandBuffer& command, FrameSlot& slot, std::size_t slot_index,
-                             const FrameState& frame) {
-  panels.record_textures(command, slot_index, frame);
+EyeDrawing Renderer::Parts::choose_drawing(const FrameState& frame, const DrawList& draws) const {
+  const auto scaled = [&](std::uint32_t whole) {
+    return std::max(1U, static_cast<std::uint32_t>(std::lround(detail.scale * static_cast<double>(whole))));
+  };
+  EyeDrawing drawing{.samples = detail.samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
+                     .extent = {scaled(eyes.extent().width), scaled(eyes.extent().height)}};
+  const bool wrong_in_one = draws.clipped && device.clips_first_view_only();
+  if (see_the_same(frame.eyes)) {
+    drawing.pass = EyePass::Single;
+  } else if (options.pass_mode == PassMode::TwoPasses || (options.pass_mode == PassMode::Automatic && wrong_in_one)) {
+    drawing.pass = EyePass::Single;
+    drawing.pass_count = 2;
+  }
+  return drawing;
+}
+
+void Renderer::Parts::mark(const vk::raii::CommandBuffer& command, std::size_t slot, PassClock::Mark mark) const {
+  if (!clocks.empty()) {
+    clocks[slot].mark(command, mark);
+  }
+}
+
+void Renderer::Parts::record_painting(std::size_t slot) {
+  const auto& command = slots[slot].painting();
+  command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  mark(command, slot, PassClock::Mark::PanelsBegin);
+  panels.record_textures(command, slot);
+  mark(command, slot, PassClock::Mark::PanelsEnd);
+  command.end();
+}
+
+// What is recorded here is submitted again as it is while the slot's Recorded stays the same: what changes from frame
+// to frame comes from the slot's buffers.
+void Renderer::Parts::record_drawing(std::size_t slot_index) {
+  FrameSlot& slot = slots[slot_index];
+  const EyeDrawing& drawing = eyes.drawing();
+  if (!slot.recorded.take(slot.draws, drawing, panels.revision())) {
+    return;
+  }
+  const auto& command = slot.drawing();
+  command.begin({});
+  mark(command, slot_index, PassClock::Mark::ShadowBegin);
   shadow_map.begin(command);
-  scene_pass.record_shadow(command, {geometry, slot.draw_order(), frame.visible, slot.set(0), slot.draw_stride()});
+  scene_pass.record_shadow(command, {geometry, slot.draws, slot.set(0), slot.draw_stride()});
   shadow_map.end(command);
-  for (std::size_t pass = 0; pass < eyes.pass_count(); ++pass) {
+  mark(command, slot_index, PassClock::Mark::ShadowEnd);
+  for (std::size_t pass = 0; pass < drawing.pass_count; ++pass) {
     eyes.begin(command, pass);
-    scene_pass.record_eyes(command, {geometry, slot.draw_order(), frame.visible, slot.set(pass), slot.draw_stride()});
-    panels.record_rectangles(command, slot.set(pass));
+    scene_pass.record_eyes(command, drawing, {geometry, slot.draws, slot.set(pass), slot.draw_stride()});
+    panels.record_rectangles(command, drawing, slot.set(pass));
     eyes.end(command, pass);
   }
+  mark(command, slot_index, PassClock::Mark::EyesEnd);
+  command.end();
+}
+
+void Renderer::Parts::submit(std::size_t slot_index) {
+  FrameSlot& slot = slots[slot_index];
+  slot.finished_at = ++frames;
+  const std::array commands{vk::CommandBufferSubmitInfo{.commandBuffer = *slot.painting()},
+                            vk::CommandBufferSubmitInfo{.commandBuffer = *slot.drawing()}};
+  const std::span submitted = std::span(commands).subspan(slot.painted ? 0 : 1);
+  const vk::SemaphoreSubmitInfo signal{
+      .semaphore = *timeline, .value = slot.finished_at, .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
+  device.queue().submit2(vk::SubmitInfo2{.commandBufferInfoCount = static_cast<std::uint32_t>(submitted.size()),
+                                         .pCommandBufferInfos = submitted.data(),
+                                         .signalSemaphoreInfoCount = 1,
+                                         .pSignalSemaphoreInfos = &signal});
+}
+
+void Renderer::Parts::render(const FrameState& frame) {
+  const std::size_t slot_index = frames % kFramesInFlight;
+  FrameSlot& slot = slots[slot_index];
+  wait_for(slot.finished_at);
+  lister.list(frame, geometry, eyes.guard_band(), slot.draws);
+  eyes.begin_frame(choose_drawing(frame, slot.draws));
+  slot.write(frame, geometry, eyes.drawing(), eyes.guard_band());
+  slot.painted = panels.update(frame, slot_index);
+  if (slot.painted) {
+    record_painting(slot_index);
+  }
+  record_drawing(slot_index);
+  submit(slot_index);
+  eyes_drawn = true;
 }
 
 Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -87,41 +188,29 @@ core::Result<Renderer> Renderer::create(Context& context, const scene::Scene& sc
   if (!fonts) {
     return tl::unexpected(fonts.error());
   }
-  return Renderer(std::make_unique<Parts>(context.device(), scene, options, std::move(*fonts)));
+  try {
+    return Renderer(std::make_unique<Parts>(context.device(), scene, options, std::move(*fonts)));
+  } catch (const vk::SystemError& error) {
+    return core::failure(core::ErrorCategory::Failed, explain(error, context.device(), "the pictures of the eyes"));
+  }
 }
 
 void Renderer::render(const FrameState& frame) {
-  Parts& parts = *parts_;
-  AFM_CHECK(frame.room_from_node.size() == parts.node_count);
-  AFM_CHECK(frame.visible.empty() || frame.visible.size() == parts.node_count);
-  const std::size_t slot_index = parts.frames % kFramesInFlight;
-  FrameSlot& slot = parts.slots[slot_index];
-  parts.wait_for(slot.finished_at);
-  slot.write(frame, parts.geometry, parts.eyes);
-  const auto& command = slot.begin_commands();
-  parts.record(command, slot, slot_index, frame);
-  command.end();
-
-  slot.finished_at = ++parts.frames;
-  parts.eyes_drawn = true;
-  const vk::CommandBufferSubmitInfo commands{.commandBuffer = *command};
-  const vk::SemaphoreSubmitInfo signal{
-      .semaphore = *parts.timeline, .value = slot.finished_at, .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
-  parts.device.queue().submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1,
-                                               .pCommandBufferInfos = &commands,
-                                               .signalSemaphoreInfoCount = 1,
-                                               .pSignalSemaphoreInfos = &signal});
+  AFM_CHECK(frame.room_from_node.size() == parts_->node_count);
+  AFM_CHECK(frame.visible.empty() || frame.visible.size() == parts_->node_count);
+  explained(parts_->device, "drawing a frame", [&] { parts_->render(frame); });
 }
 
 Image Renderer::read_eye(scene::Eye eye) {
   AFM_CHECK(parts_->eyes_drawn);
   const auto image = parts_->eyes.eye(eye);
-  return read_back(parts_->device, image.image, image.layer, parts_->eyes.extent());
+  return explained(parts_->device, "reading a picture back",
+                   [&] { return read_back(parts_->device, image.image, image.layer, parts_->eyes.drawing().extent); });
 }
 
 Image Renderer::read_composed(Layout layout) {
   AFM_CHECK(parts_->eyes_drawn);
-  return parts_->composer.compose(layout);
+  return explained(parts_->device, "reading a picture back", [&] { return parts_->composer.compose(layout); });
 }
 
 bool Renderer::ready() const {
@@ -135,14 +224,42 @@ core::Result<void> Renderer::resize(std::uint32_t eye_width, std::uint32_t eye_h
   if (auto checked = check_options(parts_->device, options); !checked) {
     return checked;
   }
-  parts_->device->waitIdle();
+  try {
+    EyeTargets eyes(parts_->device, options);
+    parts_->device->waitIdle();
+    parts_->eyes = std::move(eyes);
+  } catch (const vk::SystemError& error) {
+    return core::failure(core::ErrorCategory::Failed, explain(error, parts_->device, "the pictures of the eyes"));
+  }
   parts_->options = options;
-  parts_->eyes = EyeTargets(parts_->device, options);
+  for (FrameSlot& slot : parts_->slots) {
+    slot.recorded = {};
+  }
   parts_->composer.eyes_changed();
   parts_->eyes_drawn = false;
   return {};
 }
 
-void Renderer::wait() { parts_->wait_for(parts_->frames); }
+void Renderer::set_detail(const Detail& detail) {
+  AFM_CHECK(detail.scale > 0.0 && detail.scale <= 1.0);
+  AFM_CHECK(detail.samples == 1 || (detail.samples == 4 && parts_->options.samples == 4));
+  parts_->detail = detail;
+}
+
+Detail Renderer::detail() const { return parts_->detail; }
+
+std::optional<PassTimes> Renderer::pass_times() const {
+  const std::uint64_t finished = parts_->timeline.getCounterValue();
+  // an older frame's slot is in use again
+  if (parts_->clocks.empty() || finished == 0 || finished + kFramesInFlight <= parts_->frames) {
+    return std::nullopt;
+  }
+  const std::size_t slot = (finished - 1) % kFramesInFlight;
+  return parts_->clocks[slot].times(parts_->slots[slot].painted);
+}
+
+void Renderer::wait() {
+  explained(parts_->device, "drawing a frame", [this] { parts_->wait_for(parts_->frames); });
+}
 
 }  // namespace afm::render

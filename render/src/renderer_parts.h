@@ -7,6 +7,7 @@
 #include "eye_targets.h"
 #include "frame_slot.h"
 #include "panels.h"
+#include "pass_clock.h"
 #include "render/renderer.h"
 #include "scene_geometry.h"
 #include "scene_pass.h"
@@ -19,13 +20,19 @@ struct Renderer::Parts {
   Parts(const Device& the_device, const scene::Scene& scene, const RendererOptions& the_options, PanelFonts fonts);
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
-  ~Parts() { device->waitIdle(); }
+  ~Parts() { device.wait_idle(); }
 
   void wait_for(std::uint64_t value) const;
-  void record(const vk::raii::CommandBuffer& command, FrameSlot& slot, std::size_t slot_index, const FrameState& frame);
+  EyeDrawing choose_drawing(const FrameState& frame, const DrawList& draws) const;
+  void mark(const vk::raii::CommandBuffer& command, std::size_t slot, PassClock::Mark mark) const;
+  void record_painting(std::size_t slot);
+  void record_drawing(std::size_t slot);
+  void submit(std::size_t slot);
+  void render(const FrameState& frame);
 
   const Device& device;
   RendererOptions options;
+  Detail detail;
   EyeTargets eyes;
   SceneGeometry geometry;
   std::size_t node_count;
@@ -34,7 +41,9 @@ struct Renderer::Parts {
   ScenePass scene_pass;
   Panels panels;
   Composer composer;
+  DrawLister lister;
   std::vector<FrameSlot> slots;
+  std::vector<PassClock> clocks;  // one a slot, or none
   vk::raii::Semaphore timeline;
   std::uint64_t frames = 0;  // submitted
   bool eyes_drawn = false;   // since the eye images were made

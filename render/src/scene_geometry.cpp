@@ -20,9 +20,9 @@ DrawBlock material_block(const scene::Material& material) {
   return block;
 }
 
-glm::vec3 box_center(const scene::Primitive& primitive) {
+void measure_box(const scene::Primitive& primitive, Draw& draw) {
   if (primitive.vertices.empty()) {
-    return glm::vec3(0.0F);
+    return;
   }
   glm::vec3 low = primitive.vertices.front().position;
   glm::vec3 high = low;
@@ -30,7 +30,8 @@ glm::vec3 box_center(const scene::Primitive& primitive) {
     low = glm::min(low, vertex.position);
     high = glm::max(high, vertex.position);
   }
-  return 0.5F * (low + high);
+  draw.center = 0.5F * (low + high);
+  draw.half_size = 0.5F * (high - low);
 }
 
 // Vertices and indices of all meshes end to end, and where each primitive lies.
@@ -52,8 +53,8 @@ Packed pack(const scene::Scene& scene) {
                        .first_vertex = static_cast<std::int32_t>(packed.vertices.size()),
                        .double_sided = material.double_sided,
                        .blended = material.blended,
-                       .center = box_center(primitive),
                        .block = material_block(material)});
+      measure_box(primitive, draws.back());
       packed.vertices.insert(packed.vertices.end(), primitive.vertices.begin(), primitive.vertices.end());
       packed.indices.insert(packed.indices.end(), primitive.indices.begin(), primitive.indices.end());
     }

@@ -23,7 +23,8 @@ struct Draw {
   bool double_sided = false;
   bool blended = false;
   glm::vec3 center{0.0F};  // of the primitive's box, in the node's frame
-  DrawBlock block{};       // with the material's constants filled in
+  glm::vec3 half_size{0.0F};
+  DrawBlock block{};  // with the material's constants filled in
 };
 
 // All meshes of a scene in one vertex and one index buffer, and its draws: opaque ones first, then blended ones.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "core/result.h"
 #include "render/context.h"
@@ -12,8 +13,9 @@
 
 namespace afm::render {
 
-// Both eyes in one multiview pass, or one pass an eye into images of its own: the oracle that the tests compare with.
-enum class PassMode { Multiview, TwoPasses };
+// How both eyes get their pictures: in one multiview pass, or one after the other, to the same bytes. Automatic: in one
+// pass unless the device would draw that frame wrongly. Where both eyes see the same, one is drawn.
+enum class PassMode { Automatic, Multiview, TwoPasses };
 
 // How the two eye images become one picture. SideBySide is twice as wide as an eye, left eye left, no pixel scaled.
 enum class Layout { Left, Right, SideBySide };
@@ -22,19 +24,37 @@ struct RendererOptions {
   std::uint32_t eye_width = 960;
   std::uint32_t eye_height = 720;
   std::uint32_t samples = 4;  // 1 or 4
-  PassMode pass_mode = PassMode::Multiview;
+  PassMode pass_mode = PassMode::Automatic;
   // Resolution of the panels' textures. Text is sharpest at twice the eye image's pixels per metre of wall: then each
   // pixel's bilinear sample covers just the texels below it.
   double panel_texels_per_m = 640.0;
+  bool time_passes = false;  // for pass_times()
+};
+
+// How finely frames are drawn; what is seen and where stays the same.
+struct Detail {
+  double scale = 1.0;         // of the eye images' resolution each way: (0, 1]; what is shown is scaled back up
+  std::uint32_t samples = 4;  // 1 or 4, no more than the renderer was made for
+
+  bool operator==(const Detail&) const = default;
+};
+
+// What the parts of a frame took on the device.
+struct PassTimes {
+  double panels_ms = 0;  // painting those that have changed
+  double shadow_ms = 0;
+  double eyes_ms = 0;  // both, with the panels in the room
+
+  double total_ms() const { return panels_ms + shadow_ms + eyes_ms; }
 };
 
 // Draws frames of one Scene, which it uploads when it is made. Two frames are in flight: render() returns once a frame
 // is submitted and waits only for the frame before the previous one. Nothing is read back unless asked for. One thread.
-// Vulkan's own failures (device lost, out of memory) are exceptions derived from std::system_error.
+// A lost device and a lack of memory are exceptions: DeviceFailure.
 class Renderer {
  public:
-  // Failed: no font for the panels, or sizes or samples that this device cannot do. `context` must outlive the
-  // renderer; `scene` is not kept.
+  // Failed: no font for the panels, sizes or samples that this device cannot do, or no memory for them. `context` must
+  // outlive the renderer; `scene` is not kept.
   static core::Result<Renderer> create(Context& context, const scene::Scene& scene, const RendererOptions& options);
 
   Renderer(Renderer&&) noexcept;
@@ -47,13 +67,22 @@ class Renderer {
   // Whether render() would return without waiting for an earlier frame. Does not wait.
   bool ready() const;
 
-  // The newest frame; waits for it. At least one frame has been rendered.
+  // The newest frame; waits for it. At least one frame has been rendered. Of an eye what is drawn: less than
+  // `eye_width` with a scale below 1.
   Image read_eye(scene::Eye eye);
   Image read_composed(Layout layout);
 
   // Eye images of another size from the next frame on; waits until the device is idle. The panels keep their
-  // resolution. Failed, with nothing changed: a size that this device cannot do.
+  // resolution. Failed, with nothing changed: a size that this device cannot do, or has no memory for.
   core::Result<void> resize(std::uint32_t eye_width, std::uint32_t eye_height);
+
+  // From the next frame on: neither waits nor makes the eye images anew. At first: full resolution, all samples.
+  void set_detail(const Detail& detail);
+  Detail detail() const;
+
+  // Of the newest frame that is finished. Nothing without RendererOptions::time_passes, or where the device has no
+  // clock.
+  std::optional<PassTimes> pass_times() const;
 
   // Waits until everything submitted is done: for measuring, and before a pause.
   void wait();

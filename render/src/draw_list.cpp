@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "draw_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace afm::render {
+namespace {
+
+struct Box {
+  glm::dvec3 center;
+  glm::dvec3 half_size;
+};
+
+Box bent_box(const Draw& draw, const FrameState& frame) {
+  Box box{glm::dvec3(draw.center), glm::dvec3(draw.half_size)};
+  for (const auto& bend : frame.bends) {
+    if (bend.node == draw.node && bend.length > 0.0F) {
+      // beyond its end a loaded beam is straight, with 3/2 of the mean slope
+      const double reach = (box.center.x + box.half_size.x) / static_cast<double>(bend.length);
+      box.half_size.z += std::abs(static_cast<double>(bend.end_deflection)) * (1.0 + 1.5 * std::max(reach - 1.0, 0.0));
+    }
+  }
+  return box;
+}
+
+// The least and the largest value of a linear form over the box.
+std::pair<double, double> range(const glm::dvec4& form, const Box& box) {
+  const glm::dvec3 slope(form);
+  const double middle = glm::dot(slope, box.center) + form.w;
+  const double reach = glm::dot(glm::abs(slope), box.half_size);
+  return {middle - reach, middle + reach};
+}
+
+struct Sight {
+  bool seen = false;
+  bool clipped = false;
+};
+
+Sight sight(const scene::EyeView& eye, const glm::dmat4& room_from_node, const Box& box, double guard_band) {
+  const glm::dmat4 rows = glm::transpose(eye.projection * eye.view * room_from_node);
+  const glm::dvec4 near = rows[3] - rows[2];  // reversed depth: nothing is nearer than z = w
+  Sight sight{.seen = range(near, box).second >= 0.0, .clipped = range(near, box).first < 0.0};
+  for (glm::length_t axis = 0; axis < 2; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      sight.seen = sight.seen && range(rows[3] + side * rows[axis], box).second >= 0.0;
+      sight.clipped = sight.clipped || range(guard_band * rows[3] + side * rows[axis], box).first < 0.0;
+    }
+  }
+  return sight;
+}
+
+}  // namespace
+
+void DrawLister::list(const FrameState& frame, const SceneGeometry& geometry, float guard_band, DrawList& list) {
+  const auto& draws = geometry.draws();
+  const glm::dvec3 viewer = 0.5 * (frame.eyes[0].eye_position_m + frame.eyes[1].eye_position_m);
+  list.shadow.clear();
+  list.clipped = false;
+  opaque_.clear();
+  blended_.clear();
+  for (std::uint32_t i = 0; i < draws.size(); ++i) {
+    const Draw& draw = draws[i];
+    if (!frame.visible.empty() && frame.visible[draw.node] == 0) {
+      continue;
+    }
+    if (!draw.blended) {
+      list.shadow.push_back(i);
+    }
+    const auto& room_from_node = frame.room_from_node[draw.node];
+    const Box box = bent_box(draw, frame);
+    bool seen = false;
+    for (const auto& eye : frame.eyes) {
+      const Sight its = sight(eye, room_from_node, box, static_cast<double>(guard_band));
+      seen = seen || its.seen;
+      list.clipped = list.clipped || (its.seen && its.clipped);
+    }
+    if (seen) {
+      const double distance = glm::distance(viewer, glm::dvec3(room_from_node * glm::dvec4(box.center, 1.0)));
+      (draw.blended ? blended_ : opaque_).emplace_back(distance, i);
+    }
+  }
+  const auto places = [](const Distances& distances, std::vector<std::uint32_t>& to) {
+    to.clear();
+    for (const auto& each : distances) {
+      to.push_back(each.second);
+    }
+  };
+  std::sort(opaque_.begin(), opaque_.end());
+  std::sort(blended_.rbegin(), blended_.rend());
+  places(opaque_, list.opaque);
+  places(blended_, list.blended);
+}
+
+}  // namespace afm::render

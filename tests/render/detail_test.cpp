@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "support/pictures.h"
+#include "support/vulkan_fixture.h"
+
+namespace afm::test {
+namespace {
+
+class DetailOfFrames : public VulkanTest {
+ protected:
+  Pair eyes_of(render::Renderer& renderer, const render::FrameState& frame) const {
+    renderer.render(frame);
+    return {renderer.read_eye(scene::Eye::Left), renderer.read_eye(scene::Eye::Right)};
+  }
+
+  TestScene test_ = make_test_scene();
+  render::FrameState frame_ = full_frame(test_);
+};
+
+TEST_F(DetailOfFrames, HalfTheResolutionIsThePictureOfAnEyeHalfAsLarge) {
+  auto half = small();
+  half.eye_width /= 2;
+  half.eye_height /= 2;
+  auto renderer = make_renderer(test_.scene, small());
+  renderer.set_detail({.scale = 0.5, .samples = 4});
+  const auto scaled = eyes_of(renderer, frame_);
+  const auto smaller = draw(test_.scene, frame_, half);
+  EXPECT_EQ(scaled.left.width, half.eye_width);
+  EXPECT_EQ(scaled.left.height, half.eye_height);
+  EXPECT_EQ(scaled.left.rgba, smaller.left.rgba);
+  EXPECT_EQ(scaled.right.rgba, smaller.right.rgba);
+}
+
+TEST_F(DetailOfFrames, FewerSamplesAreThoseOfARendererMadeForFewer) {
+  auto renderer = make_renderer(test_.scene, small(4));
+  renderer.set_detail({.scale = 1.0, .samples = 1});
+  const auto eyes = eyes_of(renderer, frame_);
+  const auto single = draw(test_.scene, frame_, small(1));
+  EXPECT_EQ(eyes.left.rgba, single.left.rgba);
+  EXPECT_EQ(eyes.right.rgba, single.right.rgba);
+}
+
+TEST_F(DetailOfFrames, ComesBackWithoutATrace) {
+  auto renderer = make_renderer(test_.scene, small());
+  const auto before = eyes_of(renderer, frame_);
+  for (const double scale : {0.5, 0.71, 0.001, 0.9}) {
+    renderer.set_detail({.scale = scale, .samples = scale < 0.6 ? 1U : 4U});
+    renderer.render(frame_);
+  }
+  renderer.set_detail({.scale = 1.0, .samples = 4});
+  const auto after = eyes_of(renderer, frame_);
+  EXPECT_EQ(before.left.rgba, after.left.rgba);
+  EXPECT_EQ(before.right.rgba, after.right.rgba);
+}
+
+// The wall's geometry stays: a square keeps its place and size in the picture, to a pixel of the coarser one.
+TEST_F(DetailOfFrames, ScalingBackUpPutsThingsWhereTheyWere) {
+  scene::Scene scene;
+  const auto white = add_material(scene, {.name = "white", .unlit = true});
+  add(scene, "square", quad(white), glm::translate(glm::dmat4(1.0), glm::dvec3(0.7, -0.4, 0.3)));
+  auto renderer = make_renderer(scene, small());
+  const auto weight = brighter_than(120);
+  renderer.render(bare_frame(scene));
+  const auto whole = renderer.read_composed(render::Layout::Right);
+  renderer.set_detail({.scale = 0.5, .samples = 4});
+  renderer.render(bare_frame(scene));
+  const auto half = renderer.read_composed(render::Layout::Right);
+  ASSERT_EQ(half.width, whole.width);
+  EXPECT_NEAR(centroid(half, weight)->x, centroid(whole, weight)->x, 1.0);
+  EXPECT_NEAR(centroid(half, weight)->y, centroid(whole, weight)->y, 1.0);
+
+  // nothing of what lies beside the part that was drawn is shown
+  for (std::uint32_t y = 0; y < half.height; ++y) {
+    const std::size_t last = 4 * (std::size_t{y} * half.width + half.width - 1);
+    ASSERT_NEAR(half.rgba[last], whole.rgba[last], 6) << y;
+  }
+}
+
+TEST_F(DetailOfFrames, EyesThatSeeTheSameAreDrawnOnceAndShownTwice) {
+  auto renderer = make_renderer(test_.scene, small());
+  const auto stereo = eyes_of(renderer, frame_);
+  auto one_eyed = frame_;
+  one_eyed.eyes[1] = one_eyed.eyes[0];
+  const auto same = eyes_of(renderer, one_eyed);
+  EXPECT_EQ(same.left.rgba, stereo.left.rgba);
+  EXPECT_EQ(same.right.rgba, stereo.left.rgba);
+  EXPECT_EQ(renderer.read_composed(render::Layout::Right).rgba, stereo.left.rgba);
+
+  // and the right eye's picture is drawn again when it differs again
+  EXPECT_EQ(eyes_of(renderer, frame_).right.rgba, stereo.right.rgba);
+}
+
+// From behind the head, past it, to the wall: clipped by the near planes of both eyes.
+TEST_F(DetailOfFrames, WhatPassesBesideTheHeadIsSeenByBothEyes) {
+  for (const std::uint32_t samples : {1U, 4U}) {
+    scene::Scene scene;
+    const auto white = add_material(scene, {.name = "white", .double_sided = true, .unlit = true});
+    const glm::dmat4 flat = glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), glm::dvec3(1.0, 0.0, 0.0));
+    add(scene, "floor", quad(white),
+        glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.5, 1.5)) * flat * glm::dmat4(glm::dmat3(6.0)));
+    const auto frame = bare_frame(scene);
+    const auto seen = draw(scene, frame, small(samples, render::PassMode::Automatic));
+    const auto oracle = draw(scene, frame, small(samples, render::PassMode::TwoPasses));
+    const auto is_white = [](const Pixel& p) { return p.g > 200; };
+    EXPECT_GT(count(seen.left, is_white), std::size_t{256 * 192 / 8});
+    EXPECT_EQ(count(seen.left, is_white), count(seen.right, is_white));
+    EXPECT_EQ(seen.left.rgba, oracle.left.rgba);
+    EXPECT_EQ(seen.right.rgba, oracle.right.rgba);
+  }
+}
+
+}  // namespace
+}  // namespace afm::test

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "support/no_alloc.h"
+#include "support/vulkan_fixture.h"
+
+// Frames whose panels stay as they are; what is painted anew needs memory for its text. Without the validation layers,
+// which allocate in the caller's thread.
+namespace afm::test {
+namespace {
+
+render::Context open_context() {
+  auto context = render::Context::open();
+  if (!context) throw std::runtime_error(context.error().message);
+  return std::move(*context);
+}
+
+class FrameAllocation : public testing::Test {
+ protected:
+  // Everything that moves in a frame moves, so that things come into sight, pass each other and are chosen.
+  std::vector<render::FrameState> moving_frames() const {
+    std::vector<render::FrameState> frames;
+    for (int i = 0; i < 12; ++i) {
+      render::FrameState frame = full_frame(test_);
+      const double turn = 0.4 * i;
+      frame.room_from_node[test_.mica][3].x += 3.0 * std::sin(turn);
+      frame.room_from_node[test_.gold][3].z += std::cos(turn);
+      frame.bends.front().end_deflection = 0.01F * static_cast<float>(i);
+      frame.visible.assign(test_.scene.nodes.size(), 1);
+      frame.visible[test_.beam] = i % 3 == 0 ? 0 : 1;
+      frame.highlighted = {i % 2 == 0 ? test_.mica : test_.nitride};
+      frames.push_back(std::move(frame));
+    }
+    return frames;
+  }
+
+  void expect_none(const std::vector<render::FrameState>& frames, render::PassMode pass_mode) {
+    auto context = open_context();
+    auto renderer = render::Renderer::create(context, test_.scene, small(4, pass_mode));
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    for (int turn = 0; turn < 2; ++turn) {
+      for (const auto& frame : frames) renderer->render(frame);
+    }
+    for (const auto& frame : frames) {
+      const NoAllocation no_allocation;
+      renderer->render(frame);
+    }
+    renderer->wait();
+  }
+
+  TestScene test_ = make_test_scene();
+};
+
+TEST_F(FrameAllocation, AMovingSceneIsDrawnWithoutAny) { expect_none(moving_frames(), render::PassMode::Multiview); }
+
+TEST_F(FrameAllocation, EyeByEyeTakesNoneEither) { expect_none(moving_frames(), render::PassMode::TwoPasses); }
+
+// Resolution and samples change while it runs.
+TEST_F(FrameAllocation, AChangeOfDetailTakesNone) {
+  auto context = open_context();
+  auto renderer = render::Renderer::create(context, test_.scene, small());
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  const auto frames = moving_frames();
+  const std::vector<render::Detail> details{{1.0, 4}, {0.84, 4}, {0.5, 4}, {0.5, 1}};
+  const auto draw_all = [&] {
+    for (const auto& detail : details) {
+      renderer->set_detail(detail);
+      for (const auto& frame : frames) renderer->render(frame);
+    }
+  };
+  draw_all();
+  draw_all();
+  const NoAllocation no_allocation;
+  draw_all();
+}
+
+}  // namespace
+}  // namespace afm::test
