@@ -1,32 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <cstdint>
-#include <glm/vec4.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gltf_buffers.h"
+#include "gltf_json.h"
 
 namespace afm::scene {
 
-// Reads elements of an accessor of `model` whose view, range and component type gltf_validation.h has checked.
-class AccessorReader {
+// glTF's numbers, section 3.6.2.2.
+enum class ComponentType : std::uint16_t {
+  Byte = 5120,
+  UnsignedByte = 5121,
+  Short = 5122,
+  UnsignedShort = 5123,
+  UnsignedInt = 5125,
+  Float = 5126
+};
+
+struct SparseValues {
+  std::uint32_t count = 0;
+  ComponentType index_type = ComponentType::UnsignedInt;
+  std::span<const std::uint8_t> indices;
+  std::span<const std::uint8_t> values;
+};
+
+// A typed view of bytes, all of whose elements lie within them.
+struct Accessor {
+  std::size_t count = 0;
+  int components = 1;
+  ComponentType type = ComponentType::Float;
+  bool normalized = false;
+  bool matrix = false;
+  std::span<const std::uint8_t> bytes;  // empty: zeros
+  std::size_t stride = 0;
+  std::optional<SparseValues> sparse;
+};
+
+class GltfAccessors {
  public:
-  AccessorReader(const tinygltf::Model& model, int accessor);
+  // Throws GltfFault. `buffers` must outlive it.
+  GltfAccessors(const GltfBuffers& buffers, const JsonElement& root);
 
-  std::size_t count() const { return count_; }
+  std::size_t size() const { return accessors_.size(); }
+  const Accessor& operator[](std::size_t index) const { return accessors_[index]; }
 
-  // As floats, integers normalised to 0..1; components that the accessor lacks are those of `missing`.
-  glm::vec4 floats(std::size_t element, glm::vec4 missing = glm::vec4(0.0F)) const;
+  // All components of all elements; normalised integers as 0..1 or -1..1. Throws GltfFault for what is not finite.
+  std::vector<float> floats(std::size_t index) const;
 
-  // The scalar as it is: a vertex index.
-  std::uint32_t index(std::size_t element) const;
+  // The same of unsigned integers, as they are.
+  std::vector<std::uint32_t> integers(std::size_t index) const;
 
  private:
-  const unsigned char* data_;
-  std::size_t count_;
-  std::size_t stride_;
-  int component_type_;
-  int components_;
+  std::vector<Accessor> accessors_;
 };
 
 }  // namespace afm::scene

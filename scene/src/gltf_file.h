@@ -1,21 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tiny_gltf.h>
-
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
-#include "core/result.h"
+#include "gltf_json.h"
 
 namespace afm::scene {
 
-// The file and its side files together.
+using Bytes = std::vector<std::uint8_t>;
+
+// A model and all its side files together.
 inline constexpr std::uint64_t kLargestGltfBytes = 256ULL << 20U;
 
-// Reads `path` and its side files and lets tinygltf parse them, after checking by itself what tinygltf 2.7 gets wrong:
-// nesting deep enough to overflow its stack, a binary chunk that reaches past the file, negative sizes (taken for 0),
-// versions, and side files anywhere on the disk. The model's indices and sizes are NOT checked: see gltf_validation.h.
-// The error's message is the reason alone, without the file's name.
-core::Result<tinygltf::Model> read_gltf_file(const std::string& path);
+// What a model may read beside itself: data URIs, and plain files in its folder or below, no links that lead out of it.
+class SideFiles {
+ public:
+  SideFiles() = default;
+  SideFiles(std::filesystem::path folder, std::uint64_t bytes_left)
+      : folder_(std::move(folder)), bytes_left_(bytes_left) {}
+
+  // Throws GltfFault.
+  Bytes read(const std::string& uri);
+
+ private:
+  std::optional<std::filesystem::path> resolve(const std::string& uri) const;
+
+  std::filesystem::path folder_;
+  std::uint64_t bytes_left_ = 0;
+};
+
+// A model's text as a tree that is no deeper and no larger than a model needs, and the binary chunk of a .glb, if it
+// has one: a part of `bytes`.
+struct GltfFile {
+  Bytes bytes;
+  Json document;
+  std::optional<std::span<const std::uint8_t>> binary;
+  SideFiles side_files;
+};
+
+// Throws GltfFault.
+GltfFile read_gltf_file(const std::string& path);
 
 }  // namespace afm::scene

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf_nodes.h"
+
+namespace afm::scene {
+
+// All animations of the nodes that are shown, after these. Throws GltfFault.
+void read_animations(const JsonElement& root, const GltfAccessors& accessors, const NodePlaces& places,
+                     GltfBudget& budget, Scene& scene, GltfNotes& notes);
+
+}  // namespace afm::scene

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf_attributes.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace afm::scene {
+namespace {
+
+// Which integers an attribute may be made of beside floats.
+enum class Integers { None, NormalizedUnsigned, Unsigned, Small, SmallSigned };
+
+struct Attribute {
+  std::string_view name;
+  int least_components;
+  int most_components;
+  Integers plain;
+  Integers quantized;
+};
+
+constexpr std::array<Attribute, 10> kAttributes{{
+    {"POSITION", 3, 3, Integers::None, Integers::Small},
+    {"NORMAL", 3, 3, Integers::None, Integers::SmallSigned},
+    {"TANGENT", 4, 4, Integers::None, Integers::SmallSigned},
+    {"TEXCOORD_0", 2, 2, Integers::NormalizedUnsigned, Integers::Small},
+    {"TEXCOORD_1", 2, 2, Integers::NormalizedUnsigned, Integers::Small},
+    {"COLOR_0", 3, 4, Integers::NormalizedUnsigned, Integers::NormalizedUnsigned},
+    {"JOINTS_0", 4, 4, Integers::Unsigned, Integers::Unsigned},
+    {"JOINTS_1", 4, 4, Integers::Unsigned, Integers::Unsigned},
+    {"WEIGHTS_0", 4, 4, Integers::NormalizedUnsigned, Integers::NormalizedUnsigned},
+    {"WEIGHTS_1", 4, 4, Integers::NormalizedUnsigned, Integers::NormalizedUnsigned},
+}};
+
+const Attribute* find(std::string_view name) {
+  const auto* found =
+      std::find_if(kAttributes.begin(), kAttributes.end(), [&](const Attribute& a) { return a.name == name; });
+  return found == kAttributes.end() ? nullptr : found;
+}
+
+bool is_among(const Accessor& accessor, Integers integers) {
+  const bool is_unsigned =
+      accessor.type == ComponentType::UnsignedByte || accessor.type == ComponentType::UnsignedShort;
+  const bool is_signed = accessor.type == ComponentType::Byte || accessor.type == ComponentType::Short;
+  switch (integers) {
+    case Integers::None:
+      return false;
+    case Integers::NormalizedUnsigned:
+      return is_unsigned && accessor.normalized;
+    case Integers::Unsigned:
+      return is_unsigned && !accessor.normalized;
+    case Integers::Small:
+      return is_unsigned || is_signed;
+    case Integers::SmallSigned:
+      return is_signed && accessor.normalized;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool uses_quantization(const JsonElement& root) {
+  const auto names = root.values("extensionsUsed");
+  return std::any_of(names.begin(), names.end(),
+                     [](const JsonElement& name) { return name.json() == "KHR_mesh_quantization"; });
+}
+
+bool is_read_attribute(const std::string& name) { return find(name) != nullptr; }
+
+void check_attribute(const JsonElement& from, const char* name, const Accessor& accessor, AttributeOwner owner,
+                     bool quantized) {
+  const Attribute* attribute = find(name);
+  if (attribute == nullptr) return;
+  // a target's tangent has no handedness
+  const bool right_size = owner == AttributeOwner::Target ? accessor.components == 3
+                                                          : accessor.components >= attribute->least_components &&
+                                                                accessor.components <= attribute->most_components;
+  const bool is_float = accessor.type == ComponentType::Float && attribute->plain != Integers::Unsigned;
+  const Integers integers = quantized ? attribute->quantized : attribute->plain;
+  if (accessor.matrix || !right_size || !(is_float || is_among(accessor, integers))) {
+    from.fail(fmt::format("has {} of a type that it may not have", name));
+  }
+}
+
+void check_indices(const JsonElement& primitive, const Accessor& accessor) {
+  const bool is_unsigned = accessor.type == ComponentType::UnsignedByte ||
+                           accessor.type == ComponentType::UnsignedShort || accessor.type == ComponentType::UnsignedInt;
+  if (accessor.components != 1 || !is_unsigned || accessor.normalized) {
+    primitive.fail("has indices of a type that they may not have");
+  }
+}
+
+}  // namespace afm::scene

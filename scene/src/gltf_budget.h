@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "gltf_fault.h"
+
+namespace afm::scene {
+
+// What the meshes and animations of a model may take. Many may share an accessor, so that a small file can ask for
+// much; every stream asks before it is made.
+class GltfBudget {
+ public:
+  void take(std::uint64_t count, std::uint64_t bytes_each) {
+    if (count > kMostBytes / bytes_each || count * bytes_each > kMostBytes - taken_) {
+      throw GltfFault("its meshes and animations take more than 384 MiB; make it smaller");
+    }
+    taken_ += count * bytes_each;
+  }
+
+ private:
+  static constexpr std::uint64_t kMostBytes = 384ULL << 20U;
+  std::uint64_t taken_ = 0;
+};
+
+}  // namespace afm::scene

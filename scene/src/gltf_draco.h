@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf_accessor.h"
+
+namespace afm::scene {
+
+// A mesh out of a Draco stream: its corners, and a value a vertex of each attribute.
+struct DracoMesh {
+  std::vector<std::uint32_t> indices;
+  std::map<std::string, std::vector<float>> attributes;
+};
+
+// What is wanted from the stream: the attribute of this number, as the accessor describes it.
+struct DracoAttribute {
+  std::string name;
+  std::uint32_t id = 0;
+  const Accessor* accessor = nullptr;
+};
+
+// Throws GltfFault: the stream is broken, or is not the `corners` indices and the attributes that were announced.
+DracoMesh decode_draco(std::span<const std::uint8_t> stream, std::size_t corners,
+                       const std::vector<DracoAttribute>& wanted);
+
+}  // namespace afm::scene

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace afm::scene {
+
+bool is_data_uri(std::string_view uri);
+
+// The bytes of "data:[type];base64,..." (RFC 2397, RFC 4648 section 4). Throws GltfFault.
+std::vector<std::uint8_t> decode_data_uri(std::string_view uri);
+
+// "%20" becomes a space (RFC 3986, section 2.1); what is no such triple stays as it is.
+std::string decode_percent(std::string_view uri);
+
+}  // namespace afm::scene
