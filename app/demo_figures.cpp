@@ -97,7 +97,7 @@ VariationFigure::VariationFigure(const RecordedSession& base, const Measurement&
 core::Result<void> draw_figure(const Moment& moment, const FrameBuilder& frames, render::Renderer& renderer,
                                const std::string& path) {
   renderer.render(frames.build(moment));
-  return render::write_png(renderer.read_composed(render::Layout::SideBySide), path);
+  return render::write_png(renderer.read_composed({}), path);
 }
 
 }  // namespace afm::app

@@ -149,7 +149,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   servo_.place(transforms);
 
   renderer_.render(frames_.build(now));
-  if (pointing.chosen && !result.choosing) result.choosing = renderer_.read_composed(render::Layout::SideBySide);
+  if (pointing.chosen && !result.choosing) result.choosing = renderer_.read_composed({});
   result.frame_ms.push_back(static_cast<double>(clock_.now_ns() - start_ns) * 1e-6);
   return {};
 }

@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/mouse_wand.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtx/quaternion.hpp>
 
 namespace afm::app {
 
 input::Ray MouseWand::ray(const WallPicture& picture, const glm::dvec2& cursor_px) const {
-  const glm::dvec2 size(picture.place.size_px);
-  glm::dvec2 share = (cursor_px - glm::dvec2(picture.place.offset_px)) / size;
-  std::size_t shown = picture.layout == render::Layout::Right ? 1 : 0;
-  if (picture.layout == render::Layout::SideBySide) {
-    shown = share.x >= 0.5 ? 1 : 0;
-    share.x = 2.0 * share.x - static_cast<double>(shown);
+  const glm::dvec2 in_picture = cursor_px - glm::dvec2(picture.place.offset_px);
+  const glm::dvec2 last(picture.place.size_px - 1U);
+  const glm::dvec2 pixel = glm::clamp(glm::floor(in_picture), glm::dvec2(0.0), last);
+  const scene::StereoMode mode = picture.composition.mode;
+  const auto source = scene::source_of_pixel(mode, picture.composition.order, picture.place.size_px, glm::uvec2(pixel));
+  glm::dvec2 uv = source.uv + (in_picture - pixel - 0.5) * source.uv_per_pixel;
+
+  // where both eyes see the cursor, or none does, it points from their middle
+  glm::dvec3 eye = 0.5 * (picture.eyes[0].eye_position_m + picture.eyes[1].eye_position_m);
+  if (source.eye == scene::PixelEye::Blank) {
+    uv = in_picture / glm::dvec2(picture.place.size_px);
+  } else if (source.eye != scene::PixelEye::Both && !scene::is_interleaved(mode)) {
+    eye = picture.eyes[source.eye == scene::PixelEye::Left ? 0 : 1].eye_position_m;
   }
-  const glm::dvec3 eye = picture.eyes[shown].eye_position_m;
-  const glm::dvec3 point = screen_.upper_left + share.x * (screen_.lower_right - screen_.lower_left) +
-                           share.y * (screen_.lower_left - screen_.upper_left);
+  const glm::dvec3 point = screen_.upper_left + uv.x * (screen_.lower_right - screen_.lower_left) +
+                           uv.y * (screen_.lower_left - screen_.upper_left);
   return {.origin_m = eye, .direction = glm::normalize(point - eye)};
 }
 

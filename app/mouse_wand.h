@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "input/wand.h"
+#include "render/composition.h"
 #include "render/presenter.h"
 #include "scene/wall.h"
 
@@ -14,12 +15,13 @@ namespace afm::app {
 // How a window shows the wall.
 struct WallPicture {
   render::PicturePlace place;  // of the composed picture in the window
-  render::Layout layout = render::Layout::Left;
+  render::Composition composition;
   std::array<scene::EyeView, 2> eyes;  // left and right picture
 };
 
-// The mouse as a wand. What it points at is what lies behind the cursor for the eye whose picture the cursor is on; the
-// wand that is drawn rests at its grip and is turned towards that. Const; room frame, metres.
+// The mouse as a wand. What it points at is what lies behind the cursor for the eye whose picture the cursor is on, or
+// for the middle of the eyes where both share the picture; the wand that is drawn rests at its grip and is turned
+// towards that. Const; room frame, metres.
 class MouseWand {
  public:
   MouseWand(const scene::Screen& screen, const glm::dvec3& grip_m) : screen_(screen), grip_m_(grip_m) {}

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -25,7 +25,7 @@ struct RenderOptions {
   std::string out;
   double at_s = 0;
   std::uint32_t eye_width = 960;
-  render::Layout layout = render::Layout::SideBySide;
+  render::Composition composition;
   StageFiles files;
 };
 
@@ -46,6 +46,20 @@ StageFiles files_for(const RecordedSession& session, StageFiles files) {
     files.shown = {session.material};
   }
   return files;
+}
+
+// Modes with two pictures: FILE-left.png and FILE-right.png.
+core::Result<void> write_pictures(render::Renderer& renderer, const RenderOptions& options) {
+  if (!scene::has_two_pictures(options.composition.mode)) {
+    return render::write_png(renderer.read_composed(options.composition), options.out);
+  }
+  const auto pictures = renderer.read_pair(options.composition);
+  const std::filesystem::path out(options.out);
+  for (const std::size_t i : {0U, 1U}) {
+    const auto name = out.stem().string() + (i == 0 ? "-left" : "-right") + out.extension().string();
+    if (auto written = render::write_png(pictures[i], out.parent_path() / name); !written) return written;
+  }
+  return {};
 }
 
 core::Result<void> run_render(const RenderOptions& options) {
@@ -92,14 +106,12 @@ core::Result<void> run_render(const RenderOptions& options) {
   moment.guidance = fmt::format("{} at {:.2f} s", found->title, options.at_s);
   const FrameBuilder frames(stage->wall_scene, felt, stage->eyes);
   renderer->render(frames.build(moment));
-  return render::write_png(renderer->read_composed(options.layout), options.out);
+  return write_pictures(*renderer, options);
 }
 
 }  // namespace
 
 void add_render_command(CLI::App& app, CommandContext& context) {
-  static const std::map<std::string, render::Layout> kLayouts{
-      {"left", render::Layout::Left}, {"right", render::Layout::Right}, {"side-by-side", render::Layout::SideBySide}};
   CLI::App* command = app.add_subcommand("render", "draw a moment of a recorded session without a window");
   command->footer("example: touchafm render --session out/session-gold.afms --at 5.2 --out gold.png");
   auto options = std::make_shared<RenderOptions>();
@@ -110,11 +122,7 @@ void add_render_command(CLI::App& app, CommandContext& context) {
   command->add_option("--at", options->at_s, "time from the start of the session, in seconds")
       ->capture_default_str()
       ->type_name("SECONDS");
-  command
-      ->add_option("--stereo", options->layout,
-                   "how the eyes are composed: left, right, side-by-side; default: side-by-side")
-      ->transform(CLI::CheckedTransformer(kLayouts))
-      ->type_name("MODE");
+  add_stereo_options(*command, options->composition);
   command
       ->add_option("--eye-width", options->eye_width,
                    "width of each eye's picture in pixels; the height follows the wall")

@@ -22,10 +22,13 @@ render::RendererOptions Stage::renderer_options(std::uint32_t eye_width) const {
   return options;
 }
 
-std::uint32_t Stage::eye_width_within(glm::uvec2 window_px, std::uint32_t beside) const {
+glm::uvec2 Stage::eye_size_within(scene::StereoMode mode, glm::uvec2 window_px) const {
+  const glm::uvec2 room = scene::eye_size(mode, window_px);
+  if (scene::frame_packing(mode)) return room;
   const scene::Screen& screen = wall.screens.front();
-  const double by_height = std::floor(window_px.y * screen.width_m() / screen.height_m());
-  return std::max(1U, std::min(window_px.x / beside, static_cast<std::uint32_t>(by_height)));
+  const double by_height = std::floor(room.y * screen.width_m() / screen.height_m());
+  const auto options = renderer_options(std::clamp(static_cast<std::uint32_t>(by_height), 1U, room.x));
+  return {options.eye_width, std::clamp(options.eye_height, 1U, room.y)};
 }
 
 namespace {
@@ -54,6 +57,14 @@ core::Result<scene::MaterialLibrary> shown_materials(const StageFiles& files) {
   return shown;
 }
 
+std::string stereo_mode_list() {
+  std::string names;
+  for (const scene::NamedStereoMode& entry : scene::kStereoModes) {
+    names += names.empty() ? std::string(entry.name) : ", " + std::string(entry.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 core::Result<Stage> load_stage(const StageFiles& files) {
@@ -69,6 +80,21 @@ core::Result<Stage> load_stage(const StageFiles& files) {
   auto guidance = Guidance::load(files.guidance.empty() ? files.assets_dir + "/guidance/en.toml" : files.guidance);
   if (!guidance) return tl::unexpected(guidance.error());
   return Stage{std::move(*materials), std::move(*wall), *eyes, std::move(*wall_scene), std::move(*guidance)};
+}
+
+void add_stereo_options(CLI::App& command, render::Composition& composition) {
+  command
+      .add_option_function<std::string>(
+          "--stereo",
+          [&composition](const std::string& name) {
+            const auto mode = scene::parse_stereo_mode(name);
+            if (!mode) throw CLI::ValidationError("--stereo", mode.error().message);
+            composition.mode = *mode;
+          },
+          fmt::format("how both eyes are shown: {}; default: {}", stereo_mode_list(), scene::name_of(composition.mode)))
+      ->type_name("MODE");
+  command.add_flag_callback(
+      "--swap-eyes", [&composition] { composition.order = scene::EyeOrder::Swapped; }, "left and right exchanged");
 }
 
 void add_stage_options(CLI::App& command, StageFiles& files, const CommandContext& context) {

@@ -41,11 +41,14 @@ struct Stage {
   // Square pixels: the height follows the wall's proportions.
   render::RendererOptions renderer_options(std::uint32_t eye_width) const;
 
-  // The widest eye image of which `beside` fit into a window beside each other, at the wall's proportions.
-  std::uint32_t eye_width_within(glm::uvec2 window_px, std::uint32_t beside) const;
+  // The largest eye images, at the wall's proportions, whose picture fits into a window.
+  glm::uvec2 eye_size_within(scene::StereoMode mode, glm::uvec2 window_px) const;
 };
 
 core::Result<Stage> load_stage(const StageFiles& files);
+
+// --stereo, whose default is the composition's mode, and --swap-eyes.
+void add_stereo_options(CLI::App& command, render::Composition& composition);
 
 // --wall, --materials and --assets.
 void add_stage_options(CLI::App& command, StageFiles& files, const CommandContext& context);

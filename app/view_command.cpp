@@ -110,6 +110,12 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
     materials.push_back(std::move(*felt));
   }
   ViewSettings settings = options.settings;
+  if (scene::has_two_pictures(settings.picture.composition.mode)) {
+    return core::failure(
+        core::ErrorCategory::DeviceMissing,
+        fmt::format("--stereo {}: this window shows one picture; choose another mode, or `touchafm render`",
+                    scene::name_of(settings.picture.composition.mode)));
+  }
   if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
   const auto model = shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
                                   stage->wall_scene.height_fields());
@@ -121,9 +127,9 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
                                        render::Presentation::Window);
   if (!context) return tl::unexpected(context.error());
 
-  const render::RendererOptions drawing = stage->renderer_options(
-      options.eye_width > 0 ? options.eye_width
-                            : stage->eye_width_within(window->size_px(), eyes_beside(settings.picture.stereo)));
+  const glm::uvec2 fitting = stage->eye_size_within(settings.picture.composition.mode, window->size_px());
+  render::RendererOptions drawing = stage->renderer_options(options.eye_width > 0 ? options.eye_width : fitting.x);
+  if (options.eye_width == 0) drawing.eye_height = fitting.y;
   auto renderer = render::Renderer::create(*context, stage->wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   auto presenter = render::Presenter::create(*context, *window, *renderer);
@@ -146,17 +152,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
 }
 
 void add_picture_options(CLI::App& command, ViewOptions& options) {
-  static const std::map<std::string, StereoMode> kModes{{"mono", StereoMode::Mono},
-                                                        {"left", StereoMode::Left},
-                                                        {"right", StereoMode::Right},
-                                                        {"side-by-side", StereoMode::SideBySide}};
-  command
-      .add_option("--stereo", options.settings.picture.stereo,
-                  "how the eyes are shown: mono, left, right, side-by-side; default: mono")
-      ->transform(CLI::CheckedTransformer(kModes))
-      ->type_name("MODE");
-  command.add_flag("--swap-eyes", options.settings.picture.swap_eyes,
-                   "left and right exchanged; S does it while it runs");
+  add_stereo_options(command, options.settings.picture.composition);
   command.add_flag("--fullscreen", options.window.full_screen, "fill the monitor; F11 does it while it runs");
   command
       .add_option("--eye-width", options.eye_width,

@@ -12,17 +12,11 @@
 
 namespace afm::app {
 
-enum class StereoMode { Mono, Left, Right, SideBySide };
-
 struct PictureSettings {
-  StereoMode stereo = StereoMode::Mono;
-  bool swap_eyes = false;
+  render::Composition composition{.mode = scene::StereoMode::Mono};
   glm::uvec2 eye_px{0};         // as the renderer was made
   bool fixed_eye_size = false;  // else the eyes get as many pixels as the window has for them
 };
-
-// How many eyes stand beside each other in the picture.
-std::uint32_t eyes_beside(StereoMode mode);
 
 // How the live window shows the wall: for which eyes, in which layout, how large. The main thread alone.
 class ViewPicture {

@@ -2,31 +2,107 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl.h"
+#include "tone.glsl"
 
-// The eye images hold sRGB values in a UNORM format: bytes go through unchanged.
+// Both eyes' images as one picture, every stereo mode: scene/stereo_layout.h says which pixel shows what. The eye images
+// hold sRGB values in a UNORM format: bytes go through unchanged where one pixel is one pixel.
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2D left_eye;
 layout(set = 0, binding = AFM_BINDING_RIGHT_EYE) uniform sampler2D right_eye;
+layout(set = 0, binding = AFM_BINDING_ANAGLYPH) uniform Anaglyph { AnaglyphBlock anaglyph; };
 layout(push_constant) uniform Compose { ComposeBlock compose; };
 layout(location = 0) out vec4 out_color;
 
-// The eye's colour at a place in pixels of a whole eye image: the pixel itself where nothing is scaled, else bilinear
-// within what is drawn.
-vec4 eye_color(bool right, vec2 place) {
-  right = right && compose.mode.w == 0;
-  if (compose.placement.zw == vec2(1.0) && compose.drawn.xy == vec2(1.0)) {
-    return right ? texelFetch(right_eye, ivec2(place), 0) : texelFetch(left_eye, ivec2(place), 0);
+const int kLeft = 0;
+const int kRight = 1;
+const int kBlank = 2;
+
+// A pixel of a region that one eye's image fills.
+struct Source {
+  int eye;
+  ivec2 pixel;
+  ivec2 region;
+};
+
+// The first of two regions beside each other along one axis, and the second; what is left over stays blank.
+Source shared_by_two(ivec2 pixel, ivec2 picture, int axis) {
+  ivec2 region = picture;
+  region[axis] = max(1, picture[axis] / 2);
+  int index = pixel[axis] / region[axis];
+  pixel[axis] -= index * region[axis];
+  return Source(min(index, kBlank), pixel, region);
+}
+
+// Whole lines; a picture of another size shows the nearest of them.
+Source frame_packed(ivec2 pixel, ivec2 picture) {
+  ivec2 eye = ivec2(textureSize(left_eye, 0).x, compose.screen.z);
+  int right_begins = eye.y + compose.screen.w;
+  vec2 scale = vec2(eye.x, right_begins + eye.y) / vec2(picture);
+  ivec2 exact = ivec2((vec2(pixel) + 0.5) * scale);
+  if (exact.y < eye.y) {
+    return Source(kLeft, exact, eye);
   }
-  vec2 texels = vec2(compose.mode.yz);
-  vec2 uv = min(place / texels * compose.drawn.xy, compose.drawn.xy - 0.5 / texels);
-  return right ? textureLod(right_eye, uv, 0.0) : textureLod(left_eye, uv, 0.0);
+  return exact.y < right_begins ? Source(kBlank, exact, eye) : Source(kRight, exact - ivec2(0, right_begins), eye);
+}
+
+Source source_of_pixel(ivec2 pixel, ivec2 picture) {
+  ivec2 on_screen = ivec2(gl_FragCoord.xy) + compose.screen.xy;
+  switch (compose.mode.x) {
+    case AFM_COMPOSE_RIGHT:
+      return Source(kRight, pixel, picture);
+    case AFM_COMPOSE_SIDE_BY_SIDE:
+      return shared_by_two(pixel, picture, 0);
+    case AFM_COMPOSE_TOP_BOTTOM:
+      return shared_by_two(pixel, picture, 1);
+    case AFM_COMPOSE_ROW:
+      return Source(on_screen.y & 1, pixel, picture);
+    case AFM_COMPOSE_COLUMN:
+      return Source(on_screen.x & 1, pixel, picture);
+    case AFM_COMPOSE_CHECKERBOARD:
+      return Source((on_screen.x + on_screen.y) & 1, pixel, picture);
+    case AFM_COMPOSE_FRAME_PACKED:
+      return frame_packed(pixel, picture);
+    default:
+      return Source(kLeft, pixel, picture);
+  }
+}
+
+// The pixel itself where nothing is scaled, else bilinear within what is drawn of the image.
+vec3 eye_color(int eye, Source source) {
+  bool right = eye == kRight && compose.drawn.z == 0.0;
+  bool keystone = compose.mode.z != 0;
+  ivec2 texels = textureSize(left_eye, 0);
+  if (!keystone && source.region == texels && compose.drawn.xy == vec2(1.0)) {
+    return right ? texelFetch(right_eye, source.pixel, 0).rgb : texelFetch(left_eye, source.pixel, 0).rgb;
+  }
+  vec2 uv = (vec2(source.pixel) + 0.5) / vec2(source.region);
+  if (keystone) {
+    vec3 place = compose.picture_from_output[0].xyz * uv.x + compose.picture_from_output[1].xyz * uv.y +
+                 compose.picture_from_output[2].xyz;
+    uv = place.xy / place.z;
+    if (place.z <= 0.0 || any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)))) {
+      return vec3(0.0);
+    }
+  }
+  uv = min(uv * compose.drawn.xy, compose.drawn.xy - 0.5 / vec2(texels));
+  return right ? textureLod(right_eye, uv, 0.0).rgb : textureLod(left_eye, uv, 0.0).rgb;
+}
+
+vec3 linear_from_srgb(vec3 c) {
+  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
 }
 
 void main() {
-  vec2 place = (gl_FragCoord.xy - compose.placement.xy) * compose.placement.zw;
-  bool right = compose.mode.x == AFM_LAYOUT_RIGHT;
-  if (compose.mode.x == AFM_LAYOUT_SIDE_BY_SIDE && place.x >= float(compose.mode.y)) {
-    right = true;
-    place.x -= float(compose.mode.y);
+  ivec2 pixel = ivec2(gl_FragCoord.xy) - compose.place.xy;
+  Source source = source_of_pixel(pixel, compose.place.zw);
+  bool swapped = compose.mode.y != 0;
+  vec3 color = vec3(0.0);
+  if (compose.mode.x == AFM_COMPOSE_ANAGLYPH) {
+    vec3 left = linear_from_srgb(eye_color(swapped ? kRight : kLeft, source));
+    vec3 right = linear_from_srgb(eye_color(swapped ? kLeft : kRight, source));
+    vec3 mixed = mat3(anaglyph.left[compose.mode.w]) * left + mat3(anaglyph.right[compose.mode.w]) * right;
+    color = srgb_from_linear(clamp(mixed, 0.0, 1.0));
+  } else if (source.eye != kBlank) {
+    color = eye_color(swapped ? kRight - source.eye : source.eye, source);
   }
-  out_color = eye_color(right, place);
+  out_color = vec4(color, 1.0);
 }

@@ -15,6 +15,7 @@
 // set 1 of the panels, set 0 of the canvas and of the compose pass: what they sample
 #define AFM_BINDING_TEXTURE 0
 #define AFM_BINDING_RIGHT_EYE 1
+#define AFM_BINDING_ANAGLYPH 2
 
 // one per frame; what has two elements belongs to the views
 struct FrameBlock {
@@ -49,15 +50,30 @@ struct CanvasBlock {
   vec4 scale;  // xy
 };
 
-// push constants of the compose pass
+// push constants of the compose pass; sizes and places in pixels
 struct ComposeBlock {
-  ivec4 mode;      // x: AFM_LAYOUT_*, y, z: width and height of an eye image in pixels, w: 1: both eyes see the left one's
-  vec4 drawn;      // xy: the share of the eye images, from their upper left corner, that is drawn
-  vec4 placement;  // xy: where the picture begins in the target, pixels; zw: pixels of the picture to one of the target
+  ivec4 mode;    // x: AFM_COMPOSE_*, y: 1 swaps the eyes, z: 1 for a keystone, w: which of the anaglyphs
+  vec4 drawn;    // xy: share of the eye images, from their upper left corner, that is drawn; z: 1: the right eye sees the left one's
+  ivec4 place;   // xy: where the picture begins in the target, zw: its size
+  ivec4 screen;  // xy: where the target's first pixel lies on its screen; z: lines of a packed eye, w: lines between
+  vec4 picture_from_output[3];  // columns of the keystone
 };
 
-#define AFM_LAYOUT_LEFT 0
-#define AFM_LAYOUT_RIGHT 1
-#define AFM_LAYOUT_SIDE_BY_SIDE 2
+#define AFM_COMPOSE_LEFT 0
+#define AFM_COMPOSE_RIGHT 1
+#define AFM_COMPOSE_SIDE_BY_SIDE 2
+#define AFM_COMPOSE_TOP_BOTTOM 3
+#define AFM_COMPOSE_ROW 4
+#define AFM_COMPOSE_COLUMN 5
+#define AFM_COMPOSE_CHECKERBOARD 6
+#define AFM_COMPOSE_ANAGLYPH 7
+#define AFM_COMPOSE_FRAME_PACKED 8
+
+// linear rgb = left * L + right * R: red-cyan, green-magenta, amber-blue; the upper left 3 x 3
+#define AFM_ANAGLYPH_COUNT 3
+struct AnaglyphBlock {
+  mat4 left[AFM_ANAGLYPH_COUNT];
+  mat4 right[AFM_ANAGLYPH_COUNT];
+};
 
 #endif

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "composer.h"
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 #include "barriers.h"
 #include "pipelines.h"
@@ -15,37 +17,102 @@ namespace {
 
 constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
 
+vk::DescriptorSetLayoutBinding binding(std::uint32_t index, vk::DescriptorType type) {
+  return {
+      .binding = index, .descriptorType = type, .descriptorCount = 1, .stageFlags = vk::ShaderStageFlagBits::eFragment};
+}
+
 vk::raii::DescriptorSetLayout create_set_layout(const Device& device) {
-  const std::array bindings{vk::DescriptorSetLayoutBinding{.binding = AFM_BINDING_TEXTURE,
-                                                           .descriptorType = vk::DescriptorType::eCombinedImageSampler,
-                                                           .descriptorCount = 1,
-                                                           .stageFlags = vk::ShaderStageFlagBits::eFragment},
-                            vk::DescriptorSetLayoutBinding{.binding = AFM_BINDING_RIGHT_EYE,
-                                                           .descriptorType = vk::DescriptorType::eCombinedImageSampler,
-                                                           .descriptorCount = 1,
-                                                           .stageFlags = vk::ShaderStageFlagBits::eFragment}};
+  const std::array bindings{binding(AFM_BINDING_TEXTURE, vk::DescriptorType::eCombinedImageSampler),
+                            binding(AFM_BINDING_RIGHT_EYE, vk::DescriptorType::eCombinedImageSampler),
+                            binding(AFM_BINDING_ANAGLYPH, vk::DescriptorType::eUniformBuffer)};
   return vk::raii::DescriptorSetLayout(
       *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
 vk::raii::DescriptorPool create_pool(const Device& device) {
-  const vk::DescriptorPoolSize size{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2};
+  const std::array sizes{
+      vk::DescriptorPoolSize{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2},
+      vk::DescriptorPoolSize{.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = 1}};
   return vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                             .maxSets = 1,
-                                            .poolSizeCount = 1,
-                                            .pPoolSizes = &size});
+                                            .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+                                            .pPoolSizes = sizes.data()});
 }
 
-std::int32_t shader_mode(Layout layout) {
-  switch (layout) {
-    case Layout::Left:
-      return AFM_LAYOUT_LEFT;
-    case Layout::Right:
-      return AFM_LAYOUT_RIGHT;
-    case Layout::SideBySide:
+// In the order of AnaglyphBlock.
+constexpr std::array kAnaglyphs{scene::StereoMode::AnaglyphRedCyan, scene::StereoMode::AnaglyphGreenMagenta,
+                                scene::StereoMode::AnaglyphAmberBlue};
+static_assert(kAnaglyphs.size() == AFM_ANAGLYPH_COUNT);
+
+Buffer upload_anaglyphs(const Device& device) {
+  AnaglyphBlock block;
+  for (std::size_t i = 0; i < kAnaglyphs.size(); ++i) {
+    const auto matrices = *scene::anaglyph_matrices(kAnaglyphs[i]);
+    block.left[i] = glm::mat4(glm::mat3(matrices.left));
+    block.right[i] = glm::mat4(glm::mat3(matrices.right));
+  }
+  return upload_buffer(device, "anaglyph matrices", std::as_bytes(std::span(&block, 1)),
+                       vk::BufferUsageFlagBits::eUniformBuffer);
+}
+
+// The whole picture of each eye; with two of them, layer 1 is the right eye's.
+std::int32_t shader_mode(scene::StereoMode mode, std::uint32_t layer) {
+  using Mode = scene::StereoMode;
+  switch (mode) {
+    case Mode::Mono:
+    case Mode::Left:
+      return AFM_COMPOSE_LEFT;
+    case Mode::Right:
+      return AFM_COMPOSE_RIGHT;
+    case Mode::SideBySide:
+    case Mode::SideBySideHalf:
+      return AFM_COMPOSE_SIDE_BY_SIDE;
+    case Mode::TopBottom:
+    case Mode::TopBottomHalf:
+      return AFM_COMPOSE_TOP_BOTTOM;
+    case Mode::Row:
+      return AFM_COMPOSE_ROW;
+    case Mode::Column:
+      return AFM_COMPOSE_COLUMN;
+    case Mode::Checkerboard:
+      return AFM_COMPOSE_CHECKERBOARD;
+    case Mode::AnaglyphRedCyan:
+    case Mode::AnaglyphGreenMagenta:
+    case Mode::AnaglyphAmberBlue:
+      return AFM_COMPOSE_ANAGLYPH;
+    case Mode::FramePacked720p:
+    case Mode::FramePacked1080p:
+      return AFM_COMPOSE_FRAME_PACKED;
+    case Mode::QuadBuffer:
+    case Mode::Dual:
       break;
   }
-  return AFM_LAYOUT_SIDE_BY_SIDE;
+  return layer == 0 ? AFM_COMPOSE_LEFT : AFM_COMPOSE_RIGHT;
+}
+
+ComposeBlock compose_block(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
+  const auto mode = composition.mode;
+  const bool swapped = composition.order == scene::EyeOrder::Swapped && mode != scene::StereoMode::Mono;
+  const bool keystone = composition.picture_from_output != glm::dmat3(1.0);
+  const auto* const anaglyph = std::find(kAnaglyphs.begin(), kAnaglyphs.end(), mode);
+  const vk::Extent2D whole = eyes.extent(), drawn = eyes.drawing().extent;
+  ComposeBlock block{
+      .mode = {shader_mode(mode, place.layer), swapped, keystone, static_cast<int>(anaglyph - kAnaglyphs.begin())},
+      .drawn = {static_cast<float>(drawn.width) / static_cast<float>(whole.width),
+                static_cast<float>(drawn.height) / static_cast<float>(whole.height), eyes.same_eyes() ? 1.0F : 0.0F,
+                0.0F},
+      .place = {place.area.offset.x, place.area.offset.y, place.area.extent.width, place.area.extent.height},
+      .screen = {place.screen_px.x, place.screen_px.y, 0, 0},
+      .picture_from_output = {}};
+  if (const auto packing = scene::frame_packing(mode)) {
+    block.screen.z = static_cast<int>(packing->eye_px.y);
+    block.screen.w = static_cast<int>(packing->blank_lines);
+  }
+  for (int column = 0; column < 3; ++column) {
+    block.picture_from_output[column] = glm::vec4(composition.picture_from_output[column], 0.0);
+  }
+  return block;
 }
 
 }  // namespace
@@ -62,15 +129,22 @@ Composer::Composer(const Device& device, const EyeTargets& eyes)
                                               .minFilter = vk::Filter::eLinear,
                                               .addressModeU = vk::SamplerAddressMode::eClampToEdge,
                                               .addressModeV = vk::SamplerAddressMode::eClampToEdge}),
+      anaglyphs_(upload_anaglyphs(device)),
       pool_(create_pool(device)) {
   set_ = std::move(vk::raii::DescriptorSets(
                        *device, {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &*set_layout_})
                        .front());
+  const vk::DescriptorBufferInfo anaglyphs{.buffer = *anaglyphs_.buffer, .range = VK_WHOLE_SIZE};
+  device_->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = *set_,
+                                                       .dstBinding = AFM_BINDING_ANAGLYPH,
+                                                       .descriptorCount = 1,
+                                                       .descriptorType = vk::DescriptorType::eUniformBuffer,
+                                                       .pBufferInfo = &anaglyphs},
+                                nullptr);
   eyes_changed();
 }
 
 void Composer::eyes_changed() {
-  targets_.clear();
   for (const auto eye : scene::kEyes) {
     const vk::DescriptorImageInfo image{
         .sampler = *sampler_, .imageView = eyes_.eye(eye).view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
@@ -85,9 +159,9 @@ void Composer::eyes_changed() {
   }
 }
 
-vk::Extent2D Composer::extent(Layout layout) const {
-  const vk::Extent2D eye = eyes_.extent();
-  return layout == Layout::SideBySide ? vk::Extent2D{eye.width * 2, eye.height} : eye;
+vk::Extent2D Composer::extent(scene::StereoMode mode) const {
+  const auto size = scene::picture_size(mode, {eyes_.extent().width, eyes_.extent().height});
+  return {size.x, size.y};
 }
 
 vk::raii::Pipeline Composer::create_pipeline_for(vk::Format format) const {
@@ -99,63 +173,63 @@ vk::raii::Pipeline Composer::create_pipeline_for(vk::Format format) const {
                                    .color_format = format});
 }
 
-void Composer::record(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, Layout layout, vk::Extent2D target,
-                      const vk::Rect2D& place) const {
-  const vk::Extent2D eye = eyes_.extent();
-  const vk::Extent2D drawn = eyes_.drawing().extent;
-  const vk::Extent2D picture = extent(layout);
-  const ComposeBlock block{
-      .mode = glm::ivec4(shader_mode(layout), static_cast<int>(eye.width), static_cast<int>(eye.height),
-                         eyes_.same_eyes() ? 1 : 0),
-      .drawn = glm::vec4(drawn.width, drawn.height, 0.0F, 0.0F) / glm::vec4(eye.width, eye.height, 1.0F, 1.0F),
-      .placement = glm::vec4(place.offset.x, place.offset.y,
-                             static_cast<float>(picture.width) / static_cast<float>(place.extent.width),
-                             static_cast<float>(picture.height) / static_cast<float>(place.extent.height))};
+void Composer::record(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
+                      const ComposePlace& place) const {
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
-  set_viewport(command, target);
-  command.setScissor(0, place);
+  set_viewport(command, place.target);
+  command.setScissor(0, place.area);
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
-  command.pushConstants<ComposeBlock>(*layout_, vk::ShaderStageFlagBits::eFragment, 0, block);
+  command.pushConstants<ComposeBlock>(*layout_, vk::ShaderStageFlagBits::eFragment, 0,
+                                      compose_block(eyes_, composition, place));
   command.draw(4, 1, 0, 0);
 }
 
-const Composer::Target& Composer::target(Layout layout) {
-  const auto found = targets_.find(layout);
-  if (found != targets_.end()) {
-    return found->second;
+const DeviceImage& Composer::target(vk::Extent2D extent, std::uint32_t layers) {
+  if (target_.extent != extent || target_.layers != layers) {
+    target_ = create_image(device_, "composed",
+                           {.format = kEyeFormat,
+                            .extent = extent,
+                            .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc |
+                                     vk::ImageUsageFlagBits::eSampled,
+                            .layers = layers});
   }
-  Target target;
-  target.image = create_image(device_, "composed",
-                              {.format = kEyeFormat,
-                               .extent = extent(layout),
-                               .usage = vk::ImageUsageFlagBits::eColorAttachment |
-                                        vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eSampled});
-  target.view = create_view(device_, target.image, kColor, 0, 1);
-  return targets_.emplace(layout, std::move(target)).first->second;
+  return target_;
 }
 
-Image Composer::compose(Layout layout) {
-  const Target& composed = target(layout);
+std::vector<Image> Composer::compose(const Composition& composition, const ReadArea& area) {
+  const std::uint32_t layers = scene::has_two_pictures(composition.mode) ? 2 : 1;
+  const vk::Extent2D size =
+      area.size_px == glm::uvec2(0) ? extent(composition.mode) : vk::Extent2D{area.size_px.x, area.size_px.y};
+  const DeviceImage& composed = target(size, layers);
+  std::vector<vk::raii::ImageView> views;
+  for (std::uint32_t layer = 0; layer < layers; ++layer) {
+    views.push_back(create_view(device_, composed, kColor, layer, 1));
+  }
   const ImageUse discarded{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eNone, vk::ImageLayout::eUndefined};
   const ImageUse drawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput, vk::AccessFlagBits2::eColorAttachmentWrite,
                        vk::ImageLayout::eColorAttachmentOptimal};
   const ImageUse shown{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
                        vk::ImageLayout::eShaderReadOnlyOptimal};
   device_.run_once([&](const vk::raii::CommandBuffer& command) {
-    record_barriers(command, {image_barrier(*composed.image.image, kColor, discarded, drawn)});
-    const vk::RenderingAttachmentInfo color{.imageView = *composed.view,
-                                            .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
-                                            .loadOp = vk::AttachmentLoadOp::eDontCare,
-                                            .storeOp = vk::AttachmentStoreOp::eStore};
-    command.beginRendering({.renderArea = {.extent = composed.image.extent},
-                            .layerCount = 1,
-                            .colorAttachmentCount = 1,
-                            .pColorAttachments = &color});
-    record(command, *pipeline_, layout, composed.image.extent, {.extent = composed.image.extent});
-    command.endRendering();
-    record_barriers(command, {image_barrier(*composed.image.image, kColor, drawn, shown)});
+    record_barriers(command, {image_barrier(*composed.image, kColor, discarded, drawn)});
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+      const vk::RenderingAttachmentInfo color{.imageView = *views[layer],
+                                              .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
+                                              .loadOp = vk::AttachmentLoadOp::eDontCare,
+                                              .storeOp = vk::AttachmentStoreOp::eStore};
+      command.beginRendering(
+          {.renderArea = {.extent = size}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &color});
+      record(command, *pipeline_, composition,
+             {.target = size, .area = {.extent = size}, .screen_px = area.screen_px, .layer = layer});
+      command.endRendering();
+    }
+    record_barriers(command, {image_barrier(*composed.image, kColor, drawn, shown)});
   });
-  return read_back(device_, *composed.image.image, 0, composed.image.extent);
+  std::vector<Image> pictures;
+  for (std::uint32_t layer = 0; layer < layers; ++layer) {
+    pictures.push_back(read_back(device_, *composed.image, layer, size));
+  }
+  return pictures;
 }
 
 }  // namespace afm::render

@@ -61,7 +61,7 @@ struct Presenter::Parts {
   core::Result<void> choose_format();
   bool follow_window();
   std::optional<std::uint32_t> acquire(const std::function<void()>& while_waiting);
-  void draw(std::uint32_t index, Layout layout);
+  void draw(std::uint32_t index, const Composition& composition);
   void show(std::uint32_t index);
   void replace_surface();
 
@@ -123,9 +123,9 @@ std::optional<std::uint32_t> Presenter::Parts::acquire(const std::function<void(
   return std::nullopt;
 }
 
-void Presenter::Parts::draw(std::uint32_t index, Layout layout) {
+void Presenter::Parts::draw(std::uint32_t index, const Composition& composition) {
   const vk::Extent2D window_size = swapchain->extent();
-  const vk::Extent2D picture = renderer.composer.extent(layout);
+  const vk::Extent2D picture = renderer.composer.extent(composition.mode);
   const PicturePlace place = picture_place({window_size.width, window_size.height}, {picture.width, picture.height});
   pool.reset();
   commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
@@ -139,9 +139,11 @@ void Presenter::Parts::draw(std::uint32_t index, Layout layout) {
   commands.beginRendering(
       {.renderArea = {.extent = window_size}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &color});
   renderer.composer.record(
-      commands, *pipeline, layout, window_size,
-      {.offset = {static_cast<std::int32_t>(place.offset_px.x), static_cast<std::int32_t>(place.offset_px.y)},
-       .extent = {place.size_px.x, place.size_px.y}});
+      commands, *pipeline, composition,
+      {.target = window_size,
+       .area = {.offset = {static_cast<std::int32_t>(place.offset_px.x), static_cast<std::int32_t>(place.offset_px.y)},
+                .extent = {place.size_px.x, place.size_px.y}},
+       .screen_px = scene::is_interleaved(composition.mode) ? window.handle().screen_px() : glm::ivec2(0)});
   commands.endRendering();
   record_barriers(commands,
                   {image_barrier(swapchain->image(index), vk::ImageAspectFlagBits::eColor, kDrawn, kPresented)});
@@ -192,7 +194,7 @@ core::Result<Presenter> Presenter::create(Context& context, Window& window, Rend
   return Presenter(std::move(parts));
 }
 
-bool Presenter::present(Layout layout, const std::function<void()>& while_waiting) {
+bool Presenter::present(const Composition& composition, const std::function<void()>& while_waiting) {
   Parts& parts = *parts_;
   AFM_CHECK(parts.renderer.eyes_drawn);
   try {
@@ -203,7 +205,7 @@ bool Presenter::present(Layout layout, const std::function<void()>& while_waitin
     if (!index) {
       return false;
     }
-    parts.draw(*index, layout);
+    parts.draw(*index, composition);
 
     // presented only once it is drawn: some drivers (lavapipe) would wait inside the call, where nobody beats
     while (parts.device->waitForFences(*parts.finished, VK_TRUE, kTurnNs) == vk::Result::eTimeout) {

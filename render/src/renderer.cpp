@@ -31,7 +31,7 @@ double bytes_of_eyes(const RendererOptions& options) {
 
 core::Result<void> check_options(const Device& device, const RendererOptions& options) {
   const auto limits = device.physical().getProperties().limits;
-  const auto largest = limits.maxImageDimension2D / 2;  // side by side is twice as wide
+  const auto largest = limits.maxImageDimension2D;
   if (options.eye_width == 0 || options.eye_height == 0 || options.eye_width > largest ||
       options.eye_height > largest) {
     return core::failure(core::ErrorCategory::Failed,
@@ -208,9 +208,17 @@ Image Renderer::read_eye(scene::Eye eye) {
                    [&] { return read_back(parts_->device, image.image, image.layer, parts_->eyes.drawing().extent); });
 }
 
-Image Renderer::read_composed(Layout layout) {
-  AFM_CHECK(parts_->eyes_drawn);
-  return explained(parts_->device, "reading a picture back", [&] { return parts_->composer.compose(layout); });
+Image Renderer::read_composed(const Composition& composition, const ReadArea& area) {
+  AFM_CHECK(parts_->eyes_drawn && !scene::has_two_pictures(composition.mode));
+  return explained(parts_->device, "reading a picture back",
+                   [&] { return std::move(parts_->composer.compose(composition, area).front()); });
+}
+
+std::array<Image, 2> Renderer::read_pair(const Composition& composition, const ReadArea& area) {
+  AFM_CHECK(parts_->eyes_drawn && scene::has_two_pictures(composition.mode));
+  auto pictures =
+      explained(parts_->device, "reading a picture back", [&] { return parts_->composer.compose(composition, area); });
+  return {std::move(pictures[0]), std::move(pictures[1])};
 }
 
 bool Renderer::ready() const {

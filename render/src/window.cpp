@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <glm/common.hpp>
 #include <span>
 #include <utility>
 
@@ -174,6 +175,20 @@ void WindowHandle::set_full_screen(bool wanted) {
   } else {
     glfwSetWindowMonitor(window_, nullptr, windowed_x_, windowed_y_, windowed_width_, windowed_height_, 0);
   }
+}
+
+glm::ivec2 WindowHandle::screen_px() const {
+  GLFWmonitor* const screen = monitor();
+  int x = 0, y = 0, left = 0, top = 0, width = 0, height = 0;
+  glfwGetWindowPos(window_, &x, &y);
+  glfwGetWindowSize(window_, &width, &height);
+  if (screen == nullptr || width <= 0 || height <= 0) {
+    return glm::ivec2(0);
+  }
+  glfwGetMonitorPos(screen, &left, &top);
+  // places are in the desktop's units, which are not always pixels
+  const glm::dvec2 pixels_per_unit = glm::dvec2(size_px()) / glm::dvec2(width, height);
+  return glm::ivec2(glm::round(glm::dvec2(x - left, y - top) * pixels_per_unit));
 }
 
 double WindowHandle::refresh_hz() const {

@@ -23,6 +23,9 @@ class WindowHandle {
   WindowInput poll();
   void wait(double seconds);
   glm::uvec2 size_px() const;
+  // Of its picture's first pixel on the monitor that shows most of it; 0,0 where the window system keeps that to
+  // itself.
+  glm::ivec2 screen_px() const;
   bool full_screen() const { return glfwGetWindowMonitor(window_) != nullptr; }
   void set_full_screen(bool full_screen);
   double refresh_hz() const;

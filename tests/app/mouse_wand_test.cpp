@@ -14,10 +14,10 @@ constexpr double kExact = 1e-12;
 
 class MouseWandTest : public ::testing::Test {
  protected:
-  WallPicture picture(render::Layout layout) const {
-    return {.place = {.offset_px = {100, 50}, .size_px = {800, 600}}, .layout = layout, .eyes = eyes_};
+  WallPicture picture(scene::StereoMode layout) const {
+    return {.place = {.offset_px = {100, 50}, .size_px = {800, 600}}, .composition = {.mode = layout}, .eyes = eyes_};
   }
-  glm::dvec3 on_wall(render::Layout layout, const glm::dvec2& cursor_px) const {
+  glm::dvec3 on_wall(scene::StereoMode layout, const glm::dvec2& cursor_px) const {
     return wand_.wall_point(wand_.ray(picture(layout), cursor_px));
   }
 
@@ -28,7 +28,7 @@ class MouseWandTest : public ::testing::Test {
 };
 
 TEST_F(MouseWandTest, TheCornersOfThePictureAreTheCornersOfTheWall) {
-  for (const auto layout : {render::Layout::Left, render::Layout::Right}) {
+  for (const auto layout : {scene::StereoMode::Left, scene::StereoMode::Right}) {
     EXPECT_LT(glm::distance(on_wall(layout, {100.0, 50.0}), screen_.upper_left), kExact);
     EXPECT_LT(glm::distance(on_wall(layout, {900.0, 650.0}), screen_.lower_right), kExact);
     EXPECT_LT(glm::distance(on_wall(layout, {500.0, 350.0}), screen_.center()), kExact);
@@ -36,9 +36,9 @@ TEST_F(MouseWandTest, TheCornersOfThePictureAreTheCornersOfTheWall) {
 }
 
 TEST_F(MouseWandTest, EachHalfOfSideBySideIsAWallSeenByItsOwnEye) {
-  const WallPicture both = picture(render::Layout::SideBySide);
-  EXPECT_LT(glm::distance(on_wall(render::Layout::SideBySide, {300.0, 350.0}), screen_.center()), kExact);
-  EXPECT_LT(glm::distance(on_wall(render::Layout::SideBySide, {700.0, 350.0}), screen_.center()), kExact);
+  const WallPicture both = picture(scene::StereoMode::SideBySide);
+  EXPECT_LT(glm::distance(on_wall(scene::StereoMode::SideBySide, {300.0, 350.0}), screen_.center()), kExact);
+  EXPECT_LT(glm::distance(on_wall(scene::StereoMode::SideBySide, {700.0, 350.0}), screen_.center()), kExact);
   EXPECT_EQ(wand_.ray(both, {300.0, 350.0}).origin_m, eyes_[0].eye_position_m);
   EXPECT_EQ(wand_.ray(both, {700.0, 350.0}).origin_m, eyes_[1].eye_position_m);
 }

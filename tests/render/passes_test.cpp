@@ -52,9 +52,9 @@ TEST_F(Passes, TheSameFrameGivesTheSameBytes) {
   const auto frame = full_frame(test_);
   auto renderer = make_renderer(test_.scene, small());
   renderer.render(frame);
-  const auto first = renderer.read_composed(render::Layout::SideBySide);
+  const auto first = renderer.read_composed({});
   renderer.render(frame);
-  EXPECT_EQ(first.rgba, renderer.read_composed(render::Layout::SideBySide).rgba);
+  EXPECT_EQ(first.rgba, renderer.read_composed({}).rgba);
 }
 
 // Two frames in flight share targets and panels, and each slot is reused: what is read is the newest frame alone.
@@ -74,34 +74,10 @@ TEST_F(Passes, FramesInFlightDoNotMix) {
   EXPECT_EQ(renderer.read_eye(scene::Eye::Right).rgba, eyes.right.rgba);
 }
 
-TEST_F(Passes, SideBySideDecodesBackToBothEyesByteForByte) {
-  auto renderer = make_renderer(test_.scene, small());
-  renderer.render(full_frame(test_));
-  const auto composed = renderer.read_composed(render::Layout::SideBySide);
-  ASSERT_EQ(composed.width, 512U);
-  ASSERT_EQ(composed.height, 192U);
-  render::Image left{.width = 256, .height = 192, .rgba = {}};
-  render::Image right = left;
-  for (std::uint32_t y = 0; y < composed.height; ++y) {
-    const auto row = composed.rgba.begin() + std::ptrdiff_t{4} * 512 * y;
-    left.rgba.insert(left.rgba.end(), row, row + 4 * 256);
-    right.rgba.insert(right.rgba.end(), row + 4 * 256, row + 4 * 512);
-  }
-  EXPECT_EQ(left.rgba, renderer.read_eye(scene::Eye::Left).rgba);
-  EXPECT_EQ(right.rgba, renderer.read_eye(scene::Eye::Right).rgba);
-}
-
-TEST_F(Passes, LeftAndRightLayoutsAreTheEyes) {
-  auto renderer = make_renderer(test_.scene, small());
-  renderer.render(full_frame(test_));
-  EXPECT_EQ(renderer.read_composed(render::Layout::Left).rgba, renderer.read_eye(scene::Eye::Left).rgba);
-  EXPECT_EQ(renderer.read_composed(render::Layout::Right).rgba, renderer.read_eye(scene::Eye::Right).rgba);
-}
-
 TEST_F(Passes, PicturesAreOpaque) {
   auto renderer = make_renderer(test_.scene, small());
   renderer.render(full_frame(test_));
-  const auto image = renderer.read_composed(render::Layout::SideBySide);
+  const auto image = renderer.read_composed({});
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
     ASSERT_EQ(image.rgba[i], 255);
   }

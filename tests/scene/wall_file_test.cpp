@@ -71,6 +71,151 @@ TEST(WallFile, NamesLineAndKeyOfEveryMistake) {
   EXPECT_THAT(error_of(with("[0, 1.6, 2.5]", "[0, 1.6, ")), HasSubstr("line"));
 }
 
+constexpr const char* kOutputs = R"(
+[[output]]
+name = "left projector"
+screen = "wall"
+mode = "dual"
+eye = "left"
+rect = [0, 0, 1400, 1050]
+
+[[output]]
+name = "right projector"
+screen = "wall"
+mode = "dual"
+eye = "right"
+rect = [1400, 0, 1400, 1050]
+swap = true
+homography = [0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]
+)";
+
+std::string with_outputs(const std::string& from, const std::string& to) {
+  std::string text = kGood + std::string(kOutputs);
+  text.replace(text.find(from), from.size(), to);
+  return text;
+}
+
+TEST(WallFile, ReadsOutputs) {
+  const support::ScratchFolder folder;
+  const auto wall = load_wall(folder.write("wall.toml", kGood + std::string(kOutputs)));
+  ASSERT_TRUE(wall.has_value()) << wall.error().message;
+  ASSERT_EQ(wall->outputs.size(), 2U);
+  const Output& left = wall->outputs[0];
+  const Output& right = wall->outputs[1];
+  EXPECT_EQ(left.name, "left projector");
+  EXPECT_EQ(left.mode, StereoMode::Dual);
+  EXPECT_EQ(left.eye, Eye::Left);
+  EXPECT_EQ(left.order, EyeOrder::Straight);
+  EXPECT_EQ(left.picture_from_output, glm::dmat3(1.0));
+  EXPECT_EQ(right.eye, Eye::Right);
+  EXPECT_EQ(right.order, EyeOrder::Swapped);
+  EXPECT_EQ(right.rect.offset_px, glm::ivec2(1400, 0));
+  EXPECT_EQ(right.rect.size_px, glm::uvec2(1400, 1050));
+
+  // the picture's middle half of the output: its corner comes from there
+  const glm::dvec3 corner = right.picture_from_output * glm::dvec3(0.25, 0.25, 1.0);
+  EXPECT_NEAR(corner.x / corner.z, 0.0, 1e-12);
+  EXPECT_NEAR(corner.y / corner.z, 0.0, 1e-12);
+}
+
+TEST(WallFile, NamesLineAndKeyOfEveryMistakeInAnOutput) {
+  const auto both = [](const char* a, const char* b) { return AllOf(HasSubstr(a), HasSubstr(b)); };
+  EXPECT_THAT(error_of(with_outputs("screen = \"wall\"\nmode = \"dual\"", "screen = \"well\"\nmode = \"dual\"")),
+              AllOf(HasSubstr("line 14"), HasSubstr("output.screen"), HasSubstr("\"well\"")));
+  EXPECT_THAT(error_of(with_outputs("mode = \"dual\"", "mode = \"3d\"")), AllOf(HasSubstr("line 15"), both("output.mode", "anaglyph-red-cyan")));
+  EXPECT_THAT(error_of(with_outputs("eye = \"left\"\n", "")), both("output.eye", "missing"));
+  EXPECT_THAT(error_of(with_outputs("mode = \"dual\"", "mode = \"mono\"")), both("output.eye", "dual"));
+  EXPECT_THAT(error_of(with_outputs("eye = \"left\"", "eye = \"both\"")), both("output.eye", "right"));
+  EXPECT_THAT(error_of(with_outputs("eye = \"left\"", "eye = \"right\"")), both("output.eye", "already"));
+  EXPECT_THAT(error_of(with_outputs("mode = \"dual\"\neye = \"left\"", "mode = \"mono\"")), both("output.eye", "other eye"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "")), both("output.monitor", "rect"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1400, 1050]\nmonitor = \"HDMI-1\"")), both("output.monitor", "rect"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1400]")), both("output.rect", "four"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1400.5, 1050]")), both("output.rect", "whole"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 0, 1050]")), both("output.rect", "0 x 1050"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1e300, 1050]")), both("output.rect", "65536"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1401, 1050]")), both("output.rect", "overlaps"));
+  EXPECT_THAT(error_of(with_outputs("left projector", "right projector")), both("output.name", "twice"));
+  EXPECT_THAT(error_of(with_outputs("swap = true", "swap = 1")), both("output.swap", "true or false"));
+  EXPECT_THAT(error_of(with_outputs("swap = true", "flip = true")), both("output.flip", "unknown key"));
+  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[1, 0, 0, 1]")), both("output.homography", "nine"));
+  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[1, 0, 0, 1, 0, 0, 0, 0, 1]")), both("output.homography", "line"));
+  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[1, 0, 0, 0, 1, 0, -2, 0, 1]")), both("output.homography", "infinity"));
+  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[-1, 0, 1, 0, 1, 0, 0, 0, 1]")), both("output.homography", "mirrors"));
+  EXPECT_THAT(error_of(with_outputs("mode = \"dual\"\neye = \"left\"", "mode = \"frame-packed-720p\"")), both("output.rect", "1280 x 1470"));
+  EXPECT_THAT(error_of("output = 3\n" + std::string(kGood)), both("output", "[[output]]"));
+}
+
+TEST(WallFile, ReadsWhoIsTheViewersHead) {
+  const support::ScratchFolder folder;
+  const auto wall = load_wall(folder.write(
+      "wall.toml", with("\"63 mm\"", "\"63 mm\"\nhead = \"dtrack:12\"\neye_from_head = [0, -0.1, 0.05]")));
+  ASSERT_TRUE(wall.has_value()) << wall.error().message;
+  EXPECT_EQ(wall->viewers[0].head, "dtrack:12");
+  EXPECT_EQ(wall->viewers[0].eye_from_head_m, glm::dvec3(0, -0.1, 0.05));
+  for (const char* wrong : {"dtrack", "dtrack:", "dtrack:x", "dtrack:-1", "dtrack:1000", "vrpn:0", "None"}) {
+    EXPECT_THAT(error_of(with("\"63 mm\"", "\"63 mm\"\nhead = \"" + std::string(wrong) + "\"")),
+                AllOf(HasSubstr("line 10"), HasSubstr("viewer.head"), HasSubstr(wrong)));
+  }
+  EXPECT_THAT(error_of(with("\"63 mm\"", "\"63 mm\"\neye_from_head = [0, -100, 0]")), HasSubstr("viewer.eye_from_head"));
+}
+
+// ---- ParaView's configurations ----
+
+std::string pvx(const std::string& machines) {
+  return "<?xml version=\"1.0\" ?>\n<pvx>\n  <Process Type=\"client\" />\n  <Process Type=\"server\">\n"
+         "    <EyeSeparation Value=\"0.065\"/>\n" + machines + "  </Process>\n</pvx>\n";
+}
+
+constexpr const char* kMachine =
+    "    <Machine Name=\"wall\" Environment=\"DISPLAY=:0\"\n      LowerLeft=\"-1.5 -1 -2.5\"\n      LowerRight=\"1.5 -1 -2.5\"\n"
+    "      UpperRight=\"1.5 1 -2.5\" />\n";
+
+TEST(PvxFile, GivesTheCornersOfEveryMachine) {
+  const support::ScratchFolder folder;
+  const auto wall = load_wall(folder.write("cave.pvx", pvx(std::string(kMachine) + kMachine)));
+  ASSERT_TRUE(wall.has_value()) << wall.error().message;
+  ASSERT_EQ(wall->screens.size(), 2U);
+  EXPECT_EQ(wall->screens[0].name, "wall");
+  EXPECT_EQ(wall->screens[1].name, "wall 2");
+  EXPECT_EQ(wall->screens[0].lower_left, glm::dvec3(-1.5, -1.0, -2.5));
+  EXPECT_EQ(wall->screens[0].lower_right, glm::dvec3(1.5, -1.0, -2.5));
+  EXPECT_EQ(wall->screens[0].upper_left, glm::dvec3(-1.5, 1.0, -2.5));
+  EXPECT_EQ(wall->viewers.at(0).ipd_m, 0.065);
+  EXPECT_EQ(wall->viewers[0].sweet_spot.position_m, glm::dvec3(0.0));
+}
+
+std::string pvx_error(const std::string& text) {
+  const support::ScratchFolder folder;
+  const auto wall = load_wall(folder.write("bad.pvx", text));
+  if (wall) return "accepted";
+  EXPECT_EQ(wall.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_THAT(wall.error().message, AllOf(HasSubstr("bad.pvx"), HasSubstr("line"), ::testing::Not(HasSubstr("\n"))));
+  return wall.error().message;
+}
+
+std::string machine_with(const std::string& from, const std::string& to) {
+  std::string text = kMachine;
+  text.replace(text.find(from), from.size(), to);
+  return pvx(text);
+}
+
+TEST(PvxFile, NamesLineAndAttributeOfEveryMistake) {
+  EXPECT_THAT(pvx_error(""), HasSubstr("line 1"));
+  EXPECT_THAT(pvx_error("<pvx>\n<Machine\n"), HasSubstr("line"));
+  EXPECT_THAT(pvx_error("<xml/>"), HasSubstr("<pvx>"));
+  EXPECT_THAT(pvx_error(pvx("")), HasSubstr("no Machine"));
+  EXPECT_THAT(pvx_error(machine_with("LowerLeft", "LowerLift")), AllOf(HasSubstr("line 6"), HasSubstr("Machine.LowerLeft"), HasSubstr("missing")));
+  EXPECT_THAT(pvx_error(machine_with("-1.5 -1 -2.5", "-1.5 -1")), AllOf(HasSubstr("Machine.LowerLeft"), HasSubstr("three numbers")));
+  EXPECT_THAT(pvx_error(machine_with("-1.5 -1 -2.5", "-1.5 nan -2.5")), HasSubstr("three numbers"));
+  EXPECT_THAT(pvx_error(machine_with("-1.5 -1 -2.5", "-1.5 -1x -2.5")), HasSubstr("three numbers"));
+  EXPECT_THAT(pvx_error(machine_with("-1.5 -1 -2.5", "1.5 -1 -2.5")), HasSubstr("coincide"));
+  EXPECT_THAT(pvx_error("<pvx><EyeSeparation Value=\"65\"/></pvx>"), HasSubstr("EyeSeparation.Value"));
+  std::string many;
+  for (int i = 0; i < 65; ++i) many += kMachine;
+  EXPECT_THAT(pvx_error(pvx(many)), HasSubstr("more than 64"));
+}
+
 TEST(WallFile, RefusesCollinearCorners) {
   EXPECT_THAT(error_of(with("upper_left = [-1.5, 2.4, 0]", "upper_left = [-2.5, 0.4, 0]")), HasSubstr("collinear"));
 }

@@ -6,44 +6,19 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
 #include <random>
-#include <sstream>
+
+#include "support/stereo_cases.h"
 
 namespace afm::scene {
 namespace {
 
+using test::StereoCase;
 using ::testing::HasSubstr;
 
 // ---- the research's test vectors, rows frustum, probe, eyes and parallax of stereo_cases.csv ----
-
-struct StereoCase {
-  std::string id, kind, convention;
-  std::vector<double> inputs, expected;
-};
-
-std::vector<double> numbers(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<double> values;
-  for (double value = 0; stream >> value;) values.push_back(value);
-  return values;
-}
-
-std::vector<StereoCase> load_cases(const std::string& kind) {
-  std::ifstream file(AFM_SOURCE_DIR "/tests/scene/data/stereo_cases.csv");
-  std::vector<StereoCase> cases;
-  for (std::string line; std::getline(file, line);) {
-    std::vector<std::string> fields;
-    std::istringstream stream(line);
-    for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-    if (fields.size() >= 6 && fields[1] == kind) {
-      cases.push_back({fields[0], fields[1], fields[2], numbers(fields[4]), numbers(fields[5])});
-    }
-  }
-  return cases;
-}
 
 DepthConvention convention_of(const std::string& name) {
   static const std::map<std::string, DepthConvention> conventions{{"vk01", DepthConvention::Vulkan},
@@ -82,7 +57,7 @@ TEST_P(FrustumRow, MatchesProjectionViewAndProduct) {
   expect_row_major_near(view->projection * view->view, c.expected, 32, "product");
 }
 
-INSTANTIATE_TEST_SUITE_P(Stereo, FrustumRow, ::testing::ValuesIn(load_cases("frustum")), case_name);
+INSTANTIATE_TEST_SUITE_P(Stereo, FrustumRow, ::testing::ValuesIn(test::stereo_cases("frustum")), case_name);
 
 class ProbeRow : public ::testing::TestWithParam<StereoCase> {};
 
@@ -99,7 +74,7 @@ TEST_P(ProbeRow, ProjectsThePointToItsPlaceOnTheWall) {
   EXPECT_NEAR(clip.w, c.expected[5], 1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Stereo, ProbeRow, ::testing::ValuesIn(load_cases("probe")), case_name);
+INSTANTIATE_TEST_SUITE_P(Stereo, ProbeRow, ::testing::ValuesIn(test::stereo_cases("probe")), case_name);
 
 class EyesRow : public ::testing::TestWithParam<StereoCase> {};
 
@@ -112,7 +87,7 @@ TEST_P(EyesRow, FollowTheHeadsPositionAndOrientation) {
   EXPECT_LT(glm::distance(right, vec3(GetParam().expected, 3)), 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Stereo, EyesRow, ::testing::ValuesIn(load_cases("eyes")), case_name);
+INSTANTIATE_TEST_SUITE_P(Stereo, EyesRow, ::testing::ValuesIn(test::stereo_cases("eyes")), case_name);
 
 // Where a point appears on the wall, in pixels from its upper left corner.
 glm::dvec2 pixel(const Screen& screen, const glm::dvec3& eye, const glm::dvec3& point, double width, double height) {
@@ -136,13 +111,13 @@ TEST_P(ParallaxRow, PutsBothEyesImagesWhereTheyBelong) {
   EXPECT_NEAR((right.x - left.x) * screen.width_m() / in[18] * 1e3, expected[6], 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Stereo, ParallaxRow, ::testing::ValuesIn(load_cases("parallax")), case_name);
+INSTANTIATE_TEST_SUITE_P(Stereo, ParallaxRow, ::testing::ValuesIn(test::stereo_cases("parallax")), case_name);
 
 TEST(ResearchCases, WereAllRead) {
-  EXPECT_EQ(load_cases("frustum").size(), 54U);
-  EXPECT_EQ(load_cases("probe").size(), 36U);
-  EXPECT_EQ(load_cases("eyes").size(), 4U);
-  EXPECT_EQ(load_cases("parallax").size(), 6U);
+  EXPECT_EQ(test::stereo_cases("frustum").size(), 54U);
+  EXPECT_EQ(test::stereo_cases("probe").size(), 36U);
+  EXPECT_EQ(test::stereo_cases("eyes").size(), 4U);
+  EXPECT_EQ(test::stereo_cases("parallax").size(), 6U);
 }
 
 // ---- properties that hold for every correct implementation, over random walls and viewers ----

@@ -34,7 +34,7 @@ class Presenter {
   // Shows the renderer's newest frame and waits until it has been drawn; meanwhile calls `while_waiting` every few
   // milliseconds, from this thread. False, with nothing shown: the window is minimised, has just changed its size, or
   // its display accepts no picture now; go on and try with the next frame. At least one frame has been rendered.
-  bool present(Layout layout, const std::function<void()>& while_waiting);
+  bool present(const Composition& composition, const std::function<void()>& while_waiting);
 
  private:
   struct Parts;

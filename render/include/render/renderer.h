@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "core/result.h"
+#include "render/composition.h"
 #include "render/context.h"
 #include "render/frame.h"
 #include "scene/scene.h"
@@ -16,9 +18,6 @@ namespace afm::render {
 // How both eyes get their pictures: in one multiview pass, or one after the other, to the same bytes. Automatic: in one
 // pass unless the device would draw that frame wrongly. Where both eyes see the same, one is drawn.
 enum class PassMode { Automatic, Multiview, TwoPasses };
-
-// How the two eye images become one picture. SideBySide is twice as wide as an eye, left eye left, no pixel scaled.
-enum class Layout { Left, Right, SideBySide };
 
 struct RendererOptions {
   std::uint32_t eye_width = 960;
@@ -70,7 +69,10 @@ class Renderer {
   // The newest frame; waits for it. At least one frame has been rendered. Of an eye what is drawn: less than
   // `eye_width` with a scale below 1.
   Image read_eye(scene::Eye eye);
-  Image read_composed(Layout layout);
+  // Of a mode with one picture; as large as the device's images can be at most.
+  Image read_composed(const Composition& composition, const ReadArea& area = {});
+  // Of a mode with two: the left eye's place and the right eye's.
+  std::array<Image, 2> read_pair(const Composition& composition, const ReadArea& area = {});
 
   // Eye images of another size from the next frame on; waits until the device is idle. The panels keep their
   // resolution. Failed, with nothing changed: a size that this device cannot do, or has no memory for.

@@ -3,12 +3,16 @@
 
 #include <array>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/result.h"
+#include "scene/stereo_layout.h"
 
 // Walls, viewers and eyes: pure arithmetic in the room frame (metres, right-handed, +y up), double precision.
 namespace afm::scene {
@@ -66,15 +70,39 @@ inline constexpr double kNearM = 0.1;
 struct Viewer {
   std::string name = "viewer";
   double ipd_m = 0.063;
-  HeadPose sweet_spot;  // where the head is taken to be without a tracker
+  std::string head = "none";        // "none", or the tracked body that is the head: "dtrack:0"
+  glm::dvec3 eye_from_head_m{0.0};  // middle of the eyes in the tracked body's frame
+  HeadPose sweet_spot;              // where the head is taken to be without a tracker
+};
+
+// Dodgson 2004: 45 to 80 mm covers nearly all adults, children from 40 mm. Beyond it, it is a slip of the unit.
+inline constexpr double kSmallestIpdM = 0.030;
+inline constexpr double kLargestIpdM = 0.090;
+
+struct PixelRect {
+  glm::ivec2 offset_px{0};  // from the top left corner of the desktop, all monitors together
+  glm::uvec2 size_px{0};
+};
+
+// Where a screen's picture comes out, and how.
+struct Output {
+  std::string name;
+  std::size_t screen = 0;  // of Wall::screens
+  StereoMode mode = StereoMode::Mono;
+  std::optional<Eye> eye;  // of mode dual, and there alone: whose picture this is
+  EyeOrder order = EyeOrder::Straight;
+  std::string monitor;                  // as the window system names it; empty: the rectangle counts
+  PixelRect rect;                       // without area: the whole monitor
+  glm::dmat3 picture_from_output{1.0};  // keystone, see render::Composition
 };
 
 struct Wall {
   std::vector<Screen> screens;
+  std::vector<Output> outputs;  // may be empty
   std::vector<Viewer> viewers;
 };
 
-// Reads and checks a wall file (TOML). The error names file, line and key.
+// Reads and checks a wall file: TOML, or the corners of a ParaView .pvx. The error names file, line and key.
 core::Result<Wall> load_wall(const std::string& path);
 
 }  // namespace afm::scene

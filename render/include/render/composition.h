@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+
+#include "scene/stereo_layout.h"
+
+namespace afm::render {
+
+// How the two eyes' images become what an output shows.
+struct Composition {
+  scene::StereoMode mode = scene::StereoMode::SideBySide;
+  scene::EyeOrder order = scene::EyeOrder::Straight;
+
+  // Keystone of a projector: takes a place on the output to the place in each eye's image that it shows, both in unit
+  // coordinates from the top left corner. What lies beyond the image is black.
+  glm::dmat3 picture_from_output{1.0};
+};
+
+// Where a composed picture is read: its size, and where its first pixel lies on the screen that interleaving counts on.
+struct ReadArea {
+  glm::uvec2 size_px{0};  // 0 x 0: one pixel of an eye image is one pixel
+  glm::ivec2 screen_px{0};
+};
+
+}  // namespace afm::render

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace afm::test {
+
+// A row of tests/scene/data/stereo_cases.csv, the research's test vectors.
+struct StereoCase {
+  std::string id, kind, convention;
+  std::vector<double> inputs, expected;
+};
+
+inline std::vector<double> numbers(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<double> values;
+  for (std::string word; stream >> word;) values.push_back(std::stod(word));  // unlike >>, knows "inf"
+  return values;
+}
+
+inline std::vector<StereoCase> stereo_cases(const std::string& kind) {
+  std::ifstream file(AFM_SOURCE_DIR "/tests/scene/data/stereo_cases.csv");
+  std::vector<StereoCase> cases;
+  for (std::string line; std::getline(file, line);) {
+    std::vector<std::string> fields;
+    std::istringstream stream(line);
+    for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+    if (fields.size() >= 6 && fields[1] == kind) {
+      cases.push_back({fields[0], fields[1], fields[2], numbers(fields[4]), numbers(fields[5])});
+    }
+  }
+  return cases;
+}
+
+}  // namespace afm::test
