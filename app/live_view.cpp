@@ -10,6 +10,7 @@
 #include "app/servo_rows.h"
 #include "core/log.h"
 #include "haptics/device_probe.h"
+#include "render/device_failure.h"
 
 namespace afm::app {
 
@@ -54,24 +55,31 @@ void LiveView::begin_with(ServoLink& servo, std::optional<std::size_t> felt_befo
 core::Result<void> LiveView::run() {
   if (auto started = servo_.start(); !started) return started;
   hand_moved_ns_ = clock_.now_ns();
-  while (!leaving_ && !interrupted()) {
-    const std::int64_t now_ns = clock_.now_ns();
-    const render::WindowInput input = window_.poll();
-    leaving_ = input.close_requested;
-    for (const render::WindowEvent& event : input.events) handle(event, now_ns);
-    move_hand(input.cursor_px, now_ns);
-    servo_.take_news(now_ns);
-    if (window_.size_px().x == 0) {
-      window_.wait(kHiddenPauseS);
-      continue;
-    }
-    picture_.fit(now_ns);
-    draw(input.cursor_px, now_ns);
-    pace(now_ns);
+  std::optional<core::Error> lost;
+  try {
+    while (!leaving_ && !interrupted()) turn(clock_.now_ns());
+  } catch (const render::DeviceFailure& failure) {
+    lost = core::Error{core::ErrorCategory::Failed, failure.what()};
   }
-  servo_.finish();  // the hand is released while the last picture still stands
+  servo_.finish();  // the hand is released, and what was felt is kept, while the last picture still stands
+  if (lost) return tl::unexpected(*lost);
   if (servo_.error()) return tl::unexpected(*servo_.error());
   return {};
+}
+
+void LiveView::turn(std::int64_t now_ns) {
+  const render::WindowInput input = window_.poll();
+  leaving_ = input.close_requested;
+  for (const render::WindowEvent& event : input.events) handle(event, now_ns);
+  move_hand(input.cursor_px, now_ns);
+  servo_.take_news(now_ns);
+  if (window_.size_px().x == 0) {
+    window_.wait(kHiddenPauseS);
+    return;
+  }
+  picture_.fit(now_ns);
+  draw(input.cursor_px, now_ns);
+  pace(now_ns);
 }
 
 void LiveView::handle(const render::WindowEvent& event, std::int64_t now_ns) {
@@ -194,6 +202,7 @@ Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
   now.wand = wand_.towards(pointed.point_m, now_ns);
   now.guidance = stage_.guidance.line(servo.tip(), cycles.ascending(), cycles.cycles());
   now.servo = servo_rows(servo.tip(), servo.timing(), servo.device());
+  if (auto row = picture_.detail_row()) now.servo.push_back(std::move(*row));
   if (!servo_.running()) {
     now.servo_state = scene::ServoState::Fault;
     now.guidance = stage_.guidance.text(Hint::ServoEnded);

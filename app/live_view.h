@@ -37,12 +37,13 @@ class LiveView {
            render::Renderer& renderer, render::Presenter& presenter, ViewServo::Starter start_servo,
            const core::Clock& clock, const ViewSettings& settings);
 
-  // Until the window is closed, Escape, SIGINT or SIGTERM. Fails when the servo cannot be started, and at the end if it
-  // has died and was not started again.
+  // Until the window is closed, Escape, SIGINT or SIGTERM. Fails when the servo cannot be started, at the end if it has
+  // died and was not started again, and at once, with the servo ended in order, if the graphics device is lost.
   core::Result<void> run();
 
  private:
   void begin_with(ServoLink& servo, std::optional<std::size_t> felt_before);
+  void turn(std::int64_t now_ns);
   void handle(const render::WindowEvent& event, std::int64_t now_ns);
   void act(ViewAction action);
   void click(const glm::dvec2& cursor_px);

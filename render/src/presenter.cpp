@@ -9,6 +9,7 @@
 
 #include "barriers.h"
 #include "core/check.h"
+#include "explained.h"
 #include "renderer_parts.h"
 #include "swapchain.h"
 #include "window_handle.h"
@@ -17,6 +18,7 @@ namespace afm::render {
 namespace {
 
 constexpr std::uint64_t kTurnNs = 5'000'000;  // from one call of while_waiting to the next
+constexpr int kMostSurfacesLost = 20;         // one after the other
 constexpr int kMostTurns = 40;                // how long a display may keep all its images before the loop goes on
 
 constexpr ImageUse kAcquired{vk::PipelineStageFlagBits2::eColorAttachmentOutput, vk::AccessFlagBits2::eNone,
@@ -64,6 +66,7 @@ struct Presenter::Parts {
   void draw(std::uint32_t index, const Composition& composition);
   void show(std::uint32_t index);
   void replace_surface();
+  bool present(const Composition& composition, const std::function<void()>& while_waiting);
 
   const Device& device;
   Window& window;
@@ -77,6 +80,7 @@ struct Presenter::Parts {
   vk::raii::Fence finished;
   std::optional<Swapchain> swapchain;
   bool outdated = false;
+  int surfaces_lost = 0;  // since a picture was shown
 };
 
 core::Result<void> Presenter::Parts::choose_format() {
@@ -175,6 +179,9 @@ void Presenter::Parts::show(std::uint32_t index) {
 
 // The window system took the surface away: a display driver was restarted, a monitor was lost.
 void Presenter::Parts::replace_surface() {
+  if (++surfaces_lost > kMostSurfacesLost) {
+    throw DeviceFailure("the window's surface was lost and no other can be had: see to the display and start again");
+  }
   device->waitIdle();
   swapchain.reset();
   surface = nullptr;
@@ -195,29 +202,33 @@ core::Result<Presenter> Presenter::create(Context& context, Window& window, Rend
 }
 
 bool Presenter::present(const Composition& composition, const std::function<void()>& while_waiting) {
-  Parts& parts = *parts_;
-  AFM_CHECK(parts.renderer.eyes_drawn);
+  AFM_CHECK(parts_->renderer.eyes_drawn);
+  return explained(parts_->device, "showing a picture", [&] { return parts_->present(composition, while_waiting); });
+}
+
+bool Presenter::Parts::present(const Composition& composition, const std::function<void()>& while_waiting) {
   try {
-    if (!parts.follow_window()) {
+    if (!follow_window()) {
       return false;
     }
-    const auto index = parts.acquire(while_waiting);
+    const auto index = acquire(while_waiting);
     if (!index) {
       return false;
     }
-    parts.draw(*index, composition);
+    draw(*index, composition);
 
     // presented only once it is drawn: some drivers (lavapipe) would wait inside the call, where nobody beats
-    while (parts.device->waitForFences(*parts.finished, VK_TRUE, kTurnNs) == vk::Result::eTimeout) {
+    while (device->waitForFences(*finished, VK_TRUE, kTurnNs) == vk::Result::eTimeout) {
       while_waiting();
     }
-    parts.device->resetFences(*parts.finished);
-    parts.show(*index);
+    device->resetFences(*finished);
+    show(*index);
+    surfaces_lost = 0;
     return true;
   } catch (const vk::OutOfDateKHRError&) {
-    parts.outdated = true;
+    outdated = true;
   } catch (const vk::SurfaceLostKHRError&) {
-    parts.replace_surface();
+    replace_surface();
   }
   return false;
 }

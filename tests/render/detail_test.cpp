@@ -62,10 +62,10 @@ TEST_F(DetailOfFrames, ScalingBackUpPutsThingsWhereTheyWere) {
   auto renderer = make_renderer(scene, small());
   const auto weight = brighter_than(120);
   renderer.render(bare_frame(scene));
-  const auto whole = renderer.read_composed(render::Layout::Right);
+  const auto whole = renderer.read_composed({.mode = scene::StereoMode::Right});
   renderer.set_detail({.scale = 0.5, .samples = 4});
   renderer.render(bare_frame(scene));
-  const auto half = renderer.read_composed(render::Layout::Right);
+  const auto half = renderer.read_composed({.mode = scene::StereoMode::Right});
   ASSERT_EQ(half.width, whole.width);
   EXPECT_NEAR(centroid(half, weight)->x, centroid(whole, weight)->x, 1.0);
   EXPECT_NEAR(centroid(half, weight)->y, centroid(whole, weight)->y, 1.0);
@@ -85,7 +85,7 @@ TEST_F(DetailOfFrames, EyesThatSeeTheSameAreDrawnOnceAndShownTwice) {
   const auto same = eyes_of(renderer, one_eyed);
   EXPECT_EQ(same.left.rgba, stereo.left.rgba);
   EXPECT_EQ(same.right.rgba, stereo.left.rgba);
-  EXPECT_EQ(renderer.read_composed(render::Layout::Right).rgba, stereo.left.rgba);
+  EXPECT_EQ(renderer.read_composed({.mode = scene::StereoMode::Right}).rgba, stereo.left.rgba);
 
   // and the right eye's picture is drawn again when it differs again
   EXPECT_EQ(eyes_of(renderer, frame_).right.rgba, stereo.right.rgba);

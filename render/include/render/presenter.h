@@ -19,8 +19,8 @@ struct PicturePlace {
 PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px);
 
 // Shows a renderer's frames in a window, in step with its display. Follows the window through resizes, full screen and
-// the loss of its surface. The main thread alone. Vulkan's other failures are exceptions derived from
-// std::system_error.
+// the loss of its surface. The main thread alone. A lost device, and a surface that stays lost, are exceptions:
+// DeviceFailure.
 class Presenter {
  public:
   // DeviceMissing: the device and the display have no way to show pictures in common. All three must outlive the

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/session_file.h"
+#include "support/live_program.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+#include "support/virtual_display.h"
+
+// The program on a graphics device that fails: a Vulkan layer of our own stands before the driver.
+namespace afm::app {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<std::string> failing(const std::string& fault, std::vector<std::string> command) {
+  std::vector<std::string> all{"/usr/bin/env", "VK_LAYER_PATH=" AFM_FAULT_LAYER_DIR,
+                               "VK_INSTANCE_LAYERS=VK_LAYER_AFM_fault", "AFM_TEST_FAULT=" + fault, AFM_PROGRAM};
+  all.insert(all.end(), command.begin(), command.end());
+  return all;
+}
+
+std::string last_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
+class DeviceFailureTest : public ::testing::Test {
+ protected:
+  std::vector<std::string> view(const std::string& fault, std::vector<std::string> more = {}) const {
+    std::vector<std::string> all{"view",         "--size",   "320x240",   "--frame-rate", "20",
+                                 "--eye-width",  "160",      "--haptics", "sim",          "--servo",
+                                 AFM_SERVO_MODE, "--linger", "0"};
+    all.insert(all.end(), more.begin(), more.end());
+    return failing(fault, all);
+  }
+
+  support::ScratchFolder folder_;
+  support::VirtualDisplay display_{640, 480};
+};
+
+TEST_F(DeviceFailureTest, ALostDeviceEndsTheViewWithItsSessionKeptAndTheHandReleased) {
+  const std::string sessions = folder_.file("sessions");
+  support::LiveProgram program(view("lost:300", {"--record", sessions, "--material", "mica"}), display_.name());
+  ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
+  ASSERT_EQ(support::run_program("DISPLAY=" + display_.name() + " xdotool mousemove 100 100 key 1").exit_code, 0);
+  ASSERT_EQ(program.ends(), 1) << program.said();
+  EXPECT_THAT(last_line(program.said()), AllOf(HasSubstr("error: the graphics device"), HasSubstr("was lost while")));
+  EXPECT_THAT(program.said(), Not(HasSubstr("terminate")));
+  std::vector<std::filesystem::path> kept;
+  for (const auto& entry : std::filesystem::directory_iterator(sessions)) kept.push_back(entry.path());
+  ASSERT_EQ(kept.size(), 1U) << program.said();
+  const auto session = load_session(kept.front().string());
+  ASSERT_TRUE(session) << session.error().message;
+  EXPECT_GT(session->samples.size(), 100U);
+}
+
+TEST_F(DeviceFailureTest, ASurfaceThatIsLostForGoodEndsTheView) {
+  support::LiveProgram program(view("surface:30"), display_.name());
+  ASSERT_EQ(program.ends(), 1) << program.said();
+  EXPECT_THAT(last_line(program.said()), HasSubstr("error: the window's surface"));
+}
+
+TEST_F(DeviceFailureTest, NoMemoryIsSaidInOneLine) {
+  support::LiveProgram program(view("memory:3"), display_.name());
+  ASSERT_EQ(program.ends(), 1) << program.said();
+  EXPECT_THAT(last_line(program.said()), HasSubstr("error: no memory is left on"));
+}
+
+TEST_F(DeviceFailureTest, ADemonstrationLeavesNothingHalfDone) {
+  const std::string out = folder_.file("out");
+  support::LiveProgram program(
+      failing("lost:40", {"demo", "--out", out, "--eye-width", "160", "--servo", AFM_SERVO_MODE}), display_.name());
+  ASSERT_EQ(program.ends(), 1) << program.said();
+  EXPECT_THAT(last_line(program.said()), HasSubstr("was lost while drawing a frame"));
+  EXPECT_TRUE(std::filesystem::is_empty(out));
+}
+
+}  // namespace
+}  // namespace afm::app

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/device_failure.h"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <optional>
+#include <string>
+
+#include "support/vulkan_fixture.h"
+
+// A layer of our own stands between the program and the driver and fails as real devices do.
+namespace afm::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class DeviceFailureTest : public testing::Test {
+ protected:
+  ~DeviceFailureTest() override {
+    unsetenv("VK_LAYER_PATH");
+    unsetenv("VK_INSTANCE_LAYERS");
+    unsetenv("AFM_TEST_FAULT");
+  }
+
+  static render::Context open(const std::string& fault) {
+    setenv("VK_LAYER_PATH", AFM_FAULT_LAYER_DIR, 1);
+    setenv("VK_INSTANCE_LAYERS", "VK_LAYER_AFM_fault", 1);
+    setenv("AFM_TEST_FAULT", fault.c_str(), 1);
+    auto context = render::Context::open();
+    if (!context) throw std::runtime_error(context.error().message);
+    return std::move(*context);
+  }
+
+  // What is thrown within a few frames, with the number of frames before; nothing if all are drawn.
+  template <class Draw>
+  static std::optional<std::string> failure_of(Draw&& draw) {
+    try {
+      for (int i = 0; i < 20; ++i) draw();
+    } catch (const render::DeviceFailure& failure) {
+      return failure.what();
+    }
+    return std::nullopt;
+  }
+
+  TestScene test_ = make_test_scene();
+  render::FrameState frame_ = full_frame(test_);
+};
+
+TEST_F(DeviceFailureTest, ALostDeviceIsSaidInOneLineAndTakenDownInOrder) {
+  auto context = open("lost:12");
+  auto renderer = render::Renderer::create(context, test_.scene, small());
+  ASSERT_TRUE(renderer);
+  const auto said = failure_of([&] { renderer->render(frame_); });
+  ASSERT_TRUE(said);
+  EXPECT_THAT(*said, AllOf(HasSubstr("was lost while drawing a frame"), HasSubstr(context.device_name()),
+                           Not(HasSubstr("\n"))));
+
+  // every other call says so too, and destroying the renderer throws nothing
+  EXPECT_THROW(renderer->wait(), render::DeviceFailure);
+  EXPECT_THROW(renderer->read_eye(scene::Eye::Left), render::DeviceFailure);
+  EXPECT_THROW(renderer->read_composed({}), render::DeviceFailure);
+  EXPECT_FALSE(renderer->resize(100, 100));
+}
+
+// Wherever the memory ends, it is an error of creation or of a frame, never a crash. A renderer and its first frame
+// make some forty allocations.
+TEST_F(DeviceFailureTest, AnyAllocationMayBeTheLast) {
+  int refused = 0, failed = 0, drawn = 0;
+  for (const int last : {1, 2, 4, 8, 12, 16, 20, 24, 28, 32, 60}) {
+    auto context = open("memory:" + std::to_string(last));
+    std::optional<core::Result<render::Renderer>> renderer;
+    renderer.emplace(render::Renderer::create(context, test_.scene, small()));
+    if (!*renderer) {
+      EXPECT_THAT(renderer->error().message, HasSubstr("no memory is left on " + context.device_name())) << last;
+      EXPECT_EQ(renderer->error().category, core::ErrorCategory::Failed);
+      ++refused;
+      continue;
+    }
+    const auto said = failure_of([&] { (*renderer)->render(frame_); });
+    if (said) {
+      EXPECT_THAT(*said, AllOf(HasSubstr("no memory is left"), HasSubstr("drawing a frame"))) << last;
+      ++failed;
+      continue;
+    }
+
+    // what was never asked for before cannot be had either, and leaves everything as it was
+    ++drawn;
+    std::optional<std::string> refusal;
+    for (int i = 0; i < 30 && !refusal; ++i) {
+      const auto resized = (*renderer)->resize(320, 240);
+      if (!resized) refusal = resized.error().message;
+    }
+    ASSERT_TRUE(refusal);
+    EXPECT_THAT(*refusal, HasSubstr("no memory is left"));
+  }
+  EXPECT_GE(refused, 3);
+  EXPECT_GE(failed, 2);
+  EXPECT_GE(drawn, 1);
+}
+
+}  // namespace
+}  // namespace afm::test

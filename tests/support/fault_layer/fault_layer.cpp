@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Vulkan layer that makes a device fail as real ones do, for tests of what happens then. AFM_TEST_FAULT says how:
+//   lost:N    the Nth submission, and everything that waits from then on, returns VK_ERROR_DEVICE_LOST
+//   memory:N  from the Nth allocation on there is no device memory
+//   surface:N from the Nth picture of a window on its surface is lost, and no other can be had
+// The interface is that of the Vulkan loader's documentation, "Layer Interface" version 2.
+#include <vulkan/vk_layer.h>
+#include <vulkan/vulkan.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace {
+
+struct Fault {
+  std::string kind;
+  int after = 0;
+};
+
+Fault read_fault() {
+  const char* text = std::getenv("AFM_TEST_FAULT");
+  if (text == nullptr) return {};
+  const std::string all = text;
+  const auto colon = all.find(':');
+  return {all.substr(0, colon), colon == std::string::npos ? 1 : std::atoi(all.c_str() + colon + 1)};
+}
+
+// One instance and one device at a time, as the program has them.
+Fault the_fault;
+PFN_vkGetInstanceProcAddr next_instance = nullptr;
+PFN_vkGetDeviceProcAddr next_device = nullptr;
+VkInstance the_instance = VK_NULL_HANDLE;
+VkDevice the_device = VK_NULL_HANDLE;
+std::atomic<int> submissions{0}, allocations{0}, pictures{0};
+
+template <class Function>
+Function next(const char* name) {
+  return reinterpret_cast<Function>(next_device(the_device, name));
+}
+
+// Whether the fault of that kind has come; `count` counts what leads to it.
+bool failing(const char* kind, std::atomic<int>& count, int add) {
+  return the_fault.kind == kind && (count += add) >= the_fault.after;
+}
+bool lost(int add) { return failing("lost", submissions, add); }
+
+VKAPI_ATTR VkResult VKAPI_CALL queue_submit2(VkQueue queue, std::uint32_t count, const VkSubmitInfo2* submits,
+                                             VkFence fence) {
+  if (lost(1)) return VK_ERROR_DEVICE_LOST;
+  return next<PFN_vkQueueSubmit2>("vkQueueSubmit2")(queue, count, submits, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL wait_semaphores(VkDevice device, const VkSemaphoreWaitInfo* info,
+                                               std::uint64_t timeout) {
+  if (lost(0)) return VK_ERROR_DEVICE_LOST;
+  return next<PFN_vkWaitSemaphores>("vkWaitSemaphores")(device, info, timeout);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL device_wait_idle(VkDevice device) {
+  const VkResult result = next<PFN_vkDeviceWaitIdle>("vkDeviceWaitIdle")(device);
+  return lost(0) ? VK_ERROR_DEVICE_LOST : result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                               const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+  if (failing("memory", allocations, 1)) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  return next<PFN_vkAllocateMemory>("vkAllocateMemory")(device, info, callbacks, memory);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL acquire_next_image(VkDevice device, VkSwapchainKHR swapchain, std::uint64_t timeout,
+                                                  VkSemaphore semaphore, VkFence fence, std::uint32_t* index) {
+  if (failing("surface", pictures, 1)) return VK_ERROR_SURFACE_LOST_KHR;
+  return next<PFN_vkAcquireNextImageKHR>("vkAcquireNextImageKHR")(device, swapchain, timeout, semaphore, fence, index);
+}
+
+template <class Info>
+Info* link_info(const void* chain, VkStructureType type) {
+  for (auto* each = static_cast<const Info*>(chain); each != nullptr; each = static_cast<const Info*>(each->pNext)) {
+    if (each->sType == type && each->function == VK_LAYER_LINK_INFO) return const_cast<Info*>(each);
+  }
+  return nullptr;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info, const VkAllocationCallbacks* callbacks,
+                                               VkInstance* instance) {
+  auto* link = link_info<VkLayerInstanceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
+  if (link == nullptr) return VK_ERROR_INITIALIZATION_FAILED;
+  next_instance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+  link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+  the_fault = read_fault();
+  submissions = allocations = pictures = 0;
+  const auto create = reinterpret_cast<PFN_vkCreateInstance>(next_instance(VK_NULL_HANDLE, "vkCreateInstance"));
+  const VkResult result = create(info, callbacks, instance);
+  the_instance = *instance;
+  return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
+                                             const VkAllocationCallbacks* callbacks, VkDevice* device) {
+  auto* link = link_info<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+  if (link == nullptr) return VK_ERROR_INITIALIZATION_FAILED;
+  const auto instance_function = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+  next_device = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
+  link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+  const auto create = reinterpret_cast<PFN_vkCreateDevice>(instance_function(the_instance, "vkCreateDevice"));
+  const VkResult result = create(physical, info, callbacks, device);
+  the_device = *device;
+  return result;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_function(VkDevice device, const char* name);
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_function(VkInstance instance, const char* name);
+
+PFN_vkVoidFunction own_function(const char* name) {
+  struct Own {
+    const char* name;
+    PFN_vkVoidFunction function;
+  };
+  static const Own kOwn[] = {
+      {"vkGetInstanceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(get_instance_function)},
+      {"vkGetDeviceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(get_device_function)},
+      {"vkCreateInstance", reinterpret_cast<PFN_vkVoidFunction>(create_instance)},
+      {"vkCreateDevice", reinterpret_cast<PFN_vkVoidFunction>(create_device)},
+      {"vkQueueSubmit2", reinterpret_cast<PFN_vkVoidFunction>(queue_submit2)},
+      {"vkWaitSemaphores", reinterpret_cast<PFN_vkVoidFunction>(wait_semaphores)},
+      {"vkDeviceWaitIdle", reinterpret_cast<PFN_vkVoidFunction>(device_wait_idle)},
+      {"vkAllocateMemory", reinterpret_cast<PFN_vkVoidFunction>(allocate_memory)},
+      {"vkAcquireNextImageKHR", reinterpret_cast<PFN_vkVoidFunction>(acquire_next_image)},
+  };
+  for (const Own& own : kOwn) {
+    if (std::strcmp(own.name, name) == 0) return own.function;
+  }
+  return nullptr;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_function(VkDevice device, const char* name) {
+  const auto own = own_function(name);
+  return own != nullptr ? own : next_device(device, name);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_function(VkInstance instance, const char* name) {
+  const auto own = own_function(name);
+  if (own != nullptr) return own;
+  return next_instance == nullptr ? nullptr : next_instance(instance, name);
+}
+
+}  // namespace
+
+extern "C" [[gnu::visibility("default")]] VKAPI_ATTR VkResult VKAPI_CALL
+vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* interface) {
+  if (interface->loaderLayerInterfaceVersion < 2) return VK_ERROR_INITIALIZATION_FAILED;
+  interface->loaderLayerInterfaceVersion = 2;
+  interface->pfnGetInstanceProcAddr = get_instance_function;
+  interface->pfnGetDeviceProcAddr = get_device_function;
+  interface->pfnGetPhysicalDeviceProcAddr = nullptr;
+  return VK_SUCCESS;
+}
