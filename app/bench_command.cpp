@@ -5,6 +5,7 @@
 #include "app/command.h"
 #include "app/haptics_benchmarks.h"
 #include "app/physics_benchmarks.h"
+#include "app/render_benchmarks.h"
 
 namespace afm::app {
 namespace {
@@ -41,6 +42,7 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
   add_subject(*bench, context, "physics", "a tick and the tables of each law, the dynamics, a whole curve",
               physics_benchmarks);
   add_haptics_benchmarks(*bench, context);
+  add_render_benchmarks(*bench, context);
 }
 
 }  // namespace afm::app

@@ -12,6 +12,7 @@
 #include "app/curves_plot.h"
 #include "app/demo_figures.h"
 #include "app/demonstration.h"
+#include "app/frame_budget.h"
 #include "app/measured_material.h"
 #include "app/output_folder.h"
 #include "app/report.h"
@@ -41,6 +42,7 @@ struct DemoOptions {
   StageFiles files;
   std::uint32_t eye_width = 960;
   HandPath hand;
+  double frame_budget_ms = 0;
   ServoChoice servo;
   ModelName model;
   scene::ScaleMode scale = scene::ScaleMode::Fit;
@@ -109,6 +111,7 @@ core::Result<DemoPlan> plan_demo(const Stage& stage, const std::optional<Measure
                                  const DemoOptions& options) {
   DemoPlan plan;
   plan.scale = options.scale;
+  plan.frame_budget_ms = options.frame_budget_ms;
   if (measured) plan.curves.push_back(measured->curve);
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
     if (measured && entry.name == measured->entry.name) {
@@ -240,7 +243,8 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   if (!out) return tl::unexpected(out.error());
   auto context = render::Context::open();
   if (!context) return tl::unexpected(context.error());
-  const render::RendererOptions renderer_options = stage->renderer_options(options.eye_width);
+  render::RendererOptions renderer_options = stage->renderer_options(options.eye_width);
+  renderer_options.time_passes = options.frame_budget_ms > 0;
   auto renderer = render::Renderer::create(*context, stage->wall_scene.scene(), renderer_options);
   if (!renderer) return tl::unexpected(renderer.error());
 
@@ -303,6 +307,7 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
       ->check(CLI::Range(64, 8192))
       ->capture_default_str()
       ->type_name("PIXELS");
+  add_frame_budget(*command, options->frame_budget_ms);
   auto speed = std::make_shared<std::string>("30mm/s");
   command->add_option("--hand-speed", *speed, "mean speed of the simulated hand, 5mm/s to 200mm/s")
       ->capture_default_str()

@@ -11,6 +11,7 @@
 
 #include "app/interruption.h"
 #include "app/servo_rows.h"
+#include "core/log.h"
 
 namespace afm::app {
 
@@ -35,7 +36,9 @@ Demonstration::Demonstration(const Stage& stage, const DemoPlan& plan, render::R
       person_(wall_scene_.wand_grip_m(), wall_scene_.sample_normal(), path),
       targets_(wall_scene_.swatch_targets()),
       between_eyes_m_(0.5 * (stage.eyes[0].eye_position_m + stage.eyes[1].eye_position_m)),
-      curves_(materials_.size()) {}
+      curves_(materials_.size()) {
+  if (plan.frame_budget_ms > 0) budget_.emplace(plan.frame_budget_ms, renderer.detail().samples);
+}
 
 core::Result<void> Demonstration::run(DemoResult& result, const Progress& progress) {
   for (std::size_t i = 0; i < materials_.size(); ++i) {
@@ -149,6 +152,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   servo_.place(transforms);
 
   renderer_.render(frames_.build(now));
+  if (budget_) budget_->follow(renderer_);
   if (pointing.chosen && !result.choosing) result.choosing = renderer_.read_composed({});
   result.frame_ms.push_back(static_cast<double>(clock_.now_ns() - start_ns) * 1e-6);
   return {};
@@ -185,6 +189,7 @@ Moment Demonstration::moment(const input::WandState& wand, const input::Selector
   now.guidance = guidance_.text(hint());
   now.curves = curves_;
   now.servo = servo_rows(servo_.tip(), servo_.timing(), servo_.device());
+  if (budget_) now.servo.push_back(budget_->row());
   return now;
 }
 

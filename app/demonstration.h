@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/frame_budget.h"
 #include "app/frame_builder.h"
 #include "app/guidance.h"
 #include "app/live_servo.h"
@@ -24,6 +26,7 @@ struct DemoPlan {
   std::vector<FeltMaterial> materials;
   std::vector<std::vector<FeltMaterial>> variations;  // one list per material
   std::vector<scene::SharedMeasuredCurve> curves;     // of measured materials
+  double frame_budget_ms = 0;                         // as --frame-budget
   scene::ScaleMode scale = scene::ScaleMode::Fit;
 };
 
@@ -61,6 +64,7 @@ class Demonstration {
   render::Renderer& renderer_;
   ServoLink& servo_;
   const core::Clock& clock_;
+  std::optional<FrameBudget> budget_;
   HandPath path_;
   SimulatedPerson person_;
   input::Selector selector_;

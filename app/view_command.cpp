@@ -12,6 +12,7 @@
 
 #include "app/command.h"
 #include "app/felt_material.h"
+#include "app/frame_budget.h"
 #include "app/haptic_choice.h"
 #include "app/live_view.h"
 #include "app/session_file.h"
@@ -130,6 +131,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   const glm::uvec2 fitting = stage->eye_size_within(settings.picture.composition.mode, window->size_px());
   render::RendererOptions drawing = stage->renderer_options(options.eye_width > 0 ? options.eye_width : fitting.x);
   if (options.eye_width == 0) drawing.eye_height = fitting.y;
+  drawing.time_passes = settings.picture.frame_budget_ms > 0;
   auto renderer = render::Renderer::create(*context, stage->wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   auto presenter = render::Presenter::create(*context, *window, *renderer);
@@ -159,6 +161,7 @@ void add_picture_options(CLI::App& command, ViewOptions& options) {
                   "width of each eye's picture in pixels, then scaled to the window; default: the window's pixels")
       ->check(CLI::Range(64, 8192))
       ->type_name("PIXELS");
+  add_frame_budget(command, options.settings.picture.frame_budget_ms);
   command
       .add_option("--frame-rate", options.frame_rate, "most frames a second, 10 to 1000; default: the display's rate")
       ->check(CLI::Range(kSlowestFrames, kFastestFrames))

@@ -29,7 +29,9 @@ ViewPicture::ViewPicture(const Stage& stage, render::Window& window, render::Ren
       presenter_(presenter),
       settings_(settings),
       eyes_(eyes_for(stage, settings.composition.mode)),
-      eye_size_px_(settings.eye_px) {}
+      eye_size_px_(settings.eye_px) {
+  if (settings_.frame_budget_ms > 0) budget_.emplace(settings_.frame_budget_ms, renderer.detail().samples);
+}
 
 void ViewPicture::fit(std::int64_t now_ns) {
   const glm::uvec2 window_px = window_.size_px();
@@ -63,6 +65,11 @@ void ViewPicture::show(const render::FrameState& frame, const std::function<void
   while_waiting();
   presenter_.present(settings_.composition, while_waiting);
   while_waiting();
+  if (budget_) budget_->follow(renderer_);
+}
+
+std::optional<render::DataRow> ViewPicture::detail_row() const {
+  return budget_ ? std::optional(budget_->row()) : std::nullopt;
 }
 
 }  // namespace afm::app

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
+#include "app/frame_budget.h"
 #include "app/mouse_wand.h"
 #include "app/stage_setup.h"
 #include "render/presenter.h"
@@ -16,6 +18,7 @@ struct PictureSettings {
   render::Composition composition{.mode = scene::StereoMode::Mono};
   glm::uvec2 eye_px{0};         // as the renderer was made
   bool fixed_eye_size = false;  // else the eyes get as many pixels as the window has for them
+  double frame_budget_ms = 0;   // frames are drawn coarser to stay within it; 0: as they are
 };
 
 // How the live window shows the wall: for which eyes, in which layout, how large. The main thread alone.
@@ -33,6 +36,9 @@ class ViewPicture {
   // What the next frame is drawn for, and where it will lie in the window.
   WallPicture picture() const;
 
+  // How finely frames are drawn to stay within the budget; nothing without one.
+  std::optional<render::DataRow> detail_row() const;
+
   // Draws and shows a frame; calls `while_waiting` often.
   void show(const render::FrameState& frame, const std::function<void()>& while_waiting);
 
@@ -46,6 +52,7 @@ class ViewPicture {
   glm::uvec2 eye_size_px_;              // as the renderer draws
   glm::uvec2 window_size_px_{0};
   std::int64_t window_steady_since_ns_ = 0;
+  std::optional<FrameBudget> budget_;
 };
 
 }  // namespace afm::app

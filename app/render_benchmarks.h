@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "app/command.h"
+
+namespace afm::app {
+
+// touchafm bench render: frames of the wall, of generated scenes and of glTF files in one multiview pass, in two passes
+// and for one eye, beside other programs; and the time to the first frame.
+void add_render_benchmarks(CLI::App& bench, CommandContext& context);
+
+}  // namespace afm::app

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/render_timing.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "app/interruption.h"
+#include "core/log.h"
+#include "render/context.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr int kSettlingFrames = 2;  // of each round: the device comes from another scene
+constexpr std::size_t kMostOutput = 65536;
+
+struct Way {
+  const char* name;
+  render::PassMode pass_mode;
+  bool one_eye;
+};
+
+constexpr std::array<Way, 3> kWays{{{"multiview", render::PassMode::Multiview, false},
+                                    {"two passes", render::PassMode::TwoPasses, false},
+                                    {"mono", render::PassMode::Automatic, true}}};
+
+double median(std::vector<double> values) { return percentiles(std::move(values)).p50; }
+
+double resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  double size_pages = 0, resident_pages = 0;
+  statm >> size_pages >> resident_pages;
+  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+// One subject drawn in one way.
+class Drawing {
+ public:
+  Drawing(const RenderSubject& subject, const Way& way, render::Renderer renderer)
+      : renderer_(std::move(renderer)), frames_(subject.frames) {
+    if (!way.one_eye) return;
+    for (render::FrameState& frame : frames_) frame.eyes[1] = frame.eyes[0];
+  }
+
+  void draw_round(int count, const core::Clock& clock, RenderFigure& figure) {
+    for (int i = 0; i < kSettlingFrames; ++i) renderer_.render(next());
+    std::int64_t last_ns = clock.now_ns();
+    std::vector<double> times_ms;
+    for (int i = 0; i < count; ++i) {
+      renderer_.render(next());
+      const std::int64_t now_ns = clock.now_ns();
+      times_ms.push_back(static_cast<double>(now_ns - std::exchange(last_ns, now_ns)) * 1e-6);
+    }
+    renderer_.wait();
+    times_ms_.insert(times_ms_.end(), times_ms.begin(), times_ms.end());
+    figure.round_ms.push_back(median(std::move(times_ms)));
+    figure.frame_ms = percentiles(times_ms_);
+    if (const auto passes = renderer_.pass_times()) {
+      panels_ms_.push_back(passes->panels_ms);
+      shadow_ms_.push_back(passes->shadow_ms);
+      eyes_ms_.push_back(passes->eyes_ms);
+      figure.pass_ms = {.panels_ms = median(panels_ms_), .shadow_ms = median(shadow_ms_), .eyes_ms = median(eyes_ms_)};
+    }
+  }
+
+ private:
+  const render::FrameState& next() { return frames_[drawn_++ % frames_.size()]; }
+
+  render::Renderer renderer_;
+  std::vector<render::FrameState> frames_;
+  std::size_t drawn_ = 0;
+  std::vector<double> times_ms_, panels_ms_, shadow_ms_, eyes_ms_;
+};
+
+// By pairs within a round, against the first way of the same subject; peers against the very first.
+void set_ratios(std::vector<RenderFigure>& figures) {
+  const RenderFigure* base = nullptr;
+  for (RenderFigure& figure : figures) {
+    if (base == nullptr || (figure.subject != base->subject && figure.subject != "peer")) base = &figure;
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < figure.round_ms.size(); ++i) {
+      ratios.push_back(figure.round_ms[i] / base->round_ms[i]);
+    }
+    figure.ratio = median(std::move(ratios));
+  }
+}
+
+}  // namespace
+
+core::Result<double> printed_frame_ms(const std::string& command) {
+  const auto refuse = [&](const std::string& why) {
+    return core::failure(
+        core::ErrorCategory::Failed,
+        fmt::format("the command \"{}\" {}: give one that prints a JSON object with frame_ms", command, why));
+  };
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "re"), pclose);
+  if (!pipe) return refuse("could not be started");
+  std::string text(kMostOutput, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), pipe.get()));
+  const nlohmann::json result = nlohmann::json::parse(text, nullptr, false);
+  const auto found = result.is_object() ? result.find("frame_ms") : result.end();
+  if (found == result.end() || !found->is_number()) return refuse("printed no time");
+  const double time_ms = found->get<double>();
+  if (!(time_ms > 0.0)) return refuse(fmt::format("printed {} ms", time_ms));
+  return time_ms;
+}
+
+core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& subjects, const RenderTimingPlan& plan,
+                                           const core::Clock& clock) {
+  auto context = render::Context::open();
+  if (!context) return tl::unexpected(context.error());
+  RenderFigures result;
+  result.device = context->device_name();
+  std::vector<Drawing> drawings;
+  for (const RenderSubject& subject : subjects) {
+    for (const Way& way : kWays) {
+      auto renderer = render::Renderer::create(*context, subject.scene,
+                                               {.eye_width = subject.eye_px.x,
+                                                .eye_height = subject.eye_px.y,
+                                                .samples = plan.samples,
+                                                .pass_mode = way.pass_mode,
+                                                .time_passes = true});
+      if (!renderer) return tl::unexpected(renderer.error());
+      drawings.emplace_back(subject, way, std::move(*renderer));
+      result.figures.push_back({.subject = subject.name, .way = way.name});
+      RenderFigure warm_up;
+      drawings.back().draw_round(kSettlingFrames, clock, warm_up);
+    }
+  }
+  for (const std::string& peer : plan.peers) result.figures.push_back({.subject = "peer", .way = peer});
+  result.memory_before_bytes = resident_bytes();
+
+  for (int round = 0; round < plan.rounds; ++round) {
+    core::log_line(fmt::format("round {} of {}", round + 1, plan.rounds));
+    for (std::size_t i = 0; i < result.figures.size(); ++i) {
+      if (interrupted()) return core::failure(core::ErrorCategory::Failed, "interrupted");
+      RenderFigure& figure = result.figures[i];
+      if (i < drawings.size()) {
+        drawings[i].draw_round(plan.frames, clock, figure);
+        continue;
+      }
+      const auto time_ms = printed_frame_ms(figure.way);
+      if (!time_ms) return tl::unexpected(time_ms.error());
+      figure.round_ms.push_back(*time_ms);
+      figure.frame_ms = percentiles(figure.round_ms);
+    }
+  }
+  result.memory_after_bytes = resident_bytes();
+  set_ratios(result.figures);
+  return result;
+}
+
+}  // namespace afm::app
