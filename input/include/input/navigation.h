@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "input/wand.h"
+#include "scene/shared_blocks.h"
+
+namespace afm::input {
+
+// Whether the wand must leave the scene where it is: the tip is in contact, or the hand feels a force. Else the hand
+// and the picture would part.
+bool navigation_locked(const scene::TipState& tip);
+
+// Where a wand has moved, turned and scaled the scene: a similarity of the room. What stands at `pivot_m` is the middle
+// of the scene, about which it is turned and scaled by sticks and caps. Pure: depends on what it was given alone, and
+// on the frame rate not at all. One thread.
+//
+// - Grab held, with a wand that is pointed: the scene is stuck to the wand, exactly; brought back, it is where it was.
+// - Grab held, with a cap: it flies and turns the scene. Sticks of other wands do so at any time.
+// - Scale held: larger towards oneself, or upwards; about the hand where that is tracked, else about the middle.
+// - Home: as at the start.
+class Navigation {
+ public:
+  explicit Navigation(const glm::dvec3& pivot_m) : pivot_m_(pivot_m) {}
+
+  // Once a frame, `frame_s` >= 0 after the frame before. While `locked` nothing moves, and what was held is taken up
+  // from where it then is.
+  void update(const WandState& wand, double frame_s, bool locked);
+
+  void home();
+
+  glm::dmat4 room_from_scene() const;
+  double scale() const { return scale_; }
+
+  static constexpr double kSmallestScale = 0.05;
+  static constexpr double kLargestScale = 20.0;
+  static constexpr double kFarthestM = 10.0;  // to which a stick flies the scene
+
+ private:
+  void follow_grab(const WandState& wand);
+  void follow_scale(const WandState& wand, double frame_s);
+  void scale_about(const glm::dvec3& center_m, double scale, const glm::dvec3& from_m);
+  void fly(const WandState& wand, double frame_s);
+  void let_go();
+
+  glm::dvec3 pivot_m_;
+  // room = pivot + shift + scale * turn * (scene - pivot)
+  glm::dvec3 shift_m_{0.0};
+  glm::dquat turn_{1.0, 0.0, 0.0, 0.0};
+  double scale_ = 1.0;
+
+  struct Grab {
+    glm::dquat wand_from_scene;
+    glm::dvec3 middle_in_wand_m;
+  };
+  std::optional<Grab> grab_;
+  struct Scaling {
+    glm::dvec3 wand_m;
+    glm::dvec3 along;  // where the wand pointed
+    glm::dvec3 middle_m;
+    double scale;
+  };
+  std::optional<Scaling> scaling_;
+  glm::dvec3 velocity_m_per_s_{0.0};
+  glm::dvec3 turn_rate_rad_per_s_{0.0};
+  bool home_was_pressed_ = false;
+};
+
+}  // namespace afm::input

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "input/dtrack_source.h"
+#include "input/hid_mapping.h"
+
+namespace afm::input {
+
+// What a wand file (TOML) may say: where the hand is, which tracker there is, how an HID device is read.
+struct WandFile {
+  std::optional<glm::dvec3> hand_m;  // of a wand without a position of its own, room frame
+  std::optional<DtrackSettings> dtrack;
+  std::optional<std::uint32_t> head_body;  // of the tracker
+  std::optional<HidMapping> device;
+};
+
+// Reads and checks it. The error names file, line and key.
+core::Result<WandFile> load_wand_file(const std::string& path);
+
+// The devices of all files *.toml in a folder, in the order of their names.
+core::Result<std::vector<HidMapping>> load_mappings(const std::string& folder);
+
+}  // namespace afm::input

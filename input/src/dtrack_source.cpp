@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "input/dtrack_source.h"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace afm::input {
+
+namespace {
+
+constexpr int kPatienceMs = 10;
+constexpr int kMostPacketsAPoll = 256;
+constexpr std::size_t kLongestPacket = 65'536;
+constexpr std::int64_t kSilenceNs = 250'000'000;
+
+core::Result<void> bind_to(int socket, const DtrackSettings& settings) {
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(settings.port);
+  if (::inet_pton(AF_INET, settings.address.c_str(), &place.sin_addr) != 1) {
+    return core::failure(
+        core::ErrorCategory::WrongUsage,
+        fmt::format("the tracker's address \"{}\" is no IPv4 address of this machine, such as 127.0.0.1",
+                    settings.address));
+  }
+  if (::bind(socket, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0) return {};
+  return core::failure(
+      core::ErrorCategory::DeviceMissing,
+      fmt::format("cannot listen for a tracker at {}:{} ({}): name an address of this machine, and end what else "
+                  "listens there",
+                  settings.address, settings.port, std::strerror(errno)));
+}
+
+std::uint32_t wand_buttons(std::uint32_t flystick) {
+  constexpr std::array kMeanings{WandButton::Select, WandButton::Grab, WandButton::Scale, WandButton::Home};
+  std::uint32_t buttons = 0;
+  for (std::size_t i = 0; i < kMeanings.size(); ++i) {
+    if (((flystick >> i) & 1U) != 0) buttons |= bit(kMeanings[i]);
+  }
+  return buttons;
+}
+
+}  // namespace
+
+DtrackBody in_room(const DtrackBody& body, const DtrackSettings& settings) {
+  DtrackBody moved = body;
+  moved.position_m = settings.tracker_origin_m + settings.room_from_tracker * body.position_m;
+  moved.tracker_from_body = settings.room_from_tracker * body.tracker_from_body;
+  return moved;
+}
+
+core::Result<std::unique_ptr<DtrackSource>> DtrackSource::open(const DtrackSettings& settings,
+                                                               const core::Clock& clock) {
+  core::FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!socket.is_open()) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("no socket for a tracker could be made ({})", std::strerror(errno)));
+  }
+  if (auto bound = bind_to(socket.get(), settings); !bound) return tl::unexpected(bound.error());
+  sockaddr_in place{};
+  socklen_t size = sizeof place;
+  if (::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&place), &size) != 0) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("the tracker's port cannot be asked for ({})", std::strerror(errno)));
+  }
+  return std::unique_ptr<DtrackSource>(new DtrackSource(settings, clock, std::move(socket), ntohs(place.sin_port)));
+}
+
+DtrackSource::DtrackSource(const DtrackSettings& settings, const core::Clock& clock, core::FileDescriptor socket,
+                           std::uint16_t port)
+    : settings_(settings), clock_(clock), socket_(std::move(socket)), port_(port) {}
+
+bool DtrackSource::receive(int patience_ms) {
+  pollfd waiting{.fd = socket_.get(), .events = POLLIN, .revents = 0};
+  if (::poll(&waiting, 1, patience_ms) <= 0) return false;
+  std::array<char, kLongestPacket> packet;
+  const ssize_t size = ::recv(socket_.get(), packet.data(), packet.size(), 0);
+  if (size < 0) return false;
+  if (const auto frame = parse_dtrack({packet.data(), static_cast<std::size_t>(size)})) {
+    now_.frame = *frame;
+    now_.time_ns = clock_.now_ns();
+    ++now_.good_packets;
+  } else {
+    ++now_.bad_packets;
+  }
+  return true;
+}
+
+WandState DtrackSource::poll() {
+  bool heard = false;
+  for (int i = 0; i < kMostPacketsAPoll && receive(i == 0 ? kPatienceMs : 0); ++i) heard = true;
+  if (heard) news_.store(now_);
+
+  WandState wand;
+  wand.time_ns = now_.time_ns;
+  const bool silent = now_.good_packets == 0 || clock_.now_ns() - now_.time_ns > kSilenceNs;
+  const DtrackFlystick* const stick = now_.frame.flystick(settings_.flystick);
+  if (silent || stick == nullptr) return wand;
+  const DtrackBody body = in_room(stick->body, settings_);
+  wand.connected = true;
+  wand.orientation_valid = wand.position_valid = body.tracked;
+  wand.position_m = body.position_m;
+  wand.room_from_wand = body.tracker_from_body;
+  wand.buttons = wand_buttons(stick->buttons);
+  wand.push = {stick->joystick[0], 0.0, -stick->joystick[1]};
+  return wand;
+}
+
+}  // namespace afm::input

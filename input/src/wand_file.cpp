@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "input/wand_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <initializer_list>
+#include <string_view>
+
+#include "scene/toml_fault.h"
+
+namespace afm::input {
+
+namespace {
+
+using scene::Fault;
+
+constexpr std::int64_t kLargestByte = 1023;
+constexpr double kUnitTolerance = 1e-3;
+
+class Table {
+ public:
+  Table(const toml::table& table, std::string name) : table_(table), name_(std::move(name)) {}
+
+  void allow_only(std::initializer_list<std::string_view> keys) const {
+    for (const auto& [key, node] : table_) {
+      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
+        throw Fault{node.source(), full(key.str()), fmt::format("unknown key; known are {}", fmt::join(keys, ", "))};
+      }
+    }
+  }
+
+  bool has(std::string_view key) const { return table_.contains(key); }
+
+  [[noreturn]] void refuse(std::string_view key, std::string what) const {
+    const toml::node* node = table_.get(key);
+    throw Fault{node != nullptr ? node->source() : table_.source(), full(key), std::move(what)};
+  }
+
+  const toml::node& node(std::string_view key) const {
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) refuse(key, "is missing");
+    return *node;
+  }
+
+  std::string text(std::string_view key) const {
+    const auto value = node(key).value_exact<std::string>();
+    if (!value || value->empty()) refuse(key, "must be a text that is not empty");
+    return *value;
+  }
+
+  std::int64_t integer(std::string_view key, std::int64_t smallest, std::int64_t largest) const {
+    const auto value = node(key).value_exact<std::int64_t>();
+    if (!value || *value < smallest || *value > largest) {
+      refuse(key, fmt::format("must be a whole number from {} to {}", smallest, largest));
+    }
+    return *value;
+  }
+
+  double number(std::string_view key, double smallest, double largest) const {
+    const auto value = node(key).value<double>();
+    if (!value || !(*value >= smallest && *value <= largest)) {
+      refuse(key, fmt::format("must be a number from {:g} to {:g}", smallest, largest));
+    }
+    return *value;
+  }
+
+  template <std::size_t Count>
+  std::array<double, Count> numbers(std::string_view key, const char* meaning) const {
+    const toml::array* const array = node(key).as_array();
+    std::array<double, Count> values{};
+    if (array == nullptr || array->size() != Count) refuse(key, fmt::format("must be {}", meaning));
+    for (std::size_t i = 0; i < Count; ++i) {
+      const auto value = (*array)[i].value<double>();
+      if (!value || !std::isfinite(*value)) refuse(key, fmt::format("must be {}", meaning));
+      values[i] = *value;
+    }
+    return values;
+  }
+
+  glm::dvec3 point(std::string_view key) const {
+    const auto v = numbers<3>(key, "three numbers [x, y, z] in metres");
+    return {v[0], v[1], v[2]};
+  }
+
+  glm::dquat rotation(std::string_view key) const {
+    constexpr const char* kMeaning = "a unit quaternion [x, y, z, w]";
+    const auto v = numbers<4>(key, kMeaning);
+    const glm::dquat q(v[3], v[0], v[1], v[2]);
+    if (!(std::abs(glm::length(q) - 1.0) <= kUnitTolerance)) refuse(key, fmt::format("must be {}", kMeaning));
+    return glm::normalize(q);
+  }
+
+  // As lsusb prints it.
+  std::uint16_t hexadecimal(std::string_view key) const {
+    const std::string digits = text(key);
+    std::uint16_t value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    if (error != std::errc() || end != digits.data() + digits.size()) {
+      refuse(key, "must be a text of up to four hexadecimal digits, such as \"256f\"");
+    }
+    return value;
+  }
+
+  Table inner(std::string_view key, const char* how) const {
+    const toml::table* const table = node(key).as_table();
+    if (table == nullptr) refuse(key, fmt::format("must be written {}", how));
+    return {*table, full(key)};
+  }
+
+  template <class Read>
+  void each(std::string_view key, const Read& read) const {
+    if (!has(key)) return;
+    const toml::array* const entries = node(key).as_array();
+    if (entries == nullptr) refuse(key, fmt::format("must be written [[{}]]", key));
+    for (const toml::node& entry : *entries) {
+      const toml::table* const table = entry.as_table();
+      if (table == nullptr) refuse(key, fmt::format("must be written [[{}]]", key));
+      read(Table(*table, std::string(key)));
+    }
+  }
+
+ private:
+  std::string full(std::string_view key) const {
+    return name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key);
+  }
+
+  const toml::table& table_;
+  std::string name_;
+};
+
+// Where in a report something stands; byte 0 of a numbered report is its number.
+void read_place(const Table& table, std::uint8_t& report, std::size_t& byte, unsigned& bit) {
+  report = static_cast<std::uint8_t>(table.integer("report", 0, 255));
+  byte = static_cast<std::size_t>(table.integer("byte", report == 0 ? 0 : 1, kLargestByte));
+  bit = table.has("bit") ? static_cast<unsigned>(table.integer("bit", 0, 7)) : 0;
+}
+
+HidMapping::Axis read_axis(const Table& table) {
+  table.allow_only({"axis", "report", "byte", "bit", "bits", "signed", "center", "scale", "dead_zone"});
+  using Quantity = HidMapping::Quantity;
+  constexpr std::array<std::pair<std::string_view, Quantity>, 4> kQuantities{
+      {{"push", Quantity::Push},
+       {"turn", Quantity::Turn},
+       {"gyro", Quantity::Gyro},
+       {"acceleration", Quantity::Acceleration}}};
+  HidMapping::Axis axis;
+  const std::string name = table.text("axis");
+  bool known = false;
+  for (const auto& [word, quantity] : kQuantities) {
+    for (int i = 0; i < 3; ++i) {
+      if (name != fmt::format("{}-{}", word, "xyz"[i])) continue;
+      axis.quantity = quantity;
+      axis.axis = i;
+      known = true;
+    }
+  }
+  if (!known) table.refuse("axis", "must be push, turn, gyro or acceleration with -x, -y or -z, such as \"push-x\"");
+  read_place(table, axis.report, axis.byte, axis.bit);
+  if (table.has("bits")) axis.bits = static_cast<unsigned>(table.integer("bits", 1, 32));
+  if (table.has("signed")) {
+    const auto value = table.node("signed").value_exact<bool>();
+    if (!value) table.refuse("signed", "must be true or false");
+    axis.is_signed = *value;
+  }
+  constexpr double kMostCounts = 4294967295.0;
+  if (table.has("center")) axis.center = table.number("center", -kMostCounts, kMostCounts);
+  axis.scale = table.number("scale", -kMostCounts, kMostCounts);
+  if (!(std::abs(axis.scale) >= 1e-3)) table.refuse("scale", "must not be zero");
+  if (table.has("dead_zone")) axis.dead_zone = table.number("dead_zone", 0.0, 0.9);
+  return axis;
+}
+
+HidMapping::Button read_button(const Table& table) {
+  table.allow_only({"button", "report", "byte", "bit"});
+  constexpr std::array<std::pair<std::string_view, WandButton>, 5> kButtons{{{"select", WandButton::Select},
+                                                                             {"grab", WandButton::Grab},
+                                                                             {"scale", WandButton::Scale},
+                                                                             {"home", WandButton::Home},
+                                                                             {"recenter", WandButton::Recenter}}};
+  const std::string name = table.text("button");
+  const auto found = std::find_if(kButtons.begin(), kButtons.end(), [&](const auto& b) { return b.first == name; });
+  if (found == kButtons.end()) table.refuse("button", "must be select, grab, scale, home or recenter");
+  HidMapping::Button button;
+  button.button = found->second;
+  read_place(table, button.report, button.byte, button.bit);
+  return button;
+}
+
+HidMapping read_device(const Table& root) {
+  const Table table = root.inner("device", "[device]");
+  table.allow_only({"name", "vendor", "product"});
+  HidMapping mapping;
+  mapping.name = table.text("name");
+  mapping.vendor = table.hexadecimal("vendor");
+  mapping.product = table.hexadecimal("product");
+  root.each("axis", [&](const Table& axis) { mapping.axes.push_back(read_axis(axis)); });
+  root.each("button", [&](const Table& button) { mapping.buttons.push_back(read_button(button)); });
+  if (mapping.axes.empty()) table.refuse("name", "the device needs at least one [[axis]]");
+  const bool selects = std::any_of(mapping.buttons.begin(), mapping.buttons.end(),
+                                   [](const auto& button) { return button.button == WandButton::Select; });
+  if (!selects) table.refuse("name", "the device needs a [[button]] with button = \"select\"");
+  return mapping;
+}
+
+DtrackSettings read_dtrack(const Table& table) {
+  table.allow_only({"address", "port", "flystick", "head", "room_from_tracker"});
+  DtrackSettings settings;
+  if (table.has("address")) settings.address = table.text("address");
+  if (table.has("port")) settings.port = static_cast<std::uint16_t>(table.integer("port", 1, 65535));
+  if (table.has("flystick")) settings.flystick = static_cast<std::uint32_t>(table.integer("flystick", 0, 63));
+  const Table transform = table.inner("room_from_tracker", "{ position = [x, y, z], orientation = [x, y, z, w] }");
+  transform.allow_only({"position", "orientation"});
+  settings.tracker_origin_m = transform.point("position");
+  settings.room_from_tracker = transform.rotation("orientation");
+  return settings;
+}
+
+WandFile read_wand_file(const toml::table& toml_root) {
+  const Table root(toml_root, "");
+  root.allow_only({"hand", "dtrack", "device", "axis", "button"});
+  WandFile file;
+  if (root.has("hand")) file.hand_m = root.point("hand");
+  if (root.has("dtrack")) {
+    const Table dtrack = root.inner("dtrack", "[dtrack]");
+    file.dtrack = read_dtrack(dtrack);
+    if (dtrack.has("head")) file.head_body = static_cast<std::uint32_t>(dtrack.integer("head", 0, 63));
+  }
+  if (root.has("device")) {
+    file.device = read_device(root);
+  } else {
+    for (const char* key : {"axis", "button"}) {
+      if (root.has(key)) root.refuse(key, "belongs to a device; the file has no [device]");
+    }
+  }
+  if (!file.hand_m && !file.dtrack && !file.device) {
+    throw Fault{toml_root.source(), "device", "is missing; the file needs hand, [dtrack] or [device]"};
+  }
+  return file;
+}
+
+}  // namespace
+
+core::Result<WandFile> load_wand_file(const std::string& path) {
+  return scene::read_toml("wand file", path, read_wand_file);
+}
+
+core::Result<std::vector<HidMapping>> load_mappings(const std::string& folder) {
+  std::vector<std::string> paths;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".toml") paths.push_back(entry.path().string());
+  }
+  if (error) {
+    return core::failure(core::ErrorCategory::BadInputFile,
+                         fmt::format("folder of wand files {}: {}; check the path", folder, error.message()));
+  }
+  std::sort(paths.begin(), paths.end());
+  std::vector<HidMapping> mappings;
+  for (const std::string& path : paths) {
+    auto file = load_wand_file(path);
+    if (!file) return tl::unexpected(file.error());
+    if (file->device) mappings.push_back(std::move(*file->device));
+  }
+  return mappings;
+}
+
+}  // namespace afm::input
