@@ -28,7 +28,7 @@ MouseHand hand_over(const WallScene& wall_scene) {
 
 LiveView::LiveView(const Stage& stage, const std::vector<FeltMaterial>& materials, render::Window& window,
                    render::Renderer& renderer, render::Presenter& presenter, ViewServo::Starter start_servo,
-                   const core::Clock& clock, const ViewSettings& settings)
+                   ViewWand& view_wand, const core::Clock& clock, const ViewSettings& settings)
     : stage_(stage),
       window_(window),
       clock_(clock),
@@ -43,6 +43,8 @@ LiveView::LiveView(const Stage& stage, const std::vector<FeltMaterial>& material
           [this](ServoLink& servo, std::optional<std::size_t> felt_before) { begin_with(servo, felt_before); },
           stage.materials.materials.size(), settings.record_folder),
       wand_(stage.wall.screens.front(), stage.wall_scene.wand_grip_m()),
+      view_wand_(view_wand),
+      head_(stage.wall.viewers.front().sweet_spot),
       hand_(hand_over(stage.wall_scene)),
       person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), HandPath{}) {}
 
@@ -61,6 +63,7 @@ core::Result<void> LiveView::run() {
   } catch (const render::DeviceFailure& failure) {
     lost = core::Error{core::ErrorCategory::Failed, failure.what()};
   }
+  head_.log_latency();
   servo_.finish();  // the hand is released, and what was felt is kept, while the last picture still stands
   if (lost) return tl::unexpected(*lost);
   if (servo_.error()) return tl::unexpected(*servo_.error());
@@ -73,11 +76,13 @@ void LiveView::turn(std::int64_t now_ns) {
   for (const render::WindowEvent& event : input.events) handle(event, now_ns);
   move_hand(input.cursor_px, now_ns);
   servo_.take_news(now_ns);
+  follow_wand(now_ns);
   if (window_.size_px().x == 0) {
     window_.wait(kHiddenPauseS);
     return;
   }
   picture_.fit(now_ns);
+  follow_head(now_ns);
   draw(input.cursor_px, now_ns);
   pace(now_ns);
 }
@@ -114,6 +119,9 @@ void LiveView::act(ViewAction action) {
     case ViewAction::BeginAgain:
       begin_again();
       break;
+    case ViewAction::Home:
+      view_wand_.home();
+      break;
     case ViewAction::SwapEyes:
       picture_.swap_eyes();
       break;
@@ -125,8 +133,36 @@ Pointed LiveView::pointed_at(const WallPicture& shown, const glm::dvec2& cursor_
   return panels_.pointed_at(ray, wand_.wall_point(ray), servo_.material());
 }
 
-void LiveView::click(const glm::dvec2& cursor_px) {
-  const Pointed pointed = pointed_at(picture_.picture(), cursor_px);
+// With the wand's ray; what it has snapped to stands for what it would hit.
+Pointed LiveView::wand_pointed_at() {
+  const input::Ray ray = input::ray_of(view_wand_.state());
+  Pointed pointed = panels_.pointed_at(ray, wand_.wall_point(ray), servo_.material());
+  if (pointed.control || pointed.tab) return pointed;
+  pointed.swatch = view_wand_.hovered();
+  if (pointed.swatch) pointed.point_m = swatches_[*pointed.swatch].center_m;
+  return pointed;
+}
+
+void LiveView::follow_head(std::int64_t now_ns) {
+  const auto seen = view_wand_.head();
+  const auto pose = seen ? std::optional(seen->pose) : std::nullopt;
+  if (const auto head = head_.update(pose, seen ? seen->time_ns : 0, now_ns)) picture_.look_from(*head);
+}
+
+// The sample's new place is where the hand finds it.
+void LiveView::follow_wand(std::int64_t now_ns) {
+  const WallPicture shown = picture_.picture();
+  view_wand_.update(now_ns, servo_.link().tip(), 0.5 * (shown.eyes[0].eye_position_m + shown.eyes[1].eye_position_m));
+  if (view_wand_.select_pressed()) press(wand_pointed_at());
+  const glm::dmat3 turned(view_wand_.navigation());
+  const glm::dvec3 normal = glm::normalize(turned * stage_.wall_scene.sample_normal());
+  hand_.turn(normal, glm::normalize(turned * stage_.wall_scene.sample_right()));
+  person_.turn(normal);
+}
+
+void LiveView::click(const glm::dvec2& cursor_px) { press(pointed_at(picture_.picture(), cursor_px)); }
+
+void LiveView::press(const Pointed& pointed) {
   if (pointed.swatch) choose(*pointed.swatch);
   if (const auto material = servo_.material()) {
     panels_.press(pointed, *material, servo_.running() ? &servo_.link() : nullptr);
@@ -199,7 +235,8 @@ Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
   Moment now = moment_of(servo.tip(), touched && cycles.ascending());
   now.curves = cycles.curves();
   now.hovered = pointed.swatch;
-  now.wand = wand_.towards(pointed.point_m, now_ns);
+  now.wand = view_wand_.points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
+  now.navigation = view_wand_.navigation();
   now.guidance = stage_.guidance.line(servo.tip(), cycles.ascending(), cycles.cycles());
   now.servo = servo_rows(servo.tip(), servo.timing(), servo.device());
   if (auto row = picture_.detail_row()) now.servo.push_back(std::move(*row));
@@ -226,7 +263,7 @@ void LiveView::draw(const glm::dvec2& cursor_px, std::int64_t now_ns) {
   const FrameBeat beat(servo_.link(), clock_);
   follow_edits();
   const WallPicture shown = picture_.picture();
-  const Pointed pointed = pointed_at(shown, cursor_px);
+  const Pointed pointed = view_wand_.points() ? wand_pointed_at() : pointed_at(shown, cursor_px);
   const Moment now = moment(pointed, now_ns);
 
   scene::SceneTransforms transforms;
@@ -242,6 +279,7 @@ void LiveView::draw(const glm::dvec2& cursor_px, std::int64_t now_ns) {
   panels_.add_to(frame, pointed, material, material ? stage_.materials.materials[*material].title : "",
                  servo_.link().tip(), hand());
   picture_.show(frame, beat);
+  head_.presented(clock_.now_ns());
 }
 
 void LiveView::pace(std::int64_t frame_start_ns) const {

@@ -11,10 +11,12 @@
 #include "app/mouse_wand.h"
 #include "app/simulated_person.h"
 #include "app/stage_setup.h"
+#include "app/view_head.h"
 #include "app/view_keys.h"
 #include "app/view_panels.h"
 #include "app/view_picture.h"
 #include "app/view_servo.h"
+#include "app/view_wand.h"
 #include "core/clock.h"
 
 namespace afm::app {
@@ -35,7 +37,7 @@ class LiveView {
   // All but the settings must outlive it.
   LiveView(const Stage& stage, const std::vector<FeltMaterial>& materials, render::Window& window,
            render::Renderer& renderer, render::Presenter& presenter, ViewServo::Starter start_servo,
-           const core::Clock& clock, const ViewSettings& settings);
+           ViewWand& view_wand, const core::Clock& clock, const ViewSettings& settings);
 
   // Until the window is closed, Escape, SIGINT or SIGTERM. Fails when the servo cannot be started, at the end if it has
   // died and was not started again, and at once, with the servo ended in order, if the graphics device is lost.
@@ -47,6 +49,9 @@ class LiveView {
   void handle(const render::WindowEvent& event, std::int64_t now_ns);
   void act(ViewAction action);
   void click(const glm::dvec2& cursor_px);
+  void press(const Pointed& pointed);
+  void follow_wand(std::int64_t now_ns);
+  void follow_head(std::int64_t now_ns);
   void choose(std::size_t material);
   void next_scale();
   void begin_again();
@@ -56,6 +61,7 @@ class LiveView {
   void move_hand(const glm::dvec2& cursor_px, std::int64_t now_ns);
   void follow_edits();
   Pointed pointed_at(const WallPicture& shown, const glm::dvec2& cursor_px);
+  Pointed wand_pointed_at();
   Moment moment(const Pointed& pointed, std::int64_t now_ns) const;
   void draw(const glm::dvec2& cursor_px, std::int64_t now_ns);
   void pace(std::int64_t frame_start_ns) const;
@@ -71,6 +77,8 @@ class LiveView {
   ViewPanels panels_;
   ViewServo servo_;
   MouseWand wand_;
+  ViewWand& view_wand_;  // in its place, if there is one
+  ViewHead head_;
   MouseHand hand_;
   SimulatedPerson person_;  // moves the hand with HandSource::Simulated
   std::string guidance_;    // as it was told last

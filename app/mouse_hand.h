@@ -36,6 +36,9 @@ class MouseHand {
   // Off the sample, and back over the contact point.
   void lift() { wanted_m_ = {0.0, kHighestM}; }
 
+  // The sample has been turned: its axes are others now, as in the constructor.
+  void turn(const glm::dvec3& normal, const glm::dvec3& right);
+
   bool dragging() const { return grips_ > 0; }
   double wanted_m() const { return wanted_m_.y; }
   double aim_m() const { return aim_m_.y; }
@@ -51,6 +54,7 @@ class MouseHand {
   glm::dvec2 aim_m_{0.0, kRestM};
   int grips_ = 0;  // of right button and space bar, how many are held
   glm::dvec2 grip_px_{0.0};
+  bool turned_ = false;
   bool turn_on_held_ = false;
   std::int64_t turn_on_until_ns_ = 0;
   scene::HandScript script_;

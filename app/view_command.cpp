@@ -17,6 +17,7 @@
 #include "app/live_view.h"
 #include "app/session_file.h"
 #include "app/stage_setup.h"
+#include "app/view_wand.h"
 #include "core/log.h"
 #include "render/context.h"
 #include "render/presenter.h"
@@ -40,6 +41,7 @@ struct ViewOptions {
   ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = kLingerS}};
   std::int64_t spin_us = 0;
   bool validate = false;
+  WandOptions wand;
 };
 
 std::optional<std::uint32_t> whole_number(std::string_view text) {
@@ -117,7 +119,11 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
         fmt::format("--stereo {}: this window shows one picture; choose another mode, or `touchafm render`",
                     scene::name_of(settings.picture.composition.mode)));
   }
+  const auto wand_choice = parse_wand_choice(options.wand);
+  if (!wand_choice) return tl::unexpected(wand_choice.error());
   if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
+  auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
+  if (!wand) return tl::unexpected(wand.error());
   const auto model = shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
                                   stage->wall_scene.height_fields());
   if (!model) return tl::unexpected(model.error());
@@ -148,7 +154,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   const auto start_servo = [&] {
     return ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), servo, program);
   };
-  LiveView live(*stage, materials, *window, *renderer, *presenter, start_servo, clock, settings);
+  LiveView live(*stage, materials, *window, *renderer, *presenter, start_servo, **wand, clock, settings);
   if (auto ran = live.run(); !ran) return ran;
   return check_validation(*context);
 }
@@ -166,6 +172,24 @@ void add_picture_options(CLI::App& command, ViewOptions& options) {
       .add_option("--frame-rate", options.frame_rate, "most frames a second, 10 to 1000; default: the display's rate")
       ->check(CLI::Range(kSlowestFrames, kFastestFrames))
       ->type_name("RATE");
+}
+
+void add_wand_options(CLI::App& command, ViewOptions& options) {
+  command
+      .add_option("--wand", options.wand.source,
+                  "who points beside the mouse: auto or hid for whatever wand is plugged in, now or later, dtrack or "
+                  "dtrack:ADDRESS:PORT for a tracker's Flystick, sim for a simulated one, or mouse for none; default: "
+                  "auto")
+      ->type_name("SOURCE");
+  command
+      .add_option("--wand-file", options.wand.file,
+                  "where the hand and the tracker are, or how an HID device is read; see docs/adding-a-wand.md")
+      ->type_name("FILE");
+  command
+      .add_option("--head", options.wand.head,
+                  "whose head the picture is drawn for: dtrack:BODY or dtrack:BODY@ADDRESS:PORT of a tracker; default: "
+                  "the wand file's, else the wall's sweet spot")
+      ->type_name("SOURCE");
 }
 
 void add_servo_options(CLI::App& command, ViewOptions& options) {
@@ -229,6 +253,7 @@ void add_view_command(CLI::App& app, CommandContext& context) {
                    "how the servo runs: process, or thread for debuggers and sanitizers; default: process")
       ->transform(CLI::CheckedTransformer(kServos))
       ->type_name("HOW");
+  add_wand_options(*command, *options);
   add_servo_options(*command, *options);
   command->add_flag("--validate", options->validate, "check every Vulkan call; any message ends in exit code 1");
   command->callback([options, size, &context] {

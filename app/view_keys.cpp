@@ -19,6 +19,7 @@ constexpr std::array kBindings{
     KeyBinding{render::Key::F2, ViewAction::ShowParameters, "Parameters", "F2", ""},
     KeyBinding{render::Key::M, ViewAction::NextScale, "Scale of the hand", "M", "fit, compressed, common"},
     KeyBinding{render::Key::R, ViewAction::BeginAgain, "Begin again", "R", ""},
+    KeyBinding{render::Key::H, ViewAction::Home, "Scene back to its place", "H", ""},
     KeyBinding{render::Key::P, ViewAction::HidePanels, "Hide the panels", "P", ""},
     KeyBinding{render::Key::S, ViewAction::SwapEyes, "Swap the eyes", "S", ""},
     KeyBinding{render::Key::F11, ViewAction::FullScreen, "Full screen", "F11", ""},

@@ -19,6 +19,7 @@ enum class ViewAction {
   NextScale,
   HidePanels,
   BeginAgain,
+  Home,
   SwapEyes,
 };
 

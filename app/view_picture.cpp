@@ -46,6 +46,18 @@ void ViewPicture::fit(std::int64_t now_ns) {
   if (auto resized = renderer_.resize(size.x, size.y); !resized) core::log_line(resized.error().message);
 }
 
+void ViewPicture::look_from(const scene::HeadPose& head) {
+  const double ipd_m = settings_.composition.mode == scene::StereoMode::Mono ? 0.0 : stage_.wall.viewers.front().ipd_m;
+  std::array<scene::EyeView, 2> eyes;
+  for (const scene::Eye eye : scene::kEyes) {
+    const auto view = scene::off_axis_view(stage_.wall.screens.front(), scene::eye_position(head, eye, ipd_m),
+                                           scene::DepthConvention::VulkanReversedInfinite, scene::kNearM, 0.0);
+    if (!view) return;
+    eyes[static_cast<std::size_t>(eye)] = *view;
+  }
+  eyes_ = eyes;
+}
+
 void ViewPicture::swap_eyes() {
   const bool straight = settings_.composition.order == scene::EyeOrder::Straight;
   settings_.composition.order = straight ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight;

@@ -31,6 +31,9 @@ class ViewPicture {
   // Once a frame: the eye images get the pixels that the window has for them, once it has stopped changing.
   void fit(std::int64_t now_ns);
 
+  // The eyes of a head somewhere before the wall; behind it, the picture stays as it was.
+  void look_from(const scene::HeadPose& head);
+
   void swap_eyes();
 
   // What the next frame is drawn for, and where it will lie in the window.

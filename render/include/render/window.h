@@ -19,6 +19,7 @@ enum class Key {
   F1,
   F2,
   F11,
+  H,
   M,
   P,
   R,

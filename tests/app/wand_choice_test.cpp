@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/view_wand.h"
+
+namespace afm::app {
+namespace {
+
+using ::testing::HasSubstr;
+using Source = WandChoice::Source;
+
+core::Result<WandChoice> choose(const std::string& source, const std::string& head = "") {
+  return parse_wand_choice({.source = source, .file = "", .head = head});
+}
+
+TEST(WandChoice, KnowsEverySource) {
+  EXPECT_EQ(choose("auto")->source, Source::Auto);
+  EXPECT_EQ(choose("hid")->source, Source::Hid);
+  EXPECT_EQ(choose("sim")->source, Source::Simulated);
+  EXPECT_EQ(choose("mouse")->source, Source::Mouse);
+  const auto tracker = choose("dtrack:10.0.0.7:5001");
+  ASSERT_TRUE(tracker) << tracker.error().message;
+  EXPECT_EQ(tracker->source, Source::Dtrack);
+  EXPECT_EQ(tracker->file.dtrack->address, "10.0.0.7");
+  EXPECT_EQ(tracker->file.dtrack->port, 5001);
+  EXPECT_EQ(choose("dtrack")->file.dtrack->address, "127.0.0.1");
+}
+
+TEST(WandChoice, TakesTheTrackerOfTheWandFile) {
+  const auto choice = parse_wand_choice({.file = AFM_SOURCE_DIR "/assets/wands/dtrack.toml", .head = "dtrack:4"});
+  ASSERT_TRUE(choice) << choice.error().message;
+  EXPECT_EQ(choice->source, Source::Dtrack);
+  EXPECT_EQ(choice->head_body, 4U);
+  EXPECT_NE(choice->file.dtrack->room_from_tracker, glm::dquat(1.0, 0.0, 0.0, 0.0));
+  const auto elsewhere =
+      parse_wand_choice({.source = "dtrack:127.0.0.2:6000", .file = AFM_SOURCE_DIR "/assets/wands/dtrack.toml"});
+  EXPECT_EQ(elsewhere->file.dtrack->port, 6000);
+  EXPECT_EQ(elsewhere->head_body, 0U) << "of the file";
+}
+
+TEST(WandChoice, TakesAHeadWithoutAFlystick) {
+  const auto choice = choose("mouse", "dtrack:3@127.0.0.1:5002");
+  ASSERT_TRUE(choice) << choice.error().message;
+  EXPECT_EQ(choice->source, Source::Mouse);
+  EXPECT_EQ(choice->head_body, 3U);
+  EXPECT_EQ(choice->file.dtrack->port, 5002);
+}
+
+TEST(WandChoice, RefusesWhatIsNone) {
+  for (const char* bad : {"", "HID", "dtrack:", "dtrack:5000", "dtrack:1.2.3.4:", "dtrack:1.2.3.4:0",
+                          "dtrack:1.2.3.4:70000", "dtrack:1.2.3.4:5x", "laser"}) {
+    const auto choice = choose(bad);
+    ASSERT_FALSE(choice) << bad;
+    EXPECT_EQ(choice.error().category, core::ErrorCategory::WrongUsage);
+    EXPECT_THAT(choice.error().message, HasSubstr("--wand: \""));
+  }
+  for (const char* bad :
+       {"dtrack", "dtrack:", "dtrack:x", "dtrack:64", "dtrack:-1", "dtrack:1@", "dtrack:1@host", "0"}) {
+    const auto choice = choose("auto", bad);
+    ASSERT_FALSE(choice) << bad;
+    EXPECT_THAT(choice.error().message, HasSubstr("--head: \""));
+  }
+  EXPECT_EQ(parse_wand_choice({.file = "/nowhere.toml"}).error().category, core::ErrorCategory::BadInputFile);
+}
+
+}  // namespace
+}  // namespace afm::app

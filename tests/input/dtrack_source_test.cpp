@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tracker's datagrams through a real socket of this machine.
+#include "input/dtrack_source.h"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <random>
+#include <string>
+
+namespace afm::input {
+namespace {
+
+class HandClock final : public core::Clock {
+ public:
+  std::int64_t now_ns() const noexcept override { return now; }
+  std::int64_t now = 1'000'000'000;
+};
+
+class Sender {
+ public:
+  explicit Sender(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    to_.sin_family = AF_INET;
+    to_.sin_port = htons(port);
+    to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  }
+  void send(const std::string& packet) const {
+    EXPECT_EQ(
+        ::sendto(socket_.get(), packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_),
+        static_cast<ssize_t>(packet.size()));
+  }
+
+ private:
+  core::FileDescriptor socket_;
+  sockaddr_in to_{};
+};
+
+DtrackSettings on_any_port() {
+  DtrackSettings settings;
+  settings.port = 0;
+  return settings;
+}
+
+const std::string kFlystick =
+    "fr 1\n6d 1 [2 1.000][0 0 1700 0 0 0][1 0 0 0 1 0 0 0 1]\n"
+    "6df2 1 1 [0 1.000 6 2][1000 2000 3000][1 0 0 0 1 0 0 0 1][3 0.50 -1.00]\n";
+
+TEST(DtrackSource, TurnsATrackersFrameIntoTheRooms) {
+  HandClock clock;
+  DtrackSettings settings = on_any_port();
+  // z upwards becomes y upwards, and the origin lies a metre to the right
+  settings.tracker_origin_m = {1.0, 0.0, 0.0};
+  settings.room_from_tracker = glm::angleAxis(-std::numbers::pi / 2.0, glm::dvec3(1, 0, 0));
+  const auto source = DtrackSource::open(settings, clock);
+  ASSERT_TRUE(source) << source.error().message;
+  EXPECT_FALSE((*source)->poll().connected);
+  Sender((*source)->port()).send(kFlystick);
+  const WandState wand = (*source)->poll();
+  ASSERT_TRUE(wand.connected && wand.orientation_valid && wand.position_valid);
+  EXPECT_LT(glm::distance(wand.position_m, glm::dvec3(2.0, 3.0, -2.0)), 1e-9);
+  EXPECT_TRUE(wand.pressed(WandButton::Select) && wand.pressed(WandButton::Grab));
+  EXPECT_FALSE(wand.pressed(WandButton::Home));
+  EXPECT_EQ(wand.push, glm::dvec3(0.5, 0.0, 1.0));
+  const DtrackNews news = (*source)->news();
+  ASSERT_NE(news.frame.body(2), nullptr);
+  EXPECT_NEAR(in_room(*news.frame.body(2), settings).position_m.y, 1.7, 1e-9);
+}
+
+TEST(DtrackSource, LetsGoOfEverythingWhenTheTrackerFallsSilent) {
+  HandClock clock;
+  const auto source = DtrackSource::open(on_any_port(), clock);
+  ASSERT_TRUE(source) << source.error().message;
+  Sender((*source)->port()).send(kFlystick);
+  EXPECT_TRUE((*source)->poll().connected);
+  clock.now += 240'000'000;
+  EXPECT_TRUE((*source)->poll().connected);
+  clock.now += 20'000'000;
+  const WandState wand = (*source)->poll();
+  EXPECT_FALSE(wand.connected || wand.orientation_valid);
+  EXPECT_EQ(wand.buttons, 0U);
+}
+
+TEST(DtrackSource, CountsGarbageAndGoesOn) {
+  HandClock clock;
+  const auto source = DtrackSource::open(on_any_port(), clock);
+  ASSERT_TRUE(source) << source.error().message;
+  const Sender sender((*source)->port());
+  std::mt19937 random(5);
+  constexpr int kRounds = 100, kPackets = 100;
+  for (int round = 0; round < kRounds; ++round) {
+    for (int i = 0; i < kPackets; ++i) {
+      std::string packet(1 + random() % 200, '\0');
+      for (char& c : packet) c = static_cast<char>(random());
+      sender.send(packet);
+    }
+    (*source)->poll();
+  }
+  sender.send(kFlystick);
+  EXPECT_TRUE((*source)->poll().connected);
+  const DtrackNews news = (*source)->news();
+  EXPECT_EQ(news.bad_packets, static_cast<std::uint64_t>(kRounds * kPackets));
+  EXPECT_EQ(news.good_packets, 1U);
+}
+
+TEST(DtrackSource, SaysWhyItCannotListen) {
+  HandClock clock;
+  const auto first = DtrackSource::open(on_any_port(), clock);
+  ASSERT_TRUE(first);
+  DtrackSettings taken;
+  taken.port = (*first)->port();
+  const auto second = DtrackSource::open(taken, clock);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().category, core::ErrorCategory::DeviceMissing);
+  EXPECT_NE(second.error().message.find("cannot listen for a tracker at 127.0.0.1:"), std::string::npos);
+  DtrackSettings elsewhere;
+  elsewhere.address = "tracker.local";
+  const auto third = DtrackSource::open(elsewhere, clock);
+  ASSERT_FALSE(third);
+  EXPECT_EQ(third.error().category, core::ErrorCategory::WrongUsage);
+}
+
+}  // namespace
+}  // namespace afm::input
