@@ -74,6 +74,7 @@ void LiveView::turn(std::int64_t now_ns) {
   const render::WindowInput input = window_.poll();
   leaving_ = input.close_requested;
   for (const render::WindowEvent& event : input.events) handle(event, now_ns);
+  if (std::exchange(cursor_px_, input.cursor_px) != input.cursor_px && !hand_.dragging()) cursor_moved_ns_ = now_ns;
   move_hand(input.cursor_px, now_ns);
   servo_.take_news(now_ns);
   follow_wand(now_ns);
@@ -132,6 +133,9 @@ Pointed LiveView::pointed_at(const WallPicture& shown, const glm::dvec2& cursor_
   const input::Ray ray = wand_.ray(shown, cursor_px);
   return panels_.pointed_at(ray, wand_.wall_point(ray), servo_.material());
 }
+
+// Whichever of wand and mouse was used last.
+bool LiveView::wand_points() const { return view_wand_.points() && view_wand_.used_ns() >= cursor_moved_ns_; }
 
 // With the wand's ray; what it has snapped to stands for what it would hit.
 Pointed LiveView::wand_pointed_at() {
@@ -235,7 +239,7 @@ Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
   Moment now = moment_of(servo.tip(), touched && cycles.ascending());
   now.curves = cycles.curves();
   now.hovered = pointed.swatch;
-  now.wand = view_wand_.points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
+  now.wand = wand_points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
   now.navigation = view_wand_.navigation();
   now.guidance = stage_.guidance.line(servo.tip(), cycles.ascending(), cycles.cycles());
   now.servo = servo_rows(servo.tip(), servo.timing(), servo.device());
@@ -263,7 +267,7 @@ void LiveView::draw(const glm::dvec2& cursor_px, std::int64_t now_ns) {
   const FrameBeat beat(servo_.link(), clock_);
   follow_edits();
   const WallPicture shown = picture_.picture();
-  const Pointed pointed = view_wand_.points() ? wand_pointed_at() : pointed_at(shown, cursor_px);
+  const Pointed pointed = wand_points() ? wand_pointed_at() : pointed_at(shown, cursor_px);
   const Moment now = moment(pointed, now_ns);
 
   scene::SceneTransforms transforms;

@@ -61,6 +61,7 @@ class LiveView {
   void move_hand(const glm::dvec2& cursor_px, std::int64_t now_ns);
   void follow_edits();
   Pointed pointed_at(const WallPicture& shown, const glm::dvec2& cursor_px);
+  bool wand_points() const;
   Pointed wand_pointed_at();
   Moment moment(const Pointed& pointed, std::int64_t now_ns) const;
   void draw(const glm::dvec2& cursor_px, std::int64_t now_ns);
@@ -83,6 +84,8 @@ class LiveView {
   SimulatedPerson person_;  // moves the hand with HandSource::Simulated
   std::string guidance_;    // as it was told last
   std::int64_t hand_moved_ns_ = 0;
+  glm::dvec2 cursor_px_{0.0};
+  std::int64_t cursor_moved_ns_ = 0;
   bool leaving_ = false;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <glm/geometric.hpp>
 #include <string_view>
 #include <utility>
 
@@ -19,6 +20,7 @@ constexpr std::int64_t kSimulatedStepNs = 5'000'000'000;  // from a swatch to th
 constexpr double kSimulatedAimS = 1.0;
 constexpr double kSimulatedPressS = 2.0;  // seen by the slowest frame
 constexpr double kLongestFrameS = 0.1;
+constexpr double kTurnedRad = 0.02;  // more than a wand that lies on a table
 
 core::Result<void> parse_place(std::string_view option, std::string_view text, input::DtrackSettings& tracker) {
   const std::size_t colon = text.rfind(':');
@@ -167,6 +169,12 @@ void ViewWand::update(std::int64_t now_ns, const scene::TipState& tip, const glm
   if (simulated_) aim_simulated(now_ns);
   select_pressed_ = points() && wand_.pressed(input::WandButton::Select) && !pressed_before;
   pointing_ = selector_.update(wand_, eye_m, swatches_);
+
+  const glm::dvec3 direction = input::ray_of(wand_).direction;
+  if (points() && (wand_.buttons != 0 || glm::distance(direction, used_direction_) > kTurnedRad)) {
+    used_ns_ = now_ns;
+    used_direction_ = direction;
+  }
 
   const bool locked = input::navigation_locked(tip);
   navigation_.update(wand_, frame_s, locked);

@@ -22,8 +22,8 @@ namespace afm::app {
 // What --wand, --wand-file and --head say.
 struct WandOptions {
   std::string source = "auto";  // auto, hid, dtrack[:ADDRESS:PORT], sim or mouse
-  std::string file;             // empty: none
-  std::string head;             // dtrack:BODY[@ADDRESS:PORT], or empty: the wand file's, if it names one
+  std::string file{};           // empty: none
+  std::string head{};           // dtrack:BODY[@ADDRESS:PORT], or empty: the wand file's, if it names one
 };
 
 // A choice of words that was checked.
@@ -48,8 +48,9 @@ class ViewWand {
   // Once a frame. `eye_m` is between the eyes.
   void update(std::int64_t now_ns, const scene::TipState& tip, const glm::dvec3& eye_m);
 
-  // Whether there is a wand that points; else the mouse does.
+  // Whether there is a wand that points, and when it was last turned or pressed: it takes turns with the mouse.
   bool points() const { return wand_.connected && wand_.orientation_valid; }
+  std::int64_t used_ns() const { return used_ns_; }
   const input::WandState& state() const { return wand_; }
 
   // What the ray has snapped to, and whether the select button went down in this frame.
@@ -83,6 +84,8 @@ class ViewWand {
   bool was_locked_ = false;
   bool was_moved_ = false;
   std::int64_t updated_ns_ = 0;
+  std::int64_t used_ns_ = 0;
+  glm::dvec3 used_direction_{0.0};  // of the ray, then
 
   input::DtrackSettings tracker_;
   std::optional<std::uint32_t> head_body_;

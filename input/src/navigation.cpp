@@ -43,8 +43,9 @@ double elevation(const glm::dvec3& direction) { return std::asin(std::clamp(dire
 }  // namespace
 
 bool navigation_locked(const scene::TipState& tip) {
-  const auto& f = tip.hand_force_n;
-  return tip.phase == scene::ContactPhase::Attached || !(std::hypot(f[0], f[1], f[2]) <= kHeldForceN);
+  const double force_n = glm::length(glm::dvec3(tip.hand_force_n[0], tip.hand_force_n[1], tip.hand_force_n[2]));
+  // what is no number locks too
+  return tip.phase == scene::ContactPhase::Attached || !(force_n <= kHeldForceN);
 }
 
 void Navigation::update(const WandState& wand, double frame_s, bool locked) {

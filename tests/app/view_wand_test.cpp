@@ -84,7 +84,9 @@ class Tracker {
 };
 
 TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
-  const Stage stage = load_stage({.assets_dir = AFM_SOURCE_DIR "/assets"}).value();
+  StageFiles files;
+  files.assets_dir = AFM_SOURCE_DIR "/assets";
+  const Stage stage = load_stage(files).value();
   const glm::dvec3 gold = stage.wall_scene.swatch_targets()[1].center_m;
   const glm::dvec3 hand(0.5, 1.2, 1.8);
   const support::VirtualDisplay display(320, 240);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "input/dualsense.h"
+#include "input/hid_mapping.h"
 #include "input/hid_wand.h"
 #include "input/joycon.h"
 #include "input/psmove.h"

@@ -29,16 +29,16 @@ gboolean answer_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer)
   const auto request = umockdev_ioctl_client_get_request(client);
   UMockdevIoctlData* const argument = umockdev_ioctl_client_get_arg(client);
   if (request == HIDIOCGRDESCSIZE) {
-    const int size = static_cast<int>(descriptor.size());
+    int size = static_cast<int>(descriptor.size());
     UMockdevIoctlData* const place = umockdev_ioctl_data_resolve(argument, 0, sizeof size, nullptr);
-    umockdev_ioctl_data_update(place, 0, reinterpret_cast<const guint8*>(&size), sizeof size);
+    umockdev_ioctl_data_update(place, 0, reinterpret_cast<guint8*>(&size), sizeof size);
     g_object_unref(place);
   } else if (request == HIDIOCGRDESC) {
     hidraw_report_descriptor answer{};
     answer.size = static_cast<__u32>(descriptor.size());
     std::memcpy(answer.value, descriptor.data(), descriptor.size());
     UMockdevIoctlData* const place = umockdev_ioctl_data_resolve(argument, 0, sizeof answer, nullptr);
-    umockdev_ioctl_data_update(place, 0, reinterpret_cast<const guint8*>(&answer), sizeof answer);
+    umockdev_ioctl_data_update(place, 0, reinterpret_cast<guint8*>(&answer), sizeof answer);
     g_object_unref(place);
   } else {
     return FALSE;
@@ -54,33 +54,35 @@ class HidSourceTest : public ::testing::Test {
     g_signal_connect(ioctls_.get(), "handle-ioctl", G_CALLBACK(answer_ioctl), nullptr);
   }
 
+  // Every time as another node, as a kernel does that still holds the old one.
   void plug(const std::string& ids, const std::string& name) {
-    const std::string path = "/devices/virtual/misc/uhid/0003:256F:C635.0001";
-    const std::string text = "P: " + path + "\nE: DRIVER=hid-generic\nE: SUBSYSTEM=hid\nE: HID_ID=0003:0000" + ids +
-                             "\nE: HID_NAME=" + name + "\nE: HID_PHYS=mock/0\nE: HID_UNIQ=SN0001\n\nP: " + path +
-                             "/hidraw/hidraw0\nN: hidraw0\nE: DEVNAME=/dev/hidraw0\nE: SUBSYSTEM=hidraw\n"
-                             "L: device=../../../0003:256F:C635.0001\n\n";
+    ++plugged_;
+    const std::string text = "P: " + device_path() + "\nE: DRIVER=hid-generic\nE: SUBSYSTEM=hid\nE: HID_ID=0003:0000" +
+                             ids + "\nE: HID_NAME=" + name +
+                             "\nE: HID_PHYS=mock/0\nE: HID_UNIQ=SN0001\n\nP: " + device_path() + "/hidraw/" + node() +
+                             "\nN: " + node() + "\nE: DEVNAME=/dev/" + node() +
+                             "\nE: SUBSYSTEM=hidraw\nL: device=../../../" + device_name() + "\n\n";
     GError* error = nullptr;
     ASSERT_TRUE(umockdev_testbed_add_from_string(testbed_.get(), text.c_str(), &error)) << error->message;
     const auto& descriptor = hid_guest::kSpaceMouseDescriptor;
-    umockdev_testbed_set_attribute_binary(testbed_.get(), ("/sys" + path).c_str(), "report_descriptor",
+    umockdev_testbed_set_attribute_binary(testbed_.get(), ("/sys" + device_path()).c_str(), "report_descriptor",
                                           const_cast<guint8*>(descriptor.data()), static_cast<gint>(descriptor.size()));
-    ASSERT_TRUE(umockdev_testbed_attach_ioctl(testbed_.get(), "/dev/hidraw0",
+    ASSERT_TRUE(umockdev_testbed_attach_ioctl(testbed_.get(), ("/dev/" + node()).c_str(),
                                               reinterpret_cast<UMockdevIoctlBase*>(ioctls_.get()), &error))
         << error->message;
-    device_ = umockdev_testbed_get_dev_fd(testbed_.get(), "/dev/hidraw0");
+    device_ = umockdev_testbed_get_dev_fd(testbed_.get(), ("/dev/" + node()).c_str());
     ASSERT_GE(device_, 0);
   }
 
   void unplug() {
     ::close(device_);
-    GError* error = nullptr;
-    umockdev_testbed_detach_ioctl(testbed_.get(), "/dev/hidraw0", &error);
-    for (const char* path : {"/sys/devices/virtual/misc/uhid/0003:256F:C635.0001/hidraw/hidraw0",
-                             "/sys/devices/virtual/misc/uhid/0003:256F:C635.0001"}) {
-      umockdev_testbed_remove_device(testbed_.get(), path);
-    }
+    umockdev_testbed_remove_device(testbed_.get(), ("/sys" + device_path() + "/hidraw/" + node()).c_str());
+    umockdev_testbed_remove_device(testbed_.get(), ("/sys" + device_path()).c_str());
   }
+
+  std::string node() const { return "hidraw" + std::to_string(plugged_); }
+  std::string device_name() const { return "0003:256F:C635.000" + std::to_string(plugged_); }
+  std::string device_path() const { return "/devices/virtual/misc/uhid/" + device_name(); }
 
   template <std::size_t Size>
   void send(const std::array<std::uint8_t, Size>& report) const {
@@ -110,6 +112,7 @@ class HidSourceTest : public ::testing::Test {
   std::unique_ptr<UMockdevTestbed, Releaser> testbed_;
   std::unique_ptr<void, Releaser> ioctls_;
   int device_ = -1;
+  int plugged_ = 0;
 };
 
 TEST_F(HidSourceTest, ListsAWandAndSaysThatItCanBeUsed) {
@@ -120,7 +123,7 @@ TEST_F(HidSourceTest, ListsAWandAndSaysThatItCanBeUsed) {
   EXPECT_EQ(found->front().name, "3Dconnexion SpaceMouse Compact (256f:c635)");
   EXPECT_TRUE(found->front().is_wand);
   EXPECT_TRUE(found->front().usable) << found->front().said;
-  EXPECT_EQ(found->front().said, "SpaceMouse Compact at /dev/hidraw0");
+  EXPECT_EQ(found->front().said, "SpaceMouse Compact at /dev/hidraw1");
 }
 
 TEST_F(HidSourceTest, ListsAMouseAsNoWand) {
