@@ -9,6 +9,9 @@
 #define AFM_BINDING_DRAW 1
 #define AFM_BINDING_SHADOW 2
 
+// before everything; depth is reversed
+#define AFM_FRONT_DEPTH 0.9999
+
 // texels each way
 #define AFM_SHADOW_MAP_SIZE 2048
 
@@ -25,6 +28,10 @@ struct FrameBlock {
   vec4 light_direction;    // xyz: unit vector to the key light
   vec4 light_radiance;     // rgb, linear; a: metres that one texel of the shadow map covers
   vec4 target_size;        // width, height of an eye image in pixels, and their reciprocals
+  vec4 contact;            // xyz: where the tip meets the sample; w: 1 / radius of the shade there, 0 without one
+  vec4 contact_ring;       // rgb: linear radiance, 0 without a ring; a: its radius in radii of the shade
+  vec4 haze;               // x: begin, y: 1 / (end - begin), 0 without a range; z: veil; w: 1 with a range
+  vec4 haze_axis;          // what lies behind the haze's origin by its units is dot(axis, (place, 1))
 };
 
 // One per primitive that a node shows: a uniform block with a dynamic offset. lavapipe reads a storage buffer that is

@@ -41,8 +41,8 @@ struct Key {
 // Radiance that arrives from `direction`, averaged over the lobe of a surface of that roughness.
 vec3 studio_radiance(vec3 direction, Key key, float roughness) {
   float blur = 0.10 + 0.8 * roughness;
-  vec3 sky = mix(vec3(0.56, 0.51, 0.46), vec3(0.20, 0.21, 0.235), smoothstep(-0.1, 0.75, direction.y));
-  vec3 radiance = mix(vec3(0.050, 0.046, 0.042), sky, smoothstep(-blur, blur, direction.y));
+  vec3 sky = mix(vec3(0.78, 0.72, 0.66), vec3(0.20, 0.22, 0.26), smoothstep(-0.1, 0.75, direction.y));
+  vec3 radiance = mix(vec3(0.090, 0.078, 0.066), sky, smoothstep(-blur, blur, direction.y));
   radiance += kKeyTint * (0.6 + 2.6 * key.visibility) * softbox(direction, key.axis, vec2(0.75, 0.42), roughness);
   radiance += kRimTint * 1.5 * softbox(direction, kRimAxis, vec2(0.22, 1.10), roughness);
   radiance += kFillTint * 0.45 * softbox(direction, kFillAxis, vec2(0.50, 0.80), roughness);

@@ -15,4 +15,6 @@ void main() {
   texture_place = vec2(corner.x, 1.0 - corner.y);
   vec3 place = panel.lower_left.xyz + corner.x * panel.right.xyz + corner.y * panel.up.xyz;
   gl_Position = view_clip_from_room(frame) * vec4(place, 1.0);
+  // what is read stays in sight where things larger than the room stand before it
+  if (frame.haze.w > 0.0) gl_Position.z = AFM_FRONT_DEPTH * gl_Position.w;
 }

@@ -3,6 +3,8 @@
 #extension GL_EXT_multiview : require
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl.h"
+#include "background.glsl"
+#include "contact.glsl"
 #include "lighting.glsl"
 #include "tone.glsl"
 #include "view.glsl"
@@ -44,10 +46,15 @@ void main() {
                       parameters.y);
   Key key = Key(frame.light_direction.xyz, key_light_visibility());
   vec3 radiance = studio_reflection(s, key) + key_reflection(s, key.axis) * frame.light_radiance.rgb * key.visibility;
+  radiance = radiance * contact_shade(frame, room_position) + contact_ring(frame, room_position);
   vec3 own_light = emissive.rgb + highlight_glow(s, emissive.a);
 
   // what is unlit shows its colour as it is
   vec3 shown = mix(tone_map(radiance + own_light), vertex_color.rgb + own_light, parameters.z);
+
+  // what has dissolved is the background
+  float gone = haze(frame, room_position);
+  if (gone > 0.0) shown = mix(shown, background_color(gl_FragCoord.xy * frame.target_size.zw), gone);
 
   // premultiplied, so that opaque and blended primitives share this shader
   out_color = vec4(srgb_from_linear(shown) * vertex_color.a, vertex_color.a);

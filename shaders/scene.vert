@@ -41,4 +41,6 @@ void main() {
   vertex_color = color * draw.base_color;
   shadow_place = place_in_shadow_map(room_position, normalize(room_normal));
   gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
+  // the ruler is not lit, and stays in sight
+  if (frame.haze.w * draw.surface.z > 0.0) gl_Position.z = AFM_FRONT_DEPTH * gl_Position.w;
 }

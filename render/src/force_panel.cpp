@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "marker_layout.h"
 #include "panel_painting.h"
 #include "plot_scale.h"
 
@@ -94,15 +95,24 @@ void paint_axes(Canvas& canvas, const Plot& plot, double z_step, double force_st
   }
 }
 
+constexpr const char* kForceCaption = "F (nN)";
+
+// Where the force axis says what it shows.
+LabelBox force_caption(const Canvas& canvas, const Plot& plot) {
+  const glm::vec2 place = plot.top_left + glm::vec2(8.0F, -2.0F);
+  const glm::vec2 size(canvas.text_width_mm(TextStyle::Body, kForceCaption) + 16.0F,
+                       text_height_mm(TextStyle::Body) + 6.0F);
+  return {place, place + size};
+}
+
 // What the axes show, over the curves.
 void paint_captions(Canvas& canvas, const Plot& plot) {
-  const char* const force = "F (nN)";
-  const glm::vec2 place = plot.top_left + glm::vec2(8.0F, -2.0F);
-  const glm::vec2 size(canvas.text_width_mm(TextStyle::Body, force) + 16.0F, text_height_mm(TextStyle::Body) + 6.0F);
-  canvas.rectangle(place, place + size, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
-  canvas.text(place + glm::vec2(8.0F, 1.0F), TextStyle::Body, palette::kInk, force);
-  canvas.text({plot.bottom_right.x, plot.bottom_right.y + 54.0F}, TextStyle::Body, palette::kInk, "Z (nm)",
-              Align::Right);
+  const LabelBox force = force_caption(canvas, plot);
+  canvas.rectangle(force.from, force.to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
+  canvas.text(force.from + glm::vec2(8.0F, 1.0F), TextStyle::Body, palette::kInk, kForceCaption);
+  // in the middle: the sample stands before the panel's right corner
+  canvas.text({0.5F * (plot.top_left.x + plot.bottom_right.x), plot.bottom_right.y + 54.0F}, TextStyle::Body,
+              palette::kInk, "Z (nm)", Align::Center);
 }
 
 std::vector<glm::vec2> placed(const Plot& plot, const std::vector<PlotPoint>& points) {
@@ -123,57 +133,42 @@ void paint_curve(Canvas& canvas, const Plot& plot, const PlotCurve& curve) {
   canvas.dashed_polyline(placed(plot, curve.approach), kApproachWidth * thin, 16.0F, 10.0F, color);
 }
 
-struct Box {
-  glm::vec2 from{0.0F};
-  glm::vec2 to{0.0F};
-};
-
-bool overlap(const Box& a, const Box& b) {
-  return a.from.x < b.to.x && b.from.x < a.to.x && a.from.y < b.to.y && b.from.y < a.to.y;
-}
-
-// Moves a label by `step` until it covers none that stands already, then remembers it.
-glm::vec2 free_place(std::vector<Box>& taken, glm::vec2 position, glm::vec2 size, glm::vec2 step) {
-  for (int tries = 0; tries < 8; ++tries) {
-    const Box box{position, position + size};
-    if (std::none_of(taken.begin(), taken.end(), [&](const Box& other) { return overlap(box, other); })) {
-      break;
-    }
-    position += step;
-  }
-  taken.push_back({position, position + size});
-  return position;
-}
-
-void paint_marker(Canvas& canvas, const Plot& plot, const PlotMarker& marker, std::vector<Box>& taken) {
+bool in_range(const Plot& plot, const PlotMarker& marker) {
   const bool vertical = marker.kind == PlotMarker::Kind::VerticalLine;
-  const double low = vertical ? plot.z_min : plot.force_min;
-  const double high = vertical ? plot.z_max : plot.force_max;
-  if (!(marker.value >= low && marker.value <= high)) {
-    return;
-  }
-  const Color line_color{palette::kInk.srgb, 0.60F};
-  const glm::vec2 from =
-      vertical ? glm::vec2(plot.x(marker.value), plot.top_left.y) : glm::vec2(plot.top_left.x, plot.y(marker.value));
-  const glm::vec2 to = vertical ? glm::vec2(from.x, plot.bottom_right.y) : glm::vec2(plot.bottom_right.x, from.y);
-  const std::array<glm::vec2, 2> line{from, to};
-  canvas.dashed_polyline(line, 2.2F, 7.0F, 7.0F, line_color);
+  return vertical ? marker.value >= plot.z_min && marker.value <= plot.z_max
+                  : marker.value >= plot.force_min && marker.value <= plot.force_max;
+}
 
-  const glm::vec2 size(canvas.text_width_mm(TextStyle::Small, marker.label) + 12.0F,
-                       text_height_mm(TextStyle::Small) + 6.0F);
-  glm::vec2 position;
-  if (vertical) {
-    const bool fits = from.x + size.x + 8.0F < plot.bottom_right.x;
-    position = {fits ? from.x + 6.0F : from.x - size.x - 6.0F, plot.top_left.y + 44.0F};
-    position = free_place(taken, position, size, {0.0F, size.y + 4.0F});
-  } else {
-    const bool upper_half = from.y < 0.5F * (plot.top_left.y + plot.bottom_right.y);
-    // at the left, where an approach-retract curve leaves room below zero
-    position = {plot.top_left.x + 8.0F, from.y + (upper_half ? 4.0F : -size.y - 4.0F)};
-    position = free_place(taken, position, size, {size.x + 8.0F, 0.0F});
+// All lines first, so that none crosses a label.
+void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarker>& markers) {
+  const Color line_color{palette::kInk.srgb, 0.60F};
+  std::vector<MarkerLabel> labels;
+  for (const PlotMarker& marker : markers) {
+    if (!in_range(plot, marker)) {
+      continue;
+    }
+    const bool vertical = marker.kind == PlotMarker::Kind::VerticalLine;
+    const float line = vertical ? plot.x(marker.value) : plot.y(marker.value);
+    const std::array<glm::vec2, 2> ends{
+        vertical ? glm::vec2(line, plot.top_left.y) : glm::vec2(plot.top_left.x, line),
+        vertical ? glm::vec2(line, plot.bottom_right.y) : glm::vec2(plot.bottom_right.x, line)};
+    canvas.dashed_polyline(ends, 2.2F, 7.0F, 7.0F, line_color);
+    labels.push_back(
+        {marker.kind,
+         line,
+         {canvas.text_width_mm(TextStyle::Small, marker.label) + 12.0F, text_height_mm(TextStyle::Small) + 6.0F}});
   }
-  canvas.rectangle(position, position + size, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
-  canvas.text(position + glm::vec2(6.0F, 2.0F), TextStyle::Small, palette::kInk, marker.label);
+  const std::vector<LabelBox> boxes =
+      place_labels(labels, {plot.top_left, plot.bottom_right}, {force_caption(canvas, plot)});
+  auto box = boxes.begin();
+  for (const PlotMarker& marker : markers) {
+    if (!in_range(plot, marker)) {
+      continue;
+    }
+    canvas.rectangle(box->from, box->to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
+    canvas.text(box->from + glm::vec2(6.0F, 2.0F), TextStyle::Small, palette::kInk, marker.label);
+    ++box;
+  }
 }
 
 void paint_cursor(Canvas& canvas, const Plot& plot, const PlotPoint& cursor) {
@@ -207,10 +202,7 @@ void paint(Canvas& canvas, const ForcePanel& panel) {
   paint_axes(canvas, plot, z_step, force_step);
 
   // markers before the curves: no label hides what was measured
-  std::vector<Box> taken;
-  for (const auto& marker : panel.markers) {
-    paint_marker(canvas, plot, marker, taken);
-  }
+  paint_markers(canvas, plot, panel.markers);
   canvas.push_clip(plot.top_left, plot.bottom_right);
   for (const auto& curve : panel.curves) {
     if (curve.faded) {

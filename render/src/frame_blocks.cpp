@@ -12,6 +12,25 @@
 
 namespace afm::render {
 
+namespace {
+
+void write_contact(const ContactMark& mark, FrameBlock& block) {
+  if (!(mark.shade_radius_m > 0.0F)) {
+    return;
+  }
+  block.contact = glm::vec4(mark.place_m, 1.0F / mark.shade_radius_m);
+  block.contact_ring = glm::vec4(mark.ring_color, mark.ring_radius_m / mark.shade_radius_m);
+}
+
+void write_haze(const Haze& haze, FrameBlock& block) {
+  const bool ranged = haze.end_m > haze.begin_m;
+  block.haze =
+      glm::vec4(haze.begin_m, ranged ? 1.0F / (haze.end_m - haze.begin_m) : 0.0F, haze.veil, ranged ? 1.0F : 0.0F);
+  block.haze_axis = glm::vec4(glm::vec3(haze.away), static_cast<float>(-glm::dot(haze.away, haze.origin_m)));
+}
+
+}  // namespace
+
 glm::mat4 shadow_from_room(const KeyLight& light) {
   const glm::dvec3 to_light = glm::normalize(glm::dvec3(light.direction_to_light));
   const glm::dvec3 helper = std::abs(to_light.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
@@ -47,6 +66,8 @@ FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, cons
   block.light_direction = glm::vec4(glm::normalize(light.direction_to_light), 0.0F);
   block.light_radiance = glm::vec4(light.radiance, 2.0F * light.shadow_radius_m / static_cast<float>(kShadowMapSize));
   block.target_size = glm::vec4(size, 1.0F / size);
+  write_contact(frame.contact, block);
+  write_haze(frame.haze, block);
   return block;
 }
 

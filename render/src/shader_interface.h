@@ -13,7 +13,7 @@ using glm::vec4;
 
 #include "interface.glsl.h"
 
-static_assert(sizeof(FrameBlock) == 272 && offsetof(FrameBlock, shadow_from_room) == 160);
+static_assert(sizeof(FrameBlock) == 336 && offsetof(FrameBlock, shadow_from_room) == 160);
 static_assert(sizeof(DrawBlock) == 176 && offsetof(DrawBlock, base_color) == 112);
 static_assert(sizeof(PanelBlock) == 48 && sizeof(CanvasBlock) == 16 && sizeof(ComposeBlock) == 112);
 static_assert(sizeof(AnaglyphBlock) == 384);

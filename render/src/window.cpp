@@ -37,6 +37,10 @@ Key key_of(int key) {
       return Key::F11;
     case GLFW_KEY_H:
       return Key::H;
+    case GLFW_KEY_A:
+      return Key::A;
+    case GLFW_KEY_J:
+      return Key::J;
     case GLFW_KEY_M:
       return Key::M;
     case GLFW_KEY_P:

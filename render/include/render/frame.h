@@ -34,6 +34,24 @@ struct KeyLight {
   float shadow_radius_m = 2.5F;
 };
 
+// Where the tip meets the sample: a soft shade that deepens as they come closer, and for a moment after a jump a ring
+// of light on all that is `ring_radius_m` away.
+struct ContactMark {
+  glm::vec3 place_m{0.0F};      // the apex
+  float shade_radius_m = 0.0F;  // 0: no mark
+  glm::vec3 ring_color{0.0F};   // linear radiance
+  float ring_radius_m = 0.0F;
+};
+
+// Dissolves what is drawn into the background: everything by `veil`, and what lies far away by its distance. With a
+// range, things may be far larger than the room: what is read, panels and what is unlit, is then drawn before all else.
+struct Haze {
+  float veil = 0.0F;                   // 0: clear, 1: nothing but the background
+  float begin_m = 0.0F, end_m = 0.0F;  // from the origin; equal: no range
+  glm::dvec3 origin_m{0.0};
+  glm::dvec3 away{0.0, 0.0, -1.0};  // unit; distances count along it
+};
+
 // A rectangle in the room that shows a drawn panel: lower-left corner, and edges to the right and up, in metres.
 // Without area the panel is not shown.
 struct PanelPlacement {
@@ -160,6 +178,8 @@ struct FrameState {
   std::vector<scene::NodeIndex> highlighted;  // these and all below them glow: what the wand points at or has chosen
   std::vector<BeamBend> bends;
   KeyLight key_light;
+  ContactMark contact;
+  Haze haze;
   ForcePanel force_panel;
   PanelPlacement force_placement;
   DataPanel data_panel;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+#include "render/frame.h"
+
+// Where the labels of a plot's markers stand, apart from any drawing. Millimetres, y down.
+namespace afm::render {
+
+struct LabelBox {
+  glm::vec2 from{0.0F};
+  glm::vec2 to{0.0F};
+};
+
+bool overlap(const LabelBox& a, const LabelBox& b);
+
+struct MarkerLabel {
+  PlotMarker::Kind kind = PlotMarker::Kind::VerticalLine;
+  float line = 0;  // x of a vertical line, y of a horizontal one
+  glm::vec2 size{0.0F};
+};
+
+// One box for each label, in their order, inside `plot`: beside its line, where it covers neither another label nor
+// what is `taken`. A label for which there is no such place stands where it would stand alone.
+std::vector<LabelBox> place_labels(std::span<const MarkerLabel> labels, const LabelBox& plot,
+                                   std::vector<LabelBox> taken);
+
+}  // namespace afm::render
