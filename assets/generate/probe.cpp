@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "models.h"
+#include "probe_parts.h"
 
 namespace afm::generate {
 namespace {
@@ -20,9 +21,10 @@ constexpr double kDrawnThickness = 2 * kUm;  // the true one vanishes at a dista
 constexpr double kLeverBevel = 0.5 * kUm;
 constexpr double kTipX = 194 * kUm;
 
-// The tip: a square pyramid, sharp apex 3 um below the lever, rounded by a ball.
+// The tip: a square pyramid whose faces lean 17.5 degrees from its axis, as a moulded nitride tip's do on the sides
+// (Bruker, data sheet of DNP probes), with its sharp apex rounded by a ball.
 constexpr double kTipHalfBase = 2 * kUm;
-constexpr double kSharpHeight = 3 * kUm;
+constexpr double kSharpHeight = 6.343 * kUm;
 constexpr double kApexRadius = 0.05 * kUm;
 
 // The chip's front: a slab with the 54.7 degree flanks of a {111} etch, whose tangent is sqrt(2).
@@ -30,7 +32,7 @@ constexpr double kChipLength = 300 * kUm;
 constexpr double kChipHalfWidth = 130 * kUm;
 constexpr double kChipHeight = 80 * kUm;
 
-MaterialSpec nitride() { return {.name = "silicon nitride", .base_color = {0.60, 0.55, 0.30}, .roughness = 0.28}; }
+MaterialSpec nitride() { return {.name = "silicon nitride", .base_color = {0.66, 0.63, 0.48}, .roughness = 0.28}; }
 MaterialSpec gold() {
   return {.name = "gold coating", .base_color = {1.0, 0.77, 0.34}, .metallic = 1, .roughness = 0.22};
 }
@@ -104,6 +106,128 @@ Surface both_sides(const Surface& half) {
   return whole;
 }
 
+// The ball's centre below the base and the pyramid's face normals. The rounded pyramid is the sum of a smaller pyramid
+// and a ball: flat faces, edges that are cylinders, and a spherical cap between the four face normals.
+struct TipShape {
+  V3 center;
+  V3 face_normal[4];
+};
+
+TipShape tip_shape() {
+  const V3 face = unit({kSharpHeight, 0, -kTipHalfBase});
+  const double depth = kSharpHeight - kApexRadius / -face.z;
+  return {{0, 0, -depth}, {{face.x, 0, face.z}, {0, face.x, face.z}, {-face.x, 0, face.z}, {0, -face.x, face.z}}};
+}
+
+double apex_height() { return tip_shape().center.z - kApexRadius; }
+
+// The flat faces, the rounded edges between them, and the base; `shares` are the edges' stations from one face to the
+// next.
+Surface tip_sides(const std::vector<double>& shares) {
+  const TipShape shape = tip_shape();
+  Surface surface;
+
+  // where the line from the ball along an edge or face meets the base, for the normal there
+  const auto at_base = [&](V3 normal, V3 edge) {
+    const V3 start = shape.center + normal * kApexRadius;
+    return start + edge * (-start.z / edge.z);
+  };
+  for (std::size_t k = 0; k < 4; ++k) {
+    const V3 before = shape.face_normal[k], after = shape.face_normal[(k + 1) % 4];
+    const V3 edge = cross(before, after);
+    surface.add_grid(2, shares.size(), [&](std::size_t row, std::size_t column) {
+      const V3 normal = unit(mix(before, after, shares[column]));
+      return SurfaceVertex{row == 0 ? shape.center + normal * kApexRadius : at_base(normal, edge), normal};
+    });
+
+    // the face between this edge and the one before
+    const V3 edge_before = cross(shape.face_normal[(k + 3) % 4], before);
+    const std::uint32_t corner = surface.add({shape.center + before * kApexRadius, before});
+    const std::uint32_t left = surface.add({at_base(before, edge_before), before});
+    const std::uint32_t right = surface.add({at_base(before, edge), before});
+    surface.add_triangle(corner, right, left);
+  }
+
+  // the base, seen when the tip is drawn larger than the lever
+  Outline base;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const V3 before = shape.face_normal[k], after = shape.face_normal[(k + 1) % 4];
+    for (const V3 normal : {before, after}) {
+      const V3 corner = at_base(normal, cross(before, after));
+      base.push_back({{corner.x, corner.y}, {normal.x, normal.y}});
+    }
+  }
+  add_cap(surface, base, 0, Facing::Up);
+
+  return surface;
+}
+
+// A square of great arcs between the four faces.
+Surface tip_cap(const std::vector<double>& shares) {
+  const TipShape shape = tip_shape();
+  Surface surface;
+  surface.add_grid(shares.size(), shares.size(), [&](std::size_t row, std::size_t column) {
+    const double u = shares[column], v = shares[row];
+    const V3 normal = unit(
+        mix(mix(shape.face_normal[0], shape.face_normal[3], u), mix(shape.face_normal[1], shape.face_normal[2], u), v));
+    return SurfaceVertex{shape.center + normal * kApexRadius, normal};
+  });
+  return surface;
+}
+
+std::vector<double> even_shares() {
+  constexpr int kSteps = 36;
+  std::vector<double> shares;
+  for (int i = 0; i <= kSteps; ++i) shares.push_back(static_cast<double>(i) / kSteps);
+  return shares;
+}
+
+// From the middle outwards in growing steps, so that the lowest point looks round from very close.
+std::vector<double> fine_shares() {
+  constexpr double kFirst = 0.0004, kGrowth = 1.35, kLargest = 0.04;
+  std::vector<double> half{0};
+  for (double step = kFirst; half.back() + step < 0.5; step = std::min(step * kGrowth, kLargest)) {
+    half.push_back(half.back() + step);
+  }
+  half.back() = 0.5;
+  std::vector<double> shares;
+  for (std::size_t i = half.size(); i-- > 1;) shares.push_back(0.5 - half[i]);
+  for (const double away : half) shares.push_back(0.5 + away);
+  return shares;
+}
+
+Surface tip_surface() {
+  Surface surface = tip_sides(even_shares());
+  add_placed(surface, tip_cap(even_shares()), {});
+  return surface;
+}
+
+Surface from_apex(const Surface& surface) {
+  Surface result;
+  add_placed(result, surface, {{0, 0, -apex_height()}});
+  return result;
+}
+
+std::vector<Part> chip() {
+  const double slope = kChipHeight / std::sqrt(2.0), round = 12 * kUm, bevel = 4 * kUm;
+  const double low = kDrawnThickness, high = low + kChipHeight;
+  const V2 foot_low{-kChipLength, -kChipHalfWidth}, foot_high{0, kChipHalfWidth};
+  const Outline foot = rounded_rectangle(foot_low, foot_high, round, 3);
+  const Outline edge = rounded_rectangle(foot_low + V2{slope, slope}, foot_high - V2{slope, slope}, round, 3);
+  const Outline lip = inset(foot, -bevel / 2);
+  Surface block;
+  add_loft(block,
+           {{foot, low, std::sqrt(2.0), 1}, {edge, high - bevel, std::sqrt(2.0), 1}, {inset(edge, bevel), high, 0, 1}});
+  add_cap(block, inset(edge, bevel), high, Facing::Up);
+
+  // the nitride film that the lever was etched from goes on under the chip
+  Surface film;
+  add_prism(film, lip, 0, low, kLeverBevel);
+  return {{std::move(block), silicon()}, {std::move(film), nitride()}};
+}
+
+}  // namespace
+
 std::vector<Part> cantilever() {
   const std::vector<Station> stations = lever_stations();
   const double top = kDrawnThickness, shoulder = top - kLeverBevel;
@@ -147,87 +271,33 @@ std::vector<Part> cantilever() {
   return {{both_sides(body), nitride()}, {both_sides(back), gold()}};
 }
 
-// The ball's centre below the base and the pyramid's face normals. The rounded pyramid is the sum of a smaller pyramid
-// and a ball: flat faces, edges that are cylinders, and a spherical cap between the four face normals.
-struct TipShape {
-  V3 center;
-  V3 face_normal[4];
-};
+double lever_tip_x() { return kTipX; }
+double lever_thickness() { return kDrawnThickness; }
+Surface tip_sides() { return from_apex(tip_sides(fine_shares())); }
+Surface tip_apex() { return from_apex(tip_cap(fine_shares())); }
+double tip_length() { return -apex_height(); }
+double tip_radius() { return kApexRadius; }
 
-TipShape tip_shape() {
-  const V3 face = unit({kSharpHeight, 0, -kTipHalfBase});
-  const double depth = kSharpHeight - kApexRadius / -face.z;
-  return {{0, 0, -depth}, {{face.x, 0, face.z}, {0, face.x, face.z}, {-face.x, 0, face.z}, {0, -face.x, face.z}}};
-}
-
-double apex_height() { return tip_shape().center.z - kApexRadius; }
-
-Surface tip_surface() {
-  constexpr std::size_t kCap = 25;  // vertices along each side of the spherical cap
-  const TipShape shape = tip_shape();
-  Surface surface;
-
-  // where the line from the ball along an edge or face meets the base, for the normal there
-  const auto at_base = [&](V3 normal, V3 edge) {
-    const V3 start = shape.center + normal * kApexRadius;
-    return start + edge * (-start.z / edge.z);
-  };
-  for (std::size_t k = 0; k < 4; ++k) {
-    const V3 before = shape.face_normal[k], after = shape.face_normal[(k + 1) % 4];
-    const V3 edge = cross(before, after);
-    surface.add_grid(2, kCap, [&](std::size_t row, std::size_t column) {
-      const V3 normal = unit(mix(before, after, static_cast<double>(column) / (kCap - 1)));
-      return SurfaceVertex{row == 0 ? shape.center + normal * kApexRadius : at_base(normal, edge), normal};
-    });
-
-    // the face between this edge and the one before
-    const V3 edge_before = cross(shape.face_normal[(k + 3) % 4], before);
-    const std::uint32_t corner = surface.add({shape.center + before * kApexRadius, before});
-    const std::uint32_t left = surface.add({at_base(before, edge_before), before});
-    const std::uint32_t right = surface.add({at_base(before, edge), before});
-    surface.add_triangle(corner, right, left);
-  }
-
-  // the base, seen when the tip is drawn larger than the lever
-  Outline base;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const V3 before = shape.face_normal[k], after = shape.face_normal[(k + 1) % 4];
-    for (const V3 normal : {before, after}) {
-      const V3 corner = at_base(normal, cross(before, after));
-      base.push_back({{corner.x, corner.y}, {normal.x, normal.y}});
+void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color) {
+  // rings at 40 and 80 degrees from the pole, of eight points each
+  constexpr V2 kRings[] = {{0.64278760968653933, 0.76604444311897804}, {0.98480775301220806, 0.17364817766693035}};
+  const double side = facing == Facing::Up ? 1 : -1;
+  const Outline around = circle(1, 1);
+  const auto vertex = [&](V3 normal) { return SurfaceVertex{center + normal * radius, normal, color}; };
+  const std::uint32_t pole = surface.add(vertex({0, 0, side}));
+  for (const V2 ring : kRings) {
+    for (const OutlinePoint& point : around) {
+      surface.add(vertex({point.position.x * ring.x, side * point.position.y * ring.x, side * ring.y}));
     }
   }
-  add_cap(surface, base, 0, Facing::Up);
-
-  // the cap, a square of great arcs
-  surface.add_grid(kCap, kCap, [&](std::size_t row, std::size_t column) {
-    const double u = static_cast<double>(column) / (kCap - 1), v = static_cast<double>(row) / (kCap - 1);
-    const V3 normal = unit(
-        mix(mix(shape.face_normal[0], shape.face_normal[3], u), mix(shape.face_normal[1], shape.face_normal[2], u), v));
-    return SurfaceVertex{shape.center + normal * kApexRadius, normal};
-  });
-  return surface;
+  const auto count = static_cast<std::uint32_t>(around.size());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t here = pole + 1 + i, next = pole + 1 + (i + 1) % count;
+    surface.add_triangle(pole, here, next);
+    surface.add_triangle(here, here + count, next + count);
+    surface.add_triangle(here, next + count, next);
+  }
 }
-
-std::vector<Part> chip() {
-  const double slope = kChipHeight / std::sqrt(2.0), round = 12 * kUm, bevel = 4 * kUm;
-  const double low = kDrawnThickness, high = low + kChipHeight;
-  const V2 foot_low{-kChipLength, -kChipHalfWidth}, foot_high{0, kChipHalfWidth};
-  const Outline foot = rounded_rectangle(foot_low, foot_high, round, 3);
-  const Outline edge = rounded_rectangle(foot_low + V2{slope, slope}, foot_high - V2{slope, slope}, round, 3);
-  const Outline lip = inset(foot, -bevel / 2);
-  Surface block;
-  add_loft(block,
-           {{foot, low, std::sqrt(2.0), 1}, {edge, high - bevel, std::sqrt(2.0), 1}, {inset(edge, bevel), high, 0, 1}});
-  add_cap(block, inset(edge, bevel), high, Facing::Up);
-
-  // the nitride film that the lever was etched from goes on under the chip
-  Surface film;
-  add_prism(film, lip, 0, low, kLeverBevel);
-  return {{std::move(block), silicon()}, {std::move(film), nitride()}};
-}
-
-}  // namespace
 
 Model probe() {
   Model model{"probe", {}};

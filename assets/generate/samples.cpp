@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grains.h"
 #include "height_field.h"
 #include "models.h"
 
@@ -9,43 +10,6 @@ namespace afm::generate {
 namespace {
 
 constexpr double kNm = 1e-9;
-
-// A rounded grain in each cell of a jittered grid. The eighth-power mean joins them without a kink and in any order.
-struct Grains {
-  double cell = 0;          // metres
-  double smallest = 0;      // height, of the largest one
-  double radius_low = 0.7;  // of the cell
-  double radius_high = 1.0;
-  std::uint32_t seed = 0;
-
-  double height(double x, double y) const {
-    // the middle of a cell stands at the origin, with a grain of its own
-    const double column = std::floor(x / cell + 0.5), row = std::floor(y / cell + 0.5);
-    double sum = 0;
-    for (int i = -2; i <= 2; ++i) {
-      for (int k = -2; k <= 2; ++k) {
-        const double power =
-            grain(static_cast<std::int64_t>(column) + i, static_cast<std::int64_t>(row) + k, x / cell, y / cell);
-        sum += power * power;
-      }
-    }
-    return std::sqrt(std::sqrt(std::sqrt(sum)));
-  }
-
- private:
-  // the fourth power of one grain's height at a place in cells, its highest point being 1 or less
-  double grain(std::int64_t column, std::int64_t row, double x, double y) const {
-    const bool central = column == 0 && row == 0;
-    const double jitter = central ? 0 : 0.8;
-    const double dx = x - static_cast<double>(column) - jitter * (random_unit(column, row, seed) - 0.5);
-    const double dy = y - static_cast<double>(row) - jitter * (random_unit(column, row, seed + 1) - 0.5);
-    const double radius = central ? radius_high : mix(radius_low, radius_high, random_unit(column, row, seed + 2));
-    const double top = central ? 0.9 : mix(smallest, 1, random_unit(column, row, seed + 3));
-    const double q = (dx * dx + dy * dy) / (radius * radius);
-    const double cap = top * std::max(0.0, 1 - q * std::sqrt(q));
-    return cap * cap * cap * cap;
-  }
-};
 
 NodeSpec surface_node(const HeightField& field, std::vector<Part> parts) {
   return {
@@ -84,18 +48,23 @@ Model mica() {
   };
   const HeightField field(90, 40 * kNm / 90, [&](double x, double y) { return layers(x, y) * kLayer; });
 
-  const V3 even{0.80, 0.74, 0.74}, odd{0.60, 0.54, 0.56};
+  const V3 even{0.86, 0.80, 0.72}, odd{0.50, 0.49, 0.47};
   std::vector<WallBand> bands;
   for (int layer = 2; layer > -9; --layer) {
     bands.push_back({layer * kLayer, (layer - 1) * kLayer, layer % 2 == 0 ? even : odd});
   }
-  // higher terraces are lighter and risers darker, so that the steps are told apart from a distance
+  // higher terraces are lighter and risers dark, so that the steps are told apart from a distance; the terraces' hues
+  // alternate as the interference colours of thin flakes do, which makes mica pearly
   const auto tint = [&](const V3& position) {
-    const double layer = position.z / kLayer + kLayersBelowCenter, part = layer - std::floor(layer);
-    return mix(V3{0.72, 0.69, 0.72}, V3{1, 1, 1}, layer / 4) * (1 - 0.8 * part * (1 - part));
+    constexpr V3 kHues[] = {
+        {0.60, 0.70, 0.74}, {0.82, 0.72, 0.78}, {0.78, 0.84, 0.80}, {0.94, 0.88, 0.92}, {1.0, 1.0, 0.94}};
+    const double layer = std::clamp(position.z / kLayer + kLayersBelowCenter, 0.0, 4.0);
+    const auto below = static_cast<std::size_t>(std::min(layer, 3.0));
+    const double part = layer - static_cast<double>(below);
+    return mix(kHues[below], kHues[below + 1], part) * (1 - 1.7 * part * (1 - part));
   };
   const MaterialSpec material{
-      .name = "mica", .base_color = {0.56, 0.49, 0.495}, .roughness = 0.35, .vertex_colors = true};
+      .name = "mica", .base_color = {0.66, 0.63, 0.59}, .roughness = 0.22, .vertex_colors = true};
   NodeSpec node = surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}});
   node.extras["step_m"] = kLayer;
   return sample("sample-mica", std::move(node));
@@ -112,10 +81,10 @@ Model gold() {
 
   const auto tint = [&](const V3& position) {
     const double lit = mix(0.42, 1, smooth_step(-6.5 * kNm, 0.5 * kNm, position.z));
-    return V3{lit, lit * mix(0.94, 1, lit), lit * mix(0.85, 1, lit)};
+    return V3{lit, lit * mix(0.62, 1, lit), lit * mix(0.3, 1, lit)};  // gold seen in gold is redder
   };
   const MaterialSpec film{
-      .name = "gold", .base_color = {1.0, 0.72, 0.28}, .metallic = 1, .roughness = 0.3, .vertex_colors = true};
+      .name = "gold", .base_color = {1.0, 0.66, 0.23}, .metallic = 1, .roughness = 0.26, .vertex_colors = true};
   const MaterialSpec substrate{.name = "substrate", .base_color = {0.34, 0.33, 0.35}, .roughness = 0.6};
   const MaterialSpec cut{
       .name = "cut gold", .base_color = {0.85, 0.62, 0.24}, .metallic = 0.4, .roughness = 0.5, .vertex_colors = true};
@@ -144,7 +113,7 @@ Model silicon_nitride() {
     return V3{lit, lit, lit};
   };
   const MaterialSpec material{
-      .name = "silicon nitride", .base_color = {0.075, 0.13, 0.14}, .roughness = 0.5, .vertex_colors = true};
+      .name = "silicon nitride", .base_color = {0.060, 0.098, 0.092}, .roughness = 0.30, .vertex_colors = true};
   const std::vector<WallBand> bands{{3 * kNm, -2 * kNm, {0.85, 0.85, 0.85}}, {-2 * kNm, -9.5 * kNm, {0.7, 0.7, 0.7}}};
   return sample("sample-si3n4",
                 surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}}));

@@ -66,7 +66,8 @@ Model mica() {
     Surface prism;
     add_prism(prism, rounded_polygon(corners, 0.6 * kCm, 1), 0, kFlake, 0.14 * kCm);
     const double shade = flake % 2 == 0 ? 1.0 : 0.84;
-    prism.paint({shade, shade * mix(0.95, 1.0, random(6)), shade * mix(0.94, 1.0, random(7))});
+    prism.paint(
+        {shade * mix(0.90, 1.0, random(8)), shade * mix(0.93, 1.0, random(6)), shade * mix(0.90, 1.06, random(7))});
 
     // turned about the vertical and tipped by a few degrees
     const V2 turn = unit(V2{1, 0.5 * (random(8) - 0.5)});
@@ -77,7 +78,7 @@ Model mica() {
     add_placed(stack, prism, {origin, x, cross(up, x), up});
   }
   return swatch("swatch-mica", std::move(stack),
-                {.name = "mica", .base_color = {0.74, 0.62, 0.63}, .roughness = 0.3, .vertex_colors = true});
+                {.name = "mica", .base_color = {0.72, 0.66, 0.58}, .roughness = 0.22, .vertex_colors = true});
 }
 
 // A bar whose sides lean in, as it comes out of the mould.
@@ -141,7 +142,7 @@ Model silicon_nitride() {
             0.3 * kCm);
   Model model =
       swatch("swatch-si3n4", std::move(group),
-             {.name = "silicon nitride", .base_color = {0.055, 0.125, 0.135}, .metallic = 0.1, .roughness = 0.12});
+             {.name = "silicon nitride", .base_color = {0.045, 0.085, 0.080}, .metallic = 0.1, .roughness = 0.12});
   Surface stand;
   add_placed(stand, foot, upright(0, kPlinthHeight, kTopMiddle));
   model.nodes.front().parts.push_back(

@@ -125,7 +125,13 @@ TEST(Models, HaveTheNodesThatTheProgramLooksFor) {
       {"swatch-gold", {"swatch", "label"}},
       {"swatch-si3n4", {"swatch", "label"}},
       {"optics", {"laser", "photodiode", "quadrant-a", "quadrant-b", "quadrant-c", "quadrant-d", "beam", "spot"}},
-      {"wand", {"wand", "ray"}}};
+      {"wand", {"wand", "ray"}},
+      {"marks", {"line", "bend"}},
+      {"journey", {"bench", "instrument", "holder", "chip", "lever", "tip", "apex", "tip-atoms"}},
+      {"ground-mica", {"ring-0", "atoms"}},
+      {"ground-gold", {"ring-0", "atoms"}},
+      {"ground-si3n4", {"ring-0", "atoms"}},
+      {"analogy", {"plate", "magnet", "spring", "hand"}}};
   ASSERT_EQ(generate::all_models().size(), expected.size());
   for (const auto& [name, nodes] : expected) {
     const Scene scene = load(name);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace afm::generate {
+
+// A rounded grain in each cell of a jittered grid. The eighth-power mean joins them without a kink and in any order.
+struct Grains {
+  double cell = 0;          // as wide as a cell is
+  double smallest = 0;      // height, of the largest one
+  double radius_low = 0.7;  // of the cell
+  double radius_high = 1.0;
+  std::uint32_t seed = 0;
+
+  double height(double x, double y) const;
+
+ private:
+  // the fourth power of one grain's height at a place in cells, its highest point being 1 or less
+  double grain(std::int64_t column, std::int64_t row, double x, double y) const;
+};
+
+}  // namespace afm::generate

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "grains.h"
+#include "models.h"
+#include "probe_parts.h"
+
+namespace afm::generate {
+namespace {
+
+constexpr double kNm = 1e-9;
+constexpr double kDiscRadius = 5e-3, kDiscThickness = 0.36e-3;
+constexpr double kInnermost = 0.4 * kNm;
+constexpr double kRingRatio = 1.22;
+constexpr int kHalvings = 4;  // 64 points around
+constexpr double kAtomsReach = 2.0 * kNm;
+
+// What a sample looks like close by, whatever "close" is: one pattern, repeated at every scale. Real surfaces are not
+// that kind: far from its scale each pattern stands for what one would see there, cleavage steps or the film's
+// roughness.
+struct Look {
+  const char* name;
+  MaterialSpec material;
+  double amplitude;                               // of the pattern, in its own scale
+  std::function<double(double, double)> pattern;  // 0..1 at a place in units of the scale
+  std::function<V3(double)> tint;                 // of a height 0..1 in the pattern
+};
+
+struct Place {
+  double height = 0;
+  double shade = 0;  // 0..1: how high in the patterns that are seen here
+};
+
+// The patterns of the scales that are near the place's distance from the contact, faded into each other.
+Place ground_at(const Look& look, double x, double y) {
+  const double r = std::sqrt(x * x + y * y);
+  double sum = 0, weights = 1e-12, height = 0;
+  double scale = 1e-3;
+  for (int i = 0; i < 14; ++i, scale *= 0.31622776601683794) {
+    const double ratio = r / scale;
+    const double weight = smooth_step(0.35, 1.1, ratio) * (1 - smooth_step(1.6, 5, ratio));
+    if (weight <= 0) continue;
+    const double turn = i % 2 == 0 ? 1.0 : -1.0;  // no two scales show the same
+    const double n = look.pattern(turn * x / scale + 7.3 * i, y / scale - 3.1 * i);
+    height -= weight * look.amplitude * scale * (1 - n);
+    sum += weight * n;
+    weights += weight;
+  }
+  const double hollow = 0.11 * kNm * (1 - smooth_step(kAtomsReach * 0.9, kAtomsReach * 1.6, r));  // for the atoms
+  return {height - hollow, sum / weights};
+}
+
+// Rings whose radii grow by a constant ratio, so that all scales are drawn alike; split where the float's steps, which
+// are those of the largest radius, would show.
+std::vector<Surface> rings(const Look& look) {
+  const Outline around = circle(1, kHalvings);
+  std::vector<double> radii{0};
+  for (double r = kInnermost; r < kDiscRadius * 0.985; r *= kRingRatio) radii.push_back(r);
+  radii.push_back(kDiscRadius);
+
+  std::vector<std::size_t> cuts{0};
+  for (std::size_t i = 1; i < radii.size(); ++i) {
+    if (radii[i] > 150 * radii[cuts.back() == 0 ? 1 : cuts.back()]) cuts.push_back(i);
+  }
+  cuts.push_back(radii.size() - 1);
+
+  const auto vertex = [&](std::size_t ring, std::size_t column) {
+    const V2 direction = around[column % around.size()].position;
+    const double r = radii[ring], step = std::max(0.12 * r, 0.1 * kInnermost);
+    const double x = r * direction.x, y = r * direction.y;
+    const Place here = ground_at(look, x, y);
+    const double slope_x = (ground_at(look, x + step, y).height - ground_at(look, x - step, y).height) / (2 * step);
+    const double slope_y = (ground_at(look, x, y + step).height - ground_at(look, x, y - step).height) / (2 * step);
+    return SurfaceVertex{{x, y, here.height}, unit(V3{-slope_x, -slope_y, 1}), look.tint(here.shade)};
+  };
+  std::vector<Surface> result;
+  for (std::size_t part = 0; part + 1 < cuts.size(); ++part) {
+    Surface surface;
+    const std::size_t first = cuts[part], count = cuts[part + 1] - first + 1;
+    // rows outwards from the far to the near ring, so that the upper side faces up
+    surface.add_grid(count, around.size() + 1,
+                     [&](std::size_t row, std::size_t column) { return vertex(first + count - 1 - row, column); });
+    result.push_back(std::move(surface));
+  }
+
+  // the disc's rim
+  add_lathe(result.back(),
+            {{kDiscRadius, -kDiscThickness, 1, 0}, {kDiscRadius, -0.02 * kDiscRadius, 1, 0}},
+            kHalvings);
+  return result;
+}
+
+Surface mica_atoms() {
+  // basal oxygens in rings of six: a triangular lattice of 0.26 nm without every fourth site, over every other of which
+  // a potassium ion is left by the cleavage (W. L. Bragg's structure; a = 0.52 nm)
+  constexpr double kSpacing = 0.26 * kNm;
+  Surface surface;
+  for (std::int64_t row = -11; row <= 11; ++row) {
+    for (std::int64_t column = -14; column <= 14; ++column) {
+      const double x = (static_cast<double>(column) + 0.5 * static_cast<double>(row)) * kSpacing;
+      const double y = static_cast<double>(row) * std::sqrt(0.75) * kSpacing;
+      const double r = std::sqrt(x * x + y * y);
+      if (r > kAtomsReach) continue;
+      const double sink = 0.15 * kNm * smooth_step(0.45, 1, r / kAtomsReach);
+      const bool hole = (column % 2 != 0) && (row % 2 != 0);
+      if (!hole) {
+        add_atom(surface, {x, y, -0.15 * kNm - sink}, 0.15 * kNm, Facing::Up, {0.72, 0.20, 0.15});
+      } else if (random_unit(column, row, 91) > 0.5) {
+        add_atom(surface, {x, y, -0.13 * kNm - sink}, 0.19 * kNm, Facing::Up, {0.42, 0.22, 0.62});
+      }
+    }
+  }
+  return surface;
+}
+
+// A triangular lattice, each atom moved by up to `disorder` of the spacing.
+Surface packed_atoms(double spacing, double disorder, const std::function<V3(double)>& color) {
+  Surface surface;
+  for (std::int64_t row = -11; row <= 11; ++row) {
+    for (std::int64_t column = -14; column <= 14; ++column) {
+      const double jitter_x = disorder * (random_unit(column, row, 92) - 0.5);
+      const double jitter_y = disorder * (random_unit(column, row, 93) - 0.5);
+      const double x = (static_cast<double>(column) + 0.5 * static_cast<double>(row) + jitter_x) * spacing;
+      const double y = (static_cast<double>(row) * std::sqrt(0.75) + jitter_y) * spacing;
+      const double r = std::sqrt(x * x + y * y);
+      if (r > kAtomsReach) continue;
+      const double radius = 0.54 * spacing;
+      const double sink =
+          0.15 * kNm * smooth_step(0.45, 1, r / kAtomsReach) + disorder * 0.2 * spacing * random_unit(column, row, 94);
+      add_atom(surface, {x, y, -radius - sink}, radius, Facing::Up, color(random_unit(column, row, 95)));
+    }
+  }
+  return surface;
+}
+
+Model ground(const Look& look, Surface atoms) {
+  Model model{std::string("ground-") + look.name, {}};
+  model.nodes.push_back({.name = "ground", .placement = kYUpFromZUp});
+  std::vector<Surface> parts = rings(look);
+  const char* names[] = {"ring-0", "ring-1", "ring-2", "ring-3"};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    model.nodes.push_back({.name = names[i], .parent = 0, .parts = {{std::move(parts[i]), look.material}}});
+  }
+  MaterialSpec ball = look.material;
+  ball.name = "atoms";
+  ball.base_color = {1, 1, 1};
+  ball.roughness = 0.35;
+  model.nodes.push_back({.name = "atoms", .parent = 0, .parts = {{std::move(atoms), ball}}});
+  return model;
+}
+
+double terraces(double x, double y) {
+  // straight steps that wander, three to two units
+  const double along = 1.5 * (0.93 * y + 0.37 * x) + 0.7 * noise(0.9 * x, 0.9 * y, 12);
+  const double layer = std::floor(along), part = along - layer;
+  const double wander = random_unit(static_cast<std::int64_t>(layer), 0, 13);
+  const double next = random_unit(static_cast<std::int64_t>(layer) + 1, 0, 13);
+  return mix(wander, next, smooth_step(0.38, 0.62, part));
+}
+
+double grains(double x, double y) {
+  const Grains shape{.cell = 0.62, .smallest = 0.5, .radius_low = 0.62, .radius_high = 0.9, .seed = 23};
+  return shape.height(x, y);
+}
+
+double speckle(double x, double y) {
+  const Grains shape{.cell = 0.45, .smallest = 0.3, .radius_low = 0.7, .radius_high = 1.05, .seed = 43};
+  return 0.75 * shape.height(x, y) + 0.125 * (1 + noise(0.8 * x, 0.8 * y, 53));
+}
+
+}  // namespace
+
+std::vector<Model> grounds() {
+  const Look mica{
+      .name = "mica",
+      .material = {.name = "mica", .base_color = {0.66, 0.63, 0.59}, .roughness = 0.24, .vertex_colors = true},
+      .amplitude = 0.10,
+      .pattern = terraces,
+      .tint = [](double n) {
+        return mix(V3{0.42, 0.48, 0.54}, V3{1.0, 0.96, 0.92}, n);
+      }};
+  const Look gold{.name = "gold",
+                  .material = {.name = "gold",
+                               .base_color = {1.0, 0.66, 0.23},
+                               .metallic = 1,
+                               .roughness = 0.28,
+                               .vertex_colors = true},
+                  .amplitude = 0.12,
+                  .pattern = grains,
+                  .tint = [](double n) {
+                    const double lit = mix(0.42, 1, n);
+                    return V3{lit, lit * mix(0.62, 1, lit), lit * mix(0.3, 1, lit)};
+                  }};
+  const Look nitride{.name = "si3n4",
+                     .material = {.name = "silicon nitride",
+                                  .base_color = {0.060, 0.098, 0.092},
+                                  .roughness = 0.32,
+                                  .vertex_colors = true},
+                     .amplitude = 0.05,
+                     .pattern = speckle,
+                     .tint = [](double n) {
+                       const double lit = mix(0.5, 1, n);
+                       return V3{lit, lit, lit};
+                     }};
+  std::vector<Model> models;
+  models.push_back(ground(mica, mica_atoms()));
+  models.push_back(ground(gold, packed_atoms(0.288 * kNm, 0, [](double) { return V3{1.0, 0.66, 0.23}; })));
+  models.push_back(ground(nitride, packed_atoms(0.27 * kNm, 0.3, [](double n) {
+                            return n > 0.43 ? V3{0.16, 0.28, 0.75} : V3{0.80, 0.66, 0.42};
+                          })));
+  return models;
+}
+
+}  // namespace afm::generate
