@@ -147,6 +147,16 @@ core::Result<void> draw_picture(const std::string& file, const std::string& capt
   return {};
 }
 
+core::Result<void> draw_journey(const FrameBuilder& frames, render::Renderer& renderer, OutputFolder& out,
+                                std::vector<ReportPicture>& pictures) {
+  say("  journey.png");
+  const auto png = render::encode_png(journey_strip(frames, renderer));
+  if (!png) return tl::unexpected(png.error());
+  pictures.push_back(
+      {"The journey of scale: each picture shows a tenth of the one before.", std::string(png->begin(), png->end())});
+  return out.write("journey.png", pictures.back().png);
+}
+
 core::Result<void> draw_figures(render::Context& context, const Stage& stage, const DemoPlan& plan,
                                 const DemoResult& result, OutputFolder& out, std::vector<ReportPicture>& pictures) {
   auto renderer = render::Renderer::create(context, stage.wall_scene.scene(), stage.renderer_options(kFigureEyeWidth));
@@ -157,6 +167,7 @@ core::Result<void> draw_figures(render::Context& context, const Stage& stage, co
     if (auto drawn = draw_picture(figure.file, figure.caption, figure.moment, frames, *renderer, out, pictures); !drawn)
       return drawn;
   }
+  if (auto drawn = draw_journey(frames, *renderer, out, pictures); !drawn) return drawn;
   for (std::size_t i = 0; i < plan.materials.size(); ++i) {
     if (plan.variations[i].empty()) continue;
     const VariationFigure figure(result.sessions[i], result.measurements[i], plan.materials[i], result.variations, i);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/demonstration.h"
+#include "app/film_strip.h"
 #include "core/check.h"
 #include "render/image_file.h"
 
@@ -13,6 +14,7 @@ namespace afm::app {
 namespace {
 
 constexpr std::int64_t kAfterJumpInNs = 5'000'000;
+constexpr std::uint32_t kFilmColumns = 5, kFilmReduction = 4;
 constexpr std::int64_t kAfterJumpOffNs = 400'000'000;
 
 Felt felt_of(const Measurement& m) {
@@ -92,6 +94,19 @@ VariationFigure::VariationFigure(const RecordedSession& base, const Measurement&
   moment_.felt = std::move(all);
   moment_.compare_all = true;
   moment_.guidance = "The same sample, felt with other numbers";
+}
+
+render::Image journey_strip(const FrameBuilder& frames, render::Renderer& renderer) {
+  std::vector<render::Image> stills;
+  for (double orders = 0.0; orders <= kJourneyOrders; orders += 1.0) {
+    Moment moment;
+    moment.material = 0;
+    moment.journey_orders = orders;
+    moment.realtime = true;  // nothing moves
+    renderer.render(frames.build(moment));
+    stills.push_back(renderer.read_eye(scene::Eye::Left));
+  }
+  return film_strip(stills, kFilmColumns, kFilmReduction);
 }
 
 core::Result<void> draw_figure(const Moment& moment, const FrameBuilder& frames, render::Renderer& renderer,

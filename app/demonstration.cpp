@@ -190,6 +190,7 @@ Moment Demonstration::moment(const input::WandState& wand, const input::Selector
   now.curves = curves_;
   now.servo = servo_rows(servo_.tip(), servo_.timing(), servo_.device());
   if (budget_) now.servo.push_back(budget_->row());
+  now.cue = jump_cue(recorder_.session().events, servo_.tip().time_ns);
   return now;
 }
 
@@ -234,6 +235,7 @@ Moment moment_of(const RecordedSession& session, std::size_t material, std::int6
   then.retracting = lowest != after && is_retracting(sample.z_m, lowest->z_m);
   then.realtime = session.realtime;
   then.slow_motion = session.slow_motion;
+  then.cue = jump_cue(session.events, time_ns);
   then.curves = curves;
   return then;
 }

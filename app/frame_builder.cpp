@@ -125,12 +125,20 @@ core::Result<std::array<scene::EyeView, 2>> eyes_at_sweet_spot(const scene::Wall
 }
 
 WallScene::Pose pose_of(const Moment& moment) {
+  using enum WallScene::Exhibit;
+  const auto exhibit = moment.journey_orders ? Journey
+                       : moment.compare_all  ? Plot
+                       : moment.analogy      ? Analogy
+                                             : Instrument;
   return {.material = moment.material,
           .tip = moment.tip,
           .hovered = moment.hovered,
           .wand = moment.wand,
-          .instrument = moment.compare_all ? WallScene::Instrument::Hidden : WallScene::Instrument::Shown,
-          .navigation = moment.navigation};
+          .exhibit = exhibit,
+          .journey_orders = moment.journey_orders.value_or(0.0),
+          .veil = moment.veil,
+          .navigation = moment.navigation,
+          .cue = moment.cue};
 }
 
 std::string stage_of_cycle(const Moment& moment, double z_jtc_m) {
@@ -205,6 +213,12 @@ render::Banner FrameBuilder::banner(const Moment& moment) const {
   if (moment.slow_motion > 1.0) {
     banner.warning =
         fmt::format("slow motion \u00d7{:.3g}{}", moment.slow_motion, moment.realtime ? "" : ", not real-time");
+  }
+  if (moment.journey_orders) {
+    banner.guidance = fmt::format("Journey of scale: {}", journey_place(*moment.journey_orders));
+    banner.scale = fmt::format("true to scale: 1 m on the wall = {}",
+                               scale_text(wall_scene_->journey_m_per_m(*moment.journey_orders)));
+    return banner;
   }
   const DrawnScale scale = wall_scene_->drawn_scale(moment.material.value_or(0), moment.tip);
   banner.scale = fmt::format(

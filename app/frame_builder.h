@@ -33,6 +33,7 @@ struct Moment {
   bool retracting = false;  // past the deepest push of this cycle
   bool realtime = false;
   double slow_motion = 1;  // as in TipState
+  std::optional<JumpCue> cue;
   std::optional<std::size_t> hovered;
   std::optional<input::WandState> wand;
   glm::dmat4 navigation{1.0};  // as in WallScene::Pose
@@ -40,7 +41,10 @@ struct Moment {
   std::vector<render::DataRow> servo;  // servo_rows()
   // one per material, empty while it has not been felt; the current one is drawn in front
   std::span<const CycleCurve> curves;
-  bool compare_all = false;  // the finale: all curves together, large, and what was felt
+  bool analogy = false;                  // Millet's magnet instead of the instrument
+  std::optional<double> journey_orders;  // on the journey of scale, as in app/journey.h
+  double veil = 0;                       // as in WallScene::Pose
+  bool compare_all = false;              // the finale: all curves together, large, and what was felt
   std::vector<Felt> felt;
 };
 

@@ -16,6 +16,7 @@ namespace afm::app {
 
 namespace {
 
+constexpr std::int64_t kForceTakenNs = 500'000'000;    // until a choice has taken the force away
 constexpr double kHiddenPauseS = 0.05;                 // between two heartbeats of a window that nobody sees
 constexpr double kDrawnHandM = 0.085;                  // of the hand, shown as a third of the wall's height
 constexpr double kHandPerPicture = 3.0 * kDrawnHandM;  // so that the tip follows the cursor on the wall
@@ -126,6 +127,15 @@ void LiveView::act(ViewAction action) {
     case ViewAction::SwapEyes:
       picture_.swap_eyes();
       break;
+    case ViewAction::Journey:
+      travel_.turn_round(clock_.now_ns());
+      core::log_line("the journey of scale was turned round");
+      take_force_away(clock_.now_ns());
+      break;
+    case ViewAction::Analogy:
+      analogy_ = !analogy_;
+      core::log_line(analogy_ ? "shown: Millet's analogy" : "shown: the instrument");
+      break;
   }
 }
 
@@ -195,6 +205,21 @@ void LiveView::next_scale() {
   }
 }
 
+// The picture's scale is not the hand's while it travels: the material is chosen anew, which needs a lift and Turn-On.
+void LiveView::take_force_away(std::int64_t now_ns) {
+  force_taken_ns_ = now_ns;
+  if (const auto current = servo_.material(); current && servo_.running()) {
+    servo_.link().choose(static_cast<std::int32_t>(*current), settings_.scale);
+  }
+}
+
+void LiveView::travel(std::int64_t now_ns) {
+  travel_.update(now_ns);
+  const scene::ServoState state = servo_.link().tip().servo_state;
+  const bool force = state == scene::ServoState::Arming || state == scene::ServoState::Running;
+  if (travel_.away() && force && now_ns - force_taken_ns_ > kForceTakenNs) take_force_away(now_ns);
+}
+
 // Everything as after the start: also the way to go on after the servo has died.
 void LiveView::begin_again() {
   servo_.forget_cycles();
@@ -242,6 +267,10 @@ Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
   now.wand = wand_points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
   now.navigation = view_wand_.navigation();
   now.guidance = stage_.guidance.line(servo.tip(), cycles.ascending(), cycles.cycles());
+  now.cue = jump_cue(servo_.events(), servo.tip().time_ns);
+  now.analogy = analogy_;
+  now.journey_orders = travel_.orders();
+  now.veil = travel_.veil();
   now.servo = servo_rows(servo.tip(), servo.timing(), servo.device());
   if (auto row = picture_.detail_row()) now.servo.push_back(std::move(*row));
   if (!servo_.running()) {
@@ -266,6 +295,7 @@ void LiveView::follow_edits() {
 void LiveView::draw(const glm::dvec2& cursor_px, std::int64_t now_ns) {
   const FrameBeat beat(servo_.link(), clock_);
   follow_edits();
+  travel(now_ns);
   const WallPicture shown = picture_.picture();
   const Pointed pointed = wand_points() ? wand_pointed_at() : pointed_at(shown, cursor_px);
   const Moment now = moment(pointed, now_ns);
@@ -279,7 +309,7 @@ void LiveView::draw(const glm::dvec2& cursor_px, std::int64_t now_ns) {
 
   render::FrameState frame = frames_.build(now);
   frame.eyes = shown.eyes;
-  const auto material = servo_.material();
+  const auto material = travel_.orders() ? std::nullopt : servo_.material();
   panels_.add_to(frame, pointed, material, material ? stage_.materials.materials[*material].title : "",
                  servo_.link().tip(), hand());
   picture_.show(frame, beat);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/frame_builder.h"
+#include "app/journey.h"
 #include "app/mouse_hand.h"
 #include "app/mouse_wand.h"
 #include "app/simulated_person.h"
@@ -54,6 +55,8 @@ class LiveView {
   void follow_head(std::int64_t now_ns);
   void choose(std::size_t material);
   void next_scale();
+  void take_force_away(std::int64_t now_ns);
+  void travel(std::int64_t now_ns);
   void begin_again();
 
   double hand_m_per_px() const;
@@ -86,6 +89,9 @@ class LiveView {
   std::int64_t hand_moved_ns_ = 0;
   glm::dvec2 cursor_px_{0.0};
   std::int64_t cursor_moved_ns_ = 0;
+  JourneyTravel travel_;
+  std::int64_t force_taken_ns_ = 0;  // by the journey, last
+  bool analogy_ = false;
   bool leaving_ = false;
 };
 

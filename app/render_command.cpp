@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,9 @@ namespace {
 
 struct RenderOptions {
   std::string session;
+  std::optional<double> journey_orders;  // instead of a session
+  std::string material = "mica";         // of the journey
+  bool analogy = false;
   std::string out;
   double at_s = 0;
   std::uint32_t eye_width = 960;
@@ -62,7 +66,34 @@ core::Result<void> write_pictures(render::Renderer& renderer, const RenderOption
   return {};
 }
 
+core::Result<void> draw(const Stage& stage, const std::vector<FeltMaterial>& felt, const Moment& moment,
+                        const RenderOptions& options) {
+  auto context = render::Context::open();
+  if (!context) return tl::unexpected(context.error());
+  auto renderer =
+      render::Renderer::create(*context, stage.wall_scene.scene(), stage.renderer_options(options.eye_width));
+  if (!renderer) return tl::unexpected(renderer.error());
+  const FrameBuilder frames(stage.wall_scene, felt, stage.eyes);
+  renderer->render(frames.build(moment));
+  return write_pictures(*renderer, options);
+}
+
+core::Result<void> run_journey(const RenderOptions& options) {
+  StageFiles files = options.files;
+  files.shown = {options.material};
+  auto stage = load_stage(files);
+  if (!stage) return tl::unexpected(stage.error());
+  auto felt = felt_material(ContactSetup{stage->materials.materials.front(), {}, {}});
+  if (!felt) return tl::unexpected(felt.error());
+  Moment moment;
+  moment.material = 0;
+  moment.journey_orders = options.journey_orders;
+  moment.realtime = true;  // nothing moves
+  return draw(*stage, {*felt}, moment, options);
+}
+
 core::Result<void> run_render(const RenderOptions& options) {
+  if (options.journey_orders) return run_journey(options);
   auto session = load_session(options.session);
   if (!session) return tl::unexpected(session.error());
   auto stage = load_stage(files_for(*session, options.files));
@@ -92,32 +123,40 @@ core::Result<void> run_render(const RenderOptions& options) {
         fmt::format("--at: {:g} s is outside the session, which lasts {:.3f} s", options.at_s, length_s));
   }
 
-  auto context = render::Context::open();
-  if (!context) return tl::unexpected(context.error());
-  auto renderer =
-      render::Renderer::create(*context, stage->wall_scene.scene(), stage->renderer_options(options.eye_width));
-  if (!renderer) return tl::unexpected(renderer.error());
-
   const auto material = static_cast<std::size_t>(found - materials.begin());
   const std::int64_t time_ns = session->samples.front().time_ns + static_cast<std::int64_t>(options.at_s * 1e9);
   std::vector<CycleCurve> curves(materials.size());
   curves[material] = curve_until(*session, time_ns);
   Moment moment = moment_of(*session, material, time_ns, curves);
   moment.guidance = fmt::format("{} at {:.2f} s", found->title, options.at_s);
-  const FrameBuilder frames(stage->wall_scene, felt, stage->eyes);
-  renderer->render(frames.build(moment));
-  return write_pictures(*renderer, options);
+  moment.analogy = options.analogy;
+  return draw(*stage, felt, moment, options);
 }
 
 }  // namespace
 
 void add_render_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command = app.add_subcommand("render", "draw a moment of a recorded session without a window");
-  command->footer("example: touchafm render --session out/session-gold.afms --at 5.2 --out gold.png");
+  CLI::App* command = app.add_subcommand(
+      "render", "draw a moment of a recorded session, or a place of the journey of scale, without a window");
+  command->footer(
+      "example: touchafm render --session out/session-gold.afms --at 5.2 --out gold.png\n"
+      "         touchafm render --journey 4.5 --material mica --out lever.png");
   auto options = std::make_shared<RenderOptions>();
-  command->add_option("--session", options->session, "session file that the demo has written")
-      ->required()
-      ->type_name("FILE");
+  auto* what = command->add_option_group("what is drawn");
+  auto* session =
+      what->add_option("--session", options->session, "session file that the demo has written")->type_name("FILE");
+  auto* journey = what->add_option("--journey", options->journey_orders,
+                                   "a place of the journey of scale, without a session: a metre of the paper's wall "
+                                   "shows 10^-S metres, from the bench (0) to the atoms (9)")
+                      ->check(CLI::Range(0.0, kJourneyOrders))
+                      ->type_name("S");
+  what->require_option(1);
+  command->add_option("--material", options->material, "sample of the journey")
+      ->needs(journey)
+      ->capture_default_str()
+      ->type_name("NAME");
+  command->add_flag("--analogy", options->analogy, "draw Millet's magnet on a spring instead of the instrument")
+      ->needs(session);
   command->add_option("--out", options->out, "picture to write")->required()->type_name("FILE.png");
   command->add_option("--at", options->at_s, "time from the start of the session, in seconds")
       ->capture_default_str()

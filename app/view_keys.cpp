@@ -18,6 +18,8 @@ struct KeyBinding {
 constexpr std::array kBindings{
     KeyBinding{render::Key::F2, ViewAction::ShowParameters, "Parameters", "F2", ""},
     KeyBinding{render::Key::M, ViewAction::NextScale, "Scale of the hand", "M", "fit, compressed, common"},
+    KeyBinding{render::Key::J, ViewAction::Journey, "Journey of scale", "J", "there, and back again; without force"},
+    KeyBinding{render::Key::A, ViewAction::Analogy, "Millet's analogy", "A", "a magnet on a spring instead"},
     KeyBinding{render::Key::R, ViewAction::BeginAgain, "Begin again", "R", ""},
     KeyBinding{render::Key::H, ViewAction::Home, "Scene back to its place", "H", ""},
     KeyBinding{render::Key::P, ViewAction::HidePanels, "Hide the panels", "P", ""},

@@ -21,6 +21,8 @@ enum class ViewAction {
   BeginAgain,
   Home,
   SwapEyes,
+  Journey,
+  Analogy,
 };
 
 std::optional<ViewAction> action_of(render::Key key);

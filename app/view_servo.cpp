@@ -77,6 +77,8 @@ void ViewServo::take_news(std::int64_t now_ns) {
       [&](const scene::TipEvent& event) {
         cycles_.add(event);
         recorder_.add(event);
+        newest_event_ = event;
+        has_event_ = true;
         core::log_line(text_of(event));
       });
   tell_state();

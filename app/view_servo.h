@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/felt_cycles.h"
@@ -47,6 +48,8 @@ class ViewServo {
   std::optional<std::size_t> material() const;  // the one under the tip
 
   const FeltCycles& cycles() const { return cycles_; }
+  // The newest jump, if there has been one.
+  std::span<const scene::TipEvent> events() const { return {&newest_event_, has_event_ ? 1U : 0U}; }
   void forget_cycles() { cycles_ = FeltCycles(materials_); }
 
  private:
@@ -66,6 +69,8 @@ class ViewServo {
   FeltCycles cycles_;
   std::optional<SessionFolder> folder_;
   SessionRecorder recorder_;
+  scene::TipEvent newest_event_;
+  bool has_event_ = false;
   scene::ServoState told_state_ = scene::ServoState::Disarmed;
 };
 

@@ -10,6 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "app/analogy.h"
+#include "app/journey.h"
+#include "app/jump_cue.h"
+#include "app/wall_marks.h"
 #include "core/result.h"
 #include "input/selection.h"
 #include "input/wand.h"
@@ -62,21 +66,29 @@ class WallScene {
   // Where a simulated person holds the wand.
   glm::dvec3 wand_grip_m() const;
 
+  // Metres of the nanoworld on a metre of the wall, at a place of the journey.
+  double journey_m_per_m(double orders) const;
+
   DrawnScale drawn_scale(std::size_t material, const TipView& tip = {}) const;
 
   // Where the parameters of a material are changed, in the place of its data; and the target that opens it.
   render::PanelPlacement parameter_placement() const;
   render::PanelPlacement parameter_tab_placement() const;
 
-  enum class Instrument { Shown, Hidden };  // hidden in the finale, where the plot takes its room
+  // What stands in the middle: the instrument; in the finale the plot alone; Millet's analogy of what happens; or the
+  // instrument at one true scale.
+  enum class Exhibit { Instrument, Plot, Analogy, Journey };
 
   struct Pose {
     std::optional<std::size_t> material{};  // none: no sample lies on the stage yet
     TipView tip{};
     std::optional<std::size_t> hovered{};
     std::optional<input::WandState> wand{};
-    Instrument instrument = Instrument::Shown;
+    Exhibit exhibit = Exhibit::Instrument;
+    double journey_orders = 0;   // of Exhibit::Journey, as in app/journey.h
+    double veil = 0;             // 0..1: how much of everything has dissolved
     glm::dmat4 navigation{1.0};  // room from room: where sample and instrument have been moved, turned and scaled to
+    std::optional<JumpCue> cue{};
   };
 
   // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.
@@ -87,6 +99,7 @@ class WallScene {
 
  private:
   struct MaterialLook {
+    std::size_t ground;       // of the journey
     scene::NodeIndex sample;  // the frame that is scaled
     scene::NodeIndex swatch;
     scene::NodeIndex label;    // on the swatch, where its name stands
@@ -105,7 +118,15 @@ class WallScene {
   double layout_per_m(const Pose& pose) const;                              // layout units per metre of the nanoworld
   double side_width() const;                                                // of the panels beside the instrument
   glm::dvec3 swatch_place(std::size_t i) const;
-  glm::dvec3 below_tip(const Pose& pose) const;  // the surface's point, sample's frame, layout units
+  glm::dvec3 below_tip(const Pose& pose) const;     // the surface's point, sample's frame, layout units
+  double ruler_m_per_unit(const Pose& pose) const;  // what a layout unit beside the ruler shows; 0: nothing
+  Analogy::Heights analogy_heights(const Pose& pose) const;
+  std::vector<scene::NodeIndex> hidden_roots(const Pose& pose) const;
+  void place_panels(const Pose& pose, render::FrameState& frame) const;
+  void place_swatch_labels(const Pose& pose, render::FrameState& frame) const;
+  void place_analogy_labels(const Pose& pose, render::FrameState& frame) const;
+  void place_haze(const Pose& pose, render::FrameState& frame) const;
+  void place_marks(const Pose& pose, render::FrameState& frame) const;
   std::vector<glm::dmat4> local_transforms(const Pose& pose, render::BeamBend& bend) const;
   std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;
   render::PanelPlacement panel(double left, double bottom, double width, double height) const;
@@ -122,7 +143,10 @@ class WallScene {
   double wall_bottom_ = 0;
 
   scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, stage_{};
-  scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{}, wand_{}, ray_{};
+  scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{}, wand_{}, ray_{}, apex_{};
+  WallMarks marks_;
+  Journey journey_;
+  Analogy analogy_;
   double lever_length_ = 0;  // glTF metres, clamp to tip axis
   double tip_length_ = 0;    // glTF metres, base to apex
   double stage_scale_ = 0;

@@ -86,9 +86,7 @@ std::vector<Surface> rings(const Look& look) {
   }
 
   // the disc's rim
-  add_lathe(result.back(),
-            {{kDiscRadius, -kDiscThickness, 1, 0}, {kDiscRadius, -0.02 * kDiscRadius, 1, 0}},
-            kHalvings);
+  add_lathe(result.back(), {{kDiscRadius, -kDiscThickness, 1, 0}, {kDiscRadius, -0.02 * kDiscRadius, 1, 0}}, kHalvings);
   return result;
 }
 

@@ -75,6 +75,13 @@ TEST_F(Demo, TellsTheServosTimingAndTheFrames) {
   EXPECT_EQ(all["servo"]["lost_samples"], 0);
 }
 
+TEST_F(Demo, DrawsTheJourneyAsAFilmStripOfTen) {
+  const auto strip = support::read_png(folder_->file("journey.png"));
+  ASSERT_TRUE(strip.has_value());
+  EXPECT_EQ(strip->width, 5U * 1440U / 4U);
+  EXPECT_EQ(strip->height, 2U * 1080U / 4U);
+}
+
 TEST_F(Demo, DrawsEveryPictureSideBySideAndNoneIsEmpty) {
   for (const char* name : {"fig5a.png", "fig5b.png", "fig5c.png", "fig5d.png", "fig5e.png"}) {
     const auto image = support::read_png(folder_->file(name));

@@ -179,6 +179,11 @@ TEST_F(ViewTest, OutlivesAStormOfSizesAndTheDeathOfItsServo) {
   xdotool("key 2");
   EXPECT_TRUE(view.says("chosen: Gold")) << view.said();
   xdotool("key F11");
+  xdotool("key a key j");
+  EXPECT_TRUE(view.says("shown: Millet's analogy")) << view.said();
+  EXPECT_TRUE(view.says("the journey of scale was turned round")) << view.said();
+  xdotool("key j key a");
+  EXPECT_TRUE(view.says("shown: the instrument")) << view.said();
   if (std::string(AFM_SERVO_MODE) == "process") {
     EXPECT_EQ(support::run_program("pkill -KILL -P " + std::to_string(view.pid())).exit_code, 0);
     EXPECT_TRUE(view.says("the servo ended unexpectedly")) << view.said();

@@ -154,6 +154,7 @@ TEST_F(WallSceneTest, NineMaterialsStandApartAndAllCanBePicked) {
     if (i < 6) nine.materials.back().look = materials_.materials[i % 3].name;
   }
   const WallScene many = WallScene::load(assets_, nine, screen_, viewer_).value();
+  EXPECT_LE(many.scene().nodes.size(), scene::kMaxNodes) << "what the servo can be told of";
   const auto targets = many.swatch_targets();
   ASSERT_EQ(targets.size(), 9U);
   for (std::size_t aim = 0; aim < targets.size(); ++aim) {
