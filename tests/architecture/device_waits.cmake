@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: Apache-2.0
+# cmake -DROOT=... -P device_waits.cmake
+# The program waits until the graphics device is idle when the size of something changes and at the end, never in a frame:
+# all such waits stand here, by file and number.
+set(allowed
+  "render/src/device.cpp 1"     # wait_idle(), for what destroys
+  "render/src/presenter.cpp 2"  # another size of the window, another surface
+  "render/src/renderer.cpp 1")  # resize()
+file(GLOB sources RELATIVE ${ROOT} ${ROOT}/render/src/*.cpp ${ROOT}/render/src/*.h ${ROOT}/app/*.cpp)
+set(found "")
+foreach(source ${sources})
+  file(STRINGS ${ROOT}/${source} waits REGEX "waitIdle\\(")
+  list(LENGTH waits count)
+  if(count GREATER 0)
+    list(APPEND found "${source} ${count}")
+  endif()
+endforeach()
+if(NOT found STREQUAL allowed)
+  message(FATAL_ERROR "waits for an idle device: ${found}\nallowed: ${allowed}")
+endif()
