@@ -12,6 +12,22 @@
 // before everything; depth is reversed
 #define AFM_FRONT_DEPTH 0.9999
 
+// set 1 of materials with textures or extensions
+#define AFM_BINDING_MATERIAL 0
+#define AFM_BINDING_TEXTURES 1
+
+#define AFM_MOST_LIGHTS 16
+#define AFM_TEXTURE_SLOTS 12
+
+// What a pipeline of such materials does beside sampling the textures whose bits, 1 << slot, are set.
+#define AFM_LOOK_TANGENTS 0x01000u    // the vertices have tangents
+#define AFM_LOOK_UNLIT 0x02000u
+#define AFM_LOOK_MASK 0x04000u        // alphaMode MASK
+#define AFM_LOOK_BLEND 0x08000u       // alphaMode BLEND
+#define AFM_LOOK_CLEARCOAT 0x10000u
+#define AFM_LOOK_IRIDESCENCE 0x20000u
+#define AFM_LOOK_LIGHTS 0x40000u      // the scene has lights of its own
+
 // texels each way
 #define AFM_SHADOW_MAP_SIZE 2048
 
@@ -32,6 +48,11 @@ struct FrameBlock {
   vec4 contact_ring;       // rgb: linear radiance, 0 without a ring; a: its radius in radii of the shade
   vec4 haze;               // x: begin, y: 1 / (end - begin), 0 without a range; z: veil; w: 1 with a range
   vec4 haze_axis;          // what lies behind the haze's origin by its units is dot(axis, (place, 1))
+  vec4 punctual_count;     // x: how many of the lights below there are
+  vec4 punctual_position[AFM_MOST_LIGHTS];   // xyz; w: 1 / range, 0 without end
+  vec4 punctual_direction[AFM_MOST_LIGHTS];  // xyz: unit, along the rays; w: 0 directional, 1 all others
+  vec4 punctual_intensity[AFM_MOST_LIGHTS];  // rgb
+  vec4 punctual_cone[AFM_MOST_LIGHTS];       // x scale and y offset of the cosine to the direction; 0, 1: all around
 };
 
 // One per primitive that a node shows: a uniform block with a dynamic offset. lavapipe reads a storage buffer that is
@@ -43,6 +64,15 @@ struct DrawBlock {
   vec4 emissive;          // rgb: linear radiance; a: highlight, 0 or 1
   vec4 surface;           // metallic, roughness, unlit (0 or 1), unused
   vec4 bend;              // 1 / length, end deflection, both in the node's units; 0, 0: not bent; unused, unused
+};
+
+// One per material with textures or extensions; what scene::Material says, beyond what the DrawBlock holds.
+struct MaterialBlock {
+  vec4 specular;     // rgb: colour, a: weight
+  vec4 clearcoat;    // x factor, y roughness, z scale of its normals, w unused
+  vec4 iridescence;  // x factor, y index of refraction, z and w thickness in nm at a texture's 0 and 1
+  vec4 scales;       // x of normals, y of occlusion, z reflectance at normal incidence by the index of refraction, w alpha cutoff
+  vec4 uv_rows[2 * AFM_TEXTURE_SLOTS];  // two rows a slot: xyz maps (u, v, 1); w of the first row: set 0 or 1
 };
 
 // push constants of a panel: the rectangle in the room

@@ -20,19 +20,7 @@ layout(location = 3) in vec3 shadow_place;  // texture coordinates and depth in 
 
 layout(location = 0) out vec4 out_color;
 
-// Share of the key light that arrives: two bilinear comparisons half a texel off the middle along the diagonal, which weigh
-// seven of the 3x3 texels. Four would weigh all nine, but a CPU device takes a sixth longer for the whole frame. Outside
-// the map everything is lit.
-float key_light_visibility() {
-  const vec3 offset = vec3(vec2(0.5 / float(AFM_SHADOW_MAP_SIZE)), 0.0);
-  return 0.5 * (textureLod(shadow_map, shadow_place - offset, 0.0) + textureLod(shadow_map, shadow_place + offset, 0.0));
-}
-
-// A chosen thing must be seen from the last row: warm body, bright rim.
-vec3 highlight_glow(Surface s, float amount) {
-  float rim = 1.0 - max(dot(s.normal, s.to_eye), 0.0);
-  return amount * (vec3(1.0, 0.55, 0.12) * (0.16 + 1.6 * rim * rim));
-}
+#include "key_light.glsl"
 
 void main() {
   vec4 parameters = draw.surface;

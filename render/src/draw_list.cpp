@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 namespace afm::render {
@@ -58,6 +60,7 @@ void DrawLister::list(const FrameState& frame, const SceneGeometry& geometry, fl
   const auto& draws = geometry.draws();
   const glm::dvec3 viewer = 0.5 * (frame.eyes[0].eye_position_m + frame.eyes[1].eye_position_m);
   list.shadow.clear();
+  list.mirrored.assign(draws.size(), 0);
   list.clipped = false;
   opaque_.clear();
   blended_.clear();
@@ -66,10 +69,11 @@ void DrawLister::list(const FrameState& frame, const SceneGeometry& geometry, fl
     if (!frame.visible.empty() && frame.visible[draw.node] == 0) {
       continue;
     }
-    if (!draw.blended) {
+    if (draw.casts_shadow) {
       list.shadow.push_back(i);
     }
     const auto& room_from_node = frame.room_from_node[draw.node];
+    list.mirrored[i] = glm::determinant(glm::dmat3(room_from_node)) < 0.0 ? 1 : 0;
     const Box box = bent_box(draw, frame);
     bool seen = false;
     for (const auto& eye : frame.eyes) {

@@ -15,6 +15,7 @@ struct DrawList {
   std::vector<std::uint32_t> shadow;   // opaque ones that are shown, seen or not
   std::vector<std::uint32_t> opaque;   // seen by an eye, from near to far, so that what is hidden is not shaded
   std::vector<std::uint32_t> blended;  // seen by an eye, from far to near
+  std::vector<std::uint8_t> mirrored;  // by draw, 1 where the node turns left into right
   bool clipped = false;                // an eye's near plane, or its guard band, cuts through one of those
 
   bool operator==(const DrawList&) const = default;

@@ -51,6 +51,35 @@ glm::mat4 shadow_from_room(const KeyLight& light) {
   return glm::mat4(m);
 }
 
+namespace {
+
+// KHR_lights_punctual, "Angular attenuation": the cosine to the cone's axis is scaled and shifted to 0..1.
+glm::vec4 cone_of(const scene::PunctualLight& light) {
+  if (light.kind != scene::PunctualLight::Kind::Spot) {
+    return {0.0F, 1.0F, 0.0F, 0.0F};
+  }
+  const float outer = std::cos(light.outer_cone_rad);
+  const float scale = 1.0F / std::max(0.001F, std::cos(light.inner_cone_rad) - outer);
+  return {scale, -outer * scale, 0.0F, 0.0F};
+}
+
+void write_lights(const std::vector<PlacedLight>& lights, FrameBlock& block) {
+  static_assert(kMostPlacedLights == AFM_MOST_LIGHTS);
+  const std::size_t count = std::min(lights.size(), kMostPlacedLights);
+  block.punctual_count.x = static_cast<float>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const PlacedLight& placed = lights[i];
+    const bool directional = placed.light.kind == scene::PunctualLight::Kind::Directional;
+    block.punctual_position[i] =
+        glm::vec4(placed.position_m, placed.light.range_m ? 1.0F / *placed.light.range_m : 0.0F);
+    block.punctual_direction[i] = glm::vec4(placed.direction, directional ? 0.0F : 1.0F);
+    block.punctual_intensity[i] = glm::vec4(placed.light.intensity, 0.0F);
+    block.punctual_cone[i] = cone_of(placed.light);
+  }
+}
+
+}  // namespace
+
 FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, const glm::vec2& size, float guard_band) {
   const double shrink = 1.0 / static_cast<double>(guard_band);
   const glm::dmat4 guarded(glm::dvec4(shrink, 0, 0, 0), glm::dvec4(0, shrink, 0, 0), glm::dvec4(0, 0, 1, 0),
@@ -68,6 +97,7 @@ FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, cons
   block.target_size = glm::vec4(size, 1.0F / size);
   write_contact(frame.contact, block);
   write_haze(frame.haze, block);
+  write_lights(frame.lights, block);
   return block;
 }
 

@@ -52,7 +52,7 @@ DeviceImage create_image(const Device& device, const std::string& name, const Im
   result.image = vk::raii::Image(*device, {.imageType = vk::ImageType::e2D,
                                            .format = request.format,
                                            .extent = {request.extent.width, request.extent.height, 1},
-                                           .mipLevels = 1,
+                                           .mipLevels = request.mip_levels,
                                            .arrayLayers = request.layers,
                                            .samples = request.samples,
                                            .usage = request.usage});
@@ -67,13 +67,14 @@ DeviceImage create_image(const Device& device, const std::string& name, const Im
 
 vk::raii::ImageView create_view(const Device& device, const DeviceImage& image, vk::ImageAspectFlags aspect,
                                 std::uint32_t first, std::uint32_t layers) {
-  return vk::raii::ImageView(
-      *device,
-      {.image = *image.image,
-       .viewType = layers > 1 ? vk::ImageViewType::e2DArray : vk::ImageViewType::e2D,
-       .format = image.format,
-       .subresourceRange = {
-           .aspectMask = aspect, .baseMipLevel = 0, .levelCount = 1, .baseArrayLayer = first, .layerCount = layers}});
+  return vk::raii::ImageView(*device, {.image = *image.image,
+                                       .viewType = layers > 1 ? vk::ImageViewType::e2DArray : vk::ImageViewType::e2D,
+                                       .format = image.format,
+                                       .subresourceRange = {.aspectMask = aspect,
+                                                            .baseMipLevel = 0,
+                                                            .levelCount = VK_REMAINING_MIP_LEVELS,
+                                                            .baseArrayLayer = first,
+                                                            .layerCount = layers}});
 }
 
 }  // namespace afm::render

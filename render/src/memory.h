@@ -32,6 +32,7 @@ struct ImageRequest {
   vk::Extent2D extent{};
   vk::ImageUsageFlags usage{};
   std::uint32_t layers = 1;
+  std::uint32_t mip_levels = 1;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
 };
 

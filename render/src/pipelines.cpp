@@ -43,13 +43,19 @@ vk::PipelineRasterizationStateCreateInfo raster_state(const PipelineRequest& req
 }  // namespace
 
 vk::raii::Pipeline create_pipeline(const Device& device, const PipelineRequest& request) {
+  const vk::SpecializationMapEntry look{.constantID = 0, .offset = 0, .size = sizeof(request.look)};
+  const vk::SpecializationInfo specialization{
+      .mapEntryCount = 1, .pMapEntries = &look, .dataSize = sizeof(request.look), .pData = &request.look};
   std::vector<vk::raii::ShaderModule> modules;
   std::vector<vk::PipelineShaderStageCreateInfo> stages;
   modules.push_back(create_module(device, request.vertex_code));
   stages.push_back({.stage = vk::ShaderStageFlagBits::eVertex, .module = *modules.back(), .pName = "main"});
   if (!request.fragment_code.empty()) {
     modules.push_back(create_module(device, request.fragment_code));
-    stages.push_back({.stage = vk::ShaderStageFlagBits::eFragment, .module = *modules.back(), .pName = "main"});
+    stages.push_back({.stage = vk::ShaderStageFlagBits::eFragment,
+                      .module = *modules.back(),
+                      .pName = "main",
+                      .pSpecializationInfo = &specialization});
   }
 
   const vk::PipelineVertexInputStateCreateInfo vertex_input{

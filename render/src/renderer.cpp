@@ -69,10 +69,11 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       detail{.scale = 1.0, .samples = options.samples},
       eyes(device, options),
       geometry(device, scene),
+      materials(device, scene),
       node_count(scene.nodes.size()),
       shadow_map(device),
       frame_set_layout(create_frame_set_layout(device)),
-      scene_pass(device, *frame_set_layout),
+      scene_pass(device, *frame_set_layout, materials, geometry.looks()),
       panels(device, std::move(fonts), *frame_set_layout),
       composer(device, eyes),
       timeline(create_timeline(device)) {
@@ -132,12 +133,12 @@ void Renderer::Parts::record_drawing(std::size_t slot_index) {
   command.begin({});
   mark(command, slot_index, PassClock::Mark::ShadowBegin);
   shadow_map.begin(command);
-  scene_pass.record_shadow(command, {geometry, slot.draws, slot.set(0), slot.draw_stride()});
+  scene_pass.record_shadow(command, {geometry, materials, slot.draws, slot.set(0), slot.draw_stride()});
   shadow_map.end(command);
   mark(command, slot_index, PassClock::Mark::ShadowEnd);
   for (std::size_t pass = 0; pass < drawing.pass_count; ++pass) {
     eyes.begin(command, pass);
-    scene_pass.record_eyes(command, drawing, {geometry, slot.draws, slot.set(pass), slot.draw_stride()});
+    scene_pass.record_eyes(command, drawing, {geometry, materials, slot.draws, slot.set(pass), slot.draw_stride()});
     panels.record_rectangles(command, drawing, slot.set(pass));
     eyes.end(command, pass);
   }
@@ -183,6 +184,16 @@ Renderer::~Renderer() = default;
 core::Result<Renderer> Renderer::create(Context& context, const scene::Scene& scene, const RendererOptions& options) {
   if (auto checked = check_options(context.device(), options); !checked) {
     return tl::unexpected(checked.error());
+  }
+  const auto largest = context.device().physical().getProperties().limits.maxImageDimension2D;
+  for (const scene::Image& image : scene.images) {
+    if (image.width > largest || image.height > largest) {
+      return core::failure(
+          core::ErrorCategory::Failed,
+          fmt::format("cannot show a texture of {}x{} pixels on {}: it does up to {} each way; make it "
+                      "smaller",
+                      image.width, image.height, context.device().name(), largest));
+    }
   }
   auto fonts = load_panel_fonts(options.panel_texels_per_m);
   if (!fonts) {

@@ -35,6 +35,7 @@ struct Renderer::Parts {
   Detail detail;
   EyeTargets eyes;
   SceneGeometry geometry;
+  SceneMaterials materials;
   std::size_t node_count;
   ShadowMap shadow_map;
   vk::raii::DescriptorSetLayout frame_set_layout;

@@ -12,8 +12,8 @@ namespace {
 DrawBlock material_block(const scene::Material& material) {
   DrawBlock block{};
   block.base_color = material.base_color;
-  if (!material.blended) {
-    block.base_color.a = 1.0F;  // glTF: alpha is ignored unless the material blends
+  if (!material.blended && !material.alpha_cutoff) {
+    block.base_color.a = 1.0F;  // glTF: alpha is ignored unless the material blends or is a mask
   }
   block.emissive = glm::vec4(material.emissive, 0.0F);
   block.surface = glm::vec4(material.metallic, material.roughness, material.unlit ? 1.0F : 0.0F, 0.0F);
@@ -34,29 +34,68 @@ void measure_box(const scene::Primitive& primitive, Draw& draw) {
   draw.half_size = 0.5F * (high - low);
 }
 
-// Vertices and indices of all meshes end to end, and where each primitive lies.
+// Vertices and indices of all meshes end to end, those with a look first, and where each primitive lies.
 struct Packed {
   std::vector<scene::Vertex> vertices;
+  std::vector<LookVertex> look_vertices;
   std::vector<std::uint32_t> indices;
+  std::vector<SceneLook> looks;
   std::vector<std::vector<Draw>> draws_of_mesh;
 };
 
+std::uint32_t place_of(const SceneLook& look, std::vector<SceneLook>& looks) {
+  const auto found = std::find(looks.begin(), looks.end(), look);
+  const auto place = static_cast<std::uint32_t>(found - looks.begin());
+  if (found == looks.end()) {
+    looks.push_back(look);
+  }
+  return place;
+}
+
+void pack_look(const scene::Primitive& primitive, std::vector<LookVertex>& vertices) {
+  for (std::size_t i = 0; i < primitive.vertices.size(); ++i) {
+    LookVertex& vertex = vertices.emplace_back();
+    if (!primitive.tangents.empty()) {
+      vertex.tangent = primitive.tangents[i];
+    }
+    if (!primitive.texture_coordinates.empty()) {
+      vertex.coordinates = glm::vec4(primitive.texture_coordinates[i].set_0, primitive.texture_coordinates[i].set_1);
+    }
+  }
+}
+
+void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive, const std::optional<SceneLook>& look,
+                    Packed& packed, std::vector<Draw>& draws) {
+  const auto& material = scene.materials.at(primitive.material);
+  draws.push_back({.node = 0,
+                   .first_index = static_cast<std::uint32_t>(packed.indices.size()),
+                   .index_count = static_cast<std::uint32_t>(primitive.indices.size()),
+                   .first_vertex = static_cast<std::int32_t>(packed.vertices.size()),
+                   .double_sided = material.double_sided,
+                   .blended = material.blended,
+                   .casts_shadow = !material.blended && primitive.topology == scene::Topology::Triangles,
+                   .material = primitive.material,
+                   .block = material_block(material)});
+  if (look) {
+    draws.back().look = place_of(*look, packed.looks);
+    pack_look(primitive, packed.look_vertices);
+  }
+  measure_box(primitive, draws.back());
+  packed.vertices.insert(packed.vertices.end(), primitive.vertices.begin(), primitive.vertices.end());
+  packed.indices.insert(packed.indices.end(), primitive.indices.begin(), primitive.indices.end());
+}
+
 Packed pack(const scene::Scene& scene) {
   Packed packed;
-  for (const auto& mesh : scene.meshes) {
-    auto& draws = packed.draws_of_mesh.emplace_back();
-    for (const auto& primitive : mesh.primitives) {
-      const auto& material = scene.materials.at(primitive.material);
-      draws.push_back({.node = 0,
-                       .first_index = static_cast<std::uint32_t>(packed.indices.size()),
-                       .index_count = static_cast<std::uint32_t>(primitive.indices.size()),
-                       .first_vertex = static_cast<std::int32_t>(packed.vertices.size()),
-                       .double_sided = material.double_sided,
-                       .blended = material.blended,
-                       .block = material_block(material)});
-      measure_box(primitive, draws.back());
-      packed.vertices.insert(packed.vertices.end(), primitive.vertices.begin(), primitive.vertices.end());
-      packed.indices.insert(packed.indices.end(), primitive.indices.begin(), primitive.indices.end());
+  packed.draws_of_mesh.resize(scene.meshes.size());
+  for (const bool with_look : {true, false}) {
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+      for (const auto& primitive : scene.meshes[i].primitives) {
+        const auto look = look_of(scene, primitive);
+        if (look.has_value() == with_look) {
+          pack_primitive(scene, primitive, look, packed, packed.draws_of_mesh[i]);
+        }
+      }
     }
   }
 
@@ -72,6 +111,7 @@ Packed pack(const scene::Scene& scene) {
 
 SceneGeometry::SceneGeometry(const Device& device, const scene::Scene& scene) {
   const Packed packed = pack(scene);
+  looks_ = packed.looks;
   for (scene::NodeIndex index = 0; index < scene.nodes.size(); ++index) {
     const auto& node = scene.nodes[index];
     parents_.push_back(node.parent);
@@ -87,12 +127,19 @@ SceneGeometry::SceneGeometry(const Device& device, const scene::Scene& scene) {
       std::count_if(draws_.begin(), draws_.end(), [](const Draw& draw) { return !draw.blended; }));
   vertices_ = upload_buffer(device, "scene vertices", std::as_bytes(std::span(packed.vertices)),
                             vk::BufferUsageFlagBits::eVertexBuffer);
+  if (!looks_.empty()) {
+    look_vertices_ = upload_buffer(device, "scene look vertices", std::as_bytes(std::span(packed.look_vertices)),
+                                   vk::BufferUsageFlagBits::eVertexBuffer);
+  }
   indices_ = upload_buffer(device, "scene indices", std::as_bytes(std::span(packed.indices)),
                            vk::BufferUsageFlagBits::eIndexBuffer);
 }
 
 void SceneGeometry::bind(const vk::raii::CommandBuffer& command) const {
   command.bindVertexBuffers(0, *vertices_.buffer, vk::DeviceSize{0});
+  if (!looks_.empty()) {
+    command.bindVertexBuffers(1, *look_vertices_.buffer, vk::DeviceSize{0});
+  }
   command.bindIndexBuffer(*indices_.buffer, 0, vk::IndexType::eUint32);
 }
 
@@ -107,6 +154,28 @@ const std::array<vk::VertexInputAttributeDescription, 3>& SceneGeometry::attribu
       {{.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(scene::Vertex, position)},
        {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(scene::Vertex, normal)},
        {.location = 2, .format = vk::Format::eR32G32B32A32Sfloat, .offset = offsetof(scene::Vertex, color)}}};
+  return kAttributes;
+}
+
+const std::array<vk::VertexInputBindingDescription, 2>& SceneGeometry::look_bindings() {
+  static const std::array<vk::VertexInputBindingDescription, 2> kBindings{
+      {bindings()[0], {.binding = 1, .stride = sizeof(LookVertex), .inputRate = vk::VertexInputRate::eVertex}}};
+  return kBindings;
+}
+
+const std::array<vk::VertexInputAttributeDescription, 5>& SceneGeometry::look_attributes() {
+  static const std::array<vk::VertexInputAttributeDescription, 5> kAttributes{
+      {attributes()[0],
+       attributes()[1],
+       attributes()[2],
+       {.location = 3,
+        .binding = 1,
+        .format = vk::Format::eR32G32B32A32Sfloat,
+        .offset = offsetof(LookVertex, tangent)},
+       {.location = 4,
+        .binding = 1,
+        .format = vk::Format::eR32G32B32A32Sfloat,
+        .offset = offsetof(LookVertex, coordinates)}}};
   return kAttributes;
 }
 

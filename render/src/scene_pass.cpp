@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_pass.h"
 
+#include <array>
+
 #include "pipelines.h"
 #include "shaders/background_frag.h"
 #include "shaders/fullscreen_vert.h"
+#include "shaders/material_frag.h"
+#include "shaders/material_vert.h"
 #include "shaders/scene_frag.h"
 #include "shaders/scene_vert.h"
 #include "shaders/shadow_vert.h"
@@ -37,6 +41,36 @@ PipelineRequest background_request(vk::PipelineLayout layout) {
           .depth_compare = vk::CompareOp::eEqual};  // only where the depth is still the cleared one
 }
 
+vk::PrimitiveTopology topology(scene::Topology topology) {
+  switch (topology) {
+    case scene::Topology::Points:
+      return vk::PrimitiveTopology::ePointList;
+    case scene::Topology::Lines:
+      return vk::PrimitiveTopology::eLineList;
+    default:
+      return vk::PrimitiveTopology::eTriangleList;
+  }
+}
+
+PipelineRequest look_request(vk::PipelineLayout layout, const SceneLook& look) {
+  return {.name = "look",
+          .vertex_code = shaders::material_vert,
+          .fragment_code = shaders::material_frag,
+          .layout = layout,
+          .bindings = SceneGeometry::look_bindings(),
+          .attributes = SceneGeometry::look_attributes(),
+          .topology = topology(look.topology),
+          .blending = look.blended ? Blending::Premultiplied : Blending::Opaque,
+          .depth = look.blended ? DepthUse::TestOnly : DepthUse::TestAndWrite,
+          .look = look.bits};
+}
+
+vk::raii::PipelineLayout create_look_layout(const Device& device, vk::DescriptorSetLayout frame,
+                                            vk::DescriptorSetLayout material) {
+  const std::array sets{frame, material};
+  return create_pipeline_layout(device, {.sets = sets});
+}
+
 vk::raii::Pipeline create_shadow_pipeline(const Device& device, vk::PipelineLayout layout) {
   return create_pipeline(device, {.name = "shadow",
                                   .vertex_code = shaders::shadow_vert,
@@ -52,19 +86,41 @@ vk::raii::Pipeline create_shadow_pipeline(const Device& device, vk::PipelineLayo
 
 }  // namespace
 
-ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout)
+ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout, const SceneMaterials& materials,
+                     const std::vector<SceneLook>& looks)
     : layout_(create_pipeline_layout(device, {.sets = {&frame_set_layout, 1}})),
+      look_layout_(create_look_layout(device, frame_set_layout, materials.layout())),
       shadow_(create_shadow_pipeline(device, *layout_)),
       opaque_(device, scene_request(*layout_, Blending::Opaque)),
       background_(device, background_request(*layout_)),
-      blended_(device, scene_request(*layout_, Blending::Premultiplied)) {}
+      blended_(device, scene_request(*layout_, Blending::Premultiplied)) {
+  for (const SceneLook& look : looks) {
+    looks_.emplace_back(device, look_request(*look_layout_, look));
+  }
+}
 
-void ScenePass::record_draws(const vk::raii::CommandBuffer& command, const Input& input,
-                             std::span<const std::uint32_t> draws) const {
+void ScenePass::set_state(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t i) const {
+  const Draw& draw = input.geometry.draws()[i];
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, i * input.draw_stride);
+  command.setCullMode(draw.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+  command.setFrontFace(input.draws.mirrored[i] != 0 ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+}
+
+void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input,
+                               std::span<const std::uint32_t> draws, EyePipeline& plain) {
+  const EyePipeline* bound = nullptr;
   for (const std::uint32_t i : draws) {
     const Draw& draw = input.geometry.draws()[i];
-    command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, i * input.draw_stride);
-    command.setCullMode(draw.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+    EyePipeline& pipeline = draw.look ? looks_[*draw.look] : plain;
+    if (&pipeline != bound) {
+      command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
+      bound = &pipeline;
+    }
+    set_state(command, input, i);
+    if (draw.look) {
+      command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *look_layout_, 1, input.materials.set(draw.material),
+                                 nullptr);
+    }
     command.drawIndexed(draw.index_count, 1, draw.first_index, draw.first_vertex, 0);
   }
 }
@@ -72,24 +128,24 @@ void ScenePass::record_draws(const vk::raii::CommandBuffer& command, const Input
 void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Input& input) const {
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, *shadow_);
   input.geometry.bind(command);
-  record_draws(command, input, input.draws.shadow);
+  for (const std::uint32_t i : input.draws.shadow) {
+    const Draw& draw = input.geometry.draws()[i];
+    set_state(command, input, i);
+    command.drawIndexed(draw.index_count, 1, draw.first_index, draw.first_vertex, 0);
+  }
 }
 
 void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input) {
-  const auto bind = [&](EyePipeline& pipeline) {
-    command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
-  };
-  bind(opaque_);
   input.geometry.bind(command);
-  record_draws(command, input, input.draws.opaque);
+  record_in_eyes(command, drawing, input, input.draws.opaque, opaque_);
 
-  bind(background_);
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, background_.get(drawing.pass, drawing.samples));
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, std::uint32_t{0});
   command.setCullMode(vk::CullModeFlagBits::eNone);
   command.draw(4, 1, 0, 0);
 
-  bind(blended_);
-  record_draws(command, input, input.draws.blended);
+  record_in_eyes(command, drawing, input, input.draws.blended, blended_);
+  command.setFrontFace(vk::FrontFace::eCounterClockwise);
 }
 
 }  // namespace afm::render

@@ -6,16 +6,19 @@
 #include "draw_list.h"
 #include "eye_targets.h"
 #include "scene_geometry.h"
+#include "scene_materials.h"
 
 namespace afm::render {
 
 // The pipelines that draw a SceneGeometry: into the shadow map, and into the eyes with the background behind.
 class ScenePass {
  public:
-  ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout);
+  ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout, const SceneMaterials& materials,
+            const std::vector<SceneLook>& looks);
 
   struct Input {
     const SceneGeometry& geometry;
+    const SceneMaterials& materials;
     const DrawList& draws;
     vk::DescriptorSet frame_set;
     std::uint32_t draw_stride = 0;  // as FrameSlot::draw_stride()
@@ -24,14 +27,17 @@ class ScenePass {
   void record_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input);
 
  private:
-  void record_draws(const vk::raii::CommandBuffer& command, const Input& input,
-                    std::span<const std::uint32_t> draws) const;
+  void set_state(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t draw) const;
+  void record_in_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input,
+                      std::span<const std::uint32_t> draws, EyePipeline& plain);
 
   vk::raii::PipelineLayout layout_;
+  vk::raii::PipelineLayout look_layout_;
   vk::raii::Pipeline shadow_;
   EyePipeline opaque_;
   EyePipeline background_;
   EyePipeline blended_;
+  std::vector<EyePipeline> looks_;  // as SceneGeometry::looks()
 };
 
 }  // namespace afm::render

@@ -16,6 +16,8 @@ namespace {
 constexpr std::uint64_t kMostNodes = 250'000;
 constexpr std::uint64_t kMostDrawnCorners = 48'000'000;
 constexpr std::uint64_t kMostDraws = 100'000;
+// Of meshes with skins or morph targets, each of which is copied when it is posed.
+constexpr std::uint64_t kMostMovedVertices = 4'000'000;
 
 // The children of every node, each of which has at most one parent and is not its own ancestor.
 std::vector<std::vector<std::uint32_t>> read_children(const std::vector<JsonElement>& nodes,
@@ -138,9 +140,17 @@ class NodeReader {
 
   void count_drawn(const JsonElement& element, std::uint32_t mesh, std::uint64_t times) {
     std::uint64_t corners = 0;
-    for (const Primitive& primitive : scene_.meshes[mesh].primitives) corners += primitive.indices.size();
+    for (const Primitive& primitive : scene_.meshes[mesh].primitives) {
+      corners += primitive.indices.size();
+      if (!primitive.influences.empty() || !primitive.targets.empty()) {
+        moved_vertices_ += times * primitive.vertices.size();
+      }
+    }
     drawn_corners_ += times * corners;
     draws_ += times * scene_.meshes[mesh].primitives.size();
+    if (moved_vertices_ > kMostMovedVertices) {
+      element.fail(fmt::format("moves more than {} vertices together by skins and morph targets", kMostMovedVertices));
+    }
     if (drawn_corners_ > kMostDrawnCorners || draws_ > kMostDraws || scene_.nodes.size() + times > kMostNodes) {
       element.fail(fmt::format("shows too much: more than {} nodes, {} primitives or {} corners together", kMostNodes,
                                kMostDraws, kMostDrawnCorners));
@@ -192,7 +202,7 @@ class NodeReader {
   std::vector<JsonElement> elements_;
   NodePlaces places_;
   std::size_t skins_, cameras_, lights_ = 0;
-  std::uint64_t drawn_corners_ = 0, draws_ = 0;
+  std::uint64_t drawn_corners_ = 0, draws_ = 0, moved_vertices_ = 0;
 };
 
 void read_skins(const JsonElement& root, const GltfAccessors& accessors, const NodePlaces& places, GltfBudget& budget,

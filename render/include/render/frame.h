@@ -52,6 +52,16 @@ struct Haze {
   glm::dvec3 away{0.0, 0.0, -1.0};  // unit; distances count along it
 };
 
+// A light of the scene, placed in the room (KHR_lights_punctual). It adds to the environment and casts no shadow.
+struct PlacedLight {
+  scene::PunctualLight light;
+  glm::vec3 position_m{0.0F};
+  glm::vec3 direction{0.0F, 0.0F, -1.0F};  // of its rays, unit
+};
+
+// What is beyond these is not drawn.
+inline constexpr std::size_t kMostPlacedLights = 16;
+
 // A rectangle in the room that shows a drawn panel: lower-left corner, and edges to the right and up, in metres.
 // Without area the panel is not shown.
 struct PanelPlacement {
@@ -180,6 +190,7 @@ struct FrameState {
   KeyLight key_light;
   ContactMark contact;
   Haze haze;
+  std::vector<PlacedLight> lights;  // only if the scene has lights
   ForcePanel force_panel;
   PanelPlacement force_placement;
   DataPanel data_panel;

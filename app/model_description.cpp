@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <ostream>
+
+#include "app/model_view.h"
+#include "scene/pose.h"
+
+namespace afm::app {
+
+namespace {
+
+// A stranger's name must not break a line or reach a terminal as a control sequence.
+std::string quoted(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, '?');
+  return '"' + name.substr(0, 80) + '"';
+}
+
+struct Counts {
+  std::size_t vertices = 0, triangles = 0, lines = 0, points = 0;
+  std::size_t targets = 0;
+};
+
+Counts count(const scene::Scene& scene) {
+  Counts counts;
+  for (const scene::Mesh& mesh : scene.meshes) {
+    counts.targets += mesh.weights.size();
+    for (const scene::Primitive& primitive : mesh.primitives) {
+      counts.vertices += primitive.vertices.size();
+      counts.triangles += primitive.topology == scene::Topology::Triangles ? primitive.indices.size() / 3 : 0;
+      counts.lines += primitive.topology == scene::Topology::Lines ? primitive.indices.size() / 2 : 0;
+      counts.points += primitive.topology == scene::Topology::Points ? primitive.indices.size() : 0;
+    }
+  }
+  return counts;
+}
+
+void describe_parts(const scene::Scene& scene, std::ostream& out) {
+  const Counts counts = count(scene);
+  out << fmt::format(
+      "geometry: {} nodes, {} meshes, {} vertices, {} triangles, {} lines, {} points, {} morph targets, {} skins\n",
+      scene.nodes.size(), scene.meshes.size(), counts.vertices, counts.triangles, counts.lines, counts.points,
+      counts.targets, scene.skins.size());
+  for (const scene::Material& material : scene.materials) {
+    const auto textures = std::count_if(material.textures.begin(), material.textures.end(),
+                                        [](const scene::TextureUse& use) { return use.texture.has_value(); });
+    out << fmt::format("material: {}, {} textures{}{}{}\n", quoted(material.name), textures,
+                       material.unlit ? ", unlit" : "", material.blended ? ", blended" : "",
+                       material.alpha_cutoff ? ", mask" : "");
+  }
+  for (const scene::Image& image : scene.images) {
+    out << fmt::format("image: {} x {} pixels\n", image.width, image.height);
+  }
+  for (const scene::Animation& animation : scene.animations) {
+    out << fmt::format("animation: {}, {:g} s, moves {} nodes\n", quoted(animation.name), animation.length_s,
+                       animation.nodes.size());
+  }
+  for (const scene::PunctualLight& light : scene.lights) out << fmt::format("light: {}\n", quoted(light.name));
+  for (const std::string& variant : scene.variants) out << fmt::format("variant: {}\n", quoted(variant));
+}
+
+}  // namespace
+
+core::Result<void> describe_model(const std::string& file, std::ostream& out) {
+  scene::GltfNotes notes;
+  const auto scene = scene::load_gltf(file, &notes);
+  if (!scene) return tl::unexpected(scene.error());
+  out << fmt::format("file: {}\n", file);
+  if (!notes.generator.empty()) out << fmt::format("written by: {}\n", quoted(notes.generator));
+  describe_parts(*scene, out);
+  for (const scene::Node& node : scene->nodes) {
+    if (!node.camera) continue;
+    const scene::Camera& camera = scene->cameras[*node.camera];
+    out << fmt::format("camera: {}\n", quoted(camera.name.empty() ? node.name : camera.name));
+  }
+  for (const char* role : {"tip", "base", "surface"}) {
+    if (const auto node = scene::find_role(*scene, role)) {
+      out << fmt::format("role {}: node {}\n", role, quoted(scene->nodes[*node].name));
+    }
+  }
+  for (const std::string& extension : notes.extensions) out << fmt::format("understood: {}\n", quoted(extension));
+  for (const std::string& ignored : notes.ignored) out << fmt::format("ignored: {}\n", ignored);
+  return {};
+}
+
+}  // namespace afm::app

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "core/result.h"
+#include "render/frame.h"
+#include "scene/gltf_loader.h"
+#include "scene/scene.h"
+
+namespace afm::app {
+
+// Which model is shown, and how.
+struct ModelChoice {
+  std::string file;
+  std::optional<double> at_s;    // of its animations; none: at rest
+  std::string camera = "auto";   // a camera's or its node's name, or "auto"
+  std::string variant;           // of KHR_materials_variants; empty: the file's own materials
+  glm::uvec2 size_px{960, 720};  // of an eye's picture
+};
+
+// A model alone, ready to be drawn.
+struct ModelView {
+  scene::Scene scene;
+  render::FrameState frame;
+};
+
+// Loads a model, poses it, and places it behind a wall as its camera, or one that has all of it in view, sees it: what
+// the camera looks at lies in the wall's plane, two eyes look from where it stands. Errors name what is wrong: a file
+// that cannot be read, a camera or a variant that the model has not.
+core::Result<ModelView> open_model(const ModelChoice& choice);
+
+// What is in a model and what of it is not shown, a line each. Fails as load_gltf() does.
+core::Result<void> describe_model(const std::string& file, std::ostream& out);
+
+}  // namespace afm::app

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials with textures or extensions: glTF 2.0, appendix B, in the same studio as scene.frag.
+#version 460
+#extension GL_EXT_multiview : require
+#extension GL_GOOGLE_include_directive : require
+#include "interface.glsl.h"
+#include "background.glsl"
+#include "contact.glsl"
+#include "lighting.glsl"
+#include "thin_film.glsl"
+#include "tone.glsl"
+#include "view.glsl"
+
+layout(constant_id = 0) const uint kLook = 0;
+
+layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
+layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
+layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map;
+layout(set = 1, binding = AFM_BINDING_MATERIAL, std140) uniform Material { MaterialBlock material; };
+layout(set = 1, binding = AFM_BINDING_TEXTURES) uniform sampler2D textures[AFM_TEXTURE_SLOTS];
+
+layout(location = 0) in vec3 room_position;
+layout(location = 1) centroid in vec3 room_normal;
+layout(location = 2) in vec4 vertex_color;
+layout(location = 3) in vec3 shadow_place;
+layout(location = 4) in vec4 room_tangent;
+layout(location = 5) in vec4 texture_coordinates;
+
+layout(location = 0) out vec4 out_color;
+
+#include "key_light.glsl"
+
+// in the order of scene::TextureSlot
+const int kBaseColor = 0, kMetallicRoughness = 1, kNormal = 2, kOcclusion = 3, kEmissive = 4, kSpecular = 5,
+          kSpecularColor = 6, kClearcoat = 7, kClearcoatRoughness = 8, kClearcoatNormal = 9, kIridescence = 10,
+          kIridescenceThickness = 11;
+
+bool looks(uint bit) { return (kLook & bit) != 0u; }
+
+vec2 place_in(int slot) {
+  vec4 row = material.uv_rows[2 * slot];
+  vec3 uv = vec3(row.w > 0.5 ? texture_coordinates.zw : texture_coordinates.xy, 1.0);
+  return vec2(dot(row.xyz, uv), dot(material.uv_rows[2 * slot + 1].xyz, uv));
+}
+
+// White, where the material has no such texture. Every access is constant, so that the compiler leaves the others out.
+#define AFM_TEXEL(slot) (looks(1u << slot) ? texture(textures[slot], place_in(slot)) : vec4(1.0))
+
+// The normal that a texture gives, in the frame of the vertices' tangents, or else of the texture's own coordinates across
+// the pixel: dP/du, and its perpendicular on the side where v decreases.
+vec3 mapped_normal(vec3 normal, vec3 texel, float scale, vec2 uv) {
+  vec3 tangent = room_tangent.xyz;
+  float side = room_tangent.w;
+  if (!looks(AFM_LOOK_TANGENTS)) {
+    vec3 dx = dFdx(room_position), dy = dFdy(room_position);
+    vec2 uv_dx = dFdx(uv), uv_dy = dFdy(uv);
+    float area = uv_dx.x * uv_dy.y - uv_dy.x * uv_dx.y;
+    float turn = area < 0.0 ? -1.0 : 1.0;
+    tangent = turn * (uv_dy.y * dx - uv_dx.y * dy);
+    side = dot(cross(tangent, turn * (uv_dx.x * dy - uv_dy.x * dx)), normal) < 0.0 ? 1.0 : -1.0;
+  }
+  tangent -= normal * dot(normal, tangent);
+  if (dot(tangent, tangent) < 1e-24) {
+    return normal;
+  }
+  tangent = normalize(tangent);
+  vec3 local = (texel * 2.0 - 1.0) * vec3(scale, scale, 1.0);
+  return normalize(tangent * local.x + cross(normal, tangent) * side * local.y + normal * local.z);
+}
+
+// KHR_lights_punctual: inverse square, windowed to the range; the cone's cosine by a scale and an offset.
+vec3 punctual_light(int i, out vec3 to_light) {
+  vec4 position = frame.punctual_position[i];
+  vec4 direction = frame.punctual_direction[i];
+  vec4 cone = frame.punctual_cone[i];
+  to_light = -direction.xyz;
+  float strength = 1.0;
+  if (direction.w > 0.5) {
+    vec3 away = position.xyz - room_position;
+    float distance2 = max(dot(away, away), 1e-12);
+    float within = distance2 * position.w * position.w;
+    to_light = away * inversesqrt(distance2);
+    strength = clamp(1.0 - within * within, 0.0, 1.0) / distance2;
+    float angle = clamp(dot(direction.xyz, -to_light) * cone.x + cone.y, 0.0, 1.0);
+    strength *= angle * angle;
+  }
+  return frame.punctual_intensity[i].rgb * strength;
+}
+
+// All light that a surface sends to the eye.
+vec3 lit(Surface s, Key key, float occlusion) {
+  vec3 radiance = occlusion * studio_reflection(s, key) +
+                  key_reflection(s, key.axis) * frame.light_radiance.rgb * key.visibility;
+  if (looks(AFM_LOOK_LIGHTS)) {
+    for (int i = 0; i < int(frame.punctual_count.x); ++i) {
+      vec3 to_light;
+      vec3 light = punctual_light(i, to_light);
+      radiance += light * key_reflection(s, to_light);
+    }
+  }
+  return radiance;
+}
+
+void main() {
+  vec4 color = vertex_color * AFM_TEXEL(kBaseColor);
+  if (looks(AFM_LOOK_MASK) && color.a < material.scales.w) {
+    discard;
+  }
+  float alpha = looks(AFM_LOOK_BLEND) ? color.a : 1.0;
+  vec3 emitted = draw.emissive.rgb * AFM_TEXEL(kEmissive).rgb;
+  vec3 to_eye = normalize(view_eye_position(frame) - room_position);
+  vec3 face = normalize(room_normal);
+  face = gl_FrontFacing ? face : -face;
+  vec3 normal = face;
+  if (looks(1u << kNormal)) {
+    normal = mapped_normal(face, AFM_TEXEL(kNormal).xyz, material.scales.x, place_in(kNormal));
+  }
+
+  vec4 metal_rough = AFM_TEXEL(kMetallicRoughness);
+  float metallic = draw.surface.x * metal_rough.b;
+  float roughness = draw.surface.y * metal_rough.g;
+  vec3 dielectric = min(material.scales.z * material.specular.rgb * AFM_TEXEL(kSpecularColor).rgb, vec3(1.0)) *
+                    material.specular.a * AFM_TEXEL(kSpecular).a;
+  Surface s = Surface(normal, to_eye, color.rgb * (1.0 - metallic), mix(dielectric, color.rgb, metallic), roughness);
+  vec3 own_light = emitted + highlight_glow(s, draw.emissive.a);
+  if (looks(AFM_LOOK_UNLIT)) {
+    out_color = vec4(srgb_from_linear(min(color.rgb + own_light, vec3(1.0))) * alpha, alpha);
+    return;
+  }
+
+  if (looks(AFM_LOOK_IRIDESCENCE)) {
+    float share = material.iridescence.x * AFM_TEXEL(kIridescence).r;
+    float nm = mix(material.iridescence.z, material.iridescence.w, AFM_TEXEL(kIridescenceThickness).g);
+    vec3 film = thin_film_reflectance(material.iridescence.y, max(dot(normal, to_eye), 1e-3), nm * 1e-9, s.specular);
+    s.specular = mix(s.specular, film, share);
+  }
+  Key key = Key(frame.light_direction.xyz, key_light_visibility());
+  float occlusion = mix(1.0, AFM_TEXEL(kOcclusion).r, material.scales.y);
+  vec3 radiance = lit(s, key, occlusion) + emitted;
+  if (looks(AFM_LOOK_CLEARCOAT)) {
+    vec3 coat_normal = face;
+    if (looks(1u << kClearcoatNormal)) {
+      coat_normal = mapped_normal(face, AFM_TEXEL(kClearcoatNormal).xyz, material.clearcoat.z, place_in(kClearcoatNormal));
+    }
+    float coat = material.clearcoat.x * AFM_TEXEL(kClearcoat).r;
+    float coat_roughness = material.clearcoat.y * AFM_TEXEL(kClearcoatRoughness).g;
+    float through = 1.0 - coat * schlick(vec3(0.04), max(dot(coat_normal, to_eye), 0.0)).x;
+    Surface lacquer = Surface(coat_normal, to_eye, vec3(0.0), vec3(0.04), coat_roughness);
+    radiance = radiance * through + coat * lit(lacquer, key, occlusion);
+  }
+  vec3 shown = tone_map(radiance + highlight_glow(s, draw.emissive.a));
+  out_color = vec4(srgb_from_linear(shown) * alpha, alpha);
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_EXT_multiview : require
+#extension GL_GOOGLE_include_directive : require
+#include "interface.glsl.h"
+#include "beam.glsl"
+#include "view.glsl"
+
+layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
+layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 color;
+layout(location = 3) in vec4 tangent;      // w: the bitangent's sign
+layout(location = 4) in vec4 coordinates;  // of both sets
+
+layout(location = 0) out vec3 room_position;
+layout(location = 1) centroid out vec3 room_normal;
+layout(location = 2) out vec4 vertex_color;
+layout(location = 3) out vec3 shadow_place;
+layout(location = 4) out vec4 room_tangent;
+layout(location = 5) out vec4 texture_coordinates;
+
+#include "placing.glsl"
+
+void main() {
+  room_position = (draw.room_from_node * vec4(bent_position(position), 1.0)).xyz;
+  room_normal = normal_in_room(position, normal);
+  room_tangent = vec4((draw.room_from_node * vec4(tangent.xyz, 0.0)).xyz, tangent.w);
+  vertex_color = color * draw.base_color;
+  texture_coordinates = coordinates;
+  shadow_place = place_in_shadow_map(room_position, normalize(room_normal));
+  gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
+  gl_PointSize = 1.0;
+}
