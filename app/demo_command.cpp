@@ -334,8 +334,15 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
                    "before one that can move a mass")
       ->capture_default_str()
       ->type_name("NAME");
-  command->add_option("--probe", options->probe, "a lever and tip of assets/probes.toml instead of the materials' own")
-      ->type_name("NAME");
+  command
+      ->add_option_function<std::string>(
+          "--probe",
+          [options](const std::string& text) { (is_model_file(text) ? options->files.probe : options->probe) = text; },
+          "a lever and tip of assets/probes.toml instead of the materials' own; or a glTF model of your own "
+          "cantilever, "
+          ".glb or .gltf, which changes the picture alone")
+      ->type_name("NAME|FILE");
+  add_own_sample_option(*command, options->files);
   command
       ->add_option("--vary", options->vary,
                    "feel every sample once more at each of n values of one parameter, changed while the servo runs: "

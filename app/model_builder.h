@@ -41,6 +41,11 @@ class ModelBuilder {
   scene::NodeIndex model_in_frame_of(const std::string& inner, const std::string& file, const std::string& name,
                                      scene::NodeIndex parent);
 
+  // A model that is loaded already.
+  scene::NodeIndex part(const scene::Scene& part, std::string_view name, scene::NodeIndex parent) {
+    return scene::append(scene_, part, name, parent, glm::dmat4(1.0));
+  }
+
   // A node by its whole name, "probe/tip".
   scene::NodeIndex node(const std::string& name);
 

@@ -24,7 +24,6 @@ using glm::dmat4;
 using glm::dvec3;
 
 constexpr double kWallHeightM = 2.286;  // the paper's
-constexpr double kEyesApartM = 0.063;
 constexpr double kAutoFieldOfViewRad = 0.7;
 constexpr double kAutoAzimuthRad = 0.35;  // from the front, a little from the right and from above
 constexpr double kAutoElevationRad = 0.22;
@@ -55,6 +54,10 @@ Sphere bounds_of(const scene::Scene& scene, const std::vector<dmat4>& scene_from
   return sphere;
 }
 
+double aspect_of(const ModelChoice& choice) {
+  return static_cast<double>(choice.size_px.x) / static_cast<double>(choice.size_px.y);
+}
+
 // How the model is looked at: the pose looks along -z with +y up, in the model's own metres.
 struct Look {
   dmat4 scene_from_camera{1.0};
@@ -76,7 +79,7 @@ Look automatic_look(const Sphere& bounds, double aspect) {
 
 core::Result<Look> chosen_look(const scene::Scene& scene, const std::vector<dmat4>& scene_from_node,
                                const Sphere& bounds, const ModelChoice& choice) {
-  if (choice.camera == "auto") return automatic_look(bounds, double{choice.size_px.x * 1.0} / choice.size_px.y);
+  if (choice.camera == "auto") return automatic_look(bounds, aspect_of(choice));
   std::string names;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const scene::Node& node = scene.nodes[i];
@@ -108,7 +111,9 @@ double metres_of_wall(const Look& look) {
   return kWallHeightM / height_m;
 }
 
-core::Result<void> set_perspective_eyes(const Look& look, double scale, double aspect, render::FrameState& frame) {
+core::Result<void> set_perspective_eyes(const Look& look, double scale, const ModelChoice& choice,
+                                        render::FrameState& frame) {
+  const double aspect = aspect_of(choice);
   const double half_height = 0.5 * kWallHeightM, half_width = half_height * aspect;
   const scene::Screen screen{.name = "model",
                              .lower_left = {-half_width, -half_height, 0.0},
@@ -118,7 +123,7 @@ core::Result<void> set_perspective_eyes(const Look& look, double scale, double a
   const double near_m =
       std::clamp(static_cast<double>(look.camera.near_m) * scale, 1e-3 * distance_m, 0.5 * distance_m);
   for (std::size_t i = 0; i < 2; ++i) {
-    const dvec3 eye((i == 0 ? -0.5 : 0.5) * kEyesApartM, 0.0, distance_m);
+    const dvec3 eye((i == 0 ? -0.5 : 0.5) * choice.eyes_apart_m, 0.0, distance_m);
     const auto view = scene::off_axis_view(screen, eye, scene::DepthConvention::VulkanReversedInfinite, near_m, 1.0);
     if (!view) return tl::unexpected(view.error());
     frame.eyes[i] = *view;
@@ -197,7 +202,6 @@ core::Result<ModelView> open_model(const ModelChoice& choice) {
   }
   const std::vector<dmat4> scene_from_node = scene::scene_from_nodes(view.scene);
   const Sphere bounds = bounds_of(view.scene, scene_from_node);
-  const double aspect = static_cast<double>(choice.size_px.x) / static_cast<double>(choice.size_px.y);
   const auto look = chosen_look(view.scene, scene_from_node, bounds, choice);
   if (!look) return tl::unexpected(look.error());
 
@@ -207,9 +211,9 @@ core::Result<ModelView> open_model(const ModelChoice& choice) {
   render::FrameState& frame = view.frame;
   for (const dmat4& node : scene_from_node) frame.room_from_node.push_back(room_from_scene * node);
   if (look->camera.perspective) {
-    if (auto done = set_perspective_eyes(*look, scale, aspect, frame); !done) return tl::unexpected(done.error());
+    if (auto done = set_perspective_eyes(*look, scale, choice, frame); !done) return tl::unexpected(done.error());
   } else {
-    set_parallel_eyes(*look, scale, aspect, frame);
+    set_parallel_eyes(*look, scale, aspect_of(choice), frame);
   }
   place_lights(view.scene, scale, frame);
   if (!frame.lights.empty()) frame.key_light.radiance = glm::vec3(0.0F);

@@ -15,11 +15,12 @@ namespace afm::app {
 
 // Which model is shown, and how.
 struct ModelChoice {
-  std::string file;
-  std::optional<double> at_s;    // of its animations; none: at rest
+  std::string file{};
+  std::optional<double> at_s{};  // of its animations; none: at rest
   std::string camera = "auto";   // a camera's or its node's name, or "auto"
-  std::string variant;           // of KHR_materials_variants; empty: the file's own materials
+  std::string variant{};         // of KHR_materials_variants; empty: the file's own materials
   glm::uvec2 size_px{960, 720};  // of an eye's picture
+  double eyes_apart_m = 0.063;   // in front of a wall of the paper's height; 0: one eye in the middle
 };
 
 // A model alone, ready to be drawn.

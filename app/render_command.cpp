@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +14,7 @@
 #include "app/command.h"
 #include "app/demonstration.h"
 #include "app/frame_builder.h"
+#include "app/model_view.h"
 #include "app/session_file.h"
 #include "app/stage_setup.h"
 #include "render/context.h"
@@ -26,6 +29,8 @@ struct RenderOptions {
   std::optional<double> journey_orders;  // instead of a session
   std::string material = "mica";         // of the journey
   bool analogy = false;
+  ModelChoice model;  // instead of both
+  bool describe = false;
   std::string out;
   double at_s = 0;
   std::uint32_t eye_width = 960;
@@ -92,6 +97,34 @@ core::Result<void> run_journey(const RenderOptions& options) {
   return draw(*stage, {*felt}, moment, options);
 }
 
+glm::uvec2 parse_size(const std::string& text) {
+  constexpr unsigned kLargest = 8192;
+  glm::uvec2 size(0);
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.x);
+  const bool has_mark = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+  const auto height = has_mark ? std::from_chars(width.ptr + 1, end, size.y) : width;
+  if (!has_mark || height.ec != std::errc() || height.ptr != end || size.x < 1 || size.y < 1 || size.x > kLargest ||
+      size.y > kLargest) {
+    throw CLI::ValidationError(
+        "--size", fmt::format("\"{}\" is not WxH of 1x1 to {}x{} pixels, as 960x720", text, kLargest, kLargest));
+  }
+  return size;
+}
+
+core::Result<void> run_model(const RenderOptions& options) {
+  if (options.describe) return describe_model(options.model.file, std::cout);
+  const auto view = open_model(options.model);
+  if (!view) return tl::unexpected(view.error());
+  auto context = render::Context::open();
+  if (!context) return tl::unexpected(context.error());
+  auto renderer = render::Renderer::create(
+      *context, view->scene, {.eye_width = options.model.size_px.x, .eye_height = options.model.size_px.y});
+  if (!renderer) return tl::unexpected(renderer.error());
+  renderer->render(view->frame);
+  return write_pictures(*renderer, options);
+}
+
 core::Result<void> run_render(const RenderOptions& options) {
   if (options.journey_orders) return run_journey(options);
   auto session = load_session(options.session);
@@ -133,14 +166,35 @@ core::Result<void> run_render(const RenderOptions& options) {
   return draw(*stage, felt, moment, options);
 }
 
+// What is said of a model.
+void add_model_options(CLI::App& command, CLI::Option* gltf, ModelChoice& model, bool& describe) {
+  command
+      .add_option_function<std::string>(
+          "--size", [&model](const std::string& text) { model.size_px = parse_size(text); },
+          "of a model's picture in pixels, of each eye's if there are two: 1x1 to 8192x8192; default: 960x720")
+      ->needs(gltf)
+      ->type_name("WxH");
+  command.add_option("--camera", model.camera, "a camera of the model by its name, or auto, which sees all of it")
+      ->needs(gltf)
+      ->capture_default_str()
+      ->type_name("NAME");
+  command.add_option("--variant", model.variant, "a variant of the model's materials (KHR_materials_variants)")
+      ->needs(gltf)
+      ->type_name("NAME");
+  command.add_flag("--describe", describe, "list what the model holds, what is ignored and why, and draw nothing")
+      ->needs(gltf);
+}
+
 }  // namespace
 
 void add_render_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand(
-      "render", "draw a moment of a recorded session, or a place of the journey of scale, without a window");
+      "render",
+      "draw a moment of a recorded session, a place of the journey of scale, or a glTF model, without a window");
   command->footer(
       "example: touchafm render --session out/session-gold.afms --at 5.2 --out gold.png\n"
-      "         touchafm render --journey 4.5 --material mica --out lever.png");
+      "         touchafm render --journey 4.5 --material mica --out lever.png\n"
+      "         touchafm render --gltf my_probe.glb --stereo anaglyph-red-cyan --out probe.png");
   auto options = std::make_shared<RenderOptions>();
   auto* what = command->add_option_group("what is drawn");
   auto* session =
@@ -150,17 +204,22 @@ void add_render_command(CLI::App& app, CommandContext& context) {
                                    "shows 10^-S metres, from the bench (0) to the atoms (9)")
                       ->check(CLI::Range(0.0, kJourneyOrders))
                       ->type_name("S");
+  auto* gltf =
+      what->add_option("--gltf", options->model.file, "glTF 2.0 model, .glb or .gltf, drawn alone")->type_name("FILE");
   what->require_option(1);
+  add_model_options(*command, gltf, options->model, options->describe);
   command->add_option("--material", options->material, "sample of the journey")
       ->needs(journey)
       ->capture_default_str()
       ->type_name("NAME");
   command->add_flag("--analogy", options->analogy, "draw Millet's magnet on a spring instead of the instrument")
       ->needs(session);
-  command->add_option("--out", options->out, "picture to write")->required()->type_name("FILE.png");
-  command->add_option("--at", options->at_s, "time from the start of the session, in seconds")
-      ->capture_default_str()
-      ->type_name("SECONDS");
+  command->add_option("--out", options->out, "picture to write")->type_name("FILE.png");
+  auto* at = command
+                 ->add_option("--at", options->at_s,
+                              "time from the start of the session, or of the model's animations, in seconds; "
+                              "default: the session's start, the model at rest")
+                 ->type_name("SECONDS");
   add_stereo_options(*command, options->composition);
   command
       ->add_option("--eye-width", options->eye_width,
@@ -169,7 +228,18 @@ void add_render_command(CLI::App& app, CommandContext& context) {
       ->capture_default_str()
       ->type_name("PIXELS");
   add_stage_options(*command, options->files, context);
-  command->callback([options, &context] { context.chosen = [options] { return run_render(*options); }; });
+  add_own_model_options(*command, options->files);
+  command->callback([options, command, gltf, at, &context] {
+    if (!options->describe && options->out.empty()) throw CLI::RequiredError("--out");
+    if (gltf->empty()) {
+      context.chosen = [options] { return run_render(*options); };
+      return;
+    }
+    if (command->count("--stereo") == 0) options->composition.mode = scene::StereoMode::Mono;
+    if (options->composition.mode == scene::StereoMode::Mono) options->model.eyes_apart_m = 0.0;
+    if (!at->empty()) options->model.at_s = options->at_s;
+    context.chosen = [options] { return run_model(*options); };
+  });
 }
 
 }  // namespace afm::app

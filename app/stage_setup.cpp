@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <span>
 #include <utility>
 #include <vector>
@@ -74,8 +75,10 @@ core::Result<Stage> load_stage(const StageFiles& files) {
   if (!wall) return tl::unexpected(wall.error());
   const auto eyes = eyes_at_sweet_spot(*wall);
   if (!eyes) return tl::unexpected(eyes.error());
-  auto wall_scene =
-      WallScene::load(files.assets_dir, *materials, wall->screens.front(), wall->viewers.front().sweet_spot.position_m);
+  const auto own = load_own_models(files.probe, files.sample);
+  if (!own) return tl::unexpected(own.error());
+  auto wall_scene = WallScene::load(files.assets_dir, *materials, wall->screens.front(),
+                                    wall->viewers.front().sweet_spot.position_m, *own);
   if (!wall_scene) return tl::unexpected(wall_scene.error());
   auto guidance = Guidance::load(files.guidance.empty() ? files.assets_dir + "/guidance/en.toml" : files.guidance);
   if (!guidance) return tl::unexpected(guidance.error());
@@ -95,6 +98,26 @@ void add_stereo_options(CLI::App& command, render::Composition& composition) {
       ->type_name("MODE");
   command.add_flag_callback(
       "--swap-eyes", [&composition] { composition.order = scene::EyeOrder::Swapped; }, "left and right exchanged");
+}
+
+void add_own_model_options(CLI::App& command, StageFiles& files) {
+  command
+      .add_option("--probe", files.probe,
+                  "glTF model of your own cantilever, with nodes for the roles base and tip (docs/gltf.md)")
+      ->type_name("FILE");
+  add_own_sample_option(command, files);
+}
+
+void add_own_sample_option(CLI::App& command, StageFiles& files) {
+  command
+      .add_option("--sample", files.sample,
+                  "glTF model of your own sample, with a node for the role surface; it is felt as it is drawn")
+      ->type_name("FILE");
+}
+
+bool is_model_file(const std::string& name) {
+  const std::string ending = std::filesystem::path(name).extension().string();
+  return ending == ".glb" || ending == ".gltf";
 }
 
 void add_stage_options(CLI::App& command, StageFiles& files, const CommandContext& context) {

@@ -26,6 +26,8 @@ struct StageFiles {
   std::string wall;                         // empty: the paper's wall in the assets
   std::string guidance;                     // empty: English, in the assets
   std::string materials;                    // a file of the user's own; empty: none
+  std::string probe;                        // a glTF model of the user's own instead of the assets'; empty: none
+  std::string sample;                       // the same, of all materials
   std::vector<std::string> shown;           // names; empty: those of the user's file, or the paper's three
   std::vector<scene::MaterialEntry> added;  // shown behind those
 };
@@ -49,6 +51,13 @@ core::Result<Stage> load_stage(const StageFiles& files);
 
 // --stereo, whose default is the composition's mode, and --swap-eyes.
 void add_stereo_options(CLI::App& command, render::Composition& composition);
+
+// --probe and --sample; and --sample alone, beside a --probe that knows names too.
+void add_own_model_options(CLI::App& command, StageFiles& files);
+void add_own_sample_option(CLI::App& command, StageFiles& files);
+
+// Whether it ends as the name of a glTF model does.
+bool is_model_file(const std::string& name);
 
 // --wall, --materials and --assets.
 void add_stage_options(CLI::App& command, StageFiles& files, const CommandContext& context);

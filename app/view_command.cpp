@@ -238,6 +238,7 @@ void add_view_command(CLI::App& app, CommandContext& context) {
       "         touchafm view --stereo side-by-side --fullscreen --material mica --material pdms-air");
   auto options = std::make_shared<ViewOptions>();
   add_stage_options(*command, options->files, context);
+  add_own_model_options(*command, options->files);
   command
       ->add_option("--material", options->files.shown,
                    "a material to show, up to nine; default: mica, gold and silicon nitride of the paper")

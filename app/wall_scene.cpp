@@ -34,7 +34,7 @@ std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& 
 }  // namespace
 
 core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
-                                        const scene::Screen& screen, const glm::dvec3& viewer_m) {
+                                        const scene::Screen& screen, const glm::dvec3& viewer_m, const OwnModels& own) {
   WallScene w;
 
   // the contact point: at eye height, in the middle, but never out of the wall's middle third
@@ -56,7 +56,8 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   w.sample_frame_ = build.frame("sample", w.layout_, frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)));
   w.stage_ = build.model_in_frame_of("stage", "stage.glb", "stage", w.sample_frame_);
   w.probe_frame_ = build.frame("probe-frame", w.sample_frame_, dmat4(1.0));
-  w.lever_ = build.model("probe.glb", "probe", w.probe_frame_);
+  w.lever_ =
+      own.probe ? build.part(*own.probe, "probe", w.probe_frame_) : build.model("probe.glb", "probe", w.probe_frame_);
   w.cantilever_ = build.node("probe/cantilever");
   w.tip_ = build.node("probe/tip");
   w.apex_ = build.node("probe/apex");
@@ -76,10 +77,11 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
     MaterialLook look{};
     const std::string model = model_of(assets_dir, material);
     const std::string sample = "sample-" + material.name;
-    look.sample = build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, w.sample_frame_);
+    look.sample = own.sample ? build.part(sample_as(*own.sample, material), sample, w.sample_frame_)
+                             : build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, w.sample_frame_);
     const scene::NodeIndex surface = build.node(sample + "/surface");
     look.ground = w.journey_.add_ground(build, w.scene_, model);
-    look.height_field = build.error() ? scene::kNoHeightField : w.height_field_of(model, surface);
+    look.height_field = build.error() ? scene::kNoHeightField : w.height_field_of(own.sample ? "own" : model, surface);
     const std::string swatch = "swatch-" + material.name;
     look.swatch = build.model("swatch-" + model + ".glb", swatch, w.layout_);
     look.label = build.node(swatch + "/label");

@@ -13,6 +13,7 @@
 #include "app/analogy.h"
 #include "app/journey.h"
 #include "app/jump_cue.h"
+#include "app/own_models.h"
 #include "app/wall_marks.h"
 #include "core/result.h"
 #include "input/selection.h"
@@ -47,7 +48,8 @@ struct DrawnScale {
 class WallScene {
  public:
   static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
-                                      const scene::Screen& screen, const glm::dvec3& viewer_m);
+                                      const scene::Screen& screen, const glm::dvec3& viewer_m,
+                                      const OwnModels& own = {});
 
   const scene::Scene& scene() const { return scene_; }
   scene::NodeIndex sample_node() const { return sample_frame_; }

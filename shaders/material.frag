@@ -101,12 +101,17 @@ vec3 lit(Surface s, Key key, float occlusion) {
   return radiance;
 }
 
-void main() {
-  vec4 color = vertex_color * AFM_TEXEL(kBaseColor);
-  if (looks(AFM_LOOK_MASK) && color.a < material.scales.w) {
+// Premultiplied. What a mask leaves out goes last: its neighbours' textures are filtered by its place too.
+void put(vec3 shown, float coverage) {
+  if (looks(AFM_LOOK_MASK) && coverage < material.scales.w) {
     discard;
   }
-  float alpha = looks(AFM_LOOK_BLEND) ? color.a : 1.0;
+  float alpha = looks(AFM_LOOK_BLEND) ? coverage : 1.0;
+  out_color = vec4(srgb_from_linear(shown) * alpha, alpha);
+}
+
+void main() {
+  vec4 color = vertex_color * AFM_TEXEL(kBaseColor);
   vec3 emitted = draw.emissive.rgb * AFM_TEXEL(kEmissive).rgb;
   vec3 to_eye = normalize(view_eye_position(frame) - room_position);
   vec3 face = normalize(room_normal);
@@ -124,7 +129,7 @@ void main() {
   Surface s = Surface(normal, to_eye, color.rgb * (1.0 - metallic), mix(dielectric, color.rgb, metallic), roughness);
   vec3 own_light = emitted + highlight_glow(s, draw.emissive.a);
   if (looks(AFM_LOOK_UNLIT)) {
-    out_color = vec4(srgb_from_linear(min(color.rgb + own_light, vec3(1.0))) * alpha, alpha);
+    put(min(color.rgb + own_light, vec3(1.0)), color.a);
     return;
   }
 
@@ -148,6 +153,5 @@ void main() {
     Surface lacquer = Surface(coat_normal, to_eye, vec3(0.0), vec3(0.04), coat_roughness);
     radiance = radiance * through + coat * lit(lacquer, key, occlusion);
   }
-  vec3 shown = tone_map(radiance + highlight_glow(s, draw.emissive.a));
-  out_color = vec4(srgb_from_linear(shown) * alpha, alpha);
+  put(tone_map(radiance + highlight_glow(s, draw.emissive.a)), color.a);
 }

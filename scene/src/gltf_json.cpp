@@ -15,6 +15,16 @@ bool is_within(const Json& value, JsonElement::Range range) {
          value.get<double>() <= range.high;
 }
 
+// JSON knows one kind of number: 4 may be written as 4.0.
+std::optional<std::uint64_t> whole(const Json& value) {
+  constexpr double kLargestExact = 9007199254740992.0;
+  if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+  if (!value.is_number_float()) return std::nullopt;
+  const auto number = value.get<double>();
+  if (!(number >= 0.0 && number <= kLargestExact) || number != std::floor(number)) return std::nullopt;
+  return static_cast<std::uint64_t>(number);
+}
+
 std::string of_range(JsonElement::Range range) {
   const JsonElement::Range any;
   if (range.low == any.low && range.high == any.high) return "a finite number";
@@ -139,10 +149,11 @@ std::uint64_t JsonElement::size(const char* key, std::uint64_t missing, std::uin
 std::uint64_t JsonElement::required_size(const char* key, std::uint64_t most) const {
   const Json* value = find(key);
   if (value == nullptr) fail(fmt::format("has no '{}'", key));
-  if (!value->is_number_unsigned() || value->get<std::uint64_t>() > most) {
+  const auto number = whole(*value);
+  if (!number || *number > most) {
     fail_at(key, fmt::format("is {}, not a whole number of 0 to {}", quoted(*value), most));
   }
-  return value->get<std::uint64_t>();
+  return *number;
 }
 
 std::optional<std::uint32_t> JsonElement::index(const char* key, std::size_t count) const {
@@ -157,10 +168,11 @@ std::uint32_t JsonElement::required_index(const char* key, std::size_t count) co
 }
 
 std::uint32_t JsonElement::as_index(std::size_t count) const {
-  if (!value_->is_number_unsigned() || value_->get<std::uint64_t>() >= count) {
+  const auto number = whole(*value_);
+  if (!number || *number >= count) {
     fail(fmt::format("is {}, which does not exist: there are {}", quoted(*value_), count));
   }
-  return value_->get<std::uint32_t>();
+  return static_cast<std::uint32_t>(*number);
 }
 
 double JsonElement::as_number() const {

@@ -87,8 +87,10 @@ std::string printable(std::string text) {
 }  // namespace
 
 void GltfNotes::ignore(const std::string& what) {
+  constexpr std::size_t kMostNotes = 100;
   const std::string line = printable(what);
-  if (std::find(ignored.begin(), ignored.end(), line) == ignored.end()) ignored.push_back(line);
+  if (ignored.size() < kMostNotes && std::find(ignored.begin(), ignored.end(), line) == ignored.end())
+    ignored.push_back(line);
 }
 
 core::Result<Scene> load_gltf(const std::string& path, GltfNotes* notes) {

@@ -255,11 +255,15 @@ void read_meshes(const JsonElement& root, const GltfBuffers& buffers, const Gltf
     mesh.name = element.text("name", "");
     for (const JsonElement& primitive : element.objects("primitives")) {
       note_unread_attributes(primitive, notes);
+      if (!primitive.required_object("attributes").has("POSITION")) {
+        notes.ignore("a primitive without POSITION: nothing can be drawn of it");
+        continue;
+      }
       uses_default |= !primitive.has("material");
       mesh.primitives.push_back(PrimitiveReader(primitive, root, buffers, accessors, budget).read(default_material));
     }
-    if (mesh.primitives.empty()) element.fail("has no primitive");
-    read_weights(element, mesh);
+    if (element.count("primitives") == 0) element.fail("has no primitive");
+    if (!mesh.primitives.empty()) read_weights(element, mesh);
   }
   if (uses_default) scene.materials.push_back(Material{.name = "default"});
 }

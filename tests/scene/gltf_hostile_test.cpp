@@ -82,10 +82,6 @@ const std::vector<HostileCase>& hostile_cases() {
        [](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 9; }},
       {"NegativeAttribute", "POSITION is -2",
        [](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = -2; }},
-      {"NoPosition", "has no 'POSITION'",
-       [](json& d) {
-         d["meshes"][0]["primitives"][0]["attributes"] = {{"NORMAL", 0}};
-       }},
       {"PositionOfIndices", "POSITION of a type",
        [](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 1; }},
       {"IndicesOfFloats", "indices of a type", [](json& d) { d["meshes"][0]["primitives"][0]["indices"] = 0; }},

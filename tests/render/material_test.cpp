@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <vector>
+
+#include "support/pictures.h"
+#include "support/vulkan_fixture.h"
+
+namespace afm::test {
+namespace {
+
+using scene::TextureSlot;
+
+// The wall's middle is at (0, 0); a metre is 84 pixels.
+constexpr std::uint32_t kMiddleX = 128, kMiddleY = 96;
+
+// A square of two metres that fills the picture's middle, its material unlit unless a test says otherwise: colours are
+// then what the texture holds.
+class Materials : public VulkanTest {
+ protected:
+  Materials() {
+    material_.unlit = true;
+    square_ = quad(0);
+    for (const scene::Vertex& vertex : square_.vertices) {
+      const glm::vec2 place(vertex.position.x + 0.5F, 0.5F - vertex.position.y);  // v runs downwards
+      square_.texture_coordinates.push_back({place, place});
+    }
+  }
+
+  // Two by two pixels: red, green; blue, grey of 128 that is half seen through.
+  void add_image(scene::TextureFilter filter) {
+    scene_.images.push_back({.name = "four",
+                             .width = 2,
+                             .height = 2,
+                             .rgba = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 128, 128, 128, 128}});
+    scene_.textures.push_back({.image = 0, .magnified = filter, .minified = filter, .between_mips = {}});
+  }
+
+  render::Image see(const glm::dmat4& room_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(2.0))) {
+    scene_.materials = {material_};
+    scene_.nodes.clear();
+    scene_.meshes.clear();
+    add(scene_, "square", square_, room_from_node);
+    render::FrameState frame = bare_frame(scene_);
+    frame.lights = lights_;
+    return draw(scene_, frame, small()).left;
+  }
+
+  // Left or right of the middle, above or below it.
+  static Pixel at(const render::Image& image, int right, int down) {
+    return pixel(image, static_cast<std::uint32_t>(static_cast<int>(kMiddleX) + 40 * right),
+                 static_cast<std::uint32_t>(static_cast<int>(kMiddleY) + 40 * down));
+  }
+
+  scene::Scene scene_;
+  scene::Material material_;
+  scene::Primitive square_;
+  std::vector<render::PlacedLight> lights_;
+};
+
+void expect_color(const Pixel& pixel, int r, int g, int b) {
+  EXPECT_NEAR(pixel.r, r, 3);
+  EXPECT_NEAR(pixel.g, g, 3);
+  EXPECT_NEAR(pixel.b, b, 3);
+}
+
+TEST_F(Materials, ShowATextureTheRightWayUpInItsOwnColours) {
+  add_image(scene::TextureFilter::Nearest);
+  material_.texture(TextureSlot::BaseColor).texture = 0;
+  const render::Image image = see();
+  expect_color(at(image, -1, -1), 255, 0, 0);
+  expect_color(at(image, 1, -1), 0, 255, 0);
+  expect_color(at(image, -1, 1), 0, 0, 255);
+  expect_color(at(image, 1, 1), 128, 128, 128);
+}
+
+TEST_F(Materials, MoveATextureAsItsTransformSays) {
+  add_image(scene::TextureFilter::Nearest);
+  auto& use = material_.texture(TextureSlot::BaseColor);
+  use.texture = 0;
+  use.offset = {0.5F, 0.0F};
+  expect_color(at(see(), -1, -1), 0, 255, 0);
+  use.offset = {0.0F, 1.0F};
+  use.rotation_rad = 1.5707963F;  // (u, v) becomes (v, 1 - u)
+  expect_color(at(see(), -1, -1), 0, 0, 255);
+  expect_color(at(see(), -1, 1), 128, 128, 128);
+  use.coordinates = 1;
+  for (auto& coordinates : square_.texture_coordinates) coordinates.set_0 = glm::vec2(0.0F);
+  expect_color(at(see(), -1, -1), 0, 0, 255);
+}
+
+TEST_F(Materials, MixColoursOfATextureAsLight) {
+  add_image(scene::TextureFilter::Linear);
+  scene_.images[0].rgba = {255, 255, 255, 255, 0, 0, 0, 255, 255, 255, 255, 255, 0, 0, 0, 255};
+  material_.texture(TextureSlot::BaseColor).texture = 0;
+  const Pixel middle = pixel(see(), kMiddleX, kMiddleY);
+  EXPECT_NEAR(middle.g, 188, 6) << "half the light is 188 of 255 in sRGB, not 128";
+}
+
+TEST_F(Materials, LeaveOutWhatAMaskSaysIsNotThere) {
+  add_image(scene::TextureFilter::Nearest);
+  material_.texture(TextureSlot::BaseColor).texture = 0;
+  material_.alpha_cutoff = 0.6F;
+  const render::Image image = see();
+  expect_color(at(image, 1, -1), 0, 255, 0);
+  EXPECT_LT(at(image, 1, 1).r, 110) << "the background is seen";
+  material_.alpha_cutoff = 0.4F;
+  expect_color(at(see(), 1, 1), 128, 128, 128);
+}
+
+TEST_F(Materials, BlendByTheAlphaOfATexture) {
+  add_image(scene::TextureFilter::Nearest);
+  material_.texture(TextureSlot::BaseColor).texture = 0;
+  const Pixel background = at(see(glm::translate(glm::dmat4(1.0), glm::dvec3(50, 0, 0))), 1, 1);
+  material_.blended = true;
+  const Pixel half = at(see(), 1, 1);
+  EXPECT_NEAR(half.g, (128 + background.g) / 2, 4);
+}
+
+TEST_F(Materials, ShowTheFrontOfANodeThatMirrors) {
+  material_.base_color = glm::vec4(1.0F);
+  const glm::dmat4 mirrored = glm::scale(glm::dmat4(1.0), glm::dvec3(-2.0, 2.0, 2.0));
+  expect_color(at(see(mirrored), -1, -1), 255, 255, 255);
+  const glm::dmat4 turned = glm::scale(glm::dmat4(1.0), glm::dvec3(-2.0, 2.0, -2.0));
+  EXPECT_LT(at(see(turned), -1, -1).r, 110) << "the back of a single-sided material";
+}
+
+TEST_F(Materials, DrawLinesAndPoints) {
+  const render::Image bare = see(glm::translate(glm::dmat4(1.0), glm::dvec3(50, 0, 0)));
+  const auto drawn = [&] { return difference(see(), bare, 8).share_beyond * bare.width * bare.height; };
+  square_.indices = {0, 2};
+  square_.topology = scene::Topology::Lines;
+  EXPECT_GT(drawn(), 100.0);
+  EXPECT_LT(drawn(), 800.0) << "no more than a diagonal";
+  square_.topology = scene::Topology::Points;
+  EXPECT_GE(drawn(), 2.0);
+  EXPECT_LE(drawn(), 8.0);
+}
+
+TEST_F(Materials, TakeLightFromWhereItStands) {
+  material_.unlit = false;
+  material_.metallic = 0.0F;
+  material_.base_color = glm::vec4(0.1F, 0.1F, 0.1F, 1.0F);
+  scene_.lights.resize(1);
+  const Pixel dark = at(see(), -1, 0);
+  scene::PunctualLight light;
+  light.intensity = glm::vec3(3.0F);
+  lights_ = {{light, {-0.5F, 0.0F, 0.3F}}};
+  const render::Image image = see();
+  EXPECT_GT(at(image, -1, 0).g, at(image, 1, 0).g + 20) << "nearer is brighter";
+  EXPECT_GT(at(image, -1, 0).g, dark.g + 20);
+  lights_[0].light.kind = scene::PunctualLight::Kind::Spot;
+  lights_[0].light.outer_cone_rad = 0.3F;
+  lights_[0].direction = {0.0F, 0.0F, 1.0F};
+  EXPECT_NEAR(at(see(), -1, 0).g, dark.g, 2) << "turned away";
+  lights_[0].direction = {0.0F, 0.0F, -1.0F};
+  EXPECT_GT(at(see(), -1, 0).g, dark.g + 20);
+}
+
+// The left half of the normal map leans to the left, the right half to the right.
+TEST_F(Materials, BendLightByANormalMapAlikeWithAndWithoutTangents) {
+  add_image(scene::TextureFilter::Nearest);
+  scene_.images[0].rgba = {37, 128, 218, 255, 218, 128, 218, 255, 37, 128, 218, 255, 218, 128, 218, 255};
+  material_.unlit = false;
+  material_.metallic = 0.0F;
+  material_.roughness = 1.0F;
+  material_.texture(TextureSlot::Normal).texture = 0;
+  scene_.lights.resize(1);
+  scene::PunctualLight sun;
+  sun.kind = scene::PunctualLight::Kind::Directional;
+  sun.intensity = glm::vec3(3.0F);
+  lights_ = {{sun, glm::vec3(0.0F), glm::normalize(glm::vec3(1.0F, 0.0F, -1.0F))}};  // from the left
+  const render::Image derived = see();
+  EXPECT_GT(at(derived, -1, 1).g, at(derived, 1, 1).g + 30);
+  square_.tangents.assign(square_.vertices.size(), glm::vec4(1, 0, 0, 1));
+  EXPECT_LE(difference(see(), derived, 3).share_beyond, 0.01);
+}
+
+TEST_F(Materials, EmitWhatTheirTextureSays) {
+  add_image(scene::TextureFilter::Nearest);
+  material_.unlit = false;
+  material_.emissive = glm::vec3(0.5F);
+  material_.texture(TextureSlot::Emissive).texture = 0;
+  const render::Image image = see();
+  EXPECT_GT(at(image, -1, -1).r, at(image, 1, -1).r + 30);
+  EXPECT_GT(at(image, 1, -1).g, at(image, -1, -1).g + 30);
+}
+
+}  // namespace
+}  // namespace afm::test
