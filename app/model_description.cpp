@@ -73,8 +73,7 @@ core::Result<void> describe_model(const std::string& file, std::ostream& out) {
   describe_parts(*scene, out);
   for (const scene::Node& node : scene->nodes) {
     if (!node.camera) continue;
-    const scene::Camera& camera = scene->cameras[*node.camera];
-    out << fmt::format("camera: {}\n", quoted(camera.name.empty() ? node.name : camera.name));
+    out << fmt::format("camera: {}\n", quoted(camera_name(*scene, node)));
   }
   for (const char* role : {"tip", "base", "surface"}) {
     if (const auto node = scene::find_role(*scene, role)) {

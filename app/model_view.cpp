@@ -85,8 +85,8 @@ core::Result<Look> chosen_look(const scene::Scene& scene, const std::vector<dmat
     const scene::Node& node = scene.nodes[i];
     if (!node.camera) continue;
     const scene::Camera& camera = scene.cameras[*node.camera];
-    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", camera.name.empty() ? node.name : camera.name);
-    if (choice.camera != camera.name && choice.camera != node.name) continue;
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", camera_name(scene, node));
+    if (choice.camera != camera_name(scene, node)) continue;
     Look look{scene_from_node[i], camera, 1.0};
 
     // a camera's own scale is not a lens
@@ -183,6 +183,12 @@ class LoadingNotice {
 };
 
 }  // namespace
+
+std::string camera_name(const scene::Scene& scene, const scene::Node& node) {
+  const scene::Camera& camera = scene.cameras.at(node.camera.value());
+  if (!camera.name.empty()) return camera.name;
+  return node.name.empty() ? fmt::format("#{}", *node.camera) : node.name;
+}
 
 core::Result<ModelView> open_model(const ModelChoice& choice) {
   auto loaded = [&] {

@@ -17,7 +17,7 @@ namespace afm::app {
 struct ModelChoice {
   std::string file{};
   std::optional<double> at_s{};  // of its animations; none: at rest
-  std::string camera = "auto";   // a camera's or its node's name, or "auto"
+  std::string camera = "auto";   // as camera_name(), or "auto"
   std::string variant{};         // of KHR_materials_variants; empty: the file's own materials
   glm::uvec2 size_px{960, 720};  // of an eye's picture
   double eyes_apart_m = 0.063;   // in front of a wall of the paper's height; 0: one eye in the middle
@@ -28,6 +28,9 @@ struct ModelView {
   scene::Scene scene;
   render::FrameState frame;
 };
+
+// What a camera is called: its own name, its node's, or its place in the file as "#0".
+std::string camera_name(const scene::Scene& scene, const scene::Node& node);
 
 // Loads a model, poses it, and places it behind a wall as its camera, or one that has all of it in view, sees it: what
 // the camera looks at lies in the wall's plane, two eyes look from where it stands. Errors name what is wrong: a file
