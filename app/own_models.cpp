@@ -95,9 +95,9 @@ core::Result<scene::Scene> load_probe(const std::string& file) {
   if (!(base_from_tip[3].x > 0.0) || !std::isfinite(base_from_tip[3].x)) {
     return tl::unexpected(missing(file, "the tip does not lie along +x of the base"));
   }
-  if (!(bounds_below(probe, 1).low.z < 0.0)) {
-    return tl::unexpected(missing(file, "nothing hangs below the node of the tip, along its -z"));
-  }
+  const double apex = bounds_below(probe, 1).low.z;
+  if (!(apex < 0.0)) return tl::unexpected(missing(file, "nothing hangs below the node of the tip, along its -z"));
+  probe.nodes.push_back({"apex", 1U, std::nullopt, glm::translate(dmat4(1.0), dvec3(0.0, 0.0, apex))});
   return probe;
 }
 

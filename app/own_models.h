@@ -13,7 +13,7 @@ namespace afm::app {
 // Models that stand on the wall instead of those of the assets (docs/gltf.md, "Roles"): at rest, each part of them one
 // node, so that however many nodes a file has the servo's block holds them.
 struct OwnModels {
-  std::optional<scene::Scene> probe;   // a node "cantilever" and below it "tip", as in the assets' probe.glb
+  std::optional<scene::Scene> probe;   // "cantilever", below it "tip", below that "apex", as in the assets' probe.glb
   std::optional<scene::Scene> sample;  // a node "surface", as in the assets' sample-*.glb
 };
 

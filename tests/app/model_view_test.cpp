@@ -112,10 +112,12 @@ TEST_F(OwnModel, BecomesAProbeByItsRoles) {
                          {"mesh": 0, "rotation": [0.7071067811865476, 0, 0, -0.7071067811865476], "scale": [0.1, 0.1, 0.1]}])"),
       "");
   ASSERT_TRUE(probe) << probe.error().message;
-  ASSERT_EQ(probe->probe->nodes.size(), 2U);
+  ASSERT_EQ(probe->probe->nodes.size(), 3U);
   EXPECT_EQ(probe->probe->nodes[0].name, "cantilever");
   EXPECT_EQ(probe->probe->nodes[1].name, "tip");
   EXPECT_EQ(probe->probe->nodes[1].parent, 0U);
+  EXPECT_EQ(probe->probe->nodes[2].name, "apex");
+  EXPECT_NEAR(probe->probe->nodes[2].parent_from_node[3].z, -0.1, 1e-6);
   EXPECT_EQ(probe->probe->meshes[0].primitives.size(), 1U);
   EXPECT_EQ(probe->probe->meshes[1].primitives.size(), 1U);
   const auto nothing = load_own_models(write(R"("nodes": [{"mesh": 0, "name": "tip"}])"), "");
