@@ -47,7 +47,8 @@ const char* journey_place(double orders) {
                                                                           {7.6, "apex, a ball of 50 nm radius"},
                                                                           {8.3, "the last nanometres of the gap"},
                                                                           {1e9, "atoms"}}};
-  return std::find_if(kPlaces.begin(), kPlaces.end(), [&](const auto& place) { return orders < place.first; })->second;
+  const auto place = std::find_if(kPlaces.begin(), kPlaces.end() - 1, [&](const auto& p) { return orders < p.first; });
+  return place->second;
 }
 
 Journey::Journey(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -84,6 +85,12 @@ core::Result<void> draw(const Stage& stage, const std::vector<FeltMaterial>& fel
 }
 
 core::Result<void> run_journey(const RenderOptions& options) {
+  // the option's range lets what is no number pass
+  if (!std::isfinite(*options.journey_orders)) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("--journey: {:g} is no place of the journey; give 0 to {:g}",
+                                     *options.journey_orders, kJourneyOrders));
+  }
   StageFiles files = options.files;
   files.shown = {options.material};
   auto stage = load_stage(files);
