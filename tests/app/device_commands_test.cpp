@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <string>
+#include <thread>
 
+#include "core/file_descriptor.h"
 #include "support/run_program.h"
+#include "support/scratch_folder.h"
 
 namespace afm::app {
 namespace {
@@ -42,6 +50,67 @@ TEST(DevicesCommand, FindsADeviceBehindAnInstalledLibrary) {
 TEST(DevicesCommand, SaysWhatTheLibraryAnswersWhenNoDeviceIsThere) {
   EXPECT_THAT(touchafm("devices", kMock + " MOCK_HD_FAULT=missing").out, HasSubstr("mock: not connected (0x0303)"));
   EXPECT_THAT(touchafm("devices", kMock + " MOCK_HD_FAULT=busy").out, HasSubstr("mock: in use (0x0301)"));
+}
+
+// A tracker that sends garbage, fast, until the end of its scope.
+class Garbage {
+ public:
+  Garbage() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    // a port that was free a moment ago
+    const core::FileDescriptor probe(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    to_.sin_family = AF_INET;
+    to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof to_;
+    EXPECT_EQ(::bind(probe.get(), reinterpret_cast<const sockaddr*>(&to_), size), 0);
+    EXPECT_EQ(::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&to_), &size), 0);
+    thread_ = std::thread([this] {
+      const std::string packet(120, '\xA5');
+      while (!ending_) {
+        ::sendto(socket_.get(), packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_);
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+      }
+    });
+  }
+  Garbage(const Garbage&) = delete;
+  Garbage& operator=(const Garbage&) = delete;
+  ~Garbage() {
+    ending_ = true;
+    thread_.join();
+  }
+
+  std::string port() const { return std::to_string(ntohs(to_.sin_port)); }
+
+ private:
+  core::FileDescriptor socket_;
+  sockaddr_in to_{};
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+TEST(DevicesCommand, TellsOfATrackerThatSendsGarbage) {
+  const Garbage tracker;
+  const support::ScratchFolder folder;
+  const std::string file = folder.write("tracker.toml", "[dtrack]\nport = " + tracker.port() +
+                                                            "\nroom_from_tracker = { position = [0, 0, 0], orientation "
+                                                            "= [0, 0, 0, 1] }\n");
+  const ProgramResult result = touchafm("devices --json --wand-file " + file);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto list = nlohmann::json::parse(result.out);
+  const auto row = std::find_if(list.begin(), list.end(), [](const auto& r) { return r["kind"] == "tracker"; });
+  ASSERT_NE(row, list.end());
+  EXPECT_EQ((*row)["device"], "dtrack 127.0.0.1:" + tracker.port());
+  EXPECT_EQ((*row)["usable"], false);
+  const std::string detail = (*row)["detail"];
+  EXPECT_THAT(detail, HasSubstr("packets that are no frames"));
+  EXPECT_GT(std::stoi(detail), 100);
+}
+
+TEST(DevicesCommand, NamesTheMistakeOfAWandFile) {
+  const support::ScratchFolder folder;
+  const ProgramResult result =
+      touchafm("devices --wand-file " + folder.write("wand.toml", "[device]\nname = \"stick\"\ncolour = 1\n"));
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("line 3: device.colour: unknown key; known are name, vendor, product"));
 }
 
 TEST(DoctorCommand, EndsWellWhateverItFinds) {
