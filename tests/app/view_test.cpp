@@ -130,9 +130,13 @@ class ViewTest : public ::testing::Test {
     return 4.0 * static_cast<double>(differing) / static_cast<double>(a.rgba.size());
   }
 
-  const Stage stage_ =
-      load_stage({.assets_dir = AFM_SOURCE_DIR "/assets", .wall = {}, .materials = {}, .shown = {}, .added = {}})
-          .value();
+  static Stage stage_of_the_assets() {
+    StageFiles files;
+    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    return load_stage(files).value();
+  }
+
+  const Stage stage_ = stage_of_the_assets();
   support::VirtualDisplay display_{kWidth, kHeight};
 };
 
