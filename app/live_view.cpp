@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live_view.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -19,6 +23,7 @@ namespace {
 constexpr std::int64_t kForceTakenNs = 500'000'000;    // until a choice has taken the force away
 constexpr double kHiddenPauseS = 0.05;                 // between two heartbeats of a window that nobody sees
 constexpr double kDrawnHandM = 0.085;                  // of the hand, shown as a third of the wall's height
+constexpr double kEyeStepM = 1e-3;                     // of the eyes' distance, a key press
 constexpr double kHandPerPicture = 3.0 * kDrawnHandM;  // so that the tip follows the cursor on the wall
 
 MouseHand hand_over(const WallScene& wall_scene) {
@@ -27,9 +32,10 @@ MouseHand hand_over(const WallScene& wall_scene) {
 
 }  // namespace
 
-LiveView::LiveView(const Stage& stage, const std::vector<FeltMaterial>& materials, render::Window& window,
-                   render::Renderer& renderer, render::Presenter& presenter, ViewServo::Starter start_servo,
-                   ViewWand& view_wand, const core::Clock& clock, const ViewSettings& settings)
+LiveView::LiveView(const Stage& stage, const std::vector<FeltMaterial>& materials, render::Context& context,
+                   render::Window& window, render::Renderer& renderer, render::Presenter& presenter,
+                   ViewServo::Starter start_servo, ViewWand& view_wand, const core::Clock& clock,
+                   const ViewSettings& settings)
     : stage_(stage),
       window_(window),
       clock_(clock),
@@ -37,13 +43,13 @@ LiveView::LiveView(const Stage& stage, const std::vector<FeltMaterial>& material
       felt_(materials),
       frames_(stage.wall_scene, felt_, stage.eyes),
       swatches_(stage.wall_scene.swatch_targets()),
-      picture_(stage, window, renderer, presenter, settings.picture),
+      picture_(stage, context, window, renderer, presenter, settings.picture),
       panels_(stage.wall_scene, materials),
       servo_(
           std::move(start_servo),
           [this](ServoLink& servo, std::optional<std::size_t> felt_before) { begin_with(servo, felt_before); },
           stage.materials.materials.size(), settings.record_folder),
-      wand_(stage.wall.screens.front(), stage.wall_scene.wand_grip_m()),
+      wand_(stage.screen, stage.wall_scene.wand_grip_m()),
       view_wand_(view_wand),
       head_(stage.wall.viewers.front().sweet_spot),
       hand_(hand_over(stage.wall_scene)),
@@ -136,7 +142,34 @@ void LiveView::act(ViewAction action) {
       analogy_ = !analogy_;
       core::log_line(analogy_ ? "shown: Millet's analogy" : "shown: the instrument");
       break;
+    case ViewAction::NextStereo:
+      picture_.change_mode(ViewPicture::Step::Next);
+      break;
+    case ViewAction::PreviousStereo:
+      picture_.change_mode(ViewPicture::Step::Previous);
+      break;
+    case ViewAction::NarrowEyes:
+      picture_.widen_eyes(-kEyeStepM);
+      break;
+    case ViewAction::WidenEyes:
+      picture_.widen_eyes(kEyeStepM);
+      break;
+    case ViewAction::ShowCalibration:
+      picture_.toggle_calibration();
+      break;
+    case ViewAction::BringToWall:
+      bring_to_wall();
+      break;
   }
+}
+
+// The contact comes into the wall's plane, where both eyes see it in one place.
+void LiveView::bring_to_wall() {
+  const glm::dvec3 contact(to_wall_ * view_wand_.navigation() * glm::dvec4(stage_.wall_scene.contact_m(), 1.0));
+  const glm::dvec3 normal = stage_.screen.normal();
+  const double before_wall_m = glm::dot(contact - stage_.screen.lower_left, normal);
+  to_wall_ = glm::translate(glm::dmat4(1.0), -before_wall_m * normal) * to_wall_;
+  core::log_line(fmt::format("brought to the wall by {:.3f} m", -before_wall_m));
 }
 
 Pointed LiveView::pointed_at(const WallPicture& shown, const glm::dvec2& cursor_px) {
@@ -265,7 +298,7 @@ Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
   now.curves = cycles.curves();
   now.hovered = pointed.swatch;
   now.wand = wand_points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
-  now.navigation = view_wand_.navigation();
+  now.navigation = to_wall_ * view_wand_.navigation();
   now.guidance = stage_.guidance.line(servo.tip(), cycles.ascending(), cycles.cycles());
   now.cue = jump_cue(servo_.events(), servo.tip().time_ns);
   now.analogy = analogy_;
@@ -312,7 +345,7 @@ void LiveView::draw(const glm::dvec2& cursor_px, std::int64_t now_ns) {
   const auto material = travel_.orders() ? std::nullopt : servo_.material();
   panels_.add_to(frame, pointed, material, material ? stage_.materials.materials[*material].title : "",
                  servo_.link().tip(), hand());
-  picture_.show(frame, beat);
+  picture_.show(frame, now_ns, beat);
   head_.presented(clock_.now_ns());
 }
 

@@ -36,9 +36,9 @@ struct ViewSettings {
 class LiveView {
  public:
   // All but the settings must outlive it.
-  LiveView(const Stage& stage, const std::vector<FeltMaterial>& materials, render::Window& window,
-           render::Renderer& renderer, render::Presenter& presenter, ViewServo::Starter start_servo,
-           ViewWand& view_wand, const core::Clock& clock, const ViewSettings& settings);
+  LiveView(const Stage& stage, const std::vector<FeltMaterial>& materials, render::Context& context,
+           render::Window& window, render::Renderer& renderer, render::Presenter& presenter,
+           ViewServo::Starter start_servo, ViewWand& view_wand, const core::Clock& clock, const ViewSettings& settings);
 
   // Until the window is closed, Escape, SIGINT or SIGTERM. Fails when the servo cannot be started, at the end if it has
   // died and was not started again, and at once, with the servo ended in order, if the graphics device is lost.
@@ -58,6 +58,7 @@ class LiveView {
   void take_force_away(std::int64_t now_ns);
   void travel(std::int64_t now_ns);
   void begin_again();
+  void bring_to_wall();
 
   double hand_m_per_px() const;
   HandSource hand() const;
@@ -92,6 +93,7 @@ class LiveView {
   JourneyTravel travel_;
   std::int64_t force_taken_ns_ = 0;  // by the journey, last
   bool analogy_ = false;
+  glm::dmat4 to_wall_{1.0};  // brings the scene to the wall, after the wand's navigation
   bool leaving_ = false;
 };
 

@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -19,7 +17,6 @@
 #include "app/session_file.h"
 #include "app/stage_setup.h"
 #include "render/context.h"
-#include "render/image_file.h"
 
 namespace afm::app {
 
@@ -34,8 +31,8 @@ struct RenderOptions {
   bool describe = false;
   std::string out;
   double at_s = 0;
-  std::uint32_t eye_width = 960;
-  render::Composition composition;
+  std::string size;  // empty: as the wall's outputs say, or from the eyes' width
+  PictureWish wish;
   StageFiles files;
 };
 
@@ -58,30 +55,29 @@ StageFiles files_for(const RecordedSession& session, StageFiles files) {
   return files;
 }
 
-// Modes with two pictures: FILE-left.png and FILE-right.png.
-core::Result<void> write_pictures(render::Renderer& renderer, const RenderOptions& options) {
-  if (!scene::has_two_pictures(options.composition.mode)) {
-    return render::write_png(renderer.read_composed(options.composition), options.out);
-  }
-  const auto pictures = renderer.read_pair(options.composition);
-  const std::filesystem::path out(options.out);
-  for (const std::size_t i : {0U, 1U}) {
-    const auto name = out.stem().string() + (i == 0 ? "-left" : "-right") + out.extension().string();
-    if (auto written = render::write_png(pictures[i], out.parent_path() / name); !written) return written;
-  }
-  return {};
-}
-
 core::Result<void> draw(const Stage& stage, const std::vector<FeltMaterial>& felt, const Moment& moment,
                         const RenderOptions& options) {
   auto context = render::Context::open();
   if (!context) return tl::unexpected(context.error());
-  auto renderer =
-      render::Renderer::create(*context, stage.wall_scene.scene(), stage.renderer_options(options.eye_width));
+  PictureWish wish = options.wish;
+  if (!options.size.empty()) {
+    const auto size = parse_picture_size("--size", options.size, context->largest_picture_px());
+    if (!size) return tl::unexpected(size.error());
+    wish.size_px = *size;
+  }
+  const auto plan = plan_wall(stage.wall, wish);
+  if (!plan) return tl::unexpected(plan.error());
+  auto renderer = render::Renderer::create(*context, stage.wall_scene.scene(), renderer_options(*plan));
   if (!renderer) return tl::unexpected(renderer.error());
   const FrameBuilder frames(stage.wall_scene, felt, stage.eyes);
-  renderer->render(frames.build(moment));
-  return write_pictures(*renderer, options);
+  const auto pictures = draw_wall(*renderer, *plan, stage.wall.viewers.front(), wish,
+                                  [&](const OutputPicture&, const std::array<scene::EyeView, 2>& eyes) {
+                                    render::FrameState frame = frames.build(moment);
+                                    frame.eyes = eyes;
+                                    return frame;
+                                  });
+  if (!pictures) return tl::unexpected(pictures.error());
+  return write_wall(*pictures, options.out);
 }
 
 core::Result<void> run_journey(const RenderOptions& options) {
@@ -104,32 +100,35 @@ core::Result<void> run_journey(const RenderOptions& options) {
   return draw(*stage, {*felt}, moment, options);
 }
 
-glm::uvec2 parse_size(const std::string& text) {
-  constexpr unsigned kLargest = 8192;
-  glm::uvec2 size(0);
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.x);
-  const bool has_mark = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
-  const auto height = has_mark ? std::from_chars(width.ptr + 1, end, size.y) : width;
-  if (!has_mark || height.ec != std::errc() || height.ptr != end || size.x < 1 || size.y < 1 || size.x > kLargest ||
-      size.y > kLargest) {
-    throw CLI::ValidationError(
-        "--size", fmt::format("\"{}\" is not WxH of 1x1 to {}x{} pixels, as 960x720", text, kLargest, kLargest));
-  }
-  return size;
-}
-
 core::Result<void> run_model(const RenderOptions& options) {
   if (options.describe) return describe_model(options.model.file, std::cout);
-  const auto view = open_model(options.model);
-  if (!view) return tl::unexpected(view.error());
   auto context = render::Context::open();
   if (!context) return tl::unexpected(context.error());
-  auto renderer = render::Renderer::create(
-      *context, view->scene, {.eye_width = options.model.size_px.x, .eye_height = options.model.size_px.y});
+  const scene::StereoMode mode = options.wish.mode.value_or(scene::StereoMode::Mono);
+  ModelChoice choice = options.model;
+  if (options.wish.ipd_m) choice.eyes_apart_m = *options.wish.ipd_m;
+  if (mode == scene::StereoMode::Mono) choice.eyes_apart_m = 0.0;
+  render::ReadArea area;
+  if (!options.size.empty()) {
+    const auto size = parse_picture_size("--size", options.size, context->largest_picture_px());
+    if (!size) return tl::unexpected(size.error());
+    area.size_px = *size;
+    choice.size_px = scene::eye_size(mode, *size);
+  }
+  const auto view = open_model(choice);
+  if (!view) return tl::unexpected(view.error());
+  auto renderer =
+      render::Renderer::create(*context, view->scene, {.eye_width = choice.size_px.x, .eye_height = choice.size_px.y});
   if (!renderer) return tl::unexpected(renderer.error());
   renderer->render(view->frame);
-  return write_pictures(*renderer, options);
+  const render::Composition composition{.mode = mode, .order = options.wish.order};
+  std::vector<render::Image> pictures;
+  if (scene::has_two_pictures(mode)) {
+    for (render::Image& picture : renderer->read_pair(composition, area)) pictures.push_back(std::move(picture));
+  } else {
+    pictures.push_back(renderer->read_composed(composition, area));
+  }
+  return write_wall(pictures, options.out);
 }
 
 core::Result<void> run_render(const RenderOptions& options) {
@@ -175,12 +174,6 @@ core::Result<void> run_render(const RenderOptions& options) {
 
 // What is said of a model.
 void add_model_options(CLI::App& command, CLI::Option* gltf, ModelChoice& model, bool& describe) {
-  command
-      .add_option_function<std::string>(
-          "--size", [&model](const std::string& text) { model.size_px = parse_size(text); },
-          "of a model's picture in pixels, of each eye's if there are two: 1x1 to 8192x8192; default: 960x720")
-      ->needs(gltf)
-      ->type_name("WxH");
   command.add_option("--camera", model.camera, "a camera of the model by its name, or auto, which sees all of it")
       ->needs(gltf)
       ->capture_default_str()
@@ -227,23 +220,27 @@ void add_render_command(CLI::App& app, CommandContext& context) {
                               "time from the start of the session, or of the model's animations, in seconds; "
                               "default: the session's start, the model at rest")
                  ->type_name("SECONDS");
-  add_stereo_options(*command, options->composition);
+  add_stereo_options(*command, options->wish, "the outputs of the wall file, else side-by-side; of a model mono");
+  CLI::Option* size = command
+                          ->add_option("--size", options->size,
+                                       "size of the whole picture in pixels; default: as the wall's outputs say, or "
+                                       "from --eye-width; of a model 960x720 an eye")
+                          ->type_name("WIDTHxHEIGHT");
   command
-      ->add_option("--eye-width", options->eye_width,
+      ->add_option("--eye-width", options->wish.eye_width,
                    "width of each eye's picture in pixels; the height follows the wall")
       ->check(CLI::Range(64, 8192))
+      ->excludes(size)
       ->capture_default_str()
       ->type_name("PIXELS");
   add_stage_options(*command, options->files, context);
   add_own_model_options(*command, options->files);
-  command->callback([options, command, gltf, at, &context] {
+  command->callback([options, gltf, at, &context] {
     if (!options->describe && options->out.empty()) throw CLI::RequiredError("--out");
     if (gltf->empty()) {
       context.chosen = [options] { return run_render(*options); };
       return;
     }
-    if (command->count("--stereo") == 0) options->composition.mode = scene::StereoMode::Mono;
-    if (options->composition.mode == scene::StereoMode::Mono) options->model.eyes_apart_m = 0.0;
     if (!at->empty()) options->model.at_s = options->at_s;
     context.chosen = [options] { return run_model(*options); };
   });

@@ -6,16 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "app/frame_builder.h"
+#include "physics/quantity_text.h"
 
 namespace afm::app {
 
 render::RendererOptions Stage::renderer_options(std::uint32_t eye_width) const {
-  const scene::Screen& screen = wall.screens.front();
   render::RendererOptions options;
   options.eye_width = eye_width;
   options.eye_height = static_cast<std::uint32_t>(std::lround(eye_width * screen.height_m() / screen.width_m()));
@@ -25,8 +27,12 @@ render::RendererOptions Stage::renderer_options(std::uint32_t eye_width) const {
 
 glm::uvec2 Stage::eye_size_within(scene::StereoMode mode, glm::uvec2 window_px) const {
   const glm::uvec2 room = scene::eye_size(mode, window_px);
-  if (scene::frame_packing(mode)) return room;
-  const scene::Screen& screen = wall.screens.front();
+  if (const auto packing = scene::frame_packing(mode)) {
+    // exact in a window of its own size; in a smaller one it is a preview
+    const glm::dvec2 shrink = glm::dvec2(window_px) / glm::dvec2(scene::picture_size(mode, packing->eye_px));
+    const double scale = std::min({1.0, shrink.x, shrink.y});
+    return glm::max(glm::uvec2(glm::round(glm::dvec2(packing->eye_px) * scale)), glm::uvec2(1));
+  }
   const double by_height = std::floor(room.y * screen.width_m() / screen.height_m());
   const auto options = renderer_options(std::clamp(static_cast<std::uint32_t>(by_height), 1U, room.x));
   return {options.eye_width, std::clamp(options.eye_height, 1U, room.y)};
@@ -58,6 +64,31 @@ core::Result<scene::MaterialLibrary> shown_materials(const StageFiles& files) {
   return shown;
 }
 
+// The rectangle around all screens if they are tiles of one plane, upright as the first is; else the first screen.
+scene::Screen stage_screen(const scene::Wall& wall) {
+  const scene::Screen& first = wall.screens.front();
+  const glm::dvec3 right = glm::normalize(first.lower_right - first.lower_left);
+  const glm::dvec3 up = glm::cross(first.normal(), right);
+  glm::dvec2 least(0.0), most(0.0);
+  constexpr double kFlatM = 5e-3;  // what a tape measure gets right
+  for (const scene::Screen& screen : wall.screens) {
+    for (const glm::dvec3& corner : {screen.lower_left, screen.lower_right, screen.upper_left}) {
+      const glm::dvec3 from_first = corner - first.lower_left;
+      if (std::abs(glm::dot(from_first, first.normal())) > kFlatM) return first;
+      const glm::dvec2 place(glm::dot(from_first, right), glm::dot(from_first, up));
+      least = glm::min(least, place);
+      most = glm::max(most, place);
+    }
+    if (glm::dot(glm::normalize(screen.lower_right - screen.lower_left), right) < 0.9998) return first;
+  }
+  const auto corner = [&](double x, double y) { return first.lower_left + x * right + y * up; };
+  return wall.screens.size() == 1 ? first
+                                  : scene::Screen{.name = "all screens",
+                                                  .lower_left = corner(least.x, least.y),
+                                                  .lower_right = corner(most.x, least.y),
+                                                  .upper_left = corner(least.x, most.y)};
+}
+
 std::string stereo_mode_list() {
   std::string names;
   for (const scene::NamedStereoMode& entry : scene::kStereoModes) {
@@ -73,31 +104,47 @@ core::Result<Stage> load_stage(const StageFiles& files) {
   if (!materials) return tl::unexpected(materials.error());
   auto wall = scene::load_wall(files.wall.empty() ? files.assets_dir + "/walls/powerwall.toml" : files.wall);
   if (!wall) return tl::unexpected(wall.error());
-  const auto eyes = eyes_at_sweet_spot(*wall);
+  const scene::Screen screen = stage_screen(*wall);
+  const scene::Viewer& viewer = wall->viewers.front();
+  const auto eyes = eyes_before(screen, viewer.sweet_spot, viewer.ipd_m);
   if (!eyes) return tl::unexpected(eyes.error());
   const auto own = load_own_models(files.probe, files.sample);
   if (!own) return tl::unexpected(own.error());
-  auto wall_scene = WallScene::load(files.assets_dir, *materials, wall->screens.front(),
-                                    wall->viewers.front().sweet_spot.position_m, *own);
+  auto wall_scene = WallScene::load(files.assets_dir, *materials, screen, viewer.sweet_spot.position_m, *own);
   if (!wall_scene) return tl::unexpected(wall_scene.error());
   auto guidance = Guidance::load(files.guidance.empty() ? files.assets_dir + "/guidance/en.toml" : files.guidance);
   if (!guidance) return tl::unexpected(guidance.error());
-  return Stage{std::move(*materials), std::move(*wall), *eyes, std::move(*wall_scene), std::move(*guidance)};
+  return Stage{std::move(*materials), std::move(*wall), screen, *eyes, std::move(*wall_scene), std::move(*guidance)};
 }
 
-void add_stereo_options(CLI::App& command, render::Composition& composition) {
+void add_stereo_options(CLI::App& command, PictureWish& wish, const std::string& default_mode) {
   command
       .add_option_function<std::string>(
           "--stereo",
-          [&composition](const std::string& name) {
+          [&wish](const std::string& name) {
             const auto mode = scene::parse_stereo_mode(name);
             if (!mode) throw CLI::ValidationError("--stereo", mode.error().message);
-            composition.mode = *mode;
+            wish.mode = *mode;
           },
-          fmt::format("how both eyes are shown: {}; default: {}", stereo_mode_list(), scene::name_of(composition.mode)))
+          fmt::format("how both eyes are shown: {}; default: {}", stereo_mode_list(), default_mode))
       ->type_name("MODE");
   command.add_flag_callback(
-      "--swap-eyes", [&composition] { composition.order = scene::EyeOrder::Swapped; }, "left and right exchanged");
+      "--swap-eyes", [&wish] { wish.order = scene::EyeOrder::Swapped; }, "left and right exchanged");
+  command
+      .add_option_function<std::string>(
+          "--ipd",
+          [&wish](const std::string& text) {
+            const auto parsed = physics::parse_quantity(text, physics::kLengthUnits);
+            if (!parsed.value) throw CLI::ValidationError("--ipd", parsed.error);
+            const double ipd_m = parsed.value->si;
+            if (!(ipd_m >= scene::kSmallestIpdM && ipd_m <= scene::kLargestIpdM)) {
+              throw CLI::ValidationError("--ipd", fmt::format("{:g} mm is not between {:g} mm and {:g} mm", ipd_m * 1e3,
+                                                              scene::kSmallestIpdM * 1e3, scene::kLargestIpdM * 1e3));
+            }
+            wish.ipd_m = ipd_m;
+          },
+          "distance between the eyes, 30mm to 90mm; default: the viewer's in the wall file")
+      ->type_name("LENGTH");
 }
 
 void add_own_model_options(CLI::App& command, StageFiles& files) {

@@ -9,6 +9,7 @@
 
 #include "app/command.h"
 #include "app/guidance.h"
+#include "app/wall_pictures.h"
 #include "app/wall_scene.h"
 #include "core/result.h"
 #include "render/renderer.h"
@@ -36,6 +37,7 @@ struct StageFiles {
 struct Stage {
   scene::MaterialLibrary materials;
   scene::Wall wall;
+  scene::Screen screen;  // that the scene stands on: the wall's only one, or the plane of tiles that lie in one
   std::array<scene::EyeView, 2> eyes;
   WallScene wall_scene;
   Guidance guidance;
@@ -49,8 +51,8 @@ struct Stage {
 
 core::Result<Stage> load_stage(const StageFiles& files);
 
-// --stereo, whose default is the composition's mode, and --swap-eyes.
-void add_stereo_options(CLI::App& command, render::Composition& composition);
+// --stereo, --swap-eyes and --ipd.
+void add_stereo_options(CLI::App& command, PictureWish& wish, const std::string& default_mode);
 
 // --probe and --sample; and --sample alone, beside a --probe that knows names too.
 void add_own_model_options(CLI::App& command, StageFiles& files);

@@ -36,6 +36,7 @@ struct ViewOptions {
   StageFiles files;
   render::WindowOptions window{.title = "TouchAFM"};
   ViewSettings settings;
+  PictureWish wish;
   std::uint32_t eye_width = 0;  // 0: the window's
   double frame_rate = 0;        // 0: the display's
   ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = kLingerS}};
@@ -101,6 +102,32 @@ core::Result<void> set_hand(const Stage& stage, const std::string& device, ViewS
   return {};
 }
 
+// What the wall file's first output says, unless the command line says otherwise. A window holds one screen: a pair of
+// projectors beside each other is one picture side by side.
+render::Composition composition_for(const Stage& stage, const PictureWish& wish) {
+  render::Composition composition{.mode = scene::StereoMode::Mono};
+  bool swapped = wish.order == scene::EyeOrder::Swapped;
+  if (!stage.wall.outputs.empty()) {
+    const scene::Output& first = stage.wall.outputs.front();
+    composition.mode = first.mode == scene::StereoMode::Dual ? scene::StereoMode::SideBySide : first.mode;
+    composition.picture_from_output = first.picture_from_output;
+    swapped = swapped != (first.order == scene::EyeOrder::Swapped);
+    if (!wish.mode && first.eye == scene::Eye::Right) swapped = !swapped;
+  }
+  composition.mode = wish.mode.value_or(composition.mode);
+  if (swapped) composition.order = scene::EyeOrder::Swapped;
+  return composition;
+}
+
+// The right eye's window of mode dual.
+core::Result<std::unique_ptr<render::Window>> open_second(scene::StereoMode mode, render::WindowOptions options) {
+  if (mode != scene::StereoMode::Dual) return std::unique_ptr<render::Window>();
+  options.title += ", right eye";
+  auto window = render::Window::open(options);
+  if (!window) return tl::unexpected(window.error());
+  return std::make_unique<render::Window>(std::move(*window));
+}
+
 core::Result<void> run_view(const ViewOptions& options, const std::string& program) {
   const core::MonotonicClock clock;
   auto stage = load_stage(options.files);
@@ -113,12 +140,8 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
     materials.push_back(std::move(*felt));
   }
   ViewSettings settings = options.settings;
-  if (scene::has_two_pictures(settings.picture.composition.mode)) {
-    return core::failure(
-        core::ErrorCategory::DeviceMissing,
-        fmt::format("--stereo {}: this window shows one picture; choose another mode, or `touchafm render`",
-                    scene::name_of(settings.picture.composition.mode)));
-  }
+  settings.picture.composition = composition_for(*stage, options.wish);
+  settings.picture.ipd_m = options.wish.ipd_m.value_or(stage->wall.viewers.front().ipd_m);
   const auto wand_choice = parse_wand_choice(options.wand);
   if (!wand_choice) return tl::unexpected(wand_choice.error());
   if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
@@ -130,6 +153,8 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
 
   auto window = render::Window::open(options.window);
   if (!window) return tl::unexpected(window.error());
+  const auto second = open_second(settings.picture.composition.mode, options.window);
+  if (!second) return tl::unexpected(second.error());
   auto context = render::Context::open(options.validate ? render::Validation::On : render::Validation::Off,
                                        render::Presentation::Window);
   if (!context) return tl::unexpected(context.error());
@@ -140,8 +165,9 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   drawing.time_passes = settings.picture.frame_budget_ms > 0;
   auto renderer = render::Renderer::create(*context, stage->wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
-  auto presenter = render::Presenter::create(*context, *window, *renderer);
+  auto presenter = render::Presenter::create(*context, *window, *renderer, second->get());
   if (!presenter) return tl::unexpected(presenter.error());
+  if (auto shown = presenter->check_mode(settings.picture.composition.mode); !shown) return shown;
 
   settings.picture.eye_px = {drawing.eye_width, drawing.eye_height};
   settings.picture.fixed_eye_size = options.eye_width > 0;
@@ -154,13 +180,13 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   const auto start_servo = [&] {
     return ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), servo, program);
   };
-  LiveView live(*stage, materials, *window, *renderer, *presenter, start_servo, **wand, clock, settings);
+  LiveView live(*stage, materials, *context, *window, *renderer, *presenter, start_servo, **wand, clock, settings);
   if (auto ran = live.run(); !ran) return ran;
   return check_validation(*context);
 }
 
 void add_picture_options(CLI::App& command, ViewOptions& options) {
-  add_stereo_options(command, options.settings.picture.composition);
+  add_stereo_options(command, options.wish, "the first output of the wall file, else mono");
   command.add_flag("--fullscreen", options.window.full_screen, "fill the monitor; F11 does it while it runs");
   command
       .add_option("--eye-width", options.eye_width,

@@ -23,6 +23,12 @@ enum class ViewAction {
   SwapEyes,
   Journey,
   Analogy,
+  NextStereo,
+  PreviousStereo,
+  NarrowEyes,
+  WidenEyes,
+  ShowCalibration,
+  BringToWall,
 };
 
 std::optional<ViewAction> action_of(render::Key key);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/view_picture.h"
 
-#include <glm/common.hpp>
+#include <fmt/format.h>
 
-#include "app/frame_builder.h"
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "app/calibration.h"
 #include "core/log.h"
 
 namespace afm::app {
@@ -12,24 +16,27 @@ namespace {
 
 constexpr std::int64_t kSteadyNs = 250'000'000;  // a window that keeps its size for so long is drawn sharp
 
-std::array<scene::EyeView, 2> eyes_for(const Stage& stage, scene::StereoMode mode) {
-  if (mode != scene::StereoMode::Mono) return stage.eyes;
-  scene::Wall one_eyed = stage.wall;
-  one_eyed.viewers.front().ipd_m = 0.0;
-  return *eyes_at_sweet_spot(one_eyed);  // the stage was loaded with this wall and this head
+constexpr std::int64_t kMeasureNs = 250'000'000;      // between two measurements of depth
+constexpr std::int64_t kDepthLogNs = 10'000'000'000;  // between two lines in the log
+
+// Both eyes in their middle for a picture without depth.
+std::array<scene::EyeView, 2> eyes_for(const Stage& stage, const PictureSettings& settings) {
+  const double ipd_m = settings.composition.mode == scene::StereoMode::Mono ? 0.0 : settings.ipd_m;
+  return *eyes_before(stage.screen, stage.wall.viewers.front().sweet_spot, ipd_m);  // loaded with this wall and head
 }
 
 }  // namespace
 
-ViewPicture::ViewPicture(const Stage& stage, render::Window& window, render::Renderer& renderer,
-                         render::Presenter& presenter, const PictureSettings& settings)
+ViewPicture::ViewPicture(const Stage& stage, render::Context& context, render::Window& window,
+                         render::Renderer& renderer, render::Presenter& presenter, const PictureSettings& settings)
     : stage_(stage),
       window_(window),
       renderer_(renderer),
       presenter_(presenter),
       settings_(settings),
-      eyes_(eyes_for(stage, settings.composition.mode)),
-      eye_size_px_(settings.eye_px) {
+      eyes_(eyes_for(stage, settings)),
+      eye_size_px_(settings.eye_px),
+      depth_meter_(context, renderer) {
   if (settings_.frame_budget_ms > 0) budget_.emplace(settings_.frame_budget_ms, renderer.detail().samples);
 }
 
@@ -64,6 +71,30 @@ void ViewPicture::swap_eyes() {
   core::log_line(straight ? "eyes swapped" : "eyes as they were");
 }
 
+void ViewPicture::follow_viewer() {
+  eyes_ = eyes_for(stage_, settings_);
+  depth_ = {};
+}
+
+void ViewPicture::change_mode(Step step) {
+  constexpr std::size_t kCount = scene::kStereoModes.size();
+  auto index = static_cast<std::size_t>(settings_.composition.mode);
+  do {
+    index = (index + (step == Step::Next ? 1 : kCount - 1)) % kCount;
+  } while (!presenter_.check_mode(scene::kStereoModes[index].mode));
+  settings_.composition.mode = scene::kStereoModes[index].mode;
+  follow_viewer();
+  core::log_line(fmt::format("stereo: {}", scene::kStereoModes[index].name));
+}
+
+void ViewPicture::widen_eyes(double by_m) {
+  settings_.ipd_m = std::clamp(settings_.ipd_m + by_m, scene::kSmallestIpdM, scene::kLargestIpdM);
+  follow_viewer();
+  core::log_line(fmt::format("between the eyes: {:.0f} mm", settings_.ipd_m * 1e3));
+}
+
+void ViewPicture::toggle_calibration() { calibrating_ = !calibrating_; }
+
 WallPicture ViewPicture::picture() const {
   const glm::uvec2 picture_px = scene::picture_size(settings_.composition.mode, eye_size_px_);
   return {.place = render::picture_place(glm::max(window_.size_px(), glm::uvec2(1)), picture_px),
@@ -71,9 +102,36 @@ WallPicture ViewPicture::picture() const {
           .eyes = eyes_};
 }
 
-void ViewPicture::show(const render::FrameState& frame, const std::function<void()>& while_waiting) {
+void ViewPicture::add_calibration(render::FrameState& frame) const {
+  show_calibration(stage_.screen, settings_.composition.mode, settings_.ipd_m, frame);
+}
+
+// What an earlier frame asked of the eyes; tells the log when that begins to be too much, and now and then.
+void ViewPicture::measure_depth(std::int64_t now_ns) {
+  if (flat() || calibrating_ || now_ns - depth_measured_ns_ < kMeasureNs) return;
+  depth_measured_ns_ = now_ns;
+  if (const auto range = depth_meter_.newest()) {
+    const bool was_hard = depth_.hard;
+    const glm::dvec3 middle = 0.5 * (eyes_[0].eye_position_m + eyes_[1].eye_position_m);
+    const double distance_m = glm::dot(middle - stage_.screen.lower_left, stage_.screen.normal());
+    depth_ = report_depth(*range, distance_m, settings_.ipd_m);
+    if ((depth_.hard && !was_hard) || now_ns - depth_logged_ns_ >= kDepthLogNs) {
+      core::log_line(depth_.text);
+      depth_logged_ns_ = now_ns;
+    }
+  }
+  depth_meter_.measure();
+}
+
+void ViewPicture::show(render::FrameState& frame, std::int64_t now_ns, const std::function<void()>& while_waiting) {
+  if (calibrating_) {
+    add_calibration(frame);
+  } else if (!flat()) {
+    frame.labels.push_back(depth_label(depth_, stage_.screen));
+  }
   while_waiting();
   renderer_.render(frame);
+  measure_depth(now_ns);
   while_waiting();
   presenter_.present(settings_.composition, while_waiting);
   while_waiting();

@@ -61,6 +61,9 @@ class WallScene {
   std::span<const scene::SharedHeightField> height_fields() const { return height_fields_; }
   std::uint32_t height_field(std::size_t material) const { return looks_[material].height_field; }
 
+  // Where the tip meets the sample, as long as nothing has been moved: in the wall's plane.
+  glm::dvec3 contact_m() const { return glm::dvec3(room_from_layout_[3]); }
+
   // Outward normal of the sample in the room, and its x axis, to the right; unit.
   glm::dvec3 sample_normal() const;
   glm::dvec3 sample_right() const;

@@ -35,11 +35,12 @@
 #define AFM_BINDING_TEXTURE 0
 #define AFM_BINDING_RIGHT_EYE 1
 #define AFM_BINDING_ANAGLYPH 2
+#define AFM_BINDING_DEPTH_RANGE 2
 
 // one per frame; what has two elements belongs to the views
 struct FrameBlock {
   mat4 clip_from_room[2];
-  vec4 eye_position[2];    // xyz
+  vec4 eye_position[2];    // xyz; w: 0 left, 1 right
   mat4 shadow_from_room;   // to the shadow map's clip space, depth 0 nearest to the light
   vec4 light_direction;    // xyz: unit vector to the key light
   vec4 light_radiance;     // rgb, linear; a: metres that one texel of the shadow map covers
@@ -77,7 +78,7 @@ struct MaterialBlock {
 
 // push constants of a panel: the rectangle in the room
 struct PanelBlock {
-  vec4 lower_left;
+  vec4 lower_left;  // w: 0 or 1: in the left or the right eye's picture alone, -1: in both
   vec4 right;
   vec4 up;
 };

@@ -17,4 +17,7 @@ void main() {
   gl_Position = view_clip_from_room(frame) * vec4(place, 1.0);
   // what is read stays in sight where things larger than the room stand before it
   if (frame.haze.w > 0.0) gl_Position.z = AFM_FRONT_DEPTH * gl_Position.w;
+  if (panel.lower_left.w >= 0.0 && panel.lower_left.w != view_eye(frame)) {
+    gl_Position = vec4(0.0, 0.0, 0.0, 1.0);  // no area
+  }
 }

@@ -22,6 +22,10 @@ core::Result<Context> Context::open(Validation validation, Presentation presenta
 
 const std::string& Context::device_name() const { return device_->name(); }
 
+std::uint32_t Context::largest_picture_px() const {
+  return device_->physical().getProperties().limits.maxImageDimension2D;
+}
+
 std::vector<std::string> Context::take_validation_messages() { return device_->messages().take(); }
 
 }  // namespace afm::render

@@ -86,9 +86,10 @@ FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, cons
                            glm::dvec4(0, 0, 0, 1));
   FrameBlock block{};
   for (std::size_t view = 0; view < 2; ++view) {
-    const auto& eye = frame.eyes[std::min(first_eye + view, std::size_t{1})];
+    const std::size_t index = std::min(first_eye + view, std::size_t{1});
+    const auto& eye = frame.eyes[index];
     block.clip_from_room[view] = glm::mat4(guarded * eye.projection * eye.view);
-    block.eye_position[view] = glm::vec4(glm::vec3(eye.eye_position_m), 1.0F);
+    block.eye_position[view] = glm::vec4(glm::vec3(eye.eye_position_m), static_cast<float>(index));
   }
   const auto& light = frame.key_light;
   block.shadow_from_room = shadow_from_room(light);

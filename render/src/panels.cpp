@@ -71,6 +71,14 @@ glm::dvec2 size_m(const PanelPlacement& placement) {
   return {glm::length(placement.right_m), glm::length(placement.up_m)};
 }
 
+// The L stands in the left half of the calibration picture, the R in the right.
+PanelPlacement mark_placement(const PanelPlacement& whole, scene::Eye eye) {
+  const double left = eye == scene::Eye::Left ? 0.14 : 0.66;
+  return {.lower_left_m = whole.lower_left_m + left * whole.right_m + 0.36 * whole.up_m,
+          .right_m = 0.20 * whole.right_m,
+          .up_m = 0.36 * whole.up_m};
+}
+
 // At least what is wanted, with room to grow.
 void reserve(const Device& device, Buffer& buffer, const char* name, std::size_t bytes, vk::BufferUsageFlags usage) {
   if (buffer.size < bytes) {
@@ -252,6 +260,11 @@ bool Panels::update(const FrameState& frame, std::size_t slot) {
     const Label& label = i < frame.labels.size() ? frame.labels[i] : kNoLabel;
     update(labels_[i], label, label.placement);
   }
+  update(calibration_, frame.calibration, frame.calibration_placement);
+  for (std::size_t i = 0; i < eye_marks_.size(); ++i) {
+    eye_marks_[i].only_eye = scene::kEyes[i];
+    update(eye_marks_[i], EyeMark{scene::kEyes[i]}, mark_placement(frame.calibration_placement, scene::kEyes[i]));
+  }
   return !paintings_.empty();
 }
 
@@ -320,7 +333,8 @@ void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const Eye
     }
     const std::array sets{frame_set, *panel.texture.set};
     command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *rectangle_layout_, 0, sets, std::uint32_t{0});
-    const PanelBlock block{.lower_left = glm::vec4(glm::vec3(panel.placement.lower_left_m), 1.0F),
+    const float only_eye = !panel.only_eye ? -1.0F : *panel.only_eye == scene::Eye::Left ? 0.0F : 1.0F;
+    const PanelBlock block{.lower_left = glm::vec4(glm::vec3(panel.placement.lower_left_m), only_eye),
                            .right = glm::vec4(glm::vec3(panel.placement.right_m), 0.0F),
                            .up = glm::vec4(glm::vec3(panel.placement.up_m), 0.0F)};
     command.pushConstants<PanelBlock>(*rectangle_layout_, vk::ShaderStageFlagBits::eVertex, 0, block);
@@ -331,6 +345,8 @@ void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const Eye
   show(banner_);
   show(control_);
   std::for_each(labels_.begin(), labels_.end(), show);
+  show(calibration_);
+  std::for_each(eye_marks_.begin(), eye_marks_.end(), show);
 }
 
 }  // namespace afm::render

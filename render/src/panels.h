@@ -6,12 +6,14 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "eye_targets.h"
 #include "memory.h"
 #include "panel_fonts.h"
+#include "panel_painting.h"
 #include "render/frame.h"
 
 namespace afm::render {
@@ -50,9 +52,11 @@ class Panels {
   };
   struct Panel {
     PanelPlacement placement;
-    std::variant<std::monostate, ForcePanel, DataPanel, Banner, ControlPanel, Label> painted;  // what the texture shows
+    std::variant<std::monostate, ForcePanel, DataPanel, Banner, ControlPanel, Label, CalibrationPanel, EyeMark>
+        painted;  // what the texture shows
     Texture texture;
     bool shown = false;
+    std::optional<scene::Eye> only_eye;  // whose picture alone shows it
   };
   // Vertices and indices of everything painted in one frame.
   struct Geometry {
@@ -98,6 +102,8 @@ class Panels {
   Panel banner_;
   Panel control_;
   std::vector<Panel> labels_;
+  Panel calibration_;
+  std::array<Panel, 2> eye_marks_;
   std::uint64_t revision_ = 0;
 
   // what the frames before the slot's may still show: freed when the slot comes round again

@@ -41,7 +41,8 @@ vk::SurfaceFormatKHR choose_surface_format(const Device& device, vk::SurfaceKHR 
 }
 
 Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
-                     const Swapchain* old) {
+                     std::uint32_t layers, const Swapchain* old)
+    : layers_(layers) {
   const auto capabilities = device.physical().getSurfaceCapabilitiesKHR(surface);
   extent_ = choose_extent(capabilities, wanted);
   swapchain_ =
@@ -50,7 +51,7 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
                                        .imageFormat = format.format,
                                        .imageColorSpace = format.colorSpace,
                                        .imageExtent = extent_,
-                                       .imageArrayLayers = 1,
+                                       .imageArrayLayers = layers,
                                        .imageUsage = vk::ImageUsageFlagBits::eColorAttachment,
                                        .imageSharingMode = vk::SharingMode::eExclusive,
                                        .preTransform = capabilities.currentTransform,
@@ -60,13 +61,16 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
                                        .oldSwapchain = old == nullptr ? vk::SwapchainKHR() : *old->swapchain_});
   for (const VkImage image : swapchain_.getImages()) {
     images_.emplace_back(image);
-    views_.emplace_back(
-        *device,
-        vk::ImageViewCreateInfo{
-            .image = image,
-            .viewType = vk::ImageViewType::e2D,
-            .format = format.format,
-            .subresourceRange = {.aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = 1}});
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+      views_.emplace_back(*device,
+                          vk::ImageViewCreateInfo{.image = image,
+                                                  .viewType = vk::ImageViewType::e2D,
+                                                  .format = format.format,
+                                                  .subresourceRange = {.aspectMask = vk::ImageAspectFlagBits::eColor,
+                                                                       .levelCount = 1,
+                                                                       .baseArrayLayer = layer,
+                                                                       .layerCount = 1}});
+    }
     drawn_.emplace_back(*device, vk::SemaphoreCreateInfo{});
   }
 }

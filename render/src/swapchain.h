@@ -10,25 +10,28 @@ namespace afm::render {
 // 8-bit UNORM in sRGB, which takes the eyes' bytes as they are; eUndefined if the surface has none.
 vk::SurfaceFormatKHR choose_surface_format(const Device& device, vk::SurfaceKHR surface);
 
-// The images of one size that a surface shows in turn, first in first out. Made anew for every size.
+// The images of one size that a surface shows in turn, first in first out; with two layers the second is the right
+// eye's. Made anew for every size.
 class Swapchain {
  public:
   // `wanted` counts where the surface leaves the size to us. `old` may be null; nothing of it is in flight, and it is
   // not used afterwards. Throws as vkCreateSwapchainKHR fails.
   Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
-            const Swapchain* old);
+            std::uint32_t layers, const Swapchain* old);
 
   const vk::raii::SwapchainKHR& operator*() const { return swapchain_; }
   const vk::raii::SwapchainKHR* operator->() const { return &swapchain_; }
   vk::Extent2D extent() const { return extent_; }
   vk::Image image(std::uint32_t index) const { return images_[index]; }
-  vk::ImageView view(std::uint32_t index) const { return *views_[index]; }
+  std::uint32_t layers() const { return layers_; }
+  vk::ImageView view(std::uint32_t index, std::uint32_t layer) const { return *views_[index * layers_ + layer]; }
 
   // Signalled when the picture in the image is drawn; what presents it waits for it.
   vk::Semaphore drawn(std::uint32_t index) const { return *drawn_[index]; }
 
  private:
   vk::Extent2D extent_;
+  std::uint32_t layers_;
   vk::raii::SwapchainKHR swapchain_{nullptr};
   std::vector<vk::Image> images_;  // owned by the swapchain
   std::vector<vk::raii::ImageView> views_;

@@ -41,6 +41,18 @@ Key key_of(int key) {
       return Key::A;
     case GLFW_KEY_J:
       return Key::J;
+    case GLFW_KEY_B:
+      return Key::B;
+    case GLFW_KEY_C:
+      return Key::C;
+    case GLFW_KEY_G:
+      return Key::G;
+    case GLFW_KEY_V:
+      return Key::V;
+    case GLFW_KEY_LEFT_BRACKET:
+      return Key::LeftBracket;
+    case GLFW_KEY_RIGHT_BRACKET:
+      return Key::RightBracket;
     case GLFW_KEY_M:
       return Key::M;
     case GLFW_KEY_P:
@@ -74,6 +86,7 @@ core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptio
                                         "): run this on a desktop, with DISPLAY or WAYLAND_DISPLAY set");
   }
   std::unique_ptr<WindowHandle> handle(new WindowHandle());  // from here on its destructor ends GLFW
+  ++open_windows_;
   if (glfwVulkanSupported() != GLFW_TRUE) {
     return core::failure(
         kNoWindow, "this display cannot show Vulkan pictures (" + glfw_error() + "): install mesa-vulkan-drivers");
@@ -102,7 +115,9 @@ WindowHandle::~WindowHandle() {
   if (window_ != nullptr) {
     glfwDestroyWindow(window_);
   }
-  glfwTerminate();
+  if (--open_windows_ == 0) {
+    glfwTerminate();
+  }
 }
 
 vk::raii::SurfaceKHR WindowHandle::create_surface(const vk::raii::Instance& instance) const {

@@ -41,6 +41,7 @@ class WindowHandle {
   static void on_move(GLFWwindow* window, double x, double y);
   static void on_scroll(GLFWwindow* window, double x, double y);
 
+  inline static int open_windows_ = 0;  // GLFW is one for the process, and ends with the last of them
   GLFWwindow* window_ = nullptr;
   std::vector<WindowEvent> events_;
   glm::dvec2 cursor_{0.0};  // after the newest event, in the desktop's units: asking GLFW tells where it is now

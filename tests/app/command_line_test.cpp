@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
@@ -83,6 +86,69 @@ TEST(CommandLine, PrintsBothEyesOfAWallAsJson) {
   EXPECT_NEAR(frusta[1]["projection"][0].get<double>(), 2.0 * 2.5 / 3.048, 1e-12);
   EXPECT_LT(frusta[1]["projection"][5].get<double>(), 0.0);
   EXPECT_NEAR(frusta[1]["projection"][11].get<double>(), 0.1, 1e-12);
+}
+
+const std::string kWalls = AFM_SOURCE_DIR "/assets/walls/";
+
+// Width and height as a PNG's header has them.
+std::array<unsigned, 2> png_size(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<unsigned char, 24> header{};
+  file.read(reinterpret_cast<char*>(header.data()), header.size());
+  const auto number = [&](std::size_t at) {
+    return 16777216U * header[at] + 65536U * header[at + 1] + 256U * header[at + 2] + header[at + 3];
+  };
+  return {number(16), number(20)};
+}
+
+TEST(CommandLine, NamesTheStereoModesForOneThatIsNone) {
+  for (const char* command : {"render --session s --out x.png", "view", "wall w.toml"}) {
+    const ProgramResult result = touchafm(std::string(command) + " --stereo 3d");
+    expect_refusal(result, 2, "\"3d\" is not a stereo mode");
+    EXPECT_THAT(result.err, AllOf(HasSubstr("side-by-side-half"), HasSubstr("frame-packed-1080p"), HasSubstr("dual")));
+  }
+  expect_refusal(touchafm("wall w.toml --ipd 10mm"), 2, "--ipd");
+  expect_refusal(touchafm("wall w.toml --ipd 63"), 2, "mm");
+}
+
+TEST(CommandLine, DrawsATestPatternOfTheSizeThatWasAskedForInEveryMode) {
+  const support::ScratchFolder folder;
+  const std::string out = folder.file("pattern.png");
+  const std::string pattern = "wall " + kWalls + "powerwall.toml --test-pattern --out " + out;
+  for (const char* mode : {"mono", "side-by-side", "top-bottom", "row", "anaglyph-amber-blue"}) {
+    for (const auto& [text, size] : {std::pair("64x48", std::array{64U, 48U}), std::pair("1x1", std::array{1U, 1U})}) {
+      const ProgramResult result = touchafm(pattern + " --stereo " + mode + " --size " + text);
+      ASSERT_EQ(result.exit_code, 0) << mode << result.err;
+      EXPECT_EQ(png_size(out), size) << mode;
+    }
+  }
+  ASSERT_EQ(touchafm(pattern + " --stereo dual --size 64x48").exit_code, 0);
+  EXPECT_EQ(png_size(folder.file("pattern-left.png")), (std::array{64U, 48U}));
+  EXPECT_EQ(png_size(folder.file("pattern-right.png")), (std::array{64U, 48U}));
+}
+
+TEST(CommandLine, RefusesPicturesThatCannotBe) {
+  const support::ScratchFolder folder;
+  const std::string wall = "wall " + kWalls + "powerwall.toml";
+  const std::string pattern = wall + " --test-pattern --out " + folder.file("x.png");
+  expect_refusal(touchafm(pattern + " --size 0x48"), 2, "0x48 pixels cannot be drawn");
+  expect_refusal(touchafm(pattern + " --size 100000x48"), 2, "choose 1 to");
+  expect_refusal(touchafm(pattern + " --size 64"), 2, "WIDTHxHEIGHT");
+  expect_refusal(touchafm(pattern + " --stereo frame-packed-720p --size 640x480"), 2, "exactly 1280x1470");
+  expect_refusal(touchafm(wall + " --test-pattern"), 2, "--out");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("x.png")));
+}
+
+TEST(CommandLine, ChecksEveryPresetAndAParaViewConfiguration) {
+  for (const char* name : {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2"}) {
+    const ProgramResult result = touchafm("wall " + kWalls + name + ".toml");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("in order"));
+    EXPECT_THAT(result.out, ::testing::Not(HasSubstr("note:"))) << name;
+  }
+  const ProgramResult pvx = touchafm("wall " AFM_SOURCE_DIR "/tests/fuzz/corpus/wall/good.pvx --json");
+  ASSERT_EQ(pvx.exit_code, 0) << pvx.err;
+  EXPECT_EQ(nlohmann::json::parse(pvx.out).at(0).at("screen"), "w");
 }
 
 TEST(CommandLine, RefusesMissingAndBrokenModels) {

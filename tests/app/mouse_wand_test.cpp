@@ -43,6 +43,57 @@ TEST_F(MouseWandTest, EachHalfOfSideBySideIsAWallSeenByItsOwnEye) {
   EXPECT_EQ(wand_.ray(both, {700.0, 350.0}).origin_m, eyes_[1].eye_position_m);
 }
 
+// A point before the wall, pointed at where each eye's image shows it: the ray meets the point itself, in every mode
+// that gives each eye a region of its own.
+TEST_F(MouseWandTest, WhatTheCursorIsOnIsPointedAtInEveryModeThatSplitsThePicture) {
+  const glm::dvec3 point(0.4, 1.2, 0.9);
+  const auto uv_of = [&](std::size_t eye) {  // of the eye's image
+    const glm::dvec3 from = eyes_[eye].eye_position_m;
+    const glm::dvec3 on_wall = from + (point - from) * (-from.z / (point.z - from.z));
+    return glm::dvec2((on_wall.x + 2.0) / 4.0, (3.0 - on_wall.y) / 3.0);
+  };
+  struct Region {
+    scene::StereoMode mode;
+    std::array<glm::dvec2, 2> first;  // shares of the picture, by eye
+    glm::dvec2 size;
+  };
+  const double lines = 1470.0;
+  const std::array regions{
+      Region{scene::StereoMode::SideBySide, {glm::dvec2(0, 0), glm::dvec2(0.5, 0)}, {0.5, 1}},
+      Region{scene::StereoMode::SideBySideHalf, {glm::dvec2(0, 0), glm::dvec2(0.5, 0)}, {0.5, 1}},
+      Region{scene::StereoMode::TopBottom, {glm::dvec2(0, 0), glm::dvec2(0, 0.5)}, {1, 0.5}},
+      Region{scene::StereoMode::TopBottomHalf, {glm::dvec2(0, 0), glm::dvec2(0, 0.5)}, {1, 0.5}},
+      Region{scene::StereoMode::FramePacked720p, {glm::dvec2(0, 0), glm::dvec2(0, 750.0 / lines)}, {1, 720.0 / lines}}};
+  for (const Region& region : regions) {
+    for (const auto order : {scene::EyeOrder::Straight, scene::EyeOrder::Swapped}) {
+      WallPicture shown = picture(region.mode);
+      shown.composition.order = order;
+      for (std::size_t place = 0; place < 2; ++place) {
+        const std::size_t eye = order == scene::EyeOrder::Swapped ? 1 - place : place;
+        const glm::dvec2 share = region.first[place] + region.size * uv_of(eye);
+        const glm::dvec2 cursor = glm::dvec2(shown.place.offset_px) + share * glm::dvec2(shown.place.size_px);
+        const input::Ray ray = wand_.ray(shown, cursor);
+        EXPECT_EQ(ray.origin_m, eyes_[eye].eye_position_m) << scene::name_of(region.mode);
+        const glm::dvec3 to = point - ray.origin_m;
+        // a window's pixel of a packed picture shows the nearest of its lines
+        EXPECT_LT(glm::length(to - glm::dot(to, ray.direction) * ray.direction), 5e-3) << scene::name_of(region.mode);
+      }
+    }
+  }
+}
+
+TEST_F(MouseWandTest, WhereBothEyesShareThePictureItPointsFromTheirMiddle) {
+  const glm::dvec3 middle = 0.5 * (eyes_[0].eye_position_m + eyes_[1].eye_position_m);
+  for (const auto mode : {scene::StereoMode::Row, scene::StereoMode::Column, scene::StereoMode::Checkerboard,
+                          scene::StereoMode::AnaglyphRedCyan}) {
+    for (const double x : {300.0, 301.0}) {
+      const input::Ray ray = wand_.ray(picture(mode), {x, 350.0});
+      EXPECT_EQ(ray.origin_m, middle) << scene::name_of(mode);
+    }
+    EXPECT_LT(glm::distance(on_wall(mode, {500.0, 350.0}), screen_.center()), kExact);
+  }
+}
+
 TEST_F(MouseWandTest, TheDrawnWandPointsFromItsGripAtTheTarget) {
   const glm::dvec3 target(-1.0, 2.0, 0.0);
   const input::Ray ray = input::ray_of(wand_.towards(target, 7));

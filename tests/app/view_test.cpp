@@ -167,6 +167,49 @@ TEST_F(ViewTest, AHandGoesThroughTheWholeProcedureWithAMouse) {
   EXPECT_EQ(view.ends(), 0) << view.said();
 }
 
+TEST_F(ViewTest, GoesThroughEveryStereoModeOfThisDisplayWhileItRuns) {
+  support::LiveProgram view(command({"--stereo", "mono"}), display_.name());
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  for (const scene::NamedStereoMode& entry : scene::kStereoModes) {
+    if (entry.mode == scene::StereoMode::Mono || scene::has_two_pictures(entry.mode)) continue;
+    xdotool("key v");
+    ASSERT_TRUE(view.says("stereo: " + std::string(entry.name))) << view.said();
+  }
+  xdotool("key v");
+  ASSERT_TRUE(view.says("stereo: mono")) << view.said();
+  xdotool("key c");
+  ASSERT_TRUE(view.says("stereo: frame-packed-1080p")) << view.said();
+  xdotool("key s");
+  ASSERT_TRUE(view.says("eyes swapped")) << view.said();
+  xdotool("key bracketright");
+  ASSERT_TRUE(view.says("between the eyes: 64 mm")) << view.said();
+  xdotool("key bracketleft");
+  ASSERT_TRUE(view.says("between the eyes: 63 mm")) << view.said();
+  ASSERT_TRUE(view.says("from the eyes: ")) << "the depth meter: " << view.said();
+  xdotool("key b");
+  ASSERT_TRUE(view.says("brought to the wall")) << view.said();
+  const render::Image scene = picture("stereo");
+  xdotool("key g");
+  xdotool("sleep 1");
+  EXPECT_GT(share_that_differs(picture("pattern"), scene), 0.2);
+  view.signal(SIGINT);
+  EXPECT_EQ(view.ends(), 0) << view.said();
+}
+
+TEST_F(ViewTest, ShowsTwoWindowsForTwoProjectorsAndSaysWhatQuadBufferNeeds) {
+  support::LiveProgram two(command({"--stereo", "dual"}), display_.name());
+  ASSERT_TRUE(two.says("F1 shows the keys")) << two.said();
+  xdotool("search --sync --name 'TouchAFM, right eye'");
+  ASSERT_TRUE(two.says("Point at a sample")) << two.said();
+  two.signal(SIGINT);
+  EXPECT_EQ(two.ends(), 0) << two.said();
+
+  support::LiveProgram quad(command({"--stereo", "quad-buffer"}), display_.name());
+  EXPECT_EQ(quad.ends(), 4);
+  EXPECT_THAT(quad.said(), HasSubstr("one picture for both eyes"));
+}
+
 TEST_F(ViewTest, OutlivesAStormOfSizesAndTheDeathOfItsServo) {
   support::LiveProgram view(command({"--stereo", "side-by-side"}), display_.name());
   ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();

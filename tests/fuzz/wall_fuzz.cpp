@@ -11,11 +11,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const auto wall = load_wall(file.path());
   if (!wall) return 0;
   for (const Viewer& viewer : wall->viewers) {
-    for (const Eye eye : kEyes) {
-      const auto view = off_axis_view(wall->screens.front(), eye_position(viewer.sweet_spot, eye, viewer.ipd_m),
-                                      DepthConvention::VulkanReversedInfinite, kNearM, 0.0);
-      if (!view) std::abort();
+    for (const Screen& screen : wall->screens) {
+      for (const Eye eye : kEyes) {
+        const auto view = off_axis_view(screen, eye_position(viewer.sweet_spot, eye, viewer.ipd_m),
+                                        DepthConvention::VulkanReversedInfinite, kNearM, 0.0);
+        if (!view) std::abort();
+      }
     }
+  }
+  for (const Output& output : wall->outputs) {
+    if (output.screen >= wall->screens.size() || (output.eye.has_value() != (output.mode == StereoMode::Dual)))
+      std::abort();
   }
   return 0;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,6 +42,9 @@ class Context {
   ~Context();
 
   const std::string& device_name() const;
+
+  // Pixels of the longest picture, each way.
+  std::uint32_t largest_picture_px() const;
 
   // What the validation layer has said since the last call. Always empty with Validation::Off.
   std::vector<std::string> take_validation_messages();

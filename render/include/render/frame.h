@@ -175,6 +175,17 @@ struct ControlPanel {
   bool operator==(const ControlPanel&) const = default;
 };
 
+// The picture for setting up a screen, at true scale on all of it: a grid in centimetres or decimetres, a cross in the
+// wall's plane, a circle, a ruler of eye distances, grey steps; and an L that the left eye's picture alone shows, an R
+// in the right eye's. Nothing else should be shown with it.
+struct CalibrationPanel {
+  std::string screen;  // its name
+  std::string mode;    // of stereo
+  double ipd_m = 0;    // of the viewer, marked on the ruler
+
+  bool operator==(const CalibrationPanel&) const = default;
+};
+
 // A panel without area: not shown.
 inline constexpr PanelPlacement kNoPlacement{
     .lower_left_m = glm::dvec3(0.0), .right_m = glm::dvec3(0.0), .up_m = glm::dvec3(0.0)};
@@ -200,6 +211,8 @@ struct FrameState {
   ControlPanel control_panel;
   PanelPlacement control_placement = kNoPlacement;
   std::vector<Label> labels;
+  CalibrationPanel calibration;
+  PanelPlacement calibration_placement = kNoPlacement;
 };
 
 // An image in host memory: 8-bit sRGB RGBA, rows from top to bottom.

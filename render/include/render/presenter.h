@@ -18,22 +18,27 @@ struct PicturePlace {
 };
 PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px);
 
-// Shows a renderer's frames in a window, in step with its display. Follows the window through resizes, full screen and
-// the loss of its surface. The main thread alone. A lost device, and a surface that stays lost, are exceptions:
-// DeviceFailure.
+// Shows a renderer's frames in a window, or in two that are presented together, in step with their display. Follows
+// the windows through resizes, full screen and the loss of a surface. The main thread alone. A lost device and a lack
+// of memory are exceptions: DeviceFailure.
 class Presenter {
  public:
-  // DeviceMissing: the device and the display have no way to show pictures in common. All three must outlive the
-  // presenter; `context` was opened with Presentation::Window.
-  static core::Result<Presenter> create(Context& context, Window& window, Renderer& renderer);
+  // DeviceMissing: the device and the display have no way to show pictures in common. `second` is the right eye's
+  // window for mode dual, or null; in other modes it shows what the first one does. All must outlive the presenter;
+  // `context` was opened with Presentation::Window.
+  static core::Result<Presenter> create(Context& context, Window& window, Renderer& renderer, Window* second = nullptr);
 
   Presenter(Presenter&&) noexcept;
   Presenter& operator=(Presenter&&) noexcept;
   ~Presenter();
 
+  // DeviceMissing, saying what is missing: quad-buffer needs a display with a picture for each eye, dual two windows.
+  core::Result<void> check_mode(scene::StereoMode mode) const;
+
   // Shows the renderer's newest frame and waits until it has been drawn; meanwhile calls `while_waiting` every few
-  // milliseconds, from this thread. False, with nothing shown: the window is minimised, has just changed its size, or
-  // its display accepts no picture now; go on and try with the next frame. At least one frame has been rendered.
+  // milliseconds, from this thread. False, with nothing shown: a window is minimised, has just changed its size, or its
+  // display accepts no picture now; go on and try with the next frame. At least one frame has been rendered, and
+  // check_mode() allows the mode.
   bool present(const Composition& composition, const std::function<void()>& while_waiting);
 
  private:

@@ -90,6 +90,7 @@ class Renderer {
   void wait();
 
  private:
+  friend class DepthMeter;
   friend class Presenter;
   struct Parts;
   explicit Renderer(std::unique_ptr<Parts> parts);

@@ -20,13 +20,19 @@ enum class Key {
   F2,
   F11,
   A,
+  B,
+  C,
+  G,
   H,
   J,
+  LeftBracket,
   M,
   P,
   R,
+  RightBracket,
   S,
   T,
+  V,
   Digit1,
   Digit2,
   Digit3,
@@ -63,8 +69,8 @@ struct WindowOptions {
 
 class WindowHandle;
 
-// A window on this machine's display, without anything in it: see Presenter. At most one at a time, on the main thread
-// only. Must outlive the Context that was opened to present to it.
+// A window on this machine's display, without anything in it: see Presenter. On the main thread only. Must outlive the
+// Context that was opened to present to it.
 class Window {
  public:
   // DeviceMissing: no display, or a window system without Vulkan.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "render/renderer.h"
+
+namespace afm::render {
+
+// How near and how far the things are that a frame shows, both eyes together: metres from the plane of an eye that is
+// parallel to the wall.
+struct DepthRange {
+  double nearest_m = 0;
+  double farthest_m = 0;
+};
+
+// Reduces the eyes' depth to its extremes on the device, without waiting for it. The thread of the renderer.
+class DepthMeter {
+ public:
+  // Both must outlive it.
+  DepthMeter(Context& context, Renderer& renderer);
+  DepthMeter(DepthMeter&&) noexcept;
+  DepthMeter& operator=(DepthMeter&&) noexcept;
+  ~DepthMeter();
+
+  // Begins with the renderer's newest frame, unless an earlier measurement is still under way.
+  void measure();
+
+  // Of the newest measurement that is finished; nothing before the first, or when nothing was drawn.
+  std::optional<DepthRange> newest();
+
+  // Waits for the measurement under way.
+  void wait();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace afm::render

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "window_surface.h"
+
+#include <array>
+
+#include "barriers.h"
+#include "render/presenter.h"
+
+namespace afm::render {
+namespace {
+
+constexpr std::uint64_t kTurnNs = 5'000'000;  // from one call of while_waiting to the next
+constexpr int kMostTurns = 40;                // how long a display may keep all its images before the loop goes on
+
+constexpr ImageUse kAcquired{vk::PipelineStageFlagBits2::eColorAttachmentOutput, vk::AccessFlagBits2::eNone,
+                             vk::ImageLayout::eUndefined};
+constexpr ImageUse kDrawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+                          vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal};
+constexpr ImageUse kPresented{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagBits2::eNone,
+                              vk::ImageLayout::ePresentSrcKHR};
+
+}  // namespace
+
+WindowSurface::WindowSurface(const Device& device, Window& window, const Composer& composer)
+    : device_(device),
+      window_(window),
+      composer_(composer),
+      surface_(window.handle().create_surface(device.instance())),
+      acquired_(*device, vk::SemaphoreCreateInfo{}) {}
+
+core::Result<void> WindowSurface::choose_format() {
+  if (device_.physical().getSurfaceSupportKHR(device_.queue_family(), *surface_) == VK_TRUE) {
+    format_ = choose_surface_format(device_, *surface_);
+  }
+  if (format_.format == vk::Format::eUndefined) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         "cannot show pictures of 8 bits a channel in a window of this display with " + device_.name() +
+                             ": set the display to a colour depth of 24 bits");
+  }
+  pipeline_ = composer_.create_pipeline_for(format_.format);
+  return {};
+}
+
+std::uint32_t WindowSurface::most_layers() const {
+  return device_.physical().getSurfaceCapabilitiesKHR(*surface_).maxImageArrayLayers;
+}
+
+bool WindowSurface::follow_window(std::uint32_t layers) {
+  const glm::uvec2 size = window_.size_px();
+  if (size.x == 0 || size.y == 0) {
+    return false;
+  }
+  const vk::Extent2D wanted{size.x, size.y};
+  if (swapchain_ && !outdated_ && swapchain_->extent() == wanted && swapchain_->layers() == layers) {
+    return true;
+  }
+  const auto capabilities = device_.physical().getSurfaceCapabilitiesKHR(*surface_);
+  if (capabilities.maxImageExtent.width == 0 || capabilities.maxImageExtent.height == 0) {
+    return false;
+  }
+  device_->waitIdle();
+  swapchain_ = Swapchain(device_, *surface_, format_, wanted, layers, swapchain_ ? &*swapchain_ : nullptr);
+  // an image that was taken from the old ones may have left it signalled
+  acquired_ = vk::raii::Semaphore(*device_, vk::SemaphoreCreateInfo{});
+  index_.reset();
+  outdated_ = false;
+  return true;
+}
+
+bool WindowSurface::acquire(const std::function<void()>& while_waiting) {
+  for (int turn = 0; !index_ && turn < kMostTurns; ++turn) {
+    const auto [result, index] = (*swapchain_)->acquireNextImage(kTurnNs, *acquired_);
+    if (result == vk::Result::eSuccess || result == vk::Result::eSuboptimalKHR) {
+      index_ = index;
+    } else {
+      while_waiting();
+    }
+  }
+  return index_.has_value();
+}
+
+void WindowSurface::record(const vk::raii::CommandBuffer& command, const Composition& composition,
+                           std::uint32_t first_layer) const {
+  const vk::Extent2D window_size = swapchain_->extent();
+  const vk::Extent2D picture = composer_.extent(composition.mode);
+  const PicturePlace place = picture_place({window_size.width, window_size.height}, {picture.width, picture.height});
+  const vk::Image image = swapchain_->image(*index_);
+  record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, kAcquired, kDrawn)});
+  for (std::uint32_t layer = 0; layer < swapchain_->layers(); ++layer) {
+    const vk::RenderingAttachmentInfo color{.imageView = swapchain_->view(*index_, layer),
+                                            .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
+                                            .loadOp = vk::AttachmentLoadOp::eClear,
+                                            .storeOp = vk::AttachmentStoreOp::eStore,
+                                            .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
+    command.beginRendering({.renderArea = {.extent = window_size},
+                            .layerCount = 1,
+                            .colorAttachmentCount = 1,
+                            .pColorAttachments = &color});
+    composer_.record(
+        command, *pipeline_, composition,
+        {.target = window_size,
+         .area = {.offset = {static_cast<std::int32_t>(place.offset_px.x),
+                             static_cast<std::int32_t>(place.offset_px.y)},
+                  .extent = {place.size_px.x, place.size_px.y}},
+         .screen_px = scene::is_interleaved(composition.mode) ? window_.handle().screen_px() : glm::ivec2(0),
+         .layer = first_layer + layer});
+    command.endRendering();
+  }
+  record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, kDrawn, kPresented)});
+}
+
+void WindowSurface::replace() {
+  device_->waitIdle();
+  swapchain_.reset();
+  index_.reset();
+  surface_ = nullptr;
+  surface_ = window_.handle().create_surface(device_.instance());
+  acquired_ = vk::raii::Semaphore(*device_, vk::SemaphoreCreateInfo{});
+}
+
+}  // namespace afm::render

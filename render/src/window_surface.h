@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "composer.h"
+#include "swapchain.h"
+#include "window_handle.h"
+
+namespace afm::render {
+
+// A window's surface with the images that it shows in turn, made anew as the window changes. Not moved: the window and
+// the composer must outlive it.
+class WindowSurface {
+ public:
+  WindowSurface(const Device& device, Window& window, const Composer& composer);
+  WindowSurface(const WindowSurface&) = delete;
+  WindowSurface& operator=(const WindowSurface&) = delete;
+
+  // DeviceMissing: the display shows no pictures of 8 bits a channel.
+  core::Result<void> choose_format();
+
+  // 2 on a display with a picture for each eye.
+  std::uint32_t most_layers() const;
+
+  // Makes the images that fit the window as it is now; false if there is nothing to fit.
+  bool follow_window(std::uint32_t layers);
+
+  // Takes the image that is drawn next, unless one is already taken; false if the display lends none for a while.
+  bool acquire(const std::function<void()>& while_waiting);
+
+  // Draws the picture into layer 0, or each eye's into its own; `first_layer` is 1 for the right eye's window of dual.
+  void record(const vk::raii::CommandBuffer& command, const Composition& composition, std::uint32_t first_layer) const;
+
+  vk::Semaphore acquired() const { return *acquired_; }
+  vk::Semaphore drawn() const { return swapchain_->drawn(*index_); }
+  vk::SwapchainKHR swapchain() const { return ***swapchain_; }
+  std::uint32_t index() const { return *index_; }
+
+  // The taken image is presented; an outdated surface gets other images next time.
+  void presented() { index_.reset(); }
+  void outdate() { outdated_ = true; }
+
+  // The window system took the surface away: a display driver was restarted, a monitor was lost.
+  void replace();
+
+ private:
+  const Device& device_;
+  Window& window_;
+  const Composer& composer_;
+  vk::raii::SurfaceKHR surface_;
+  vk::SurfaceFormatKHR format_;
+  vk::raii::Pipeline pipeline_{nullptr};
+  vk::raii::Semaphore acquired_;
+  std::optional<Swapchain> swapchain_;
+  std::optional<std::uint32_t> index_;  // of the image that is taken
+  bool outdated_ = false;
+};
+
+}  // namespace afm::render

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "support/pictures.h"
+#include "support/vulkan_fixture.h"
+
+namespace afm::test {
+namespace {
+
+class Calibration : public VulkanTest {
+ protected:
+  Pair pattern(render::PassMode mode, double ipd_m = 0.063) {
+    auto frame = bare_frame(test_.scene);
+    frame.visible.assign(test_.scene.nodes.size(), 0);
+    frame.calibration = {.screen = "wall", .mode = "side-by-side", .ipd_m = ipd_m};
+    const scene::Screen screen = paper_screen();
+    frame.calibration_placement = {.lower_left_m = screen.lower_left,
+                                   .right_m = screen.lower_right - screen.lower_left,
+                                   .up_m = screen.upper_left - screen.lower_left};
+    return draw(test_.scene, frame, small(4, mode));
+  }
+  // White pixels in a part of the picture, in shares of its size.
+  static std::size_t whites(const render::Image& image, double left, double right) {
+    std::size_t found = 0;
+    for (std::uint32_t y = image.height / 3; y < 2 * image.height / 3; ++y) {
+      for (auto x = static_cast<std::uint32_t>(left * image.width); x < right * image.width; ++x) {
+        const Pixel p = pixel(image, x, y);
+        found += std::min({p.r, p.g, p.b}) > 230 ? 1U : 0U;
+      }
+    }
+    return found;
+  }
+  TestScene test_ = make_test_scene();
+};
+
+TEST_F(Calibration, ShowsTheLToTheLeftEyeAndTheRToTheRightEyeAlone) {
+  for (const auto mode : {render::PassMode::Multiview, render::PassMode::TwoPasses}) {
+    const auto eyes = pattern(mode);
+    EXPECT_GT(whites(eyes.left, 0.12, 0.36), 200U);
+    EXPECT_LT(whites(eyes.left, 0.64, 0.88), 20U);
+    EXPECT_LT(whites(eyes.right, 0.12, 0.36), 20U);
+    EXPECT_GT(whites(eyes.right, 0.64, 0.88), 200U);
+  }
+}
+
+TEST_F(Calibration, LiesInTheWallsPlane) {
+  const auto eyes = pattern(render::PassMode::Multiview);
+  std::size_t unlike = 0;
+  for (std::uint32_t y = 0; y < eyes.left.height; ++y) {
+    for (std::uint32_t x = 0; x < eyes.left.width; ++x) {
+      const bool letter = (x > 0.13 * 256 && x < 0.35 * 256) || (x > 0.65 * 256 && x < 0.87 * 256);
+      const Pixel a = pixel(eyes.left, x, y), b = pixel(eyes.right, x, y);
+      if (!letter) unlike += std::abs(a.g - b.g) > 2 ? 1U : 0U;
+    }
+  }
+  EXPECT_LT(unlike, 50U);
+}
+
+}  // namespace
+}  // namespace afm::test

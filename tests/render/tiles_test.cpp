@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "support/pictures.h"
+#include "support/vulkan_fixture.h"
+
+namespace afm::test {
+namespace {
+
+class Tiles : public VulkanTest {
+ protected:
+  // The part of the paper's wall from x to x + 1/2 and y to y + 1/2 of its size, from its lower left corner.
+  static scene::Screen tile(double x, double y) {
+    const scene::Screen whole = paper_screen();
+    const glm::dvec3 right = whole.lower_right - whole.lower_left, up = whole.upper_left - whole.lower_left;
+    const glm::dvec3 corner = whole.lower_left + x * right + y * up;
+    return {"tile", corner, corner + 0.5 * right, corner + 0.5 * up};
+  }
+  TestScene test_ = make_test_scene();
+};
+
+// Each tile is drawn for its own screen; put together they are the wall that is drawn whole. A backdrop hides the
+// background, which fills each image anew.
+TEST_F(Tiles, TogetherAreTheWholeWall) {
+  const auto grey = add_material(test_.scene, {.name = "grey", .base_color = {0.2F, 0.2F, 0.2F, 1.0F}, .unlit = true});
+  add(test_.scene, "backdrop", quad(grey), glm::translate(glm::dmat4(glm::dmat3(9.0)), glm::dvec3(0.0, 0.0, -0.3)));
+  auto frame = bare_frame(test_.scene);
+  auto renderer = make_renderer(test_.scene, small());
+  renderer.render(frame);
+  const std::array whole{renderer.read_eye(scene::Eye::Left), renderer.read_eye(scene::Eye::Right)};
+  ASSERT_TRUE(renderer.resize(128, 96));
+  std::array<render::Image, 2> tiled = whole;
+  const std::array views = frame.eyes;
+  for (const int column : {0, 1}) {
+    for (const int row : {0, 1}) {
+      for (std::size_t eye = 0; eye < 2; ++eye) {
+        frame.eyes[eye] = scene::off_axis_view(tile(0.5 * column, 0.5 * (1 - row)), views[eye].eye_position_m,
+                                               scene::DepthConvention::VulkanReversedInfinite, scene::kNearM, 0.0)
+                              .value();
+      }
+      renderer.render(frame);
+      for (std::size_t eye = 0; eye < 2; ++eye) {
+        const auto part = renderer.read_eye(scene::kEyes[eye]);
+        for (std::uint32_t y = 0; y < 96; ++y) {
+          const auto from = part.rgba.begin() + std::ptrdiff_t{4} * 128 * y;
+          std::copy_n(from, 4 * 128,
+                      tiled[eye].rgba.begin() + std::ptrdiff_t{4} * (256 * (y + 96 * row) + 128 * column));
+        }
+      }
+    }
+  }
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    // the last bit of a projection moves an edge over a sample here and there
+    const Difference found = difference(whole[eye], tiled[eye], 2);
+    EXPECT_LE(found.share_beyond, 0.0005) << found.largest;
+    EXPECT_GT(difference(whole[eye], tiled[1 - eye], 2).share_beyond, 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace afm::test

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/disparity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <limits>
+
+#include "support/stereo_cases.h"
+
+namespace afm::scene {
+namespace {
+
+using test::StereoCase;
+
+std::string case_name(const ::testing::TestParamInfo<StereoCase>& info) { return info.param.id; }
+
+class ComfortRow : public ::testing::TestWithParam<StereoCase> {};
+
+TEST_P(ComfortRow, GivesTheDepthsAndTheirParallax) {
+  const double distance = GetParam().inputs[0], ipd = GetParam().inputs[1];
+  const ComfortZone zone = comfort_zone(distance, ipd, glm::radians(GetParam().inputs[2]));
+  const auto near_to = [](double a, double b) { return a == b || std::abs(a - b) <= 1e-9 * std::abs(b); };
+  EXPECT_PRED2(near_to, zone.nearest_m, GetParam().expected[0]);
+  EXPECT_PRED2(near_to, zone.farthest_m, GetParam().expected[1]);
+  EXPECT_PRED2(near_to, 1e3 * disparity_at(distance, ipd, zone.nearest_m).uncrossed_m, GetParam().expected[2]);
+  EXPECT_PRED2(near_to, 1e3 * disparity_at(distance, ipd, zone.farthest_m).uncrossed_m, GetParam().expected[3]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stereo, ComfortRow, ::testing::ValuesIn(test::stereo_cases("comfort")), case_name);
+
+class ParallaxAngleRow : public ::testing::TestWithParam<StereoCase> {};
+
+TEST_P(ParallaxAngleRow, IsTheAngleBeforeTheWall) {
+  const std::vector<double>& in = GetParam().inputs;
+  const auto at = [&](std::size_t i) { return glm::dvec3(in[i], in[i + 1], in[i + 2]); };
+  const Screen screen{"case", at(0), at(3), at(6)};
+  const Disparity found = disparity_of(screen, at(9), at(12), at(15));
+  EXPECT_NEAR(glm::degrees(found.crossed_rad), GetParam().expected[7], 1e-9);
+  EXPECT_NEAR(1e3 * found.uncrossed_m, GetParam().expected[6], 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stereo, ParallaxAngleRow, ::testing::ValuesIn(test::stereo_cases("parallax")), case_name);
+
+TEST(ResearchComfort, WasAllRead) {
+  EXPECT_EQ(test::stereo_cases("comfort").size(), 4U);
+  EXPECT_EQ(test::stereo_cases("parallax").size(), 6U);
+}
+
+TEST(Disparity, IsCrossedBeforeTheWallNothingOnItAndNeverMoreThanTheEyesAreApartBehind) {
+  constexpr double kIpd = 0.063, kWall = 2.5;
+  EXPECT_EQ(disparity_at(kWall, kIpd, kWall).uncrossed_m, 0.0);
+  EXPECT_EQ(disparity_at(kWall, kIpd, kWall).crossed_rad, 0.0);
+  double before = -std::numeric_limits<double>::infinity();
+  for (double depth = 0.1; depth < 1e6; depth *= 1.3) {
+    const Disparity at = disparity_at(kWall, kIpd, depth);
+    EXPECT_EQ(at.crossed_rad > 0, depth < kWall);
+    EXPECT_GT(at.uncrossed_m, before);
+    EXPECT_LT(at.uncrossed_m, kIpd);
+    before = at.uncrossed_m;
+  }
+  EXPECT_EQ(disparity_at(kWall, kIpd, std::numeric_limits<double>::infinity()).uncrossed_m, kIpd);
+}
+
+TEST(ComfortZone, ReachesFartherForEyesThatAreCloserTogether) {
+  EXPECT_GT(comfort_zone(2.5, 0.050, kComfortableDisparityRad).farthest_m,
+            comfort_zone(2.5, 0.065, kComfortableDisparityRad).farthest_m);
+}
+
+}  // namespace
+}  // namespace afm::scene
