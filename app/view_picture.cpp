@@ -19,12 +19,6 @@ constexpr std::int64_t kSteadyNs = 250'000'000;  // a window that keeps its size
 constexpr std::int64_t kMeasureNs = 250'000'000;      // between two measurements of depth
 constexpr std::int64_t kDepthLogNs = 10'000'000'000;  // between two lines in the log
 
-// Both eyes in their middle for a picture without depth.
-std::array<scene::EyeView, 2> eyes_for(const Stage& stage, const PictureSettings& settings) {
-  const double ipd_m = settings.composition.mode == scene::StereoMode::Mono ? 0.0 : settings.ipd_m;
-  return *eyes_before(stage.screen, stage.wall.viewers.front().sweet_spot, ipd_m);  // loaded with this wall and head
-}
-
 }  // namespace
 
 ViewPicture::ViewPicture(const Stage& stage, render::Context& context, render::Window& window,
@@ -34,10 +28,12 @@ ViewPicture::ViewPicture(const Stage& stage, render::Context& context, render::W
       renderer_(renderer),
       presenter_(presenter),
       settings_(settings),
-      eyes_(eyes_for(stage, settings)),
+      head_(stage.wall.viewers.front().sweet_spot),
+      eyes_(stage.eyes),
       eye_size_px_(settings.eye_px),
       depth_meter_(context, renderer) {
   if (settings_.frame_budget_ms > 0) budget_.emplace(settings_.frame_budget_ms, renderer.detail().samples);
+  look_from(head_);
 }
 
 void ViewPicture::fit(std::int64_t now_ns) {
@@ -54,26 +50,16 @@ void ViewPicture::fit(std::int64_t now_ns) {
 }
 
 void ViewPicture::look_from(const scene::HeadPose& head) {
-  const double ipd_m = settings_.composition.mode == scene::StereoMode::Mono ? 0.0 : stage_.wall.viewers.front().ipd_m;
-  std::array<scene::EyeView, 2> eyes;
-  for (const scene::Eye eye : scene::kEyes) {
-    const auto view = scene::off_axis_view(stage_.wall.screens.front(), scene::eye_position(head, eye, ipd_m),
-                                           scene::DepthConvention::VulkanReversedInfinite, scene::kNearM, 0.0);
-    if (!view) return;
-    eyes[static_cast<std::size_t>(eye)] = *view;
-  }
-  eyes_ = eyes;
+  const auto eyes = eyes_before(stage_.screen, head, flat() ? 0.0 : settings_.ipd_m);
+  if (!eyes) return;
+  head_ = head;
+  eyes_ = *eyes;
 }
 
 void ViewPicture::swap_eyes() {
   const bool straight = settings_.composition.order == scene::EyeOrder::Straight;
   settings_.composition.order = straight ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight;
   core::log_line(straight ? "eyes swapped" : "eyes as they were");
-}
-
-void ViewPicture::follow_viewer() {
-  eyes_ = eyes_for(stage_, settings_);
-  depth_ = {};
 }
 
 void ViewPicture::change_mode(Step step) {
@@ -83,13 +69,15 @@ void ViewPicture::change_mode(Step step) {
     index = (index + (step == Step::Next ? 1 : kCount - 1)) % kCount;
   } while (!presenter_.check_mode(scene::kStereoModes[index].mode));
   settings_.composition.mode = scene::kStereoModes[index].mode;
-  follow_viewer();
+  look_from(head_);
+  depth_ = {};
   core::log_line(fmt::format("stereo: {}", scene::kStereoModes[index].name));
 }
 
 void ViewPicture::widen_eyes(double by_m) {
   settings_.ipd_m = std::clamp(settings_.ipd_m + by_m, scene::kSmallestIpdM, scene::kLargestIpdM);
-  follow_viewer();
+  look_from(head_);
+  depth_ = {};
   core::log_line(fmt::format("between the eyes: {:.0f} mm", settings_.ipd_m * 1e3));
 }
 
@@ -100,10 +88,6 @@ WallPicture ViewPicture::picture() const {
   return {.place = render::picture_place(glm::max(window_.size_px(), glm::uvec2(1)), picture_px),
           .composition = settings_.composition,
           .eyes = eyes_};
-}
-
-void ViewPicture::add_calibration(render::FrameState& frame) const {
-  show_calibration(stage_.screen, settings_.composition.mode, settings_.ipd_m, frame);
 }
 
 // What an earlier frame asked of the eyes; tells the log when that begins to be too much, and now and then.
@@ -125,7 +109,7 @@ void ViewPicture::measure_depth(std::int64_t now_ns) {
 
 void ViewPicture::show(render::FrameState& frame, std::int64_t now_ns, const std::function<void()>& while_waiting) {
   if (calibrating_) {
-    add_calibration(frame);
+    show_calibration(stage_.screen, settings_.composition.mode, settings_.ipd_m, frame);
   } else if (!flat()) {
     frame.labels.push_back(depth_label(depth_, stage_.screen));
   }

@@ -60,15 +60,15 @@ class ViewPicture {
 
  private:
   bool flat() const { return settings_.composition.mode == scene::StereoMode::Mono; }
-  void follow_viewer();
-  void add_calibration(render::FrameState& frame) const;
   void measure_depth(std::int64_t now_ns);
+
   const Stage& stage_;
   render::Window& window_;
   render::Renderer& renderer_;
   render::Presenter& presenter_;
   PictureSettings settings_;
-  std::array<scene::EyeView, 2> eyes_;  // left and right of the stage, or twice the middle
+  scene::HeadPose head_;                // the eyes are drawn for
+  std::array<scene::EyeView, 2> eyes_;  // left and right, or twice the middle
   glm::uvec2 eye_size_px_;              // as the renderer draws
   glm::uvec2 window_size_px_{0};
   std::int64_t window_steady_since_ns_ = 0;
