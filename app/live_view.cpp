@@ -129,6 +129,7 @@ void LiveView::act(ViewAction action) {
       break;
     case ViewAction::Home:
       view_wand_.home();
+      to_wall_ = glm::dmat4(1.0);
       break;
     case ViewAction::SwapEyes:
       picture_.swap_eyes();
@@ -165,6 +166,10 @@ void LiveView::act(ViewAction action) {
 
 // The contact comes into the wall's plane, where both eyes see it in one place.
 void LiveView::bring_to_wall() {
+  if (servo_.link().tip().phase == scene::ContactPhase::Attached) {
+    core::log_line("the scene stays while the tip touches it");
+    return;
+  }
   const glm::dvec3 contact(to_wall_ * view_wand_.navigation() * glm::dvec4(stage_.wall_scene.contact_m(), 1.0));
   const glm::dvec3 normal = stage_.screen.normal();
   const double before_wall_m = glm::dot(contact - stage_.screen.lower_left, normal);
