@@ -94,7 +94,7 @@ const std::string kWalls = AFM_SOURCE_DIR "/assets/walls/";
 std::array<unsigned, 2> png_size(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::array<unsigned char, 24> header{};
-  file.read(reinterpret_cast<char*>(header.data()), header.size());
+  file.read(reinterpret_cast<char*>(header.data()), static_cast<std::streamsize>(header.size()));
   const auto number = [&](std::size_t at) {
     return 16777216U * header[at] + 65536U * header[at + 1] + 256U * header[at + 2] + header[at + 3];
   };

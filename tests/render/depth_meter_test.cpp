@@ -46,8 +46,8 @@ TEST_F(DepthMeters, FindsTheNearestAndTheFarthestThing) {
 }
 
 TEST_F(DepthMeters, SeesWhatOneEyeAloneSees) {
-  // at the picture's left border, before the wall: inside the right eye's image, outside the left one's
-  add_square(1.6, -0.62, 0.06);
+  // at the picture's left border, before the wall: inside the left eye's image, outside the right one's
+  add_square(1.6, -0.56, 0.06);
   add_square(0.0, 0.0);
   const auto range = measure(small());
   ASSERT_TRUE(range);
