@@ -298,7 +298,7 @@ void WallScene::place_marks(const Pose& pose, render::FrameState& frame) const {
   const auto radius_m = static_cast<float>(kShadeRadius * glm::length(dvec3(room_from_layout_[0])));
   const bool magnet = pose.exhibit == Exhibit::Analogy;
   frame.contact = {.place_m = glm::vec3(frame.room_from_node[magnet ? analogy_.magnet() : apex_][3]),
-                   .shade_radius_m = magnet ? 2.0F * radius_m : radius_m};
+                   .shade_radius_m = magnet ? 0.8F * radius_m : radius_m};
   if (!pose.cue) return;
   const CueRing ring = cue_ring(*pose.cue);
   frame.contact.ring_color = ring.color;

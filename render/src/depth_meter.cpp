@@ -112,6 +112,7 @@ struct DepthMeter::Parts {
   vk::raii::CommandBuffer commands;
   vk::raii::Fence finished;
   bool under_way = false;
+  double near_m = 0;  // of the frame that is measured
   std::optional<DepthRange> newest;
 };
 
@@ -172,10 +173,10 @@ void DepthMeter::Parts::collect() {
   std::memcpy(&bits, range.mapped, sizeof(bits));
   newest.reset();
   if (bits.greatest == 0) return;
-  const auto metres = [](std::uint32_t depth_bits) {
+  const auto metres = [this](std::uint32_t depth_bits) {
     float depth = 0;
     std::memcpy(&depth, &depth_bits, sizeof(depth));
-    return scene::kNearM / static_cast<double>(depth);  // reversed infinite depth
+    return near_m / static_cast<double>(depth);  // reversed infinite depth
   };
   newest = DepthRange{.nearest_m = metres(bits.greatest), .farthest_m = metres(bits.least)};
 }
@@ -199,6 +200,7 @@ void DepthMeter::measure() {
     const vk::CommandBufferSubmitInfo submit{.commandBuffer = *parts.commands};
     parts.device.queue().submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submit},
                                  *parts.finished);
+    parts.near_m = drawn.near_m;
     parts.under_way = true;
   });
 }

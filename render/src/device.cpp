@@ -230,7 +230,9 @@ void Device::create_device(Presentation presentation) {
   const float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue_info{
       .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
-  vk::PhysicalDeviceVulkan13Features features13{.synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE};
+  // maintenance4: SPIR-V 1.6 gives a compute shader's size as the feature allows
+  vk::PhysicalDeviceVulkan13Features features13{
+      .synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE, .maintenance4 = VK_TRUE};
   vk::PhysicalDeviceVulkan12Features features12{.pNext = &features13, .timelineSemaphore = VK_TRUE};
   const vk::PhysicalDeviceVulkan11Features features11{.pNext = &features12, .multiview = VK_TRUE};
   device_ = vk::raii::Device(physical_, {.pNext = &features11,

@@ -174,6 +174,7 @@ void Renderer::Parts::render(const FrameState& frame) {
   record_drawing(slot_index);
   submit(slot_index);
   eyes_drawn = true;
+  near_m = frame.eyes[0].projection[3][2];
 }
 
 Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}

@@ -48,6 +48,7 @@ struct Renderer::Parts {
   vk::raii::Semaphore timeline;
   std::uint64_t frames = 0;  // submitted
   bool eyes_drawn = false;   // since the eye images were made
+  double near_m = 0;         // of the newest frame: its depth is near_m / distance
 };
 
 }  // namespace afm::render

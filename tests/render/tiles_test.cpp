@@ -45,8 +45,8 @@ TEST_F(Tiles, TogetherAreTheWholeWall) {
         const auto part = renderer.read_eye(scene::kEyes[eye]);
         for (std::uint32_t y = 0; y < 96; ++y) {
           const auto from = part.rgba.begin() + std::ptrdiff_t{4} * 128 * y;
-          std::copy_n(from, 4 * 128,
-                      tiled[eye].rgba.begin() + std::ptrdiff_t{4} * (256 * (y + 96 * row) + 128 * column));
+          const std::ptrdiff_t to = 256 * (std::ptrdiff_t{y} + 96 * row) + std::ptrdiff_t{128} * column;
+          std::copy_n(from, 4 * 128, tiled[eye].rgba.begin() + 4 * to);
         }
       }
     }
