@@ -176,7 +176,7 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   panel.title = "Force on the tip";
   Axes axes;
   for (std::size_t i = 0; i < materials_->size(); ++i) {
-    const bool in_front = moment.compare_all || moment.material == i;
+    const bool in_front = moment.compare_all || !moment.material || moment.material == i;
     if (in_front) axes.include((*materials_)[i]);
     if (i >= moment.curves.size() || moment.curves[i].empty()) continue;
     render::PlotCurve curve = moment.curves[i].plot((*materials_)[i].setup.material.title, curve_color(i));
