@@ -38,12 +38,17 @@ inline void refuse_allocation(const char* what) {
 
 #if !defined(AFM_TEST_SANITIZES_THREADS) && !defined(__SANITIZE_THREAD__)
 
-// The plain forms reach these; the standard library's array and nothrow forms are defined by them. Not inlined, because
-// gcc 12 then takes the pair of operator new and free() for a mistake.
+// The standard library's array forms are defined by these; its nothrow form would be too, but AddressSanitizer brings
+// one of its own. Not inlined, because gcc 12 then takes the pair of operator new and free() for a mistake.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   afm::test::refuse_allocation("operator new");
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
+}
+
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  afm::test::refuse_allocation("operator new");
+  return std::malloc(size == 0 ? 1 : size);
 }
 
 void* operator new(std::size_t size, std::align_val_t alignment) {
