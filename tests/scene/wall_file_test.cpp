@@ -59,15 +59,19 @@ TEST(WallFile, IsReadAsWritten) {
 }
 
 TEST(WallFile, NamesLineAndKeyOfEveryMistake) {
-  EXPECT_THAT(error_of(with("name = \"wall\"", "nmae = \"wall\"")), AllOf(HasSubstr("line 2"), HasSubstr("screen.nmae"), HasSubstr("unknown key")));
-  EXPECT_THAT(error_of(with("lower_right = [1.5, 0.4, 0]", "lower_right = [1.5, 0.4]")), AllOf(HasSubstr("line 4"), HasSubstr("three numbers")));
-  EXPECT_THAT(error_of(with("lower_right = [1.5, 0.4, 0]\n", "")), AllOf(HasSubstr("screen.lower_right"), HasSubstr("missing")));
+  EXPECT_THAT(error_of(with("name = \"wall\"", "nmae = \"wall\"")),
+              AllOf(HasSubstr("line 2"), HasSubstr("screen.nmae"), HasSubstr("unknown key")));
+  EXPECT_THAT(error_of(with("lower_right = [1.5, 0.4, 0]", "lower_right = [1.5, 0.4]")),
+              AllOf(HasSubstr("line 4"), HasSubstr("three numbers")));
+  EXPECT_THAT(error_of(with("lower_right = [1.5, 0.4, 0]\n", "")),
+              AllOf(HasSubstr("screen.lower_right"), HasSubstr("missing")));
   EXPECT_THAT(error_of(with("\"63 mm\"", "63")), AllOf(HasSubstr("line 9"), HasSubstr("viewer.ipd")));
   EXPECT_THAT(error_of(with("\"63 mm\"", "\"63\"")), AllOf(HasSubstr("line 9"), HasSubstr("mm")));
   EXPECT_THAT(error_of(with("\"63 mm\"", "\"63 cm\"")), HasSubstr("viewer.ipd"));
   EXPECT_THAT(error_of(with("\"63 mm\"", "\"6.3 m\"")), AllOf(HasSubstr("viewer.ipd"), HasSubstr("between")));
   EXPECT_THAT(error_of(with("[[viewer]]", "[viewer]")), AllOf(HasSubstr("viewer"), HasSubstr("[[viewer]]")));
-  EXPECT_THAT(error_of(with("lower_left = [-1.5, 0.4, 0]", "lower_left = [-1.5, 0.4, nan]")), HasSubstr("screen.lower_left"));
+  EXPECT_THAT(error_of(with("lower_left = [-1.5, 0.4, 0]", "lower_left = [-1.5, 0.4, nan]")),
+              HasSubstr("screen.lower_left"));
   EXPECT_THAT(error_of(with("[0, 1.6, 2.5]", "[0, 1.6, ")), HasSubstr("line"));
 }
 
@@ -122,34 +126,46 @@ TEST(WallFile, NamesLineAndKeyOfEveryMistakeInAnOutput) {
   const auto both = [](const char* a, const char* b) { return AllOf(HasSubstr(a), HasSubstr(b)); };
   EXPECT_THAT(error_of(with_outputs("screen = \"wall\"\nmode = \"dual\"", "screen = \"well\"\nmode = \"dual\"")),
               AllOf(HasSubstr("line 14"), HasSubstr("output.screen"), HasSubstr("\"well\"")));
-  EXPECT_THAT(error_of(with_outputs("mode = \"dual\"", "mode = \"3d\"")), AllOf(HasSubstr("line 15"), both("output.mode", "anaglyph-red-cyan")));
+  EXPECT_THAT(error_of(with_outputs("mode = \"dual\"", "mode = \"3d\"")),
+              AllOf(HasSubstr("line 15"), both("output.mode", "anaglyph-red-cyan")));
   EXPECT_THAT(error_of(with_outputs("eye = \"left\"\n", "")), both("output.eye", "missing"));
   EXPECT_THAT(error_of(with_outputs("mode = \"dual\"", "mode = \"mono\"")), both("output.eye", "dual"));
   EXPECT_THAT(error_of(with_outputs("eye = \"left\"", "eye = \"both\"")), both("output.eye", "right"));
   EXPECT_THAT(error_of(with_outputs("eye = \"left\"", "eye = \"right\"")), both("output.eye", "already"));
-  EXPECT_THAT(error_of(with_outputs("mode = \"dual\"\neye = \"left\"", "mode = \"mono\"")), both("output.eye", "other eye"));
+  EXPECT_THAT(error_of(with_outputs("mode = \"dual\"\neye = \"left\"", "mode = \"mono\"")),
+              both("output.eye", "other eye"));
   EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "")), both("output.monitor", "rect"));
-  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1400, 1050]\nmonitor = \"HDMI-1\"")), both("output.monitor", "rect"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1400, 1050]\nmonitor = \"HDMI-1\"")),
+              both("output.monitor", "rect"));
   EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1400]")), both("output.rect", "four"));
-  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1400.5, 1050]")), both("output.rect", "whole"));
-  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 0, 1050]")), both("output.rect", "0 x 1050"));
-  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1e300, 1050]")), both("output.rect", "65536"));
-  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1401, 1050]")), both("output.rect", "overlaps"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1400.5, 1050]")),
+              both("output.rect", "whole"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 0, 1050]")),
+              both("output.rect", "0 x 1050"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1e300, 1050]")),
+              both("output.rect", "65536"));
+  EXPECT_THAT(error_of(with_outputs("rect = [0, 0, 1400, 1050]", "rect = [0, 0, 1401, 1050]")),
+              both("output.rect", "overlaps"));
   EXPECT_THAT(error_of(with_outputs("left projector", "right projector")), both("output.name", "twice"));
   EXPECT_THAT(error_of(with_outputs("swap = true", "swap = 1")), both("output.swap", "true or false"));
   EXPECT_THAT(error_of(with_outputs("swap = true", "flip = true")), both("output.flip", "unknown key"));
-  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[1, 0, 0, 1]")), both("output.homography", "nine"));
-  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[1, 0, 0, 1, 0, 0, 0, 0, 1]")), both("output.homography", "line"));
-  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[1, 0, 0, 0, 1, 0, -2, 0, 1]")), both("output.homography", "infinity"));
-  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[-1, 0, 1, 0, 1, 0, 0, 0, 1]")), both("output.homography", "mirrors"));
-  EXPECT_THAT(error_of(with_outputs("mode = \"dual\"\neye = \"left\"", "mode = \"frame-packed-720p\"")), both("output.rect", "1280 x 1470"));
+  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[1, 0, 0, 1]")),
+              both("output.homography", "nine"));
+  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[1, 0, 0, 1, 0, 0, 0, 0, 1]")),
+              both("output.homography", "line"));
+  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[1, 0, 0, 0, 1, 0, -2, 0, 1]")),
+              both("output.homography", "infinity"));
+  EXPECT_THAT(error_of(with_outputs("[0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1]", "[-1, 0, 1, 0, 1, 0, 0, 0, 1]")),
+              both("output.homography", "mirrors"));
+  EXPECT_THAT(error_of(with_outputs("mode = \"dual\"\neye = \"left\"", "mode = \"frame-packed-720p\"")),
+              both("output.rect", "1280 x 1470"));
   EXPECT_THAT(error_of("output = 3\n" + std::string(kGood)), both("output", "[[output]]"));
 }
 
 TEST(WallFile, ReadsWhoIsTheViewersHead) {
   const support::ScratchFolder folder;
-  const auto wall = load_wall(folder.write(
-      "wall.toml", with("\"63 mm\"", "\"63 mm\"\nhead = \"dtrack:12\"\neye_from_head = [0, -0.1, 0.05]")));
+  const auto wall = load_wall(
+      folder.write("wall.toml", with("\"63 mm\"", "\"63 mm\"\nhead = \"dtrack:12\"\neye_from_head = [0, -0.1, 0.05]")));
   ASSERT_TRUE(wall.has_value()) << wall.error().message;
   EXPECT_EQ(wall->viewers[0].head, "dtrack:12");
   EXPECT_EQ(wall->viewers[0].eye_from_head_m, glm::dvec3(0, -0.1, 0.05));
@@ -157,18 +173,21 @@ TEST(WallFile, ReadsWhoIsTheViewersHead) {
     EXPECT_THAT(error_of(with("\"63 mm\"", "\"63 mm\"\nhead = \"" + std::string(wrong) + "\"")),
                 AllOf(HasSubstr("line 10"), HasSubstr("viewer.head"), HasSubstr(wrong)));
   }
-  EXPECT_THAT(error_of(with("\"63 mm\"", "\"63 mm\"\neye_from_head = [0, -100, 0]")), HasSubstr("viewer.eye_from_head"));
+  EXPECT_THAT(error_of(with("\"63 mm\"", "\"63 mm\"\neye_from_head = [0, -100, 0]")),
+              HasSubstr("viewer.eye_from_head"));
 }
 
 // ---- ParaView's configurations ----
 
 std::string pvx(const std::string& machines) {
   return "<?xml version=\"1.0\" ?>\n<pvx>\n  <Process Type=\"client\" />\n  <Process Type=\"server\">\n"
-         "    <EyeSeparation Value=\"0.065\"/>\n" + machines + "  </Process>\n</pvx>\n";
+         "    <EyeSeparation Value=\"0.065\"/>\n" +
+         machines + "  </Process>\n</pvx>\n";
 }
 
 constexpr const char* kMachine =
-    "    <Machine Name=\"wall\" Environment=\"DISPLAY=:0\"\n      LowerLeft=\"-1.5 -1 -2.5\"\n      LowerRight=\"1.5 -1 -2.5\"\n"
+    "    <Machine Name=\"wall\" Environment=\"DISPLAY=:0\"\n      LowerLeft=\"-1.5 -1 -2.5\"\n      LowerRight=\"1.5 "
+    "-1 -2.5\"\n"
     "      UpperRight=\"1.5 1 -2.5\" />\n";
 
 TEST(PvxFile, GivesTheCornersOfEveryMachine) {
@@ -205,8 +224,10 @@ TEST(PvxFile, NamesLineAndAttributeOfEveryMistake) {
   EXPECT_THAT(pvx_error("<pvx>\n<Machine\n"), HasSubstr("line"));
   EXPECT_THAT(pvx_error("<xml/>"), HasSubstr("<pvx>"));
   EXPECT_THAT(pvx_error(pvx("")), HasSubstr("no Machine"));
-  EXPECT_THAT(pvx_error(machine_with("LowerLeft", "LowerLift")), AllOf(HasSubstr("line 6"), HasSubstr("Machine.LowerLeft"), HasSubstr("missing")));
-  EXPECT_THAT(pvx_error(machine_with("-1.5 -1 -2.5", "-1.5 -1")), AllOf(HasSubstr("Machine.LowerLeft"), HasSubstr("three numbers")));
+  EXPECT_THAT(pvx_error(machine_with("LowerLeft", "LowerLift")),
+              AllOf(HasSubstr("line 6"), HasSubstr("Machine.LowerLeft"), HasSubstr("missing")));
+  EXPECT_THAT(pvx_error(machine_with("-1.5 -1 -2.5", "-1.5 -1")),
+              AllOf(HasSubstr("Machine.LowerLeft"), HasSubstr("three numbers")));
   EXPECT_THAT(pvx_error(machine_with("-1.5 -1 -2.5", "-1.5 nan -2.5")), HasSubstr("three numbers"));
   EXPECT_THAT(pvx_error(machine_with("-1.5 -1 -2.5", "-1.5 -1x -2.5")), HasSubstr("three numbers"));
   EXPECT_THAT(pvx_error(machine_with("-1.5 -1 -2.5", "1.5 -1 -2.5")), HasSubstr("coincide"));
@@ -221,7 +242,8 @@ TEST(WallFile, RefusesCollinearCorners) {
 }
 
 TEST(WallFile, RefusesAViewerBehindTheWall) {
-  EXPECT_THAT(error_of(with("[0, 1.6, 2.5]", "[0, 1.6, -2.5]")), AllOf(HasSubstr("viewer.sweet_spot"), HasSubstr("behind")));
+  EXPECT_THAT(error_of(with("[0, 1.6, 2.5]", "[0, 1.6, -2.5]")),
+              AllOf(HasSubstr("viewer.sweet_spot"), HasSubstr("behind")));
 }
 
 TEST(WallFile, ThatIsNotThereIsABadInputFile) {

@@ -21,11 +21,12 @@ using ::testing::HasSubstr;
 // ---- the research's test vectors, rows frustum, probe, eyes and parallax of stereo_cases.csv ----
 
 DepthConvention convention_of(const std::string& name) {
-  static const std::map<std::string, DepthConvention> conventions{{"vk01", DepthConvention::Vulkan},
-                                                                  {"vk_revz", DepthConvention::VulkanReversed},
-                                                                  {"vk_revz_inf", DepthConvention::VulkanReversedInfinite},
-                                                                  {"vk01_yup", DepthConvention::VulkanYUp},
-                                                                  {"gl", DepthConvention::OpenGl}};
+  static const std::map<std::string, DepthConvention> conventions{
+      {"vk01", DepthConvention::Vulkan},
+      {"vk_revz", DepthConvention::VulkanReversed},
+      {"vk_revz_inf", DepthConvention::VulkanReversedInfinite},
+      {"vk01_yup", DepthConvention::VulkanYUp},
+      {"gl", DepthConvention::OpenGl}};
   return conventions.at(name);
 }
 
@@ -39,7 +40,8 @@ void expect_row_major_near(const glm::dmat4& m, const std::vector<double>& expec
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
       const double e = expected[at + static_cast<std::size_t>(4 * row + column)];
-      EXPECT_NEAR(m[column][row], e, std::max(1e-12, 1e-9 * std::abs(e))) << what << " row " << row << " column " << column;
+      EXPECT_NEAR(m[column][row], e, std::max(1e-12, 1e-9 * std::abs(e)))
+          << what << " row " << row << " column " << column;
     }
   }
 }
@@ -50,7 +52,8 @@ class FrustumRow : public ::testing::TestWithParam<StereoCase> {};
 
 TEST_P(FrustumRow, MatchesProjectionViewAndProduct) {
   const StereoCase& c = GetParam();
-  const auto view = off_axis_view(screen_of(c.inputs), vec3(c.inputs, 9), convention_of(c.convention), c.inputs[12], c.inputs[13]);
+  const auto view =
+      off_axis_view(screen_of(c.inputs), vec3(c.inputs, 9), convention_of(c.convention), c.inputs[12], c.inputs[13]);
   ASSERT_TRUE(view.has_value()) << view.error().message;
   expect_row_major_near(view->projection, c.expected, 0, "projection");
   expect_row_major_near(view->view, c.expected, 16, "view");
@@ -63,7 +66,8 @@ class ProbeRow : public ::testing::TestWithParam<StereoCase> {};
 
 TEST_P(ProbeRow, ProjectsThePointToItsPlaceOnTheWall) {
   const StereoCase& c = GetParam();
-  const auto view = off_axis_view(screen_of(c.inputs), vec3(c.inputs, 9), convention_of(c.convention), c.inputs[12], c.inputs[13]);
+  const auto view =
+      off_axis_view(screen_of(c.inputs), vec3(c.inputs, 9), convention_of(c.convention), c.inputs[12], c.inputs[13]);
   ASSERT_TRUE(view.has_value()) << view.error().message;
   const glm::dvec4 clip = view->projection * view->view * glm::dvec4(vec3(c.inputs, 14), 1.0);
   const glm::dvec3 ndc = glm::dvec3(clip) / clip.w;
@@ -131,7 +135,9 @@ class Properties : public ::testing::Test {
  protected:
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   glm::dvec3 point(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-  glm::dquat rotation() { return glm::normalize(glm::dquat(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1))); }
+  glm::dquat rotation() {
+    return glm::normalize(glm::dquat(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
+  }
 
   // Any orientation and place; the head in front of the wall, facing it squarely.
   RandomWall wall() {
@@ -169,7 +175,9 @@ TEST_F(Properties, APointOnTheWallHasZeroParallaxAndNearerIsCrossed) {
     const RandomWall w = wall();
     const glm::dvec3 on_wall = w.screen.lower_left + uniform(0, 1) * (w.screen.lower_right - w.screen.lower_left) +
                                uniform(0, 1) * (w.screen.upper_left - w.screen.lower_left);
-    const auto parallax = [&](const glm::dvec3& p) { return pixel(w.screen, w.right, p, 1, 1) - pixel(w.screen, w.left, p, 1, 1); };
+    const auto parallax = [&](const glm::dvec3& p) {
+      return pixel(w.screen, w.right, p, 1, 1) - pixel(w.screen, w.left, p, 1, 1);
+    };
     EXPECT_LT(glm::length(parallax(on_wall)), 1e-9);
     EXPECT_LT(parallax(on_wall + 0.1 * w.screen.normal()).x, 0.0);
     EXPECT_GT(parallax(on_wall - 0.1 * w.screen.normal()).x, 0.0);
@@ -181,7 +189,8 @@ TEST_F(Properties, ParallaxAtInfinityIsTheEyesDistanceOnTheWall) {
   for (int i = 0; i < kWalls; ++i) {
     const RandomWall w = wall();
     const glm::dvec3 far = w.screen.center() - 1e9 * w.screen.normal();
-    const double parallax_m = (pixel(w.screen, w.right, far, 1, 1) - pixel(w.screen, w.left, far, 1, 1)).x * w.screen.width_m();
+    const double parallax_m =
+        (pixel(w.screen, w.right, far, 1, 1) - pixel(w.screen, w.left, far, 1, 1)).x * w.screen.width_m();
     EXPECT_NEAR(parallax_m, glm::distance(w.left, w.right), 1e-6);
   }
 }
