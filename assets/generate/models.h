@@ -15,7 +15,7 @@ Model stage();
 std::vector<Model> swatches();  // what the wand points at to choose a material
 Model optics();                 // laser, four-quadrant photodiode, beam, spot
 Model wand();
-Model analogy();  // a magnet on a spring above an iron plate
+Model analogy();               // a magnet on a spring above an iron plate
 Model journey();               // the instrument from the bench to its last atom, all about the contact point
 std::vector<Model> grounds();  // the samples for it, from 5 mm to their atoms
 Model marks();                 // the ruler's line and the bend's
