@@ -36,14 +36,21 @@ endif()
 add_library(afm_glm INTERFACE)
 target_compile_definitions(afm_glm INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_EXPLICIT_CTOR GLM_ENABLE_EXPERIMENTAL)
 
-# afm_module(NAME HEADERS ... SOURCES ... PUBLIC ... PRIVATE ...)
+# What most files include and the compiler needs seconds to read is read once for each library. It replaces no include: the
+# public headers are compiled alone, without it (all_verify_interface_header_sets).
+set(AFM_PRECOMPILED_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
+    <optional> <random> <span> <stdexcept> <string> <string_view> <thread> <utility> <vector>)
+set(AFM_PRECOMPILED_GLM <glm/geometric.hpp> <glm/gtc/matrix_transform.hpp> <glm/gtc/quaternion.hpp> <glm/mat4x4.hpp>)
+
+# afm_module(NAME HEADERS ... SOURCES ... PUBLIC ... PRIVATE ... PRECOMPILED ...)
 # A folder is a static library afm::NAME. Only NAME/include is exported, so that including a module that is not linked
 # fails; every public header is compiled alone by the target all_verify_interface_header_sets.
 function(afm_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 M "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 M "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE;PRECOMPILED")
   add_library(afm_${name} STATIC ${M_SOURCES})
   add_library(afm::${name} ALIAS afm_${name})
   target_sources(afm_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${M_HEADERS})
   target_link_libraries(afm_${name} PUBLIC ${M_PUBLIC} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:afm_build_flags>)
+  target_precompile_headers(afm_${name} PRIVATE ${AFM_PRECOMPILED_HEADERS} ${M_PRECOMPILED})
   set_target_properties(afm_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()
