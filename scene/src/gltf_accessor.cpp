@@ -12,37 +12,8 @@
 namespace afm::scene {
 namespace {
 
-// An accessor without a view is all zeros, so that a small file can ask for much.
-constexpr std::uint64_t kMostElements = 24'000'000;
-
-std::size_t size_of(ComponentType type) {
-  switch (type) {
-    case ComponentType::Byte:
-    case ComponentType::UnsignedByte:
-      return 1;
-    case ComponentType::Short:
-    case ComponentType::UnsignedShort:
-      return 2;
-    default:
-      return 4;
-  }
-}
-
-ComponentType component_type(const JsonElement& element) {
-  const std::uint64_t number = element.required_size("componentType", 65535);
-  if (number < 5120 || number > 5126 || number == 5124) element.fail("has a componentType that glTF does not know");
-  return static_cast<ComponentType>(number);
-}
-
-void read_type(const JsonElement& element, Accessor& accessor) {
-  const std::string type = element.required_text("type");
-  constexpr std::pair<const char*, int> kTypes[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
-                                                    {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16}};
-  const auto* found =
-      std::find_if(std::begin(kTypes), std::end(kTypes), [&](const auto& t) { return t.first == type; });
-  if (found == std::end(kTypes)) element.fail("has a type that glTF does not know");
-  accessor.components = found->second;
-  accessor.matrix = type[0] == 'M';
+std::size_t size_of(int component_type) {
+  return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
 }
 
 // Columns of matrices begin at multiples of four bytes.
@@ -53,61 +24,66 @@ std::size_t element_size(const Accessor& accessor) {
   return rows * ((rows * component + 3) / 4 * 4);
 }
 
-// `count` elements from `offset` on, the last of which ends within the view.
-std::span<const std::uint8_t> elements(const JsonElement& element, const BufferView& view, std::uint64_t count,
-                                       std::size_t stride, std::size_t size, std::size_t component) {
-  const std::uint64_t offset = element.size("byteOffset", 0, kLargestGltfBytes);
-  const std::uint64_t length = view.bytes.size();
-  if (offset > length || (count - 1) * stride + size > length - offset) {
-    element.fail("reaches past the end of its buffer view");
-  }
-  if (offset % component != 0) element.fail("has a byteOffset that is not a multiple of its components' size");
-  return view.bytes.subspan(offset, (count - 1) * stride + size);
-}
+class AccessorReader {
+ public:
+  AccessorReader(std::size_t index, const tinygltf::Accessor& source, const std::vector<BufferView>& views)
+      : index_(index), source_(source), views_(views) {}
 
-const BufferView& view_of(const JsonElement& element, const GltfBuffers& buffers) {
-  return buffers.views()[element.required_index("bufferView", buffers.views().size())];
-}
-
-SparseValues read_sparse(const JsonElement& element, const Accessor& accessor, const GltfBuffers& buffers) {
-  SparseValues sparse;
-  sparse.count = static_cast<std::uint32_t>(element.required_size("count", accessor.count));
-  if (sparse.count == 0) element.fail("has no element");
-  const JsonElement indices = element.required_object("indices");
-  const JsonElement values = element.required_object("values");
-  sparse.index_type = component_type(indices);
-  const std::size_t width = size_of(sparse.index_type);
-  if (sparse.index_type != ComponentType::UnsignedByte && sparse.index_type != ComponentType::UnsignedShort &&
-      sparse.index_type != ComponentType::UnsignedInt) {
-    indices.fail("has a componentType that is no unsigned integer");
+  Accessor read() {
+    accessor_.type = source_.componentType;
+    accessor_.components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(source_.type));
+    accessor_.matrix =
+        source_.type == TINYGLTF_TYPE_MAT2 || source_.type == TINYGLTF_TYPE_MAT3 || source_.type == TINYGLTF_TYPE_MAT4;
+    accessor_.normalized = source_.normalized;
+    if (accessor_.normalized && size_of(accessor_.type) == 4) fail("normalises what is no 8 or 16-bit integer");
+    accessor_.count = source_.count;
+    const std::size_t size = element_size(accessor_);
+    accessor_.stride = size;
+    if (source_.bufferView >= 0) {
+      const BufferView& view = views_[static_cast<std::size_t>(source_.bufferView)];
+      if (view.stride != 0) accessor_.stride = view.stride;
+      if (accessor_.stride < size) fail("has elements that overlap");
+      accessor_.bytes = elements(view, source_.byteOffset, accessor_.count, accessor_.stride, size, accessor_.type);
+    } else if (source_.byteOffset != 0) {
+      fail("has a byteOffset but no bufferView");
+    }
+    if (source_.sparse.isSparse) read_sparse(size);
+    return std::move(accessor_);
   }
-  sparse.indices = elements(indices, view_of(indices, buffers), sparse.count, width, width, width);
-  const std::size_t size = element_size(accessor);
-  sparse.values = elements(values, view_of(values, buffers), sparse.count, size, size, size_of(accessor.type));
-  return sparse;
-}
 
-Accessor read_accessor(const JsonElement& element, const GltfBuffers& buffers) {
-  Accessor accessor;
-  accessor.type = component_type(element);
-  read_type(element, accessor);
-  accessor.normalized = element.flag("normalized", false);
-  if (accessor.normalized && size_of(accessor.type) == 4) element.fail("normalises what is no 8 or 16-bit integer");
-  accessor.count = element.required_size("count", kMostElements);
-  if (accessor.count == 0) element.fail("has no element");
-  const std::size_t size = element_size(accessor);
-  accessor.stride = size;
-  if (element.has("bufferView")) {
-    const BufferView& view = view_of(element, buffers);
-    if (view.stride != 0) accessor.stride = view.stride;
-    if (accessor.stride < size) element.fail("has elements that overlap");
-    accessor.bytes = elements(element, view, accessor.count, accessor.stride, size, size_of(accessor.type));
-  } else if (element.has("byteOffset")) {
-    element.fail("has a byteOffset but no bufferView");
+ private:
+  [[noreturn]] void fail(const char* reason) const { throw GltfFault(fmt::format("/accessors/{} {}", index_, reason)); }
+
+  // `count` elements from `offset` on, the last of which ends within the view.
+  std::span<const std::uint8_t> elements(const BufferView& view, std::uint64_t offset, std::uint64_t count,
+                                         std::size_t stride, std::size_t size, int type) const {
+    const std::uint64_t length = view.bytes.size();
+    if (offset > length || (count - 1) * stride + size > length - offset) {
+      fail("reaches past the end of its buffer view");
+    }
+    if (offset % size_of(type) != 0) fail("has a byteOffset that is not a multiple of its components' size");
+    return view.bytes.subspan(offset, (count - 1) * stride + size);
   }
-  if (const auto sparse = element.object("sparse")) accessor.sparse = read_sparse(*sparse, accessor, buffers);
-  return accessor;
-}
+
+  void read_sparse(std::size_t size) {
+    const auto& [count, is_sparse, indices, values] = source_.sparse;
+    SparseValues& sparse = accessor_.sparse.emplace();
+    sparse.count = static_cast<std::size_t>(count);
+    if (sparse.count > accessor_.count) fail("has more sparse elements than elements");
+    sparse.index_type = indices.componentType;
+    const std::size_t width = size_of(sparse.index_type);
+    sparse.indices =
+        elements(views_[static_cast<std::size_t>(indices.bufferView)], static_cast<std::uint64_t>(indices.byteOffset),
+                 sparse.count, width, width, sparse.index_type);
+    sparse.values = elements(views_[static_cast<std::size_t>(values.bufferView)],
+                             static_cast<std::uint64_t>(values.byteOffset), sparse.count, size, size, accessor_.type);
+  }
+
+  std::size_t index_;
+  const tinygltf::Accessor& source_;
+  const std::vector<BufferView>& views_;
+  Accessor accessor_;
+};
 
 // glTF is little-endian and its data need not be aligned in memory.
 template <class T>
@@ -118,33 +94,32 @@ T load(const std::uint8_t* bytes) {
 }
 
 // glTF 2.0, section 3.6.2.2: c / 255, max(c / 127, -1) and so on.
-float number(const std::uint8_t* bytes, ComponentType type, bool normalized) {
+float number(const std::uint8_t* bytes, int type, bool normalized) {
   switch (type) {
-    case ComponentType::Byte: {
+    case TINYGLTF_COMPONENT_TYPE_BYTE: {
       const auto value = static_cast<float>(load<std::int8_t>(bytes));
       return normalized ? std::max(value / 127.0F, -1.0F) : value;
     }
-    case ComponentType::UnsignedByte:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
       return static_cast<float>(*bytes) / (normalized ? 255.0F : 1.0F);
-    case ComponentType::Short: {
+    case TINYGLTF_COMPONENT_TYPE_SHORT: {
       const auto value = static_cast<float>(load<std::int16_t>(bytes));
       return normalized ? std::max(value / 32767.0F, -1.0F) : value;
     }
-    case ComponentType::UnsignedShort:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
       return static_cast<float>(load<std::uint16_t>(bytes)) / (normalized ? 65535.0F : 1.0F);
-    case ComponentType::UnsignedInt:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
       return static_cast<float>(load<std::uint32_t>(bytes));
-    case ComponentType::Float:
-      break;
+    default:
+      return load<float>(bytes);
   }
-  return load<float>(bytes);
 }
 
-std::uint32_t integer(const std::uint8_t* bytes, ComponentType type) {
+std::uint32_t integer(const std::uint8_t* bytes, int type) {
   switch (type) {
-    case ComponentType::UnsignedByte:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
       return *bytes;
-    case ComponentType::UnsignedShort:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
       return load<std::uint16_t>(bytes);
     default:
       return load<std::uint32_t>(bytes);
@@ -153,7 +128,7 @@ std::uint32_t integer(const std::uint8_t* bytes, ComponentType type) {
 
 // Calls put(element, bytes of the element) for all of them, the sparse ones last.
 template <class Put>
-void for_each_element(const Accessor& accessor, std::size_t index, Put put) {
+void for_each_element(const Accessor& accessor, int index, Put put) {
   for (std::size_t i = 0; i < accessor.count && !accessor.bytes.empty(); ++i) {
     put(i, accessor.bytes.data() + i * accessor.stride);
   }
@@ -172,12 +147,14 @@ void for_each_element(const Accessor& accessor, std::size_t index, Put put) {
 
 }  // namespace
 
-GltfAccessors::GltfAccessors(const GltfBuffers& buffers, const JsonElement& root) {
-  for (const JsonElement& element : root.objects("accessors")) accessors_.push_back(read_accessor(element, buffers));
+GltfAccessors::GltfAccessors(const GltfBuffers& buffers, const tinygltf::Model& model) {
+  for (std::size_t i = 0; i < model.accessors.size(); ++i) {
+    accessors_.push_back(AccessorReader(i, model.accessors[i], buffers.views()).read());
+  }
 }
 
-std::vector<float> GltfAccessors::floats(std::size_t index) const {
-  const Accessor& accessor = accessors_[index];
+std::vector<float> GltfAccessors::floats(int index) const {
+  const Accessor& accessor = (*this)[index];
   const auto components = static_cast<std::size_t>(accessor.components);
   const std::size_t width = size_of(accessor.type);
   std::vector<float> values(accessor.count * components, 0.0F);
@@ -191,8 +168,8 @@ std::vector<float> GltfAccessors::floats(std::size_t index) const {
   return values;
 }
 
-std::vector<std::uint32_t> GltfAccessors::integers(std::size_t index) const {
-  const Accessor& accessor = accessors_[index];
+std::vector<std::uint32_t> GltfAccessors::integers(int index) const {
+  const Accessor& accessor = (*this)[index];
   const auto components = static_cast<std::size_t>(accessor.components);
   const std::size_t width = size_of(accessor.type);
   std::vector<std::uint32_t> values(accessor.count * components, 0U);

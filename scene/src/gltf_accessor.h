@@ -3,27 +3,16 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "gltf_buffers.h"
-#include "gltf_json.h"
 
 namespace afm::scene {
 
-// glTF's numbers, section 3.6.2.2.
-enum class ComponentType : std::uint16_t {
-  Byte = 5120,
-  UnsignedByte = 5121,
-  Short = 5122,
-  UnsignedShort = 5123,
-  UnsignedInt = 5125,
-  Float = 5126
-};
-
+// Which elements of an accessor are others than its view says.
 struct SparseValues {
-  std::uint32_t count = 0;
-  ComponentType index_type = ComponentType::UnsignedInt;
+  std::size_t count = 0;
+  int index_type = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
   std::span<const std::uint8_t> indices;
   std::span<const std::uint8_t> values;
 };
@@ -32,27 +21,29 @@ struct SparseValues {
 struct Accessor {
   std::size_t count = 0;
   int components = 1;
-  ComponentType type = ComponentType::Float;
+  int type = TINYGLTF_COMPONENT_TYPE_FLOAT;  // of a component
   bool normalized = false;
   bool matrix = false;
   std::span<const std::uint8_t> bytes;  // empty: zeros
   std::size_t stride = 0;
   std::optional<SparseValues> sparse;
+
+  bool is_float() const { return type == TINYGLTF_COMPONENT_TYPE_FLOAT; }
 };
 
 class GltfAccessors {
  public:
   // Throws GltfFault. `buffers` must outlive it.
-  GltfAccessors(const GltfBuffers& buffers, const JsonElement& root);
+  GltfAccessors(const GltfBuffers& buffers, const tinygltf::Model& model);
 
-  std::size_t size() const { return accessors_.size(); }
-  const Accessor& operator[](std::size_t index) const { return accessors_[index]; }
+  // By the file's number.
+  const Accessor& operator[](int index) const { return accessors_[static_cast<std::size_t>(index)]; }
 
   // All components of all elements; normalised integers as 0..1 or -1..1. Throws GltfFault for what is not finite.
-  std::vector<float> floats(std::size_t index) const;
+  std::vector<float> floats(int index) const;
 
   // The same of unsigned integers, as they are.
-  std::vector<std::uint32_t> integers(std::size_t index) const;
+  std::vector<std::uint32_t> integers(int index) const;
 
  private:
   std::vector<Accessor> accessors_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include "gltf_transform.h"
 
@@ -19,36 +20,28 @@ std::size_t width_of(const std::string& path, std::size_t weights) {
   return path == "weights" ? weights : 0;
 }
 
-Track read_track(const JsonElement& sampler, const GltfAccessors& accessors, std::size_t width, GltfBudget& budget) {
+Track read_track(const std::string& path, const tinygltf::AnimationSampler& sampler, const GltfAccessors& accessors,
+                 std::size_t width, GltfBudget& budget) {
+  const auto fail = [&](std::string_view reason) { throw GltfFault(fmt::format("{} {}", path, reason)); };
   Track track;
   track.width = width;
-  const std::string interpolation = sampler.text("interpolation", "LINEAR");
-  if (interpolation == "STEP") {
-    track.interpolation = Interpolation::Step;
-  } else if (interpolation == "CUBICSPLINE") {
-    track.interpolation = Interpolation::CubicSpline;
-  } else if (interpolation != "LINEAR") {
-    sampler.fail("has an interpolation that glTF does not know");
-  }
+  if (sampler.interpolation == "STEP") track.interpolation = Interpolation::Step;
+  if (sampler.interpolation == "CUBICSPLINE") track.interpolation = Interpolation::CubicSpline;
   const std::size_t values_a_key = width * (track.interpolation == Interpolation::CubicSpline ? 3 : 1);
-  const std::uint32_t input_index = sampler.required_index("input", accessors.size());
-  const std::uint32_t output_index = sampler.required_index("output", accessors.size());
-  const Accessor &input = accessors[input_index], &output = accessors[output_index];
+  const Accessor &input = accessors[sampler.input], &output = accessors[sampler.output];
   const auto components = static_cast<std::uint64_t>(output.components);
-  if (input.components != 1 || input.type != ComponentType::Float) sampler.fail("has times that are no floats");
-  if (output.matrix || (output.type != ComponentType::Float && !output.normalized)) {
-    sampler.fail("has an output of a type that it may not have");
-  }
+  if (input.components != 1 || !input.is_float()) fail("has times that are no floats");
+  if (output.matrix || (!output.is_float() && !output.normalized)) fail("has an output of a type that it may not have");
   if (output.count * components != input.count * values_a_key) {
-    sampler.fail(fmt::format("has {} output numbers for {} times of {} each", output.count * components, input.count,
-                             values_a_key));
+    fail(fmt::format("has {} output numbers for {} times of {} each", output.count * components, input.count,
+                     values_a_key));
   }
   budget.take(input.count * (1 + values_a_key), sizeof(float));
-  track.times_s = accessors.floats(input_index);
-  track.values = accessors.floats(output_index);
+  track.times_s = accessors.floats(sampler.input);
+  track.values = accessors.floats(sampler.output);
   for (std::size_t i = 0; i < track.times_s.size(); ++i) {
     if (track.times_s[i] < 0 || (i > 0 && track.times_s[i] <= track.times_s[i - 1])) {
-      sampler.fail("has times that are negative or do not rise");
+      fail("has times that are negative or do not rise");
     }
   }
   return track;
@@ -60,14 +53,9 @@ std::optional<Track>& track_of(AnimatedNode& node, const std::string& path) {
   return path == "scale" ? node.scales : node.weights;
 }
 
-std::size_t morph_targets(const JsonElement& node, const Scene& scene) {
-  const auto mesh = node.index("mesh", scene.meshes.size());
-  return mesh ? scene.meshes[*mesh].weights.size() : 0;
-}
-
-AnimatedNode at_rest(const JsonElement& element, NodeIndex node) {
-  const NodeTransform rest = read_transform(element);
-  if (rest.matrix) element.fail("is animated but has a matrix");
+AnimatedNode at_rest(const tinygltf::Model& model, std::size_t index, NodeIndex node) {
+  const NodeTransform rest = read_transform(model, index);
+  if (rest.matrix) throw GltfFault(fmt::format("/nodes/{} is animated but has a matrix", index));
   AnimatedNode animated;
   animated.node = node;
   animated.translation = rest.translation;
@@ -76,36 +64,42 @@ AnimatedNode at_rest(const JsonElement& element, NodeIndex node) {
   return animated;
 }
 
+Animation read_animation(std::size_t index, const tinygltf::Model& model, const GltfAccessors& accessors,
+                         const NodePlaces& places, GltfBudget& budget, const Scene& scene) {
+  const tinygltf::Animation& source = model.animations[index];
+  Animation animation{source.name, {}};
+  std::map<NodeIndex, AnimatedNode> animated;
+  std::set<std::pair<int, std::string>> seen;
+  for (std::size_t i = 0; i < source.channels.size(); ++i) {
+    const tinygltf::AnimationChannel& channel = source.channels[i];
+    const auto fail = [&](const char* reason) {
+      throw GltfFault(fmt::format("/animations/{}/channels/{} {}", index, i, reason));
+    };
+    const auto sampler = static_cast<std::size_t>(channel.sampler);
+    if (sampler >= source.samplers.size()) fail("has a sampler that does not exist");
+    const auto node = static_cast<std::size_t>(channel.target_node);
+    const int mesh = model.nodes[node].mesh;
+    const std::size_t weights = mesh < 0 ? 0 : scene.meshes[static_cast<std::size_t>(mesh)].weights.size();
+    const std::size_t width = width_of(channel.target_path, weights);
+    if (width == 0) fail("moves what the node has not");
+    if (!seen.emplace(channel.target_node, channel.target_path).second) fail("moves what another channel moves");
+    const auto place = places[node];
+    if (!place) continue;
+    AnimatedNode& moved = animated.try_emplace(*place, at_rest(model, node, *place)).first->second;
+    auto& track = track_of(moved, channel.target_path) = read_track(
+        fmt::format("/animations/{}/samplers/{}", index, sampler), source.samplers[sampler], accessors, width, budget);
+    animation.length_s = std::max(animation.length_s, track->times_s.back());
+  }
+  for (auto& [node, moved] : animated) animation.nodes.push_back(std::move(moved));
+  return animation;
+}
+
 }  // namespace
 
-void read_animations(const JsonElement& root, const GltfAccessors& accessors, const NodePlaces& places,
-                     GltfBudget& budget, Scene& scene, GltfNotes& notes) {
-  const std::vector<JsonElement> nodes = root.objects("nodes");
-  for (const JsonElement& element : root.objects("animations")) {
-    Animation& animation = scene.animations.emplace_back();
-    animation.name = element.text("name", "");
-    const std::vector<JsonElement> samplers = element.objects("samplers");
-    std::map<NodeIndex, AnimatedNode> animated;
-    std::set<std::pair<std::uint32_t, std::string>> seen;
-    for (const JsonElement& channel : element.objects("channels")) {
-      const std::uint32_t sampler = channel.required_index("sampler", samplers.size());
-      const JsonElement target = channel.required_object("target");
-      const std::string path = target.required_text("path");
-      const auto node = target.index("node", nodes.size());
-      if (path == "pointer" || !node) {
-        notes.ignore(fmt::format("animation channel of path '{}': moves no node", path.substr(0, 40)));
-        continue;
-      }
-      const std::size_t width = width_of(path, morph_targets(nodes[*node], scene));
-      if (width == 0) target.fail("moves what the node has not");
-      if (!seen.emplace(*node, path).second) target.fail("is moved by more than one channel");
-      const auto place = places[*node];
-      if (!place) continue;
-      AnimatedNode& moved = animated.try_emplace(*place, at_rest(nodes[*node], *place)).first->second;
-      auto& track = track_of(moved, path) = read_track(samplers[sampler], accessors, width, budget);
-      animation.length_s = std::max(animation.length_s, track->times_s.back());
-    }
-    for (auto& [node, moved] : animated) animation.nodes.push_back(std::move(moved));
+void read_animations(const tinygltf::Model& model, const GltfAccessors& accessors, const NodePlaces& places,
+                     GltfBudget& budget, Scene& scene) {
+  for (std::size_t i = 0; i < model.animations.size(); ++i) {
+    scene.animations.push_back(read_animation(i, model, accessors, places, budget, scene));
   }
 }
 

@@ -6,7 +6,7 @@
 namespace afm::scene {
 
 // All animations of the nodes that are shown, after these. Throws GltfFault.
-void read_animations(const JsonElement& root, const GltfAccessors& accessors, const NodePlaces& places,
-                     GltfBudget& budget, Scene& scene, GltfNotes& notes);
+void read_animations(const tinygltf::Model& model, const GltfAccessors& accessors, const NodePlaces& places,
+                     GltfBudget& budget, Scene& scene);
 
 }  // namespace afm::scene

@@ -7,6 +7,8 @@
 #include <array>
 #include <string_view>
 
+#include "gltf_fault.h"
+
 namespace afm::scene {
 namespace {
 
@@ -40,36 +42,41 @@ const Attribute* find(std::string_view name) {
   return found == kAttributes.end() ? nullptr : found;
 }
 
+bool is_small_unsigned(const Accessor& accessor) {
+  return accessor.type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+         accessor.type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+}
+
+bool is_small_signed(const Accessor& accessor) {
+  return accessor.type == TINYGLTF_COMPONENT_TYPE_BYTE || accessor.type == TINYGLTF_COMPONENT_TYPE_SHORT;
+}
+
 bool is_among(const Accessor& accessor, Integers integers) {
-  const bool is_unsigned =
-      accessor.type == ComponentType::UnsignedByte || accessor.type == ComponentType::UnsignedShort;
-  const bool is_signed = accessor.type == ComponentType::Byte || accessor.type == ComponentType::Short;
   switch (integers) {
     case Integers::None:
       return false;
     case Integers::NormalizedUnsigned:
-      return is_unsigned && accessor.normalized;
+      return is_small_unsigned(accessor) && accessor.normalized;
     case Integers::Unsigned:
-      return is_unsigned && !accessor.normalized;
+      return is_small_unsigned(accessor) && !accessor.normalized;
     case Integers::Small:
-      return is_unsigned || is_signed;
+      return is_small_unsigned(accessor) || is_small_signed(accessor);
     case Integers::SmallSigned:
-      return is_signed && accessor.normalized;
+      return is_small_signed(accessor) && accessor.normalized;
   }
   return false;
 }
 
 }  // namespace
 
-bool uses_quantization(const JsonElement& root) {
-  const auto names = root.values("extensionsUsed");
-  return std::any_of(names.begin(), names.end(),
-                     [](const JsonElement& name) { return name.json() == "KHR_mesh_quantization"; });
+bool uses_quantization(const tinygltf::Model& model) {
+  const auto& names = model.extensionsUsed;
+  return std::find(names.begin(), names.end(), "KHR_mesh_quantization") != names.end();
 }
 
 bool is_read_attribute(const std::string& name) { return find(name) != nullptr; }
 
-void check_attribute(const JsonElement& from, const char* name, const Accessor& accessor, AttributeOwner owner,
+void check_attribute(const std::string& path, const std::string& name, const Accessor& accessor, AttributeOwner owner,
                      bool quantized) {
   const Attribute* attribute = find(name);
   if (attribute == nullptr) return;
@@ -77,18 +84,17 @@ void check_attribute(const JsonElement& from, const char* name, const Accessor& 
   const bool right_size = owner == AttributeOwner::Target ? accessor.components == 3
                                                           : accessor.components >= attribute->least_components &&
                                                                 accessor.components <= attribute->most_components;
-  const bool is_float = accessor.type == ComponentType::Float && attribute->plain != Integers::Unsigned;
+  const bool is_float = accessor.is_float() && attribute->plain != Integers::Unsigned;
   const Integers integers = quantized ? attribute->quantized : attribute->plain;
   if (accessor.matrix || !right_size || !(is_float || is_among(accessor, integers))) {
-    from.fail(fmt::format("has {} of a type that it may not have", name));
+    throw GltfFault(fmt::format("{} has {} of a type that it may not have", path, name));
   }
 }
 
-void check_indices(const JsonElement& primitive, const Accessor& accessor) {
-  const bool is_unsigned = accessor.type == ComponentType::UnsignedByte ||
-                           accessor.type == ComponentType::UnsignedShort || accessor.type == ComponentType::UnsignedInt;
+void check_indices(const std::string& path, const Accessor& accessor) {
+  const bool is_unsigned = is_small_unsigned(accessor) || accessor.type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
   if (accessor.components != 1 || !is_unsigned || accessor.normalized) {
-    primitive.fail("has indices of a type that they may not have");
+    throw GltfFault(fmt::format("{} has indices of a type that they may not have", path));
   }
 }
 

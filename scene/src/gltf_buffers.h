@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "gltf_file.h"
-#include "gltf_json.h"
+#include "gltf_model.h"
 
 namespace afm::scene {
 
@@ -16,23 +15,18 @@ struct BufferView {
   std::size_t stride = 0;  // 0: packed
 };
 
-// Buffers and their views, checked and read. `file` must outlive it.
+// The views of a model's buffers, checked. `model` must outlive it.
 class GltfBuffers {
  public:
   // Throws GltfFault.
-  GltfBuffers(GltfFile& file, const JsonElement& root);
+  explicit GltfBuffers(const tinygltf::Model& model);
 
   const std::vector<BufferView>& views() const { return views_; }
 
  private:
-  void read_buffers(GltfFile& file, const JsonElement& root);
-  BufferView read_view(const JsonElement& element);
-  BufferView decompress(const JsonElement& view, const JsonElement& compression);
-  std::span<const std::uint8_t> range(const JsonElement& element) const;
+  BufferView decompress(const tinygltf::Model& model, std::size_t view, const tinygltf::Value& compression);
 
-  // a buffer without bytes is a placeholder for what is stored compressed
-  std::vector<std::vector<std::uint8_t>> owned_;
-  std::vector<std::optional<std::span<const std::uint8_t>>> buffers_;
+  std::vector<std::vector<std::uint8_t>> decompressed_;
   std::vector<BufferView> views_;
   std::uint64_t decompressed_bytes_ = 0;
 };

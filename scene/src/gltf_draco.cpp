@@ -55,13 +55,13 @@ std::optional<std::uint64_t> announced_triangles(Stream stream) {
   return read_varint(stream);
 }
 
-float largest(ComponentType type) {
-  switch (type) {
-    case ComponentType::Byte:
+float largest(int component_type) {
+  switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
       return 127.0F;
-    case ComponentType::UnsignedByte:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
       return 255.0F;
-    case ComponentType::Short:
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
       return 32767.0F;
     default:
       return 65535.0F;

@@ -89,11 +89,15 @@ std::uint32_t little_endian(const Bytes& bytes, std::size_t offset) {
 
 bool is_binary(const Bytes& bytes) { return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0; }
 
-// Finds the chunks of a binary glTF file whose header agrees with its size (glTF 2.0, section 4.4); returns the text.
-std::string_view split_chunks(GltfFile& file) {
+struct Chunks {
+  std::string_view text;
+  std::optional<std::pair<std::size_t, std::size_t>> binary;  // offset and length
+};
+
+// The chunks of a binary glTF file whose header agrees with its size (glTF 2.0, section 4.4).
+Chunks split(const Bytes& bytes) {
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
   constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
-  const Bytes& bytes = file.bytes;
   if (bytes.size() < kHeader + kChunkHeader) throw GltfFault("it ends inside its header; copy it again");
   if (const std::uint32_t version = little_endian(bytes, 4); version != 2) {
     throw GltfFault(fmt::format("it is binary glTF of version {}, not 2; export it as glTF 2.0", version));
@@ -102,7 +106,7 @@ std::string_view split_chunks(GltfFile& file) {
     throw GltfFault(
         fmt::format("its header says {} bytes but it has {}; copy it again", little_endian(bytes, 8), bytes.size()));
   }
-  std::string_view text;
+  Chunks chunks;
   int chunk = 0;
   for (std::size_t offset = kHeader; offset < bytes.size(); ++chunk) {
     if (bytes.size() - offset < kChunkHeader) throw GltfFault("a chunk ends inside its header; copy it again");
@@ -111,11 +115,11 @@ std::string_view split_chunks(GltfFile& file) {
     offset += kChunkHeader;
     if (length > bytes.size() - offset) throw GltfFault("a chunk reaches past its end; copy it again");
     if (chunk == 0 && type != kJson) throw GltfFault("its first chunk is not JSON; export it again");
-    if (chunk == 0) text = {reinterpret_cast<const char*>(bytes.data()) + offset, length};
-    if (chunk == 1 && type == kBinary) file.binary = std::span(bytes).subspan(offset, length);
+    if (chunk == 0) chunks.text = {reinterpret_cast<const char*>(bytes.data()) + offset, length};
+    if (chunk == 1 && type == kBinary) chunks.binary.emplace(offset, length);
     offset += length;
   }
-  return text;
+  return chunks;
 }
 
 }  // namespace
@@ -150,14 +154,23 @@ Bytes SideFiles::read(const std::string& uri) {
 
 GltfFile read_gltf_file(const std::string& path) {
   GltfFile file;
-  file.bytes = read_plain_file(path, kLargestGltfBytes);
-  if (file.bytes.empty()) throw GltfFault("it is empty; export it again");
-  std::string_view text(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
-  if (is_binary(file.bytes)) text = split_chunks(file);
-  file.document = parse_text(text);
+  Bytes bytes = read_plain_file(path, kLargestGltfBytes);
+  if (bytes.empty()) throw GltfFault("it is empty; export it again");
   fs::path folder = fs::path(path).parent_path();
   if (folder.empty()) folder = ".";
-  file.side_files = SideFiles(std::move(folder), kLargestGltfBytes - file.bytes.size());
+  file.side_files = SideFiles(std::move(folder), kLargestGltfBytes - bytes.size());
+  if (!is_binary(bytes)) {
+    file.document = parse_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return file;
+  }
+  const Chunks chunks = split(bytes);
+  file.document = parse_text(chunks.text);
+  if (chunks.binary) {
+    const auto [offset, length] = *chunks.binary;
+    bytes.resize(offset + length);
+    bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(offset));
+    file.binary = std::move(bytes);
+  }
   return file;
 }
 

@@ -4,18 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "gltf_json.h"
+#include "gltf_check.h"
 
 namespace afm::scene {
 
 using Bytes = std::vector<std::uint8_t>;
-
-// A model and all its side files together.
-inline constexpr std::uint64_t kLargestGltfBytes = 256ULL << 20U;
 
 // What a model may read beside itself: data URIs, and plain files in its folder or below, no links that lead out of it.
 class SideFiles {
@@ -35,11 +31,10 @@ class SideFiles {
 };
 
 // A model's text as a tree that is no deeper and no larger than a model needs, and the binary chunk of a .glb, if it
-// has one: a part of `bytes`.
+// has one.
 struct GltfFile {
-  Bytes bytes;
   Json document;
-  std::optional<std::span<const std::uint8_t>> binary;
+  std::optional<Bytes> binary;
   SideFiles side_files;
 };
 

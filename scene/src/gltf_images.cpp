@@ -16,34 +16,37 @@
 namespace afm::scene {
 namespace {
 
-TextureWrap wrap_of(const JsonElement& sampler, const char* key) {
-  switch (sampler.size(key, 10497, 65535)) {
-    case 10497:
-      return TextureWrap::Repeat;
-    case 33648:
-      return TextureWrap::MirroredRepeat;
-    case 33071:
-      return TextureWrap::ClampToEdge;
-    default:
-      sampler.fail("has a wrap mode that glTF does not know");
-  }
+TextureWrap wrap_of(int wrap) {
+  if (wrap == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return TextureWrap::MirroredRepeat;
+  return wrap == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE ? TextureWrap::ClampToEdge : TextureWrap::Repeat;
 }
 
-// glTF 2.0, section 3.8.4: OpenGL's numbers.
-void read_sampler(const JsonElement& sampler, Texture& texture) {
+// glTF 2.0, section 3.8.4. What the file leaves open is filtered as well as can be.
+void read_sampler(const tinygltf::Sampler& sampler, Texture& texture) {
   constexpr auto kNearest = TextureFilter::Nearest, kLinear = TextureFilter::Linear;
-  const std::uint64_t magnified = sampler.size("magFilter", 9729, 65535);
-  if (magnified != 9728 && magnified != 9729) sampler.fail("has a magFilter that glTF does not know");
-  texture.magnified = magnified == 9728 ? kNearest : kLinear;
-  const std::uint64_t minified = sampler.size("minFilter", 9987, 65535);
-  if (minified != 9728 && minified != 9729 && (minified < 9984 || minified > 9987)) {
-    sampler.fail("has a minFilter that glTF does not know");
+  texture.magnified = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? kNearest : kLinear;
+  switch (sampler.minFilter) {
+    case TINYGLTF_TEXTURE_FILTER_NEAREST:
+      texture.minified = kNearest;
+      texture.between_mips = std::nullopt;
+      break;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR:
+      texture.between_mips = std::nullopt;
+      break;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+      texture.minified = texture.between_mips.emplace(kNearest);
+      break;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+      texture.between_mips = kNearest;
+      break;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+      texture.minified = kNearest;
+      break;
+    default:
+      break;
   }
-  texture.minified = minified % 2 == 0 ? kNearest : kLinear;
-  texture.between_mips = std::nullopt;
-  if (minified >= 9984) texture.between_mips = minified >= 9986 ? kLinear : kNearest;
-  texture.wrap_u = wrap_of(sampler, "wrapS");
-  texture.wrap_v = wrap_of(sampler, "wrapT");
+  texture.wrap_u = wrap_of(sampler.wrapS);
+  texture.wrap_v = wrap_of(sampler.wrapT);
 }
 
 // An image's bytes before they are decoded.
@@ -53,14 +56,15 @@ struct EncodedImage {
   std::span<const std::uint8_t> bytes;
 };
 
-EncodedImage read_image(GltfFile& file, const GltfBuffers& buffers, const JsonElement& element) {
+EncodedImage read_image(GltfModel& model, const GltfBuffers& buffers, std::uint32_t index) {
   EncodedImage image;
-  if (element.has("uri") == element.has("bufferView")) element.fail("has not just one of 'uri' and 'bufferView'");
-  if (element.has("uri")) {
-    image.owned = file.side_files.read(element.required_text("uri"));
-    image.bytes = image.owned;
+  image.path = fmt::format("/images/{}", index);
+  const tinygltf::Image& source = model.parts.images[index];
+  if (source.bufferView >= 0) {
+    image.bytes = buffers.views()[static_cast<std::size_t>(source.bufferView)].bytes;
   } else {
-    image.bytes = buffers.views()[element.required_index("bufferView", buffers.views().size())].bytes;
+    image.owned = model.side_files.read(source.uri);
+    image.bytes = image.owned;
   }
   return image;
 }
@@ -130,19 +134,15 @@ void renumber(const std::map<std::uint32_t, std::uint32_t>& places, Scene& scene
 
 }  // namespace
 
-void read_textures(GltfFile& file, const GltfBuffers& buffers, const JsonElement& root, Scene& scene,
-                   GltfNotes& notes) {
-  const std::vector<JsonElement> samplers = root.objects("samplers"), images = root.objects("images"),
-                                 textures = root.objects("textures");
-  std::vector<std::optional<std::uint32_t>> sources;
-  for (const JsonElement& texture : textures) sources.push_back(texture.index("source", images.size()));
+void read_textures(GltfModel& model, const GltfBuffers& buffers, Scene& scene, GltfNotes& notes) {
+  const std::vector<tinygltf::Texture>& textures = model.parts.textures;
   std::set<std::uint32_t> used_textures, used_images;
   for (const Material& material : scene.materials) {
     for (const TextureUse& use : material.textures) {
       if (!use.texture) continue;
-      if (const auto source = sources[*use.texture]) {
+      if (const int source = textures[*use.texture].source; source >= 0) {
         used_textures.insert(*use.texture);
-        used_images.insert(*source);
+        used_images.insert(static_cast<std::uint32_t>(source));
       } else {
         notes.ignore(fmt::format("/textures/{}: has an image only in a format that is not read", *use.texture));
       }
@@ -152,14 +152,14 @@ void read_textures(GltfFile& file, const GltfBuffers& buffers, const JsonElement
   const auto places = numbered(used_images);
   for (const std::uint32_t i : used_textures) {
     Texture& texture = scene.textures.emplace_back();
-    texture.image = places.at(*sources[i]);
-    if (const auto sampler = textures[i].index("sampler", samplers.size())) read_sampler(samplers[*sampler], texture);
+    texture.image = places.at(static_cast<std::uint32_t>(textures[i].source));
+    const int sampler = textures[i].sampler;
+    if (sampler >= 0) read_sampler(model.parts.samplers[static_cast<std::size_t>(sampler)], texture);
   }
   std::vector<EncodedImage> encoded;
   for (const std::uint32_t i : used_images) {
-    encoded.push_back(read_image(file, buffers, images[i]));
-    encoded.back().path = fmt::format("/images/{}", i);
-    scene.images.emplace_back().name = images[i].text("name", "");
+    encoded.push_back(read_image(model, buffers, i));
+    scene.images.emplace_back().name = model.parts.images[i].name;
   }
   renumber(numbered(used_textures), scene);
   measure(encoded, scene.images);

@@ -3,142 +3,142 @@
 
 #include <fmt/core.h>
 
-#include <array>
-#include <cmath>
+#include "gltf_fault.h"
 
 namespace afm::scene {
 namespace {
 
-using Range = JsonElement::Range;
-constexpr Range kShare{0, 1};
-constexpr Range kPositive{0, 1e30};
-constexpr Range kAny{-1e30, 1e30};
+using tinygltf::Value;
+
+float number(const Value& object, const char* key, double missing) {
+  return static_cast<float>(number_or(object, key, missing));
+}
+
+glm::vec2 pair(const Value& object, const char* key, glm::vec2 missing) {
+  if (!object.Has(key)) return missing;
+  const Value& list = object.Get(key);
+  return glm::vec2(list.Get(0).GetNumberAsDouble(), list.Get(1).GetNumberAsDouble());
+}
+
+glm::vec3 color(const Value& object, const char* key, glm::vec3 missing) {
+  if (!object.Has(key)) return missing;
+  const Value& list = object.Get(key);
+  return {list.Get(0).GetNumberAsDouble(), list.Get(1).GetNumberAsDouble(), list.Get(2).GetNumberAsDouble()};
+}
 
 class MaterialReader {
  public:
-  MaterialReader(const JsonElement& element, std::size_t textures, Material& material, GltfNotes& notes)
-      : element_(element), textures_(textures), material_(material), notes_(notes) {}
+  MaterialReader(const tinygltf::Material& source, Material& material, GltfNotes& notes)
+      : source_(source), material_(material), notes_(notes) {}
 
   void read() {
-    material_.name = element_.text("name", "");
-    material_.double_sided = element_.flag("doubleSided", false);
-    read_alpha();
-    if (const auto pbr = element_.object("pbrMetallicRoughness")) read_metallic_roughness(*pbr);
-    if (const auto use = read_texture(element_, "normalTexture", TextureSlot::Normal)) {
-      material_.normal_scale = number(*use, "scale", 1, kAny);
-    }
-    if (const auto use = read_texture(element_, "occlusionTexture", TextureSlot::Occlusion)) {
-      material_.occlusion_strength = number(*use, "strength", 1, kShare);
-    }
-    read_texture(element_, "emissiveTexture", TextureSlot::Emissive);
-    material_.emissive = color(element_, "emissiveFactor", 0.0F, kShare);
+    material_.name = source_.name;
+    material_.double_sided = source_.doubleSided;
+    material_.blended = source_.alphaMode == "BLEND";
+    if (source_.alphaMode == "MASK") material_.alpha_cutoff = static_cast<float>(source_.alphaCutoff);
+    const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
+    const auto& rgba = pbr.baseColorFactor;
+    material_.base_color = glm::vec4(glm::dvec4(rgba[0], rgba[1], rgba[2], rgba[3]));
+    material_.metallic = static_cast<float>(pbr.metallicFactor);
+    material_.roughness = static_cast<float>(pbr.roughnessFactor);
+    use_texture(pbr.baseColorTexture, TextureSlot::BaseColor);
+    use_texture(pbr.metallicRoughnessTexture, TextureSlot::MetallicRoughness);
+    use_texture(source_.normalTexture, TextureSlot::Normal);
+    material_.normal_scale = static_cast<float>(source_.normalTexture.scale);
+    use_texture(source_.occlusionTexture, TextureSlot::Occlusion);
+    material_.occlusion_strength = static_cast<float>(source_.occlusionTexture.strength);
+    use_texture(source_.emissiveTexture, TextureSlot::Emissive);
+    const auto& emissive = source_.emissiveFactor;
+    material_.emissive = glm::vec3(glm::dvec3(emissive[0], emissive[1], emissive[2]));
     read_extensions();
   }
 
  private:
-  static float number(const JsonElement& from, const char* key, double missing, Range range) {
-    return static_cast<float>(from.number(key, missing, range));
+  // One of tinygltf's three kinds of reference to a texture.
+  template <class Info>
+  void use_texture(const Info& info, TextureSlot slot) {
+    if (info.index < 0) return;
+    use_texture(info.index, info.texCoord, find_extension(info.extensions, "KHR_texture_transform"), slot);
   }
 
-  static glm::vec3 color(const JsonElement& from, const char* key, float missing, Range range) {
-    std::array<double, 3> rgb{};
-    return from.numbers(key, rgb, range) ? glm::vec3(glm::dvec3(rgb[0], rgb[1], rgb[2])) : glm::vec3(missing);
-  }
-
-  void read_alpha() {
-    const std::string mode = element_.text("alphaMode", "OPAQUE");
-    const float cutoff = number(element_, "alphaCutoff", 0.5, kPositive);
-    if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") {
-      element_.fail("has an alphaMode that is not OPAQUE, MASK or BLEND");
+  // A reference to a texture inside an extension.
+  void use_texture(const Value& extension, const char* key, TextureSlot slot) {
+    if (!extension.Has(key)) return;
+    const Value& info = extension.Get(key);
+    const Value* transform = nullptr;
+    if (info.Has("extensions") && info.Get("extensions").Has("KHR_texture_transform")) {
+      transform = &info.Get("extensions").Get("KHR_texture_transform");
     }
-    material_.blended = mode == "BLEND";
-    if (mode == "MASK") material_.alpha_cutoff = cutoff;
+    use_texture(info.Get("index").GetNumberAsInt(), static_cast<int>(number_or(info, "texCoord", 0)), transform, slot);
   }
 
-  void read_metallic_roughness(const JsonElement& pbr) {
-    std::array<double, 4> rgba{};
-    if (pbr.numbers("baseColorFactor", rgba, kShare)) {
-      material_.base_color = glm::vec4(glm::dvec4(rgba[0], rgba[1], rgba[2], rgba[3]));
-    }
-    material_.metallic = number(pbr, "metallicFactor", 1, kShare);
-    material_.roughness = number(pbr, "roughnessFactor", 1, kShare);
-    read_texture(pbr, "baseColorTexture", TextureSlot::BaseColor);
-    read_texture(pbr, "metallicRoughnessTexture", TextureSlot::MetallicRoughness);
-  }
-
-  // Returns the texture's object where there is one.
-  std::optional<JsonElement> read_texture(const JsonElement& from, const char* key, TextureSlot slot) {
-    const auto info = from.object(key);
-    if (!info) return std::nullopt;
+  void use_texture(int texture, int set, const Value* transform, TextureSlot slot) {
     TextureUse use;
-    use.texture = info->required_index("index", textures_);
-    std::uint64_t set = info->size("texCoord", 0, 255);
-    if (const auto transform = info->extension("KHR_texture_transform")) {
-      std::array<double, 2> pair{};
-      if (transform->numbers("offset", pair, kAny)) use.offset = glm::vec2(glm::dvec2(pair[0], pair[1]));
-      if (transform->numbers("scale", pair, kAny)) use.scale = glm::vec2(glm::dvec2(pair[0], pair[1]));
-      use.rotation_rad = number(*transform, "rotation", 0, kAny);
-      set = transform->size("texCoord", set, 255);
+    use.texture = static_cast<std::uint32_t>(texture);
+    if (transform != nullptr) {
+      use.offset = pair(*transform, "offset", use.offset);
+      use.scale = pair(*transform, "scale", use.scale);
+      use.rotation_rad = number(*transform, "rotation", 0);
+      set = static_cast<int>(number_or(*transform, "texCoord", set));
     }
     if (set > 1) {
-      notes_.ignore(fmt::format("{}: uses texture coordinates of set {}, only 0 and 1 are read", key, set));
-    } else {
-      use.coordinates = static_cast<std::uint32_t>(set);
-      material_.texture(slot) = use;
+      notes_.ignore(
+          fmt::format("a texture of '{}': has coordinates of set {}, only 0 and 1 are read", material_.name, set));
+      return;
     }
-    return info;
+    use.coordinates = static_cast<std::uint32_t>(set);
+    material_.texture(slot) = use;
   }
+
+  const Value* extension(const char* name) const { return find_extension(source_.extensions, name); }
 
   void read_extensions() {
-    material_.unlit = element_.extension("KHR_materials_unlit").has_value();
-    if (const auto strong = element_.extension("KHR_materials_emissive_strength")) {
-      material_.emissive *= number(*strong, "emissiveStrength", 1, {0, 1e6});
+    material_.unlit = extension("KHR_materials_unlit") != nullptr;
+    if (const Value* strong = extension("KHR_materials_emissive_strength")) {
+      material_.emissive *= number(*strong, "emissiveStrength", 1);
     }
-    if (const auto refractive = element_.extension("KHR_materials_ior")) {
-      material_.ior = number(*refractive, "ior", 1.5, kPositive);
-      if (material_.ior != 0.0F && material_.ior < 1.0F) refractive->fail("has an ior between 0 and 1");
+    if (const Value* refractive = extension("KHR_materials_ior")) {
+      material_.ior = number(*refractive, "ior", 1.5);
+      if (material_.ior != 0.0F && material_.ior < 1.0F) {
+        throw GltfFault(fmt::format("its material '{}' has an ior between 0 and 1", material_.name.substr(0, 60)));
+      }
     }
-    if (const auto specular = element_.extension("KHR_materials_specular")) {
-      material_.specular = number(*specular, "specularFactor", 1, kShare);
-      material_.specular_color = color(*specular, "specularColorFactor", 1.0F, kPositive);
-      read_texture(*specular, "specularTexture", TextureSlot::Specular);
-      read_texture(*specular, "specularColorTexture", TextureSlot::SpecularColor);
+    if (const Value* specular = extension("KHR_materials_specular")) {
+      material_.specular = number(*specular, "specularFactor", 1);
+      material_.specular_color = color(*specular, "specularColorFactor", glm::vec3(1));
+      use_texture(*specular, "specularTexture", TextureSlot::Specular);
+      use_texture(*specular, "specularColorTexture", TextureSlot::SpecularColor);
     }
-    if (const auto coat = element_.extension("KHR_materials_clearcoat")) read_clearcoat(*coat);
-    if (const auto film = element_.extension("KHR_materials_iridescence")) read_iridescence(*film);
+    if (const Value* coat = extension("KHR_materials_clearcoat")) {
+      material_.clearcoat = number(*coat, "clearcoatFactor", 0);
+      material_.clearcoat_roughness = number(*coat, "clearcoatRoughnessFactor", 0);
+      use_texture(*coat, "clearcoatTexture", TextureSlot::Clearcoat);
+      use_texture(*coat, "clearcoatRoughnessTexture", TextureSlot::ClearcoatRoughness);
+      use_texture(*coat, "clearcoatNormalTexture", TextureSlot::ClearcoatNormal);
+      if (coat->Has("clearcoatNormalTexture")) {
+        material_.clearcoat_normal_scale = number(coat->Get("clearcoatNormalTexture"), "scale", 1);
+      }
+    }
+    if (const Value* film = extension("KHR_materials_iridescence")) {
+      material_.iridescence = number(*film, "iridescenceFactor", 0);
+      material_.iridescence_ior = number(*film, "iridescenceIor", 1.3);
+      material_.iridescence_thickness_nm = {number(*film, "iridescenceThicknessMinimum", 100),
+                                            number(*film, "iridescenceThicknessMaximum", 400)};
+      use_texture(*film, "iridescenceTexture", TextureSlot::Iridescence);
+      use_texture(*film, "iridescenceThicknessTexture", TextureSlot::IridescenceThickness);
+    }
   }
 
-  void read_clearcoat(const JsonElement& coat) {
-    material_.clearcoat = number(coat, "clearcoatFactor", 0, kShare);
-    material_.clearcoat_roughness = number(coat, "clearcoatRoughnessFactor", 0, kShare);
-    read_texture(coat, "clearcoatTexture", TextureSlot::Clearcoat);
-    read_texture(coat, "clearcoatRoughnessTexture", TextureSlot::ClearcoatRoughness);
-    if (const auto use = read_texture(coat, "clearcoatNormalTexture", TextureSlot::ClearcoatNormal)) {
-      material_.clearcoat_normal_scale = number(*use, "scale", 1, kAny);
-    }
-  }
-
-  void read_iridescence(const JsonElement& film) {
-    material_.iridescence = number(film, "iridescenceFactor", 0, kShare);
-    material_.iridescence_ior = number(film, "iridescenceIor", 1.3, {1, 1e30});
-    material_.iridescence_thickness_nm = {number(film, "iridescenceThicknessMinimum", 100, kPositive),
-                                          number(film, "iridescenceThicknessMaximum", 400, kPositive)};
-    read_texture(film, "iridescenceTexture", TextureSlot::Iridescence);
-    read_texture(film, "iridescenceThicknessTexture", TextureSlot::IridescenceThickness);
-  }
-
-  const JsonElement& element_;
-  std::size_t textures_;
+  const tinygltf::Material& source_;
   Material& material_;
   GltfNotes& notes_;
 };
 
 }  // namespace
 
-void read_materials(const JsonElement& root, Scene& scene, GltfNotes& notes) {
-  const std::size_t textures = root.count("textures");
-  for (const JsonElement& element : root.objects("materials")) {
-    MaterialReader(element, textures, scene.materials.emplace_back(), notes).read();
+void read_materials(const tinygltf::Model& model, Scene& scene, GltfNotes& notes) {
+  for (const tinygltf::Material& source : model.materials) {
+    MaterialReader(source, scene.materials.emplace_back(), notes).read();
   }
 }
 

@@ -7,11 +7,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 #include <numeric>
+#include <string_view>
 
 #include "flat_normals.h"
 #include "gltf_attributes.h"
 #include "gltf_draco.h"
+#include "gltf_fault.h"
 #include "gltf_topology.h"
 
 namespace afm::scene {
@@ -24,26 +27,24 @@ glm::vec3 unit_or(glm::vec3 direction, glm::vec3 missing) {
 
 class PrimitiveReader {
  public:
-  PrimitiveReader(const JsonElement& element, const JsonElement& root, const GltfBuffers& buffers,
-                  const GltfAccessors& accessors, GltfBudget& budget)
-      : element_(element),
-        root_(root),
+  PrimitiveReader(std::string path, const tinygltf::Primitive& source, const tinygltf::Model& model,
+                  const GltfBuffers& buffers, const GltfAccessors& accessors, GltfBudget& budget)
+      : path_(std::move(path)),
+        source_(source),
         buffers_(buffers),
         accessors_(accessors),
         budget_(budget),
-        attributes_(element.required_object("attributes")),
-        quantized_(uses_quantization(root)) {}
+        mode_(static_cast<std::uint64_t>(source.mode)),
+        quantized_(uses_quantization(model)) {}
 
   // `default_material` is that of a primitive without one.
   Primitive read(std::uint32_t default_material) {
-    const std::uint64_t mode = element_.size("mode", 4, kMostMode);
-    primitive_.topology = topology_of(mode);
-    primitive_.material = element_.index("material", root_.count("materials")).value_or(default_material);
-    const auto position = attributes_.required_index("POSITION", accessors_.size());
-    count_ = accessors_[position].count;
-    if (const auto draco = element_.extension("KHR_draco_mesh_compression")) read_draco(*draco, mode);
+    primitive_.topology = topology_of(mode_);
+    primitive_.material = source_.material < 0 ? default_material : static_cast<std::uint32_t>(source_.material);
+    count_ = accessors_[source_.attributes.at("POSITION")].count;
+    read_draco();
     read_vertices();
-    read_corners(mode);
+    read_corners();
     read_skinning();
     read_targets();
     read_variants();
@@ -52,51 +53,62 @@ class PrimitiveReader {
   }
 
  private:
-  // The values of an attribute, `count_` of them, out of its accessor or of the Draco stream.
-  std::optional<std::vector<float>> floats(const JsonElement& from, const char* name) {
-    const auto index = from.index(name, accessors_.size());
-    if (!index) return std::nullopt;
-    const Accessor& accessor = accessors_[*index];
-    const auto draco = draco_.attributes.find(name);
-    const auto owner = &from == &attributes_ ? AttributeOwner::Primitive : AttributeOwner::Target;
-    const bool compressed = draco != draco_.attributes.end() && owner == AttributeOwner::Primitive;
-    check_attribute(from, name, accessor, owner, quantized_);
-    if (accessor.count != count_) from.fail(fmt::format("has {} {} but {} POSITION", accessor.count, name, count_));
-    return compressed ? std::move(draco->second) : accessors_.floats(*index);
+  using Attributes = std::map<std::string, int>;
+
+  [[noreturn]] void fail(std::string_view reason) const { throw GltfFault(fmt::format("{} {}", path_, reason)); }
+
+  // The values of an attribute, `count_` of them, out of its accessor.
+  std::optional<std::vector<float>> floats(const Attributes& from, const char* name, AttributeOwner owner) {
+    const auto found = from.find(name);
+    if (found == from.end()) return std::nullopt;
+    const Accessor& accessor = accessors_[found->second];
+    check_attribute(path_, name, accessor, owner, quantized_);
+    if (accessor.count != count_) fail(fmt::format("has {} {} but {} POSITION", accessor.count, name, count_));
+    return accessors_.floats(found->second);
   }
 
-  void read_draco(const JsonElement& draco, std::uint64_t mode) {
-    if (mode != 4) draco.fail("compresses what is no list of triangles");
-    const auto view = draco.required_index("bufferView", buffers_.views().size());
-    const auto corners = element_.required_index("indices", accessors_.size());
-    const JsonElement ids = draco.required_object("attributes");
+  // The same of the primitive itself, which may have them in a Draco stream.
+  std::optional<std::vector<float>> floats(const char* name) {
+    const auto draco = draco_.attributes.find(name);
+    if (draco != draco_.attributes.end()) return std::move(draco->second);
+    return floats(source_.attributes, name, AttributeOwner::Primitive);
+  }
+
+  void read_draco() {
+    const tinygltf::Value* draco = find_extension(source_.extensions, "KHR_draco_mesh_compression");
+    if (draco == nullptr) return;
+    if (mode_ != TINYGLTF_MODE_TRIANGLES) fail("compresses what is no list of triangles");
+    if (source_.indices < 0) fail("has a Draco stream but no indices");
+    const auto view = static_cast<std::size_t>(draco->Get("bufferView").GetNumberAsInt());
+    const std::size_t corners = accessors_[source_.indices].count;
     std::vector<DracoAttribute> wanted;
-    for (const std::string& name : ids.keys()) {
-      const auto accessor = attributes_.index(name.c_str(), accessors_.size());
-      if (!accessor) ids.fail("names an attribute that the primitive has not");
-      check_attribute(attributes_, name.c_str(), accessors_[*accessor], AttributeOwner::Primitive, quantized_);
-      wanted.push_back(
-          {name, static_cast<std::uint32_t>(ids.required_size(name.c_str(), 65535)), &accessors_[*accessor]});
+    for (const auto& [name, id] : draco->Get("attributes").Get<tinygltf::Value::Object>()) {
+      const auto accessor = source_.attributes.find(name);
+      if (accessor == source_.attributes.end()) fail("has a Draco stream of an attribute that it has not");
+      const Accessor& described = accessors_[accessor->second];
+      check_attribute(path_, name, described, AttributeOwner::Primitive, quantized_);
+      if (described.count != count_) fail(fmt::format("has {} {} but {} POSITION", described.count, name, count_));
+      wanted.push_back({name, static_cast<std::uint32_t>(id.GetNumberAsInt()), &described});
     }
-    budget_.take(accessors_[corners].count, sizeof(std::uint32_t));
-    draco_ = decode_draco(buffers_.views()[view].bytes, accessors_[corners].count, wanted);
+    budget_.take(corners, sizeof(std::uint32_t));
+    draco_ = decode_draco(buffers_.views()[view].bytes, corners, wanted);
     is_draco_ = true;
   }
 
   void read_vertices() {
     budget_.take(count_, sizeof(Vertex));
     primitive_.vertices.resize(count_);
-    const auto positions = *floats(attributes_, "POSITION");
+    const auto positions = *floats("POSITION");
     for (std::size_t i = 0; i < count_; ++i) primitive_.vertices[i].position = glm::make_vec3(&positions[3 * i]);
     primitive_.normals = Normals::Given;
-    if (const auto normals = floats(attributes_, "NORMAL")) {
+    if (const auto normals = floats("NORMAL")) {
       for (std::size_t i = 0; i < count_; ++i) {
         primitive_.vertices[i].normal = unit_or(glm::make_vec3(&(*normals)[3 * i]), glm::vec3(0, 0, 1));
       }
     } else {
       primitive_.normals = primitive_.topology == Topology::Triangles ? Normals::Flat : Normals::None;
     }
-    if (const auto colors = floats(attributes_, "COLOR_0")) {
+    if (const auto colors = floats("COLOR_0")) {
       const std::size_t width = colors->size() / count_;
       for (std::size_t i = 0; i < count_; ++i) {
         const float* color = &(*colors)[width * i];
@@ -107,7 +119,7 @@ class PrimitiveReader {
 
     // tangents belong to normals of the file; flat ones get theirs where they are drawn
     if (primitive_.normals != Normals::Given) return;
-    if (const auto tangents = floats(attributes_, "TANGENT")) {
+    if (const auto tangents = floats("TANGENT")) {
       budget_.take(count_, sizeof(glm::vec4));
       for (std::size_t i = 0; i < count_; ++i) {
         const float* t = &(*tangents)[4 * i];
@@ -117,7 +129,7 @@ class PrimitiveReader {
   }
 
   void read_texture_coordinates() {
-    const auto first = floats(attributes_, "TEXCOORD_0"), second = floats(attributes_, "TEXCOORD_1");
+    const auto first = floats("TEXCOORD_0"), second = floats("TEXCOORD_1");
     if (!first && !second) return;
     budget_.take(count_, sizeof(TextureCoordinates));
     primitive_.texture_coordinates.resize(count_);
@@ -127,26 +139,26 @@ class PrimitiveReader {
     }
   }
 
-  void read_corners(std::uint64_t mode) {
+  void read_corners() {
     std::vector<std::uint32_t> corners;
     if (is_draco_) {
       corners = std::move(draco_.indices);
-    } else if (const auto index = element_.index("indices", accessors_.size())) {
-      check_indices(element_, accessors_[*index]);
-      corners = accessors_.integers(*index);
+    } else if (source_.indices >= 0) {
+      check_indices(path_, accessors_[source_.indices]);
+      corners = accessors_.integers(source_.indices);
     } else {
       corners.resize(count_);
       std::iota(corners.begin(), corners.end(), 0U);
     }
     for (const std::uint32_t corner : corners) {
-      if (corner >= count_) element_.fail(fmt::format("has index {} but only {} vertices", corner, count_));
+      if (corner >= count_) fail(fmt::format("has index {} but only {} vertices", corner, count_));
     }
-    const std::uint64_t size = list_size(mode, corners.size());
+    const std::uint64_t size = list_size(mode_, corners.size());
     if (size == 0) {
-      element_.fail(fmt::format("has {} corners, no whole number of points, lines or triangles", corners.size()));
+      fail(fmt::format("has {} corners, no whole number of points, lines or triangles", corners.size()));
     }
     budget_.take(size, sizeof(std::uint32_t));
-    primitive_.indices = as_list(mode, std::move(corners));
+    primitive_.indices = as_list(mode_, std::move(corners));
   }
 
   void read_skinning() {
@@ -155,10 +167,10 @@ class PrimitiveReader {
   }
 
   void read_influences(const char* joints_name, const char* weights_name, std::vector<Influence>& influences) {
-    if (attributes_.has(joints_name) != attributes_.has(weights_name)) {
-      attributes_.fail("has joints without weights, or weights without joints");
+    if (source_.attributes.count(joints_name) != source_.attributes.count(weights_name)) {
+      fail("has joints without weights, or weights without joints");
     }
-    const auto joints = floats(attributes_, joints_name), weights = floats(attributes_, weights_name);
+    const auto joints = floats(joints_name), weights = floats(weights_name);
     if (!joints || !weights) return;
     budget_.take(count_, sizeof(Influence));
     influences.resize(count_);
@@ -166,15 +178,15 @@ class PrimitiveReader {
       for (std::size_t k = 0; k < 4; ++k) {
         influences[i].joints[k] = static_cast<std::uint32_t>((*joints)[4 * i + k]);
         const float weight = (*weights)[4 * i + k];
-        if (weight < 0) attributes_.fail(fmt::format("has a negative {}", weights_name));
+        if (weight < 0) fail(fmt::format("has a negative {}", weights_name));
         influences[i].weights[static_cast<int>(k)] = weight;
       }
     }
   }
 
-  std::vector<glm::vec3> target_stream(const JsonElement& target, const char* name) {
+  std::vector<glm::vec3> target_stream(const Attributes& target, const char* name) {
     std::vector<glm::vec3> stream;
-    const auto values = floats(target, name);
+    const auto values = floats(target, name, AttributeOwner::Target);
     if (!values) return stream;
     budget_.take(count_, sizeof(glm::vec3));
     for (std::size_t i = 0; i < count_; ++i) stream.push_back(glm::make_vec3(&(*values)[3 * i]));
@@ -182,7 +194,7 @@ class PrimitiveReader {
   }
 
   void read_targets() {
-    for (const JsonElement& target : element_.objects("targets")) {
+    for (const Attributes& target : source_.targets) {
       MorphTarget& made = primitive_.targets.emplace_back();
       made.positions = target_stream(target, "POSITION");
       made.normals = target_stream(target, "NORMAL");
@@ -191,14 +203,14 @@ class PrimitiveReader {
   }
 
   void read_variants() {
-    const auto extension = element_.extension("KHR_materials_variants");
-    if (!extension) return;
-    const auto listed = root_.extension("KHR_materials_variants");
-    const std::size_t variants = listed ? listed->count("variants") : 0;
-    for (const JsonElement& mapping : extension->objects("mappings")) {
-      const auto material = mapping.required_index("material", root_.count("materials"));
-      for (const JsonElement& variant : mapping.values("variants")) {
-        primitive_.variants.push_back({variant.as_index(variants), material});
+    const tinygltf::Value* extension = find_extension(source_.extensions, "KHR_materials_variants");
+    if (extension == nullptr) return;
+    const tinygltf::Value& mappings = extension->Get("mappings");
+    for (int i = 0; i < static_cast<int>(mappings.ArrayLen()); ++i) {
+      const tinygltf::Value &material = mappings.Get(i).Get("material"), &variants = mappings.Get(i).Get("variants");
+      for (int k = 0; k < static_cast<int>(variants.ArrayLen()); ++k) {
+        primitive_.variants.push_back({static_cast<std::uint32_t>(variants.Get(k).GetNumberAsInt()),
+                                       static_cast<std::uint32_t>(material.GetNumberAsInt())});
       }
     }
   }
@@ -214,12 +226,12 @@ class PrimitiveReader {
     set_flat_normals(primitive_);
   }
 
-  const JsonElement& element_;
-  const JsonElement& root_;
+  std::string path_;
+  const tinygltf::Primitive& source_;
   const GltfBuffers& buffers_;
   const GltfAccessors& accessors_;
   GltfBudget& budget_;
-  JsonElement attributes_;
+  std::uint64_t mode_;
   bool quantized_;
   Primitive primitive_;
   std::size_t count_ = 0;
@@ -227,43 +239,45 @@ class PrimitiveReader {
   bool is_draco_ = false;
 };
 
-void note_unread_attributes(const JsonElement& primitive, GltfNotes& notes) {
-  for (const std::string& name : primitive.required_object("attributes").keys()) {
-    if (!is_read_attribute(name)) notes.ignore(fmt::format("attribute {}: nothing is drawn from it", name));
-  }
-}
-
-void read_weights(const JsonElement& element, Mesh& mesh) {
+void read_weights(std::size_t index, const tinygltf::Mesh& source, Mesh& mesh) {
+  if (mesh.primitives.empty()) return;
   const std::size_t targets = mesh.primitives.front().targets.size();
   for (const Primitive& primitive : mesh.primitives) {
-    if (primitive.targets.size() != targets) element.fail("has primitives with different numbers of morph targets");
+    if (primitive.targets.size() != targets) {
+      throw GltfFault(fmt::format("/meshes/{} has primitives with different numbers of morph targets", index));
+    }
   }
-  mesh.weights.assign(targets, 0.0F);
-  const auto weights = element.values("weights");
-  if (!weights.empty() && weights.size() != targets) element.fail("has not as many weights as morph targets");
-  for (std::size_t i = 0; i < weights.size(); ++i) mesh.weights[i] = static_cast<float>(weights[i].as_number());
+  if (!source.weights.empty() && source.weights.size() != targets) {
+    throw GltfFault(fmt::format("/meshes/{} has not as many weights as morph targets", index));
+  }
+  mesh.weights.assign(source.weights.begin(), source.weights.end());
+  mesh.weights.resize(targets, 0.0F);
 }
 
 }  // namespace
 
-void read_meshes(const JsonElement& root, const GltfBuffers& buffers, const GltfAccessors& accessors,
+void read_meshes(const tinygltf::Model& model, const GltfBuffers& buffers, const GltfAccessors& accessors,
                  GltfBudget& budget, Scene& scene, GltfNotes& notes) {
   const auto default_material = static_cast<std::uint32_t>(scene.materials.size());
   bool uses_default = false;
-  for (const JsonElement& element : root.objects("meshes")) {
+  for (std::size_t m = 0; m < model.meshes.size(); ++m) {
     Mesh& mesh = scene.meshes.emplace_back();
-    mesh.name = element.text("name", "");
-    for (const JsonElement& primitive : element.objects("primitives")) {
-      note_unread_attributes(primitive, notes);
-      if (!primitive.required_object("attributes").has("POSITION")) {
+    mesh.name = model.meshes[m].name;
+    for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
+      const tinygltf::Primitive& primitive = model.meshes[m].primitives[p];
+      for (const auto& [name, accessor] : primitive.attributes) {
+        if (!is_read_attribute(name)) notes.ignore(fmt::format("attribute {}: nothing is drawn from it", name));
+      }
+      if (primitive.attributes.count("POSITION") == 0) {
         notes.ignore("a primitive without POSITION: nothing can be drawn of it");
         continue;
       }
-      uses_default |= !primitive.has("material");
-      mesh.primitives.push_back(PrimitiveReader(primitive, root, buffers, accessors, budget).read(default_material));
+      uses_default |= primitive.material < 0;
+      PrimitiveReader reader(fmt::format("/meshes/{}/primitives/{}", m, p), primitive, model, buffers, accessors,
+                             budget);
+      mesh.primitives.push_back(reader.read(default_material));
     }
-    if (element.count("primitives") == 0) element.fail("has no primitive");
-    if (!mesh.primitives.empty()) read_weights(element, mesh);
+    read_weights(m, model.meshes[m], mesh);
   }
   if (uses_default) scene.materials.push_back(Material{.name = "default"});
 }

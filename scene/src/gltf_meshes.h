@@ -3,13 +3,12 @@
 
 #include "gltf_accessor.h"
 #include "gltf_budget.h"
-#include "gltf_json.h"
 #include "scene/gltf_loader.h"
 
 namespace afm::scene {
 
 // All meshes, after the materials: a primitive without one gets a default material behind them. Throws GltfFault.
-void read_meshes(const JsonElement& root, const GltfBuffers& buffers, const GltfAccessors& accessors,
+void read_meshes(const tinygltf::Model& model, const GltfBuffers& buffers, const GltfAccessors& accessors,
                  GltfBudget& budget, Scene& scene, GltfNotes& notes);
 
 }  // namespace afm::scene

@@ -5,7 +5,6 @@
 
 #include "gltf_accessor.h"
 #include "gltf_budget.h"
-#include "gltf_json.h"
 #include "scene/gltf_loader.h"
 
 namespace afm::scene {
@@ -14,7 +13,7 @@ namespace afm::scene {
 using NodePlaces = std::vector<std::optional<NodeIndex>>;
 
 // Cameras, lights, skins and the nodes of the scene that is shown, after the meshes. Throws GltfFault.
-NodePlaces read_nodes(const JsonElement& root, const GltfAccessors& accessors, GltfBudget& budget, Scene& scene,
+NodePlaces read_nodes(const tinygltf::Model& model, const GltfAccessors& accessors, GltfBudget& budget, Scene& scene,
                       GltfNotes& notes);
 
 }  // namespace afm::scene

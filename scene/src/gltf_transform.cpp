@@ -1,32 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf_transform.h"
 
-#include <array>
+#include <fmt/core.h>
+
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "gltf_fault.h"
+
 namespace afm::scene {
 
-NodeTransform read_transform(const JsonElement& node) {
-  constexpr JsonElement::Range kFinite{-1e30, 1e30};
+NodeTransform read_transform(const tinygltf::Model& model, std::size_t index) {
+  const tinygltf::Node& node = model.nodes[index];
+  const auto fail = [&](const char* reason) { throw GltfFault(fmt::format("/nodes/{} {}", index, reason)); };
   NodeTransform transform;
-  std::array<double, 16> matrix{};
-  std::array<double, 4> rotation{};
-  std::array<double, 3> vector{};
-  if (node.numbers("matrix", matrix, kFinite)) {
-    if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
-      node.fail("has a matrix that is not affine");
-    if (node.has("translation") || node.has("rotation") || node.has("scale")) {
-      node.fail("has a matrix beside a translation, rotation or scale");
-    }
+  if (!node.matrix.empty()) {
+    const auto& matrix = node.matrix;
+    if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1) fail("has a matrix that is not affine");
     transform.matrix = glm::make_mat4(matrix.data());
   }
-  if (node.numbers("translation", vector, kFinite)) transform.translation = glm::make_vec3(vector.data());
-  if (node.numbers("scale", vector, kFinite)) transform.scale = glm::make_vec3(vector.data());
-  if (node.numbers("rotation", rotation, {-1.01, 1.01})) {
+  if (!node.translation.empty()) transform.translation = glm::make_vec3(node.translation.data());
+  if (!node.scale.empty()) transform.scale = glm::make_vec3(node.scale.data());
+  if (!node.rotation.empty()) {
+    const auto& rotation = node.rotation;
     transform.rotation = glm::dquat(rotation[3], rotation[0], rotation[1], rotation[2]);
     const double length = glm::length(transform.rotation);
-    if (std::abs(length - 1.0) > 0.005) node.fail("has a rotation that is no unit quaternion");
+    if (std::abs(length - 1.0) > 0.005) fail("has a rotation that is no unit quaternion");
     transform.rotation /= length;
   }
   return transform;

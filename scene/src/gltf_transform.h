@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "gltf_json.h"
+#include "gltf_model.h"
 
 namespace afm::scene {
 
@@ -18,8 +18,8 @@ struct NodeTransform {
   std::optional<glm::dmat4> matrix{};
 };
 
-// Throws GltfFault.
-NodeTransform read_transform(const JsonElement& node);
+// Of the file's node of this number. Throws GltfFault.
+NodeTransform read_transform(const tinygltf::Model& model, std::size_t node);
 
 glm::dmat4 matrix_of(const NodeTransform& transform);
 

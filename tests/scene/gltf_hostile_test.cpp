@@ -56,10 +56,10 @@ const std::vector<HostileCase>& hostile_cases() {
        [](json& d) { d["accessors"][0]["count"] = 0x1555555555555556ULL; }},
       {"AccessorOffsetThatOverflows", "/accessors/0/byteOffset is",
        [](json& d) { d["accessors"][0]["byteOffset"] = ~0ULL - 11; }},
-      {"AccessorOfNothing", "has no element", [](json& d) { d["accessors"][0]["count"] = 0; }},
+      {"AccessorOfNothing", "/accessors/0/count is 0", [](json& d) { d["accessors"][0]["count"] = 0; }},
       {"NegativeCount", "/accessors/0/count is -1", [](json& d) { d["accessors"][0]["count"] = -1; }},
       {"NegativeOffset", "/bufferViews/0/byteOffset is -4", [](json& d) { d["bufferViews"][0]["byteOffset"] = -4; }},
-      {"UnknownComponentType", "componentType that glTF does not know",
+      {"UnknownComponentType", "/accessors/0/componentType is 5128",
        [](json& d) { d["accessors"][0]["componentType"] = 5128; }},
       {"StrideTooWide", "reaches past", [](json& d) { d["bufferViews"][0]["byteStride"] = 252; }},
       {"StrideTooNarrow", "overlap", [](json& d) { d["bufferViews"][0]["byteStride"] = 4; }},
@@ -72,11 +72,11 @@ const std::vector<HostileCase>& hostile_cases() {
        [](json& d) {
          d["buffers"] = json(20, {{"byteLength", 100U << 20U}});
        }},
-      {"SparseCountTooLarge", "/accessors/0/sparse/count is 1000000",
+      {"SparseCountTooLarge", "more sparse elements than elements",
        [](json& d) {
          d["accessors"][0]["sparse"] =
-             json::parse(R"({"count": 1000000, "indices": {"bufferView": 9, "componentType": 5123},
-                                                      "values": {"bufferView": 9}})");
+             json::parse(R"({"count": 1000000, "indices": {"bufferView": 1, "componentType": 5123},
+                                                      "values": {"bufferView": 0}})");
        }},
       {"AttributeWithoutAccessor", "POSITION is 9",
        [](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 9; }},
@@ -85,6 +85,17 @@ const std::vector<HostileCase>& hostile_cases() {
       {"PositionOfIndices", "POSITION of a type",
        [](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 1; }},
       {"IndicesOfFloats", "indices of a type", [](json& d) { d["meshes"][0]["primitives"][0]["indices"] = 0; }},
+      {"SparseWithoutView", "/accessors/0/sparse/values/bufferView is 9",
+       [](json& d) {
+         d["accessors"][0]["sparse"] = json::parse(R"({"count": 1, "indices": {"bufferView": 1, "componentType": 5123},
+                                                "values": {"bufferView": 9}})");
+       }},
+      {"NameThatIsNoText", "/nodes/0/name is 5, not a text", [](json& d) { d["nodes"][0]["name"] = 5; }},
+      {"MatrixBesideAScale", "has a matrix beside a scale",
+       [](json& d) {
+         d["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+         d["nodes"][0]["scale"] = {1, 1, 1};
+       }},
       {"IndicesWithoutAccessor", "indices is 9", [](json& d) { d["meshes"][0]["primitives"][0]["indices"] = 9; }},
       {"IndexPastTheVertices", "index 3 but only 3", [](json& d) { d["accessors"][0]["count"] = 3; }},
       {"HalfATriangle", "no whole number", [](json& d) { d["accessors"][1]["count"] = 5; }},
@@ -112,7 +123,7 @@ const std::vector<HostileCase>& hostile_cases() {
        [](json& d) {
          d["scenes"][0]["nodes"] = {0, 1};
        }},
-      {"MatrixOfThree", "list of 16 numbers",
+      {"MatrixOfThree", "/nodes/0/matrix is a list of 3",
        [](json& d) {
          d["nodes"][0]["matrix"] = {1, 0, 0};
        }},
@@ -264,7 +275,7 @@ const std::vector<HostileCase>& rich_cases() {
   static const std::vector<HostileCase> cases{
       {"JointMissing", "joints/0 is 7", [](json& d) { d["skins"][0]["joints"] = {7}; }},
       {"SkinMissing", "/nodes/1/skin is 3", [](json& d) { d["nodes"][1]["skin"] = 3; }},
-      {"SkinWithoutJoints", "has no joint", [](json& d) { d["skins"][0]["joints"] = json::array(); }},
+      {"SkinWithoutJoints", "/skins/0/joints is a list of 0", [](json& d) { d["skins"][0]["joints"] = json::array(); }},
       {"SkinWithoutMesh", "a skin but no mesh", [](json& d) { d["nodes"][0]["skin"] = 0; }},
       {"TooFewInverseBindMatrices", "for each joint",
        [](json& d) {
@@ -275,7 +286,8 @@ const std::vector<HostileCase>& rich_cases() {
        [](json& d) { d["meshes"][0]["primitives"][0]["attributes"].erase("JOINTS_0"); }},
       {"AnimationOfMissingNode", "target/node is 9",
        [](json& d) { d["animations"][0]["channels"][0]["target"]["node"] = 9; }},
-      {"AnimationOfMissingSampler", "sampler is 1", [](json& d) { d["animations"][0]["channels"][0]["sampler"] = 1; }},
+      {"AnimationOfMissingSampler", "sampler that does not exist",
+       [](json& d) { d["animations"][0]["channels"][0]["sampler"] = 1; }},
       {"AnimationOfWrongWidth", "output numbers", [](json& d) { d["animations"][0]["samplers"][0]["output"] = 4; }},
       {"AnimationOfTimesThatAreMatrices", "no floats", [](json& d) { d["animations"][0]["samplers"][0]["input"] = 6; }},
       {"AnimationOfUnknownInterpolation", "interpolation",

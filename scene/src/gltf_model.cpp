@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf_model.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "gltf_fault.h"
+
+namespace afm::scene {
+namespace {
+
+constexpr std::array<std::string_view, 13> kUnderstood{
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",   "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",     "KHR_materials_clearcoat",   "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_iridescence", "KHR_materials_specular",
+    "KHR_materials_unlit",     "KHR_materials_variants",    "KHR_mesh_quantization",
+    "KHR_texture_transform"};
+
+bool is_understood(const std::string& name) {
+  return std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end();
+}
+
+// What the header says, before the rest is judged by the rules of a version that it may not have.
+void check_header(const Json& document, GltfNotes& notes) {
+  const Json& asset = document["asset"];
+  const std::string version = asset["version"];
+  if (version.rfind("2.", 0) != 0 || asset.value("minVersion", "2.0") != "2.0") {
+    throw GltfFault(fmt::format("it is glTF of version '{}'; export it as glTF 2.0", version.substr(0, 20)));
+  }
+  notes.generator = asset.value("generator", "");
+  std::string refused;
+  for (const std::string name : document.value("extensionsRequired", Json::array())) {
+    if (!is_understood(name)) refused += fmt::format("{}'{}'", refused.empty() ? "" : ", ", name.substr(0, 80));
+  }
+  if (!refused.empty()) {
+    throw GltfFault(fmt::format(
+        "it requires {}, which TouchAFM does not know; export it without (docs/gltf.md lists what is known)", refused));
+  }
+  for (const std::string name : document.value("extensionsUsed", Json::array())) {
+    if (is_understood(name)) {
+      notes.extensions.push_back(name);
+    } else {
+      notes.ignore(fmt::format("{}: not known, and not required to show the model", name));
+    }
+  }
+}
+
+// What is taken out of the document before tinygltf sees it, so that it opens nothing and decodes nothing by itself:
+// the buffers' and images' URIs. In their places stand numbers that read_buffer() answers. Where tinygltf 2.7 refuses
+// what is valid, the document is changed so that it does not, and the model back again behind it:
+// - a buffer without a URI that is not a .glb's first (a placeholder for compressed data) becomes one byte;
+// - indices in an accessor without a view (zeros, or a Draco stream) get a view that does not exist;
+// - an animation's channel that moves no node is left out.
+class Exchange {
+ public:
+  Exchange(GltfFile& file, GltfNotes& notes) : file_(file) {
+    Json& document = file.document;
+    if (document.contains("buffers")) take_buffers(document["buffers"]);
+    if (document.contains("images")) take_images(document["images"]);
+    views_ = document.contains("bufferViews") ? document["bufferViews"].size() : 0;
+    document["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
+    if (document.contains("accessors")) {
+      for (Json& accessor : document["accessors"]) {
+        if (!accessor.contains("bufferView")) accessor["bufferView"] = views_;
+      }
+    }
+    if (document.contains("animations")) {
+      for (Json& animation : document["animations"]) leave_out_channels(animation["channels"], notes);
+    }
+  }
+
+  void give_back(tinygltf::Model& model) {
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      if (sources_[i].kind == Source::Nothing) model.buffers[i].data.clear();
+    }
+    model.bufferViews.pop_back();
+    for (tinygltf::Accessor& accessor : model.accessors) {
+      if (static_cast<std::size_t>(accessor.bufferView) == views_) accessor.bufferView = -1;
+    }
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+      model.images[i].uri = std::move(images_[i].uri);
+      model.images[i].bufferView = images_[i].view;
+    }
+  }
+
+  // tinygltf's callback for a file: `name` is a buffer's number.
+  static bool read_buffer(Bytes* bytes, std::string*, const std::string& name, void* exchange) {
+    return static_cast<Exchange*>(exchange)->read(name, *bytes);
+  }
+
+ private:
+  struct Source {
+    enum { Nothing, Chunk, Uri } kind = Nothing;
+    std::string uri;
+    std::uint64_t length = 1;
+  };
+  struct ImageSource {
+    std::string uri;
+    int view = -1;
+  };
+
+  void take_buffers(Json& buffers) {
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+      Source& source = sources_.emplace_back();
+      if (buffers[i].contains("uri")) {
+        source.kind = Source::Uri;
+        source.uri = std::move(buffers[i]["uri"].get_ref<std::string&>());
+      } else if (i == 0 && file_.binary) {
+        source.kind = Source::Chunk;
+      }
+      if (source.kind == Source::Nothing) buffers[i]["byteLength"] = 1;
+      source.length = buffers[i]["byteLength"];
+      buffers[i]["uri"] = std::to_string(i);
+    }
+  }
+
+  void take_images(Json& images) {
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      ImageSource& source = images_.emplace_back();
+      if (!images[i].contains("uri") && !images[i].contains("bufferView")) {
+        throw GltfFault(fmt::format("/images/{} has neither a uri nor a bufferView", i));
+      }
+      if (images[i].contains("uri")) source.uri = std::move(images[i]["uri"].get_ref<std::string&>());
+      source.view = images[i].value("bufferView", -1);
+      images[i].erase("bufferView");
+      images[i]["uri"] = "";
+    }
+  }
+
+  static void leave_out_channels(Json& channels, GltfNotes& notes) {
+    auto& list = channels.get_ref<Json::array_t&>();
+    const auto moves_no_node = [&](const Json& channel) {
+      const Json& target = channel["target"];
+      const std::string path = target["path"];
+      if (target.contains("node") && path != "pointer") return false;
+      notes.ignore(fmt::format("animation channel of path '{}': moves no node", path.substr(0, 40)));
+      return true;
+    };
+    list.erase(std::remove_if(list.begin(), list.end(), moves_no_node), list.end());
+  }
+
+  bool read(const std::string& name, Bytes& bytes) {
+    std::size_t i = 0;
+    std::from_chars(name.data(), name.data() + name.size(), i);
+    if (i >= sources_.size()) return false;
+    const Source& source = sources_[i];
+    if (source.kind == Source::Nothing) bytes.assign(1, 0);
+    if (source.kind == Source::Chunk) bytes = std::move(*file_.binary);
+    if (source.kind == Source::Uri) bytes = file_.side_files.read(source.uri);
+    if (bytes.size() < source.length) {
+      throw GltfFault(fmt::format("/buffers/{} says {} bytes but there are {}", i, source.length, bytes.size()));
+    }
+    bytes.resize(source.length);
+    return true;
+  }
+
+  GltfFile& file_;
+  std::vector<Source> sources_;
+  std::vector<ImageSource> images_;
+  std::size_t views_ = 0;
+};
+
+}  // namespace
+
+GltfModel read_gltf_model(const std::string& path, GltfNotes& notes) {
+  GltfFile file = read_gltf_file(path);
+  check_gltf_header(file.document);
+  check_header(file.document, notes);
+  check_gltf_document(file.document);
+  Exchange exchange(file, notes);
+  const std::string text = file.document.dump();
+  file.document = Json();
+
+  tinygltf::TinyGLTF reader;
+  reader.SetFsCallbacks({[](const std::string& name, void*) { return !name.empty(); },
+                         [](const std::string& name, void*) { return name; }, &Exchange::read_buffer, nullptr,
+                         &exchange});
+  GltfModel model;
+  std::string fault, warning;
+  if (!reader.LoadASCIIFromString(&model.parts, &fault, &warning, text.data(), static_cast<unsigned>(text.size()),
+                                  "")) {
+    throw GltfFault(fmt::format("tinygltf does not understand it ({})", fault.substr(0, fault.find('\n'))));
+  }
+  exchange.give_back(model.parts);
+  model.side_files = std::move(file.side_files);
+  return model;
+}
+
+const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name) {
+  const auto found = extensions.find(name);
+  return found == extensions.end() ? nullptr : &found->second;
+}
+
+double number_or(const tinygltf::Value& object, const char* key, double missing) {
+  return object.Has(key) ? object.Get(key).GetNumberAsDouble() : missing;
+}
+
+std::string text_or(const tinygltf::Value& object, const char* key, const char* missing) {
+  return object.Has(key) ? object.Get(key).Get<std::string>() : missing;
+}
+
+}  // namespace afm::scene
