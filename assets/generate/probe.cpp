@@ -279,10 +279,12 @@ double tip_length() { return -apex_height(); }
 double tip_radius() { return kApexRadius; }
 
 void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color) {
-  // rings at 40 and 80 degrees from the pole, of eight points each
-  constexpr V2 kRings[] = {{0.64278760968653933, 0.76604444311897804}, {0.98480775301220806, 0.17364817766693035}};
+  // rings at 30, 60 and 88 degrees from the pole, of sixteen points each
+  constexpr V2 kRings[] = {{0.49999999999999994, 0.86602540378443871},
+                           {0.8660254037844386, 0.50000000000000011},
+                           {0.99939082701909576, 0.03489949670250108}};
   const double side = facing == Facing::Up ? 1 : -1;
-  const Outline around = circle(1, 1);
+  const Outline around = circle(1, 2);
   const auto vertex = [&](V3 normal) { return SurfaceVertex{center + normal * radius, normal, color}; };
   const std::uint32_t pole = surface.add(vertex({0, 0, side}));
   for (const V2 ring : kRings) {
@@ -294,8 +296,11 @@ void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 colo
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t here = pole + 1 + i, next = pole + 1 + (i + 1) % count;
     surface.add_triangle(pole, here, next);
-    surface.add_triangle(here, here + count, next + count);
-    surface.add_triangle(here, next + count, next);
+    for (std::uint32_t ring = 1; ring < std::size(kRings); ++ring) {
+      const std::uint32_t outwards = ring * count;
+      surface.add_triangle(here + outwards - count, here + outwards, next + outwards);
+      surface.add_triangle(here + outwards - count, next + outwards, next + outwards - count);
+    }
   }
 }
 
