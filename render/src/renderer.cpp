@@ -14,6 +14,7 @@
 #include "explained.h"
 #include "readback.h"
 #include "renderer_parts.h"
+#include "scene_look.h"
 
 namespace afm::render {
 namespace {
@@ -195,6 +196,12 @@ core::Result<Renderer> Renderer::create(Context& context, const scene::Scene& sc
                       "smaller",
                       image.width, image.height, context.device().name(), largest));
     }
+  }
+  if (const std::size_t looks = count_looks(scene); looks > kMostLooks) {
+    return core::failure(core::ErrorCategory::BadInputFile,
+                         fmt::format("cannot draw a scene whose materials combine their textures and extensions in {} "
+                                     "ways: up to {} are drawn; make it smaller",
+                                     looks, kMostLooks));
   }
   auto fonts = load_panel_fonts(options.panel_texels_per_m);
   if (!fonts) {

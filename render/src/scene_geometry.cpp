@@ -9,11 +9,14 @@
 namespace afm::render {
 namespace {
 
+// glTF: alpha, the vertices' too, is ignored unless the material blends or is a mask.
+bool ignores_alpha(const scene::Material& material) { return !material.blended && !material.alpha_cutoff; }
+
 DrawBlock material_block(const scene::Material& material) {
   DrawBlock block{};
   block.base_color = material.base_color;
-  if (!material.blended && !material.alpha_cutoff) {
-    block.base_color.a = 1.0F;  // glTF: alpha is ignored unless the material blends or is a mask
+  if (ignores_alpha(material)) {
+    block.base_color.a = 1.0F;
   }
   block.emissive = glm::vec4(material.emissive, 0.0F);
   block.surface = glm::vec4(material.metallic, material.roughness, material.unlit ? 1.0F : 0.0F, 0.0F);
@@ -81,7 +84,12 @@ void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive
     pack_look(primitive, packed.look_vertices);
   }
   measure_box(primitive, draws.back());
-  packed.vertices.insert(packed.vertices.end(), primitive.vertices.begin(), primitive.vertices.end());
+  for (const scene::Vertex& vertex : primitive.vertices) {
+    packed.vertices.push_back(vertex);
+    if (ignores_alpha(material)) {
+      packed.vertices.back().color.a = 1.0F;
+    }
+  }
   packed.indices.insert(packed.indices.end(), primitive.indices.begin(), primitive.indices.end());
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_look.h"
 
+#include <set>
+#include <tuple>
+
 #include "shader_interface.h"
 
 namespace afm::render {
@@ -36,6 +39,16 @@ std::optional<SceneLook> look_of(const scene::Scene& scene, const scene::Primiti
   add(material.iridescence > 0.0F, AFM_LOOK_IRIDESCENCE);
   add(!scene.lights.empty(), AFM_LOOK_LIGHTS);
   return look;
+}
+
+std::size_t count_looks(const scene::Scene& scene) {
+  std::set<std::tuple<std::uint32_t, bool, scene::Topology>> looks;
+  for (const scene::Mesh& mesh : scene.meshes) {
+    for (const scene::Primitive& primitive : mesh.primitives) {
+      if (const auto look = look_of(scene, primitive)) looks.emplace(look->bits, look->blended, look->topology);
+    }
+  }
+  return looks.size();
 }
 
 }  // namespace afm::render

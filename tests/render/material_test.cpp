@@ -64,6 +64,41 @@ void expect_color(const Pixel& pixel, int r, int g, int b) {
   EXPECT_NEAR(pixel.b, b, 3);
 }
 
+TEST_F(Materials, IgnoreTheirVerticesAlphaUnlessTheyBlend) {
+  square_.texture_coordinates.clear();
+  for (scene::Vertex& vertex : square_.vertices) vertex.color = glm::vec4(1.0F, 0.0F, 0.0F, 0.0F);
+  expect_color(at(see(), 0, 0), 255, 0, 0);
+}
+
+TEST_F(Materials, ShareOnePipelineThatShowTheSameKindsOfTexture) {
+  add_image(scene::TextureFilter::Nearest);
+  for (std::uint32_t i = 0; i < 2000; ++i) {
+    material_.roughness = static_cast<float>(i) / 2000.0F;
+    material_.texture(TextureSlot::BaseColor).texture = 0;
+    scene_.materials.push_back(material_);
+    square_.material = i;
+    scene_.meshes.push_back({.name = "square", .primitives = {square_}});
+  }
+  scene_.nodes.push_back({"one", std::nullopt, 0U, glm::dmat4(1.0)});
+  EXPECT_TRUE(render::Renderer::create(context_, scene_, small()));
+}
+
+TEST_F(Materials, AreRefusedWhereTheyNeedTooManyPipelines) {
+  add_image(scene::TextureFilter::Nearest);
+  for (std::uint32_t i = 1; i <= 300; ++i) {
+    scene::Material& material = scene_.materials.emplace_back();
+    for (std::uint32_t slot = 0; slot < scene::kTextureSlots; ++slot) {
+      if ((i >> slot & 1U) != 0) material.textures[slot].texture = 0;
+    }
+    square_.material = i - 1;
+    scene_.meshes.push_back({.name = "square", .primitives = {square_}});
+  }
+  const auto renderer = render::Renderer::create(context_, scene_, small());
+  ASSERT_FALSE(renderer);
+  EXPECT_EQ(renderer.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_NE(renderer.error().message.find("in 300 ways"), std::string::npos) << renderer.error().message;
+}
+
 TEST_F(Materials, ShowATextureTheRightWayUpInItsOwnColours) {
   add_image(scene::TextureFilter::Nearest);
   material_.texture(TextureSlot::BaseColor).texture = 0;
