@@ -2,15 +2,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "app/loading_notice.h"
 #include "app/model_view.h"
 #include "scene/pose.h"
 
 namespace afm::app {
 
 namespace {
+
+constexpr std::array kRoles{"tip", "base", "surface"};
 
 // A stranger's name must not break a line or reach a terminal as a control sequence.
 std::string quoted(std::string name) {
@@ -38,6 +43,11 @@ Counts count(const scene::Scene& scene) {
   return counts;
 }
 
+std::ptrdiff_t count_textures(const scene::Material& material) {
+  return std::count_if(material.textures.begin(), material.textures.end(),
+                       [](const scene::TextureUse& use) { return use.texture.has_value(); });
+}
+
 void describe_parts(const scene::Scene& scene, std::ostream& out) {
   const Counts counts = count(scene);
   out << fmt::format(
@@ -45,9 +55,7 @@ void describe_parts(const scene::Scene& scene, std::ostream& out) {
       scene.nodes.size(), scene.meshes.size(), counts.vertices, counts.triangles, counts.lines, counts.points,
       counts.targets, scene.skins.size());
   for (const scene::Material& material : scene.materials) {
-    const auto textures = std::count_if(material.textures.begin(), material.textures.end(),
-                                        [](const scene::TextureUse& use) { return use.texture.has_value(); });
-    out << fmt::format("material: {}, {} textures{}{}{}\n", quoted(material.name), textures,
+    out << fmt::format("material: {}, {} textures{}{}{}\n", quoted(material.name), count_textures(material),
                        material.unlit ? ", unlit" : "", material.blended ? ", blended" : "",
                        material.alpha_cutoff ? ", mask" : "");
   }
@@ -60,26 +68,79 @@ void describe_parts(const scene::Scene& scene, std::ostream& out) {
   }
   for (const scene::PunctualLight& light : scene.lights) out << fmt::format("light: {}\n", quoted(light.name));
   for (const std::string& variant : scene.variants) out << fmt::format("variant: {}\n", quoted(variant));
+  for (const scene::Node& node : scene.nodes) {
+    if (node.camera) out << fmt::format("camera: {}\n", quoted(camera_name(scene, node)));
+  }
+  for (const char* role : kRoles) {
+    if (const auto node = scene::find_role(scene, role)) {
+      out << fmt::format("role {}: node {}\n", role, quoted(scene.nodes[*node].name));
+    }
+  }
+}
+
+nlohmann::json json_of(const scene::Scene& scene) {
+  const Counts counts = count(scene);
+  const auto list = [] { return nlohmann::json::array(); };
+  nlohmann::json json{{"nodes", scene.nodes.size()},
+                      {"meshes", scene.meshes.size()},
+                      {"vertices", counts.vertices},
+                      {"triangles", counts.triangles},
+                      {"lines", counts.lines},
+                      {"points", counts.points},
+                      {"morph_targets", counts.targets},
+                      {"skins", scene.skins.size()},
+                      {"materials", list()},
+                      {"images", list()},
+                      {"animations", list()},
+                      {"lights", list()},
+                      {"variants", scene.variants},
+                      {"cameras", list()},
+                      {"roles", nlohmann::json::object()}};
+  for (const scene::Material& material : scene.materials) {
+    json["materials"].push_back({{"name", material.name},
+                                 {"textures", count_textures(material)},
+                                 {"unlit", material.unlit},
+                                 {"blended", material.blended},
+                                 {"mask", material.alpha_cutoff.has_value()}});
+  }
+  for (const scene::Image& image : scene.images) {
+    json["images"].push_back({{"width_px", image.width}, {"height_px", image.height}});
+  }
+  for (const scene::Animation& animation : scene.animations) {
+    json["animations"].push_back(
+        {{"name", animation.name}, {"length_s", animation.length_s}, {"moved_nodes", animation.nodes.size()}});
+  }
+  for (const scene::PunctualLight& light : scene.lights) json["lights"].push_back(light.name);
+  for (const scene::Node& node : scene.nodes) {
+    if (node.camera) json["cameras"].push_back(camera_name(scene, node));
+  }
+  for (const char* role : kRoles) {
+    if (const auto node = scene::find_role(scene, role)) json["roles"][role] = scene.nodes[*node].name;
+  }
+  return json;
 }
 
 }  // namespace
 
-core::Result<void> describe_model(const std::string& file, std::ostream& out) {
+core::Result<void> describe_model(const std::string& file, DescriptionForm form, std::ostream& out) {
   scene::GltfNotes notes;
-  const auto scene = scene::load_gltf(file, &notes);
+  const auto scene = [&] {
+    const LoadingNotice notice(file);
+    return scene::load_gltf(file, &notes);
+  }();
   if (!scene) return tl::unexpected(scene.error());
+  if (form == DescriptionForm::Json) {
+    nlohmann::json json = json_of(*scene);
+    json["file"] = file;
+    json["generator"] = notes.generator;
+    json["understood"] = notes.extensions;
+    json["ignored"] = notes.ignored;
+    out << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    return {};
+  }
   out << fmt::format("file: {}\n", file);
   if (!notes.generator.empty()) out << fmt::format("written by: {}\n", quoted(notes.generator));
   describe_parts(*scene, out);
-  for (const scene::Node& node : scene->nodes) {
-    if (!node.camera) continue;
-    out << fmt::format("camera: {}\n", quoted(camera_name(*scene, node)));
-  }
-  for (const char* role : {"tip", "base", "surface"}) {
-    if (const auto node = scene::find_role(*scene, role)) {
-      out << fmt::format("role {}: node {}\n", role, quoted(scene->nodes[*node].name));
-    }
-  }
   for (const std::string& extension : notes.extensions) out << fmt::format("understood: {}\n", quoted(extension));
   for (const std::string& ignored : notes.ignored) out << fmt::format("ignored: {}\n", ignored);
   return {};

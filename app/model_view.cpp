@@ -4,16 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
-#include <mutex>
-#include <thread>
 
+#include "app/loading_notice.h"
 #include "scene/pose.h"
 
 namespace afm::app {
@@ -164,23 +160,6 @@ void place_lights(const scene::Scene& scene, double scale, render::FrameState& f
     frame.lights.push_back(placed);
   }
 }
-
-// Says that loading takes its time, once it has taken a second.
-class LoadingNotice {
- public:
-  explicit LoadingNotice(const std::string& file)
-      : thread_([this, file](const std::stop_token& stop) {
-          std::unique_lock lock(mutex_);
-          if (!done_.wait_for(lock, stop, std::chrono::seconds(1), [&] { return stop.stop_requested(); })) {
-            fmt::print(stderr, "loading {} ...\n", file);
-          }
-        }) {}
-
- private:
-  std::mutex mutex_;
-  std::condition_variable_any done_;
-  std::jthread thread_;
-};
 
 }  // namespace
 

@@ -37,7 +37,8 @@ std::string camera_name(const scene::Scene& scene, const scene::Node& node);
 // that cannot be read, a camera or a variant that the model has not.
 core::Result<ModelView> open_model(const ModelChoice& choice);
 
-// What is in a model and what of it is not shown, a line each. Fails as load_gltf() does.
-core::Result<void> describe_model(const std::string& file, std::ostream& out);
+// What is in a model and what of it is not shown: a line each, or one JSON object. Fails as load_gltf() does.
+enum class DescriptionForm { Lines, Json };
+core::Result<void> describe_model(const std::string& file, DescriptionForm form, std::ostream& out);
 
 }  // namespace afm::app

@@ -11,6 +11,7 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "app/loading_notice.h"
 #include "app/model_builder.h"
 #include "scene/gltf_loader.h"
 #include "scene/pose.h"
@@ -75,8 +76,13 @@ scene::Scene without_shape(const scene::Scene& scene) {
   return bare;
 }
 
+core::Result<scene::Scene> load(const std::string& file) {
+  const LoadingNotice notice(file);
+  return scene::load_gltf(file);
+}
+
 core::Result<scene::Scene> load_probe(const std::string& file) {
-  auto loaded = scene::load_gltf(file);
+  auto loaded = load(file);
   if (!loaded) return loaded;
   const scene::Scene model = scene::posed(std::move(*loaded), std::nullopt);
   const auto base = scene::find_role(model, "base"), tip = scene::find_role(model, "tip");
@@ -102,7 +108,7 @@ core::Result<scene::Scene> load_probe(const std::string& file) {
 }
 
 core::Result<scene::Scene> load_sample(const std::string& file) {
-  auto loaded = scene::load_gltf(file);
+  auto loaded = load(file);
   if (!loaded) return loaded;
   const scene::Scene model = scene::posed(std::move(*loaded), std::nullopt);
   const auto surface = scene::find_role(model, "surface");

@@ -29,6 +29,7 @@ struct RenderOptions {
   bool analogy = false;
   ModelChoice model;  // instead of both
   bool describe = false;
+  bool json = false;
   std::string out;
   double at_s = 0;
   std::string size;  // empty: as the wall's outputs say, or from the eyes' width
@@ -101,7 +102,9 @@ core::Result<void> run_journey(const RenderOptions& options) {
 }
 
 core::Result<void> run_model(const RenderOptions& options) {
-  if (options.describe) return describe_model(options.model.file, std::cout);
+  if (options.describe) {
+    return describe_model(options.model.file, options.json ? DescriptionForm::Json : DescriptionForm::Lines, std::cout);
+  }
   auto context = render::Context::open();
   if (!context) return tl::unexpected(context.error());
   const scene::StereoMode mode = options.wish.mode.value_or(scene::StereoMode::Mono);
@@ -173,7 +176,8 @@ core::Result<void> run_render(const RenderOptions& options) {
 }
 
 // What is said of a model.
-void add_model_options(CLI::App& command, CLI::Option* gltf, ModelChoice& model, bool& describe) {
+void add_model_options(CLI::App& command, CLI::Option* gltf, RenderOptions& options) {
+  ModelChoice& model = options.model;
   command.add_option("--camera", model.camera, "a camera of the model by its name, or auto, which sees all of it")
       ->needs(gltf)
       ->capture_default_str()
@@ -181,8 +185,11 @@ void add_model_options(CLI::App& command, CLI::Option* gltf, ModelChoice& model,
   command.add_option("--variant", model.variant, "a variant of the model's materials (KHR_materials_variants)")
       ->needs(gltf)
       ->type_name("NAME");
-  command.add_flag("--describe", describe, "list what the model holds, what is ignored and why, and draw nothing")
-      ->needs(gltf);
+  CLI::Option* describe = command
+                              .add_flag("--describe", options.describe,
+                                        "list what the model holds, what is ignored and why, and draw nothing")
+                              ->needs(gltf);
+  command.add_flag("--json", options.json, "the list as JSON")->needs(describe);
 }
 
 }  // namespace
@@ -207,7 +214,7 @@ void add_render_command(CLI::App& app, CommandContext& context) {
   auto* gltf =
       what->add_option("--gltf", options->model.file, "glTF 2.0 model, .glb or .gltf, drawn alone")->type_name("FILE");
   what->require_option(1);
-  add_model_options(*command, gltf, options->model, options->describe);
+  add_model_options(*command, gltf, *options);
   command->add_option("--material", options->material, "sample of the journey")
       ->needs(journey)
       ->capture_default_str()

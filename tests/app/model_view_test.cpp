@@ -4,8 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <stop_token>
+#include <thread>
+#include <utility>
 
+#include "app/loading_notice.h"
 #include "app/own_models.h"
 #include "scene/height_field.h"
 #include "scene/pose.h"
@@ -99,12 +104,35 @@ TEST_F(OwnModel, NamesTheVariantsThatItHas) {
 
 TEST_F(OwnModel, IsDescribed) {
   std::ostringstream text;
-  ASSERT_TRUE(describe_model(
-      write(R"("nodes": [{"mesh": 0, "extras": {"touchafm": {"role": "surface"}}, "name": "a\nb"}])"), text));
+  const std::string path =
+      write(R"("nodes": [{"mesh": 0, "extras": {"touchafm": {"role": "surface"}}, "name": "a\nb"}])");
+  ASSERT_TRUE(describe_model(path, DescriptionForm::Lines, text));
   for (const char* line : {"2 triangles", "variant: \"Gold\"", "understood: \"KHR_materials_variants\"",
                            "ignored: KHR_materials_sheen", "role surface: node \"a?b\""}) {
     EXPECT_THAT(text.str(), HasSubstr(line));
   }
+  std::ostringstream json;
+  ASSERT_TRUE(describe_model(path, DescriptionForm::Json, json));
+  const auto described = nlohmann::json::parse(json.str());
+  EXPECT_EQ(described["triangles"], 2);
+  EXPECT_EQ(described["roles"]["surface"], "a\nb");
+  EXPECT_EQ(described["variants"], nlohmann::json::array({"Gold"}));
+  EXPECT_EQ(described["understood"], nlohmann::json::array({"KHR_materials_variants"}));
+}
+
+TEST(LoadingNotice, SpeaksOnceItHasWaitedAndNotBefore) {
+  const auto said_after = [](LoadingNotice::Wait wait) {
+    std::ostringstream out;
+    { const LoadingNotice notice("lever.glb", std::move(wait), out); }
+    return out.str();
+  };
+  EXPECT_EQ(said_after([](const std::stop_token&) { return true; }), "loading lever.glb ...\n");
+  EXPECT_EQ(said_after([](const std::stop_token& stop) {
+              while (!stop.stop_requested()) std::this_thread::yield();
+              return false;
+            }),
+            "")
+      << "loaded before the moment came";
 }
 
 TEST_F(OwnModel, BecomesAProbeByItsRoles) {
