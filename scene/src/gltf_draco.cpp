@@ -3,8 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include "gltf_fault.h"
@@ -15,7 +15,8 @@
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wpedantic"
-#include <draco/compression/decode.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
 #pragma GCC diagnostic pop
 
 namespace afm::scene {
@@ -25,6 +26,8 @@ using Stream = std::span<const std::uint8_t>;
 
 // What a stream of this many bytes can hold at best; edgebreaker needs about a bit a triangle.
 constexpr std::size_t kMostCornersPerByte = 64;
+constexpr std::uint64_t kMostSeamNumbers = 64ULL << 20U;
+constexpr std::uint64_t kMostAttributeBytes = 128ULL << 20U;
 
 std::optional<std::uint64_t> read_varint(Stream& stream) {
   std::uint64_t value = 0;
@@ -37,22 +40,69 @@ std::optional<std::uint64_t> read_varint(Stream& stream) {
   return std::nullopt;
 }
 
-// The number of triangles that the header announces (Draco bitstream 2.2, sections 5 to 7): the decoder makes room for
-// as many before it looks at the rest.
-std::optional<std::uint64_t> announced_triangles(Stream stream) {
+// What the header announces (Draco bitstream 2.2, sections 5 to 7): the decoder makes room for as much before it looks
+// at the rest.
+struct Announced {
+  bool edgebreaker = false;
+  std::uint64_t vertices = 0;
+  std::uint64_t triangles = 0;
+  std::uint64_t seam_tables = 0;  // each with a number a corner
+};
+
+std::optional<Announced> read_announced(Stream stream) {
   constexpr std::size_t kHeader = 11;
-  if (stream.size() < kHeader + 2 || std::string(stream.begin(), stream.begin() + 5) != "DRACO") return std::nullopt;
+  if (stream.size() < kHeader + 4 || std::string(stream.begin(), stream.begin() + 5) != "DRACO") return std::nullopt;
   const bool is_version_2_2 = stream[5] == 2 && stream[6] == 2;
   const bool is_mesh = stream[7] == 1;
   const bool has_metadata = (stream[10] & 0x80U) != 0;
   if (!is_version_2_2 || !is_mesh || has_metadata) return std::nullopt;
-  const bool edgebreaker = stream[8] == 1;
-  stream = stream.subspan(kHeader);
-  if (edgebreaker) {
-    stream = stream.subspan(1);  // the kind of traversal
-    if (!read_varint(stream)) return std::nullopt;
+  Announced announced{.edgebreaker = stream[8] == 1};
+  stream = stream.subspan(kHeader + (announced.edgebreaker ? 1 : 0));  // the kind of traversal
+  const auto first = read_varint(stream), second = read_varint(stream);
+  if (!first || !second || stream.empty()) return std::nullopt;
+  announced.vertices = announced.edgebreaker ? *first : *second;
+  announced.triangles = announced.edgebreaker ? *second : *first;
+  if (announced.edgebreaker) announced.seam_tables = stream.front();
+  return announced;
+}
+
+// A decoder that measures the attributes, which are known before their values are, and makes room for no more of them
+// than a model needs. It keeps each value up to three times at once.
+template <class Decoder>
+class BoundedDecoder : public Decoder {
+ public:
+  bool found_too_much() const { return found_too_much_; }
+
+ private:
+  bool DecodeAllAttributes() override {
+    std::uint64_t bytes = 0;
+    const draco::PointCloud& cloud = *this->point_cloud();
+    for (int i = 0; i < cloud.num_attributes(); ++i) {
+      const draco::PointAttribute& attribute = *cloud.attribute(i);
+      const auto width = static_cast<std::uint64_t>(std::max(draco::DataTypeLength(attribute.data_type()), 4));
+      const auto components = static_cast<std::uint64_t>(attribute.num_components());
+      bytes += std::uint64_t{cloud.num_points()} * components * width;
+    }
+    found_too_much_ = bytes > kMostAttributeBytes;
+    return !found_too_much_ && Decoder::DecodeAllAttributes();
   }
-  return read_varint(stream);
+
+  bool found_too_much_ = false;
+};
+
+template <class Decoder>
+void decode(Stream stream, draco::Mesh& mesh) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
+  BoundedDecoder<Decoder> decoder;
+  const draco::Status status = decoder.Decode(draco::DecoderOptions(), &buffer, &mesh);
+  if (decoder.found_too_much()) {
+    throw GltfFault(fmt::format("its Draco stream announces more than {} MiB of attributes; make it smaller",
+                                kMostAttributeBytes >> 20U));
+  }
+  if (!status.ok()) {
+    throw GltfFault(fmt::format("its Draco stream is broken ({})", status.error_msg_string().substr(0, 80)));
+  }
 }
 
 float largest(int component_type) {
@@ -97,28 +147,30 @@ std::vector<float> read_attribute(const draco::Mesh& mesh, const DracoAttribute&
 }  // namespace
 
 DracoMesh decode_draco(Stream stream, std::size_t corners, const std::vector<DracoAttribute>& wanted) {
-  const std::optional<std::uint64_t> triangles = announced_triangles(stream);
-  if (!triangles) throw GltfFault("its Draco stream is no mesh of bitstream 2.2 without metadata");
-  if (*triangles * 3 != corners || corners / kMostCornersPerByte > stream.size()) {
+  const std::optional<Announced> announced = read_announced(stream);
+  if (!announced) throw GltfFault("its Draco stream is no mesh of bitstream 2.2 without metadata");
+  if (announced->triangles * 3 != corners || corners / kMostCornersPerByte > stream.size()) {
     throw GltfFault(
-        fmt::format("its Draco stream announces {} triangles, its accessor {} indices", *triangles, corners));
+        fmt::format("its Draco stream announces {} triangles, its accessor {} indices", announced->triangles, corners));
   }
-  draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
-  draco::Decoder decoder;
-  auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!decoded.ok()) {
-    throw GltfFault(fmt::format("its Draco stream is broken ({})", decoded.status().error_msg_string().substr(0, 80)));
+  if (announced->vertices > corners || announced->seam_tables * corners > kMostSeamNumbers) {
+    throw GltfFault(fmt::format("its Draco stream announces {} vertices and {} seams for {} triangles; export it again",
+                                announced->vertices, announced->seam_tables, announced->triangles));
   }
-  const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
-  if (std::uint64_t{mesh->num_faces()} * 3 != corners) throw GltfFault("its Draco stream is broken (it ends early)");
+  draco::Mesh mesh;
+  if (announced->edgebreaker) {
+    decode<draco::MeshEdgebreakerDecoder>(stream, mesh);
+  } else {
+    decode<draco::MeshSequentialDecoder>(stream, mesh);
+  }
+  if (std::uint64_t{mesh.num_faces()} * 3 != corners) throw GltfFault("its Draco stream is broken (it ends early)");
   DracoMesh result;
   result.indices.reserve(corners);
-  for (std::uint32_t face = 0; face < mesh->num_faces(); ++face) {
-    for (const draco::PointIndex& corner : mesh->face(draco::FaceIndex(face))) result.indices.push_back(corner.value());
+  for (std::uint32_t face = 0; face < mesh.num_faces(); ++face) {
+    for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(face))) result.indices.push_back(corner.value());
   }
   for (const DracoAttribute& attribute : wanted) {
-    result.attributes.emplace(attribute.name, read_attribute(*mesh, attribute));
+    result.attributes.emplace(attribute.name, read_attribute(mesh, attribute));
   }
   return result;
 }

@@ -87,7 +87,8 @@ constexpr GltfMember kOrthographic[]{number("xmag").required(), number("ymag").r
                                      above_zero("zfar").required(), positive("znear").required()};
 constexpr GltfMember kPerspective[]{above_zero("aspectRatio"), number("yfov", 1e-6, 3.1415).required(),
                                     above_zero("zfar"), above_zero("znear").required()};
-constexpr GltfMember kCamera[]{object("orthographic", kOrthographic), object("perspective", kPerspective),
+constexpr GltfMember kCamera[]{object("orthographic", kOrthographic).without("perspective"),
+                               object("perspective", kPerspective),
                                choice("type", "perspective orthographic").required(), text("name")};
 
 constexpr GltfMember kImage[]{text("uri").without("bufferView"), text("mimeType"), kView, text("name")};

@@ -237,6 +237,77 @@ TEST_F(GltfFeatures, SurvivesAFlippedByteInAStreamOfDraco) {
   EXPECT_GT(refused, 8) << "the header at least";
 }
 
+TEST_F(GltfFeatures, RefusesAStreamOfDracoThatTakesMoreRoomThanItsTriangles) {
+  const std::string stream = draco_triangle();
+  ASSERT_EQ(stream[8], 1) << "edgebreaker: kind of traversal, vertices, triangles, tables of seams";
+  document_["accessors"][0]["count"] = document_["accessors"][1]["count"] = 3;
+  for (json& accessor : document_["accessors"]) accessor.erase("bufferView");
+  const auto spoilt = [&](std::size_t at, const std::string& bytes) {
+    std::string binary = binary_;
+    json document = document_;
+    const auto view = add_view(document, binary, std::string(stream).replace(at, 1, bytes));
+    json& only = document["meshes"][0]["primitives"][0];
+    only["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view}, {"attributes", {{"POSITION", 0}}}};
+    return load(document, binary);
+  };
+  expect_refused(spoilt(12, "\xFF\xFF\xFF\xFF\x0F"), "announces 4294967295 vertices");
+  EXPECT_TRUE(spoilt(12, stream.substr(12, 1))) << "as it was";
+}
+
+TEST_F(GltfFeatures, RefusesAStreamOfDracoWhoseAttributesFillTheMemory) {
+  constexpr int kTriangles = 100'000;
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(kTriangles);
+  const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  const int other = builder.AddAttribute(draco::GeometryAttribute::GENERIC, 1, draco::DT_UINT8);
+  const std::uint8_t zero = 0;
+  for (std::uint32_t i = 0; i < kTriangles; ++i) {
+    const auto far = static_cast<float>(i);
+    const std::array<std::array<float, 3>, 3> places{{{far, 0, 0}, {far, 1, 0}, {far, 0, 1}}};
+    builder.SetAttributeValuesForFace(position, draco::FaceIndex(i), places[0].data(), places[1].data(),
+                                      places[2].data());
+    builder.SetAttributeValuesForFace(other, draco::FaceIndex(i), &zero, &zero, &zero);
+  }
+  draco::Encoder encoder;
+  encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
+  draco::EncoderBuffer buffer;
+  ASSERT_TRUE(encoder.EncodeMeshToBuffer(*builder.Finalize(), &buffer).ok());
+  std::string stream(buffer.data(), buffer.size());
+
+  document_["accessors"][0]["count"] = document_["accessors"][1]["count"] = 3 * kTriangles;
+  document_["accessors"][1]["componentType"] = 5125;
+  for (json& accessor : document_["accessors"]) accessor.erase("bufferView");
+  const auto with = [&](const std::string& bytes) {
+    std::string binary = binary_;
+    json document = document_;
+    const auto view = add_view(document, binary, bytes);
+    json& only = document["meshes"][0]["primitives"][0];
+    only["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view}, {"attributes", {{"POSITION", 0}}}};
+    return load(document, binary);
+  };
+  const auto sound = with(stream);
+  EXPECT_TRUE(sound) << sound.error().message;
+
+  // the attribute's kind, type, number of components, normalisation and name
+  const std::size_t at = stream.find(std::string("\x04\x02\x01\x00\x01", 5));
+  ASSERT_NE(at, std::string::npos);
+  stream[at + 2] = 127;
+  expect_refused(with(stream), "more than 128 MiB of attributes");
+}
+
+TEST_F(GltfFeatures, ReadsWhatTinygltfRefuses) {
+  document_["buffers"].push_back({{"byteLength", 1'000'000}});
+  document_["animations"] = json::array(
+      {{{"samplers", {{{"input", 2}, {"output", 2}}}},
+        {"channels",
+         {{{"sampler", 0},
+           {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", "/x"}}}}}}}}}}}});
+  document_["accessors"].push_back({{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}});
+  EXPECT_EQ(loaded().indices.size(), 6U) << "a buffer without data, a channel without a node";
+  document_["accessors"][1].erase("bufferView");
+  EXPECT_EQ(loaded().indices.size(), 6U) << "indices without a view are zeros";
+}
+
 TEST_F(GltfFeatures, PutsInstancesBelowTheirNode) {
   const auto view = add_view(document_, binary_, floats_of({0, 0, 0, 5, 0, 0, 0, 6, 0}));
   document_["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
