@@ -15,6 +15,7 @@
 #include "input/hid_source.h"
 #include "input/wand_file.h"
 #include "render/context.h"
+#include "render/monitor.h"
 
 namespace afm::app {
 
@@ -61,6 +62,23 @@ Row listen_for_tracker(const input::DtrackSettings& settings) {
                       news.frame.flystick_count, damaged)};
 }
 
+void look_for_monitors(std::vector<Row>& rows) {
+  const auto monitors = render::list_monitors();
+  if (!monitors) {
+    rows.push_back({"monitor", "any", false, monitors.error().message});
+    return;
+  }
+  for (std::size_t i = 0; i < monitors->size(); ++i) {
+    const render::Monitor& monitor = monitors->at(i);
+    const scene::PixelRect& rect = monitor.rect;
+    rows.push_back({"monitor", monitor.name, true,
+                    fmt::format("number {}, {} x {} pixels at {}, {}, {}", i + 1, rect.size_px.x, rect.size_px.y,
+                                rect.offset_px.x, rect.offset_px.y,
+                                monitor.rate_hz > 0 ? fmt::format("{:g} Hz", monitor.rate_hz) : "rate unknown")});
+  }
+  if (monitors->empty()) rows.push_back({"monitor", "any", false, "the display has no monitor that is switched on"});
+}
+
 // Where wands and trackers are looked for.
 struct WandPlaces {
   std::vector<input::HidMapping> mappings;
@@ -89,6 +107,7 @@ std::vector<Row> look_for_devices(const WandPlaces& places) {
   } else {
     rows.push_back({"vulkan", "any", false, devices.error().message});
   }
+  look_for_monitors(rows);
   for (const haptics::ProbeLine& line : haptics::probe_devices(probe_settings())) {
     rows.push_back({"haptic", line.subject, line.usable, line.said});
   }
@@ -122,7 +141,7 @@ core::Result<void> list(const std::string& assets_dir, const std::string& wand_f
 
 void add_devices_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand(
-      "devices", "list the Vulkan devices, haptic devices, wands and trackers: what was tried, and why not");
+      "devices", "list the Vulkan devices, monitors, haptic devices, wands and trackers: what was tried, and why not");
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "print the list as JSON");
   const auto wand_file = std::make_shared<std::string>();

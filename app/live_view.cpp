@@ -32,18 +32,17 @@ MouseHand hand_over(const WallScene& wall_scene) {
 
 }  // namespace
 
-LiveView::LiveView(const Stage& stage, const std::vector<FeltMaterial>& materials, render::Context& context,
-                   render::Window& window, render::Renderer& renderer, render::Presenter& presenter,
-                   ViewServo::Starter start_servo, ViewWand& view_wand, const core::Clock& clock,
+LiveView::LiveView(const Stage& stage, const std::vector<FeltMaterial>& materials, ViewWindows& windows,
+                   ViewPicture& picture, ViewServo::Starter start_servo, ViewWand& view_wand, const core::Clock& clock,
                    const ViewSettings& settings)
     : stage_(stage),
-      window_(window),
+      windows_(windows),
       clock_(clock),
       settings_(settings),
       felt_(materials),
       frames_(stage.wall_scene, felt_, stage.eyes),
       swatches_(stage.wall_scene.swatch_targets()),
-      picture_(stage, context, window, renderer, presenter, settings.picture),
+      picture_(picture),
       panels_(stage.wall_scene, materials),
       servo_(
           std::move(start_servo),
@@ -78,27 +77,32 @@ core::Result<void> LiveView::run() {
 }
 
 void LiveView::turn(std::int64_t now_ns) {
-  const render::WindowInput input = window_.poll();
+  const ViewInput input = windows_.poll();
   leaving_ = input.close_requested;
-  for (const render::WindowEvent& event : input.events) handle(event, now_ns);
+  for (const ViewEvent& event : input.events) handle(event, now_ns);
   if (std::exchange(cursor_px_, input.cursor_px) != input.cursor_px && !hand_.dragging()) cursor_moved_ns_ = now_ns;
-  move_hand(input.cursor_px, now_ns);
+  move_hand(input, now_ns);
   servo_.take_news(now_ns);
   follow_wand(now_ns);
-  if (window_.size_px().x == 0) {
-    window_.wait(kHiddenPauseS);
+  if (windows_.hidden()) {
+    windows_.at(0).wait(kHiddenPauseS);
     return;
   }
   picture_.fit(now_ns);
   follow_head(now_ns);
-  draw(input.cursor_px, now_ns);
+  draw(input, now_ns);
   pace(now_ns);
 }
 
-void LiveView::handle(const render::WindowEvent& event, std::int64_t now_ns) {
+void LiveView::handle(const ViewEvent& input, std::int64_t now_ns) {
   using Kind = render::WindowEvent::Kind;
-  hand_.take(event, hand_m_per_px(), now_ns);
-  if (event.kind == Kind::ButtonDown && event.button == render::MouseButton::Left) click(event.cursor_px);
+  const render::WindowEvent& event = input.event;
+  render::WindowEvent on_desktop = event;
+  on_desktop.cursor_px = windows_.on_desktop(input.window, event.cursor_px);
+  hand_.take(on_desktop, hand_m_per_px(input.window), now_ns);
+  if (event.kind == Kind::ButtonDown && event.button == render::MouseButton::Left) {
+    press(pointed_at(input.window, event.cursor_px));
+  }
   if (event.kind != Kind::KeyDown) return;
   if (const auto number = digit(event.key); number && *number < swatches_.size()) choose(*number);
   if (const auto action = action_of(event.key)) act(*action);
@@ -116,7 +120,7 @@ void LiveView::act(ViewAction action) {
       panels_.toggle_parameters();
       break;
     case ViewAction::FullScreen:
-      window_.set_full_screen(!window_.full_screen());
+      windows_.toggle_full_screen();
       break;
     case ViewAction::NextScale:
       next_scale();
@@ -177,8 +181,8 @@ void LiveView::bring_to_wall() {
   core::log_line(fmt::format("brought to the wall by {:.3f} m", -before_wall_m));
 }
 
-Pointed LiveView::pointed_at(const WallPicture& shown, const glm::dvec2& cursor_px) {
-  const input::Ray ray = wand_.ray(shown, cursor_px);
+Pointed LiveView::pointed_at(std::size_t window, const glm::dvec2& cursor_px) {
+  const input::Ray ray = wand_.ray(picture_.picture(window), cursor_px);
   return panels_.pointed_at(ray, wand_.wall_point(ray), servo_.material());
 }
 
@@ -203,7 +207,7 @@ void LiveView::follow_head(std::int64_t now_ns) {
 
 // The sample's new place is where the hand finds it.
 void LiveView::follow_wand(std::int64_t now_ns) {
-  const WallPicture shown = picture_.picture();
+  const WallPicture shown = picture_.picture(0);
   view_wand_.update(now_ns, servo_.link().tip(), 0.5 * (shown.eyes[0].eye_position_m + shown.eyes[1].eye_position_m));
   if (view_wand_.select_pressed()) press(wand_pointed_at());
   const glm::dmat3 turned(view_wand_.navigation());
@@ -211,8 +215,6 @@ void LiveView::follow_wand(std::int64_t now_ns) {
   hand_.turn(normal, glm::normalize(turned * stage_.wall_scene.sample_right()));
   person_.turn(normal);
 }
-
-void LiveView::click(const glm::dvec2& cursor_px) { press(pointed_at(picture_.picture(), cursor_px)); }
 
 void LiveView::press(const Pointed& pointed) {
   if (pointed.swatch) choose(*pointed.swatch);
@@ -269,14 +271,19 @@ void LiveView::begin_again() {
   }
 }
 
-double LiveView::hand_m_per_px() const { return kHandPerPicture / picture_.picture().place.size_px.y; }
+// A tile has its share of the wall's height.
+double LiveView::hand_m_per_px(std::size_t window) const {
+  const WallPicture shown = picture_.picture(window);
+  const double share = shown.screen.height_m() / stage_.screen.height_m();
+  return kHandPerPicture * share / shown.place.size_px.y;
+}
 
-void LiveView::move_hand(const glm::dvec2& cursor_px, std::int64_t now_ns) {
+void LiveView::move_hand(const ViewInput& input, std::int64_t now_ns) {
   const double frame_s = static_cast<double>(now_ns - std::exchange(hand_moved_ns_, now_ns)) * 1e-9;
   if (!servo_.running() || hand() == HandSource::Device) return;
   ServoLink& servo = servo_.link();
   if (hand() == HandSource::Mouse) {
-    hand_.update(cursor_px, hand_m_per_px(), frame_s, now_ns);
+    hand_.update(windows_.on_desktop(input.window, input.cursor_px), hand_m_per_px(input.window), frame_s, now_ns);
     servo.script(hand_.script());
     return;
   }
@@ -330,12 +337,11 @@ void LiveView::follow_edits() {
   core::log_line("the changed parameters are felt from now on");
 }
 
-void LiveView::draw(const glm::dvec2& cursor_px, std::int64_t now_ns) {
+void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   const FrameBeat beat(servo_.link(), clock_);
   follow_edits();
   travel(now_ns);
-  const WallPicture shown = picture_.picture();
-  const Pointed pointed = wand_points() ? wand_pointed_at() : pointed_at(shown, cursor_px);
+  const Pointed pointed = wand_points() ? wand_pointed_at() : pointed_at(input.window, input.cursor_px);
   const Moment now = moment(pointed, now_ns);
 
   scene::SceneTransforms transforms;
@@ -346,7 +352,6 @@ void LiveView::draw(const glm::dvec2& cursor_px, std::int64_t now_ns) {
   guidance_ = now.guidance;
 
   render::FrameState frame = frames_.build(now);
-  frame.eyes = shown.eyes;
   const auto material = travel_.orders() ? std::nullopt : servo_.material();
   panels_.add_to(frame, pointed, material, material ? stage_.materials.materials[*material].title : "",
                  servo_.link().tip(), hand());

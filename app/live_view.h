@@ -18,12 +18,12 @@
 #include "app/view_picture.h"
 #include "app/view_servo.h"
 #include "app/view_wand.h"
+#include "app/view_windows.h"
 #include "core/clock.h"
 
 namespace afm::app {
 
 struct ViewSettings {
-  PictureSettings picture;
   HandSource hand = HandSource::Mouse;
   double most_frames_per_s = 60.0;
   scene::ScaleMode scale = scene::ScaleMode::Fit;  // M goes on to the next
@@ -36,20 +36,19 @@ struct ViewSettings {
 class LiveView {
  public:
   // All but the settings must outlive it.
-  LiveView(const Stage& stage, const std::vector<FeltMaterial>& materials, render::Context& context,
-           render::Window& window, render::Renderer& renderer, render::Presenter& presenter,
+  LiveView(const Stage& stage, const std::vector<FeltMaterial>& materials, ViewWindows& windows, ViewPicture& picture,
            ViewServo::Starter start_servo, ViewWand& view_wand, const core::Clock& clock, const ViewSettings& settings);
 
-  // Until the window is closed, Escape, SIGINT or SIGTERM. Fails when the servo cannot be started, at the end if it has
-  // died and was not started again, and at once, with the servo ended in order, if the graphics device is lost.
+  // Until a window is closed, Escape, SIGINT or SIGTERM. Fails when the servo cannot be started, at the end if it has
+  // died and was not started again, and at once, with the servo ended in order, if the graphics device or the display
+  // is lost.
   core::Result<void> run();
 
  private:
   void begin_with(ServoLink& servo, std::optional<std::size_t> felt_before);
   void turn(std::int64_t now_ns);
-  void handle(const render::WindowEvent& event, std::int64_t now_ns);
+  void handle(const ViewEvent& input, std::int64_t now_ns);
   void act(ViewAction action);
-  void click(const glm::dvec2& cursor_px);
   void press(const Pointed& pointed);
   void follow_wand(std::int64_t now_ns);
   void follow_head(std::int64_t now_ns);
@@ -60,25 +59,25 @@ class LiveView {
   void begin_again();
   void bring_to_wall();
 
-  double hand_m_per_px() const;
+  double hand_m_per_px(std::size_t window) const;
   HandSource hand() const;
-  void move_hand(const glm::dvec2& cursor_px, std::int64_t now_ns);
+  void move_hand(const ViewInput& input, std::int64_t now_ns);
   void follow_edits();
-  Pointed pointed_at(const WallPicture& shown, const glm::dvec2& cursor_px);
+  Pointed pointed_at(std::size_t window, const glm::dvec2& cursor_px);
   bool wand_points() const;
   Pointed wand_pointed_at();
   Moment moment(const Pointed& pointed, std::int64_t now_ns) const;
-  void draw(const glm::dvec2& cursor_px, std::int64_t now_ns);
+  void draw(const ViewInput& input, std::int64_t now_ns);
   void pace(std::int64_t frame_start_ns) const;
 
   const Stage& stage_;
-  render::Window& window_;
+  ViewWindows& windows_;
   const core::Clock& clock_;
   ViewSettings settings_;
   std::vector<FeltMaterial> felt_;  // as the servo feels them
   FrameBuilder frames_;
   std::vector<input::Target> swatches_;
-  ViewPicture picture_;
+  ViewPicture& picture_;
   ViewPanels panels_;
   ViewServo servo_;
   MouseWand wand_;

@@ -22,8 +22,12 @@ input::Ray MouseWand::ray(const WallPicture& picture, const glm::dvec2& cursor_p
   } else if (source.eye != scene::PixelEye::Both && !scene::is_interleaved(mode)) {
     eye = picture.eyes[source.eye == scene::PixelEye::Left ? 0 : 1].eye_position_m;
   }
-  const glm::dvec3 point = screen_.upper_left + uv.x * (screen_.lower_right - screen_.lower_left) +
-                           uv.y * (screen_.lower_left - screen_.upper_left);
+  // a projector's keystone comes after the layout
+  const glm::dvec3 keystone = picture.composition.picture_from_output * glm::dvec3(uv, 1.0);
+  if (keystone.z > 0.0) uv = glm::dvec2(keystone) / keystone.z;
+  const scene::Screen& screen = picture.screen;
+  const glm::dvec3 point = screen.upper_left + uv.x * (screen.lower_right - screen.lower_left) +
+                           uv.y * (screen.lower_left - screen.upper_left);
   return {.origin_m = eye, .direction = glm::normalize(point - eye)};
 }
 
@@ -37,8 +41,8 @@ input::WandState MouseWand::towards(const glm::dvec3& target_m, std::int64_t now
 }
 
 glm::dvec3 MouseWand::wall_point(const input::Ray& ray) const {
-  const glm::dvec3 normal = screen_.normal();
-  const double distance = glm::dot(screen_.lower_left - ray.origin_m, normal) / glm::dot(ray.direction, normal);
+  const glm::dvec3 normal = stage_.normal();
+  const double distance = glm::dot(stage_.lower_left - ray.origin_m, normal) / glm::dot(ray.direction, normal);
   return ray.origin_m + distance * ray.direction;
 }
 

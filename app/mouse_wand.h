@@ -17,6 +17,7 @@ struct WallPicture {
   render::PicturePlace place;  // of the composed picture in the window
   render::Composition composition;
   std::array<scene::EyeView, 2> eyes;  // left and right picture
+  scene::Screen screen;                // that the picture fills
 };
 
 // The mouse as a wand. What it points at is what lies behind the cursor for the eye whose picture the cursor is on, or
@@ -24,7 +25,8 @@ struct WallPicture {
 // towards that. Const; room frame, metres.
 class MouseWand {
  public:
-  MouseWand(const scene::Screen& screen, const glm::dvec3& grip_m) : screen_(screen), grip_m_(grip_m) {}
+  // `stage` is the plane of wall_point().
+  MouseWand(const scene::Screen& stage, const glm::dvec3& grip_m) : stage_(stage), grip_m_(grip_m) {}
 
   // From the eye through the cursor, which counts in pixels of the window; beyond the picture's border it is continued.
   input::Ray ray(const WallPicture& picture, const glm::dvec2& cursor_px) const;
@@ -36,7 +38,7 @@ class MouseWand {
   glm::dvec3 wall_point(const input::Ray& ray) const;
 
  private:
-  scene::Screen screen_;
+  scene::Screen stage_;
   glm::dvec3 grip_m_;
 };
 

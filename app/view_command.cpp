@@ -17,11 +17,10 @@
 #include "app/live_view.h"
 #include "app/session_file.h"
 #include "app/stage_setup.h"
+#include "app/view_display.h"
 #include "app/view_wand.h"
 #include "core/log.h"
 #include "render/context.h"
-#include "render/presenter.h"
-#include "render/window.h"
 
 namespace afm::app {
 
@@ -34,14 +33,11 @@ constexpr double kLingerS = 10.0;
 
 struct ViewOptions {
   StageFiles files;
-  render::WindowOptions window{.title = "TouchAFM"};
+  DisplayWish display;
   ViewSettings settings;
-  PictureWish wish;
-  std::uint32_t eye_width = 0;  // 0: the window's
-  double frame_rate = 0;        // 0: the display's
+  double frame_rate = 0;  // 0: the display's
   ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = kLingerS}};
   std::int64_t spin_us = 0;
-  bool validate = false;
   WandOptions wand;
 };
 
@@ -52,7 +48,8 @@ std::optional<std::uint32_t> whole_number(std::string_view text) {
   return value;
 }
 
-core::Result<void> parse_size(const std::string& text, render::WindowOptions& window) {
+core::Result<void> parse_size(const std::string& text, WindowWish& window) {
+  if (text.empty()) return {};
   const std::size_t cross = text.find('x');
   const auto width = whole_number(text.substr(0, cross));
   const auto height = cross == std::string::npos ? std::nullopt : whole_number(text.substr(cross + 1));
@@ -64,8 +61,7 @@ core::Result<void> parse_size(const std::string& text, render::WindowOptions& wi
                          fmt::format("--size: \"{}\" is not WIDTHxHEIGHT in pixels of {} to {} each, such as 1280x960",
                                      text, kSmallestWindow, kLargestWindow));
   }
-  window.width = *width;
-  window.height = *height;
+  window.size_px = {*width, *height};
   return {};
 }
 
@@ -102,32 +98,6 @@ core::Result<void> set_hand(const Stage& stage, const std::string& device, ViewS
   return {};
 }
 
-// What the wall file's first output says, unless the command line says otherwise. A window holds one screen: a pair of
-// projectors beside each other is one picture side by side.
-render::Composition composition_for(const Stage& stage, const PictureWish& wish) {
-  render::Composition composition{.mode = scene::StereoMode::Mono};
-  bool swapped = wish.order == scene::EyeOrder::Swapped;
-  if (!stage.wall.outputs.empty()) {
-    const scene::Output& first = stage.wall.outputs.front();
-    composition.mode = first.mode == scene::StereoMode::Dual ? scene::StereoMode::SideBySide : first.mode;
-    composition.picture_from_output = first.picture_from_output;
-    swapped = swapped != (first.order == scene::EyeOrder::Swapped);
-    if (!wish.mode && first.eye == scene::Eye::Right) swapped = !swapped;
-  }
-  composition.mode = wish.mode.value_or(composition.mode);
-  if (swapped) composition.order = scene::EyeOrder::Swapped;
-  return composition;
-}
-
-// The right eye's window of mode dual.
-core::Result<std::unique_ptr<render::Window>> open_second(scene::StereoMode mode, render::WindowOptions options) {
-  if (mode != scene::StereoMode::Dual) return std::unique_ptr<render::Window>();
-  options.title += ", right eye";
-  auto window = render::Window::open(options);
-  if (!window) return tl::unexpected(window.error());
-  return std::make_unique<render::Window>(std::move(*window));
-}
-
 core::Result<void> run_view(const ViewOptions& options, const std::string& program) {
   const core::MonotonicClock clock;
   auto stage = load_stage(options.files);
@@ -140,8 +110,6 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
     materials.push_back(std::move(*felt));
   }
   ViewSettings settings = options.settings;
-  settings.picture.composition = composition_for(*stage, options.wish);
-  settings.picture.ipd_m = options.wish.ipd_m.value_or(stage->wall.viewers.front().ipd_m);
   const auto wand_choice = parse_wand_choice(options.wand);
   if (!wand_choice) return tl::unexpected(wand_choice.error());
   if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
@@ -151,49 +119,35 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
                                   stage->wall_scene.height_fields());
   if (!model) return tl::unexpected(model.error());
 
-  auto window = render::Window::open(options.window);
-  if (!window) return tl::unexpected(window.error());
-  const auto second = open_second(settings.picture.composition.mode, options.window);
-  if (!second) return tl::unexpected(second.error());
-  auto context = render::Context::open(options.validate ? render::Validation::On : render::Validation::Off,
-                                       render::Presentation::Window);
-  if (!context) return tl::unexpected(context.error());
-
-  const glm::uvec2 fitting = stage->eye_size_within(settings.picture.composition.mode, window->size_px());
-  render::RendererOptions drawing = stage->renderer_options(options.eye_width > 0 ? options.eye_width : fitting.x);
-  if (options.eye_width == 0) drawing.eye_height = fitting.y;
-  drawing.time_passes = settings.picture.frame_budget_ms > 0;
-  auto renderer = render::Renderer::create(*context, stage->wall_scene.scene(), drawing);
-  if (!renderer) return tl::unexpected(renderer.error());
-  auto presenter = render::Presenter::create(*context, *window, *renderer, second->get());
-  if (!presenter) return tl::unexpected(presenter.error());
-  if (auto shown = presenter->check_mode(settings.picture.composition.mode); !shown) return shown;
-
-  settings.picture.eye_px = {drawing.eye_width, drawing.eye_height};
-  settings.picture.fixed_eye_size = options.eye_width > 0;
-  settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : window->refresh_hz();
-  core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}; F1 shows the keys", drawing.eye_width,
-                             drawing.eye_height, context->device_name()));
+  auto display = ViewDisplay::open(*stage, options.display);
+  if (!display) return tl::unexpected(display.error());
+  ViewWindows& windows = (*display)->windows();
+  settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : windows.at(0).refresh_hz();
   ServoChoice servo = options.servo;
   servo.settings.spin_ns = 1000 * options.spin_us;
   if (servo.mode == ServoMode::Thread) servo.settings.linger_s = 0;  // it ends with this program
   const auto start_servo = [&] {
     return ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), servo, program);
   };
-  LiveView live(*stage, materials, *context, *window, *renderer, *presenter, start_servo, **wand, clock, settings);
+  LiveView live(*stage, materials, windows, (*display)->picture(), start_servo, **wand, clock, settings);
   if (auto ran = live.run(); !ran) return ran;
-  return check_validation(*context);
+  return check_validation((*display)->context());
 }
 
 void add_picture_options(CLI::App& command, ViewOptions& options) {
-  add_stereo_options(command, options.wish, "the first output of the wall file, else mono");
-  command.add_flag("--fullscreen", options.window.full_screen, "fill the monitor; F11 does it while it runs");
+  add_stereo_options(command, options.display.picture, "the outputs of the wall file, else mono");
+  command.add_flag("--fullscreen", options.display.window.full_screen,
+                   "one window that fills the monitor it opens on; F11 does it while it runs");
   command
-      .add_option("--eye-width", options.eye_width,
+      .add_option("--monitor", options.display.window.monitor,
+                  "one window that fills this monitor, by its name or number in touchafm devices")
+      ->type_name("NAME");
+  command
+      .add_option("--eye-width", options.display.eye_width,
                   "width of each eye's picture in pixels, then scaled to the window; default: the window's pixels")
       ->check(CLI::Range(64, 8192))
       ->type_name("PIXELS");
-  add_frame_budget(command, options.settings.picture.frame_budget_ms);
+  add_frame_budget(command, options.display.frame_budget_ms);
   command
       .add_option("--frame-rate", options.frame_rate, "most frames a second, 10 to 1000; default: the display's rate")
       ->check(CLI::Range(kSlowestFrames, kFastestFrames))
@@ -272,8 +226,13 @@ void add_view_command(CLI::App& app, CommandContext& context) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME");
   add_picture_options(*command, *options);
-  auto size = std::make_shared<std::string>("1280x960");
-  command->add_option("--size", *size, "size of the window in pixels")->capture_default_str()->type_name("WxH");
+  auto size = std::make_shared<std::string>();
+  command
+      ->add_option(
+          "--size", *size,
+          "one window of that size in pixels; default: a window for each output of the wall file in its place, "
+          "else one of 1280x960")
+      ->type_name("WxH");
   static const std::map<std::string, ServoMode> kServos{{"process", ServoMode::Process}, {"thread", ServoMode::Thread}};
   command
       ->add_option("--servo", options->servo.mode,
@@ -282,10 +241,11 @@ void add_view_command(CLI::App& app, CommandContext& context) {
       ->type_name("HOW");
   add_wand_options(*command, *options);
   add_servo_options(*command, *options);
-  command->add_flag("--validate", options->validate, "check every Vulkan call; any message ends in exit code 1");
+  command->add_flag("--validate", options->display.validate,
+                    "check every Vulkan call; any message ends in exit code 1");
   command->callback([options, size, &context] {
     context.chosen = [options, size, &context]() -> core::Result<void> {
-      if (auto parsed = parse_size(*size, options->window); !parsed) return parsed;
+      if (auto parsed = parse_size(*size, options->display.window); !parsed) return parsed;
       return run_view(*options, context.program_path);
     };
   });

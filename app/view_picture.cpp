@@ -21,56 +21,97 @@ constexpr std::int64_t kDepthLogNs = 10'000'000'000;  // between two lines in th
 
 }  // namespace
 
-ViewPicture::ViewPicture(const Stage& stage, render::Context& context, render::Window& window,
-                         render::Renderer& renderer, render::Presenter& presenter, const PictureSettings& settings)
+glm::uvec2 eye_size_for_all(const Stage& stage, const std::vector<ViewOutput>& outputs,
+                            std::optional<scene::StereoMode> other_mode, const ViewWindows& windows) {
+  glm::uvec2 largest(0);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const glm::uvec2 window_px = windows.at(i).size_px();
+    if (window_px.x == 0 || window_px.y == 0) continue;
+    const scene::StereoMode mode = outputs[i].composition(other_mode, scene::EyeOrder::Straight).mode;
+    largest = glm::max(largest, eye_size_for(stage, outputs[i], mode, window_px));
+  }
+  return largest;
+}
+
+ViewPicture::ViewPicture(const Stage& stage, const std::vector<ViewOutput>& outputs, render::Context& context,
+                         const ViewWindows& windows, render::Renderer& renderer, render::Presenter& presenter,
+                         const PictureSettings& settings)
     : stage_(stage),
-      window_(window),
+      outputs_(outputs),
+      windows_(windows),
       renderer_(renderer),
       presenter_(presenter),
       settings_(settings),
       head_(stage.wall.viewers.front().sweet_spot),
-      eyes_(stage.eyes),
       eye_size_px_(settings.eye_px),
       depth_meter_(context, renderer) {
   if (settings_.frame_budget_ms > 0) budget_.emplace(settings_.frame_budget_ms, renderer.detail().samples);
-  look_from(head_);
+  share_out();
 }
 
 void ViewPicture::fit(std::int64_t now_ns) {
-  const glm::uvec2 window_px = window_.size_px();
-  if (window_px != window_size_px_) {
-    window_size_px_ = window_px;
-    window_steady_since_ns_ = now_ns;
+  const glm::uvec2 wanted = eye_size_for_all(stage_, outputs_, other_mode_, windows_);
+  if (wanted != wanted_eye_px_) {
+    wanted_eye_px_ = wanted;
+    windows_steady_since_ns_ = now_ns;
   }
-  if (settings_.fixed_eye_size || now_ns - window_steady_since_ns_ < kSteadyNs) return;
-  const glm::uvec2 size = stage_.eye_size_within(settings_.composition.mode, glm::max(window_px, glm::uvec2(1)));
-  if (size == eye_size_px_) return;
-  eye_size_px_ = size;
-  if (auto resized = renderer_.resize(size.x, size.y); !resized) core::log_line(resized.error().message);
+  const bool steady = now_ns - windows_steady_since_ns_ >= kSteadyNs;
+  if (settings_.fixed_eye_size || !steady || wanted.x == 0 || wanted == eye_size_px_) return;
+  eye_size_px_ = wanted;
+  if (auto resized = renderer_.resize(wanted.x, wanted.y); !resized) core::log_line(resized.error().message);
+}
+
+// Who shows the same eyes before the same screen gets what is drawn once.
+void ViewPicture::share_out() {
+  shares_.clear();
+  pictures_.clear();
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    const ViewOutput& output = outputs_[i];
+    pictures_.push_back({output.composition(other_mode_, other_order_), output.fit});
+    const bool flat = pictures_.back().composition.mode == scene::StereoMode::Mono;
+    const auto same = std::find_if(shares_.begin(), shares_.end(), [&](const Share& share) {
+      return share.screen.name == output.screen.name && share.flat == flat;
+    });
+    if (same != shares_.end()) {
+      same->windows.push_back(i);
+    } else {
+      shares_.push_back({.screen = output.screen, .flat = flat, .eyes = stage_.eyes, .windows = {i}});
+    }
+  }
+  look_from(head_);
+  depth_ = {};
 }
 
 void ViewPicture::look_from(const scene::HeadPose& head) {
-  const auto eyes = eyes_before(stage_.screen, head, flat() ? 0.0 : settings_.ipd_m);
-  if (!eyes) return;
   head_ = head;
-  eyes_ = *eyes;
+  for (Share& share : shares_) {
+    if (const auto eyes = eyes_before(share.screen, head, share.flat ? 0.0 : settings_.ipd_m)) share.eyes = *eyes;
+  }
 }
 
 void ViewPicture::swap_eyes() {
-  const bool straight = settings_.composition.order == scene::EyeOrder::Straight;
-  settings_.composition.order = straight ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight;
+  const bool straight = other_order_ == scene::EyeOrder::Straight;
+  other_order_ = straight ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight;
+  share_out();
   core::log_line(straight ? "eyes swapped" : "eyes as they were");
+}
+
+// Dual needs a window for each eye.
+bool ViewPicture::can_show(scene::StereoMode mode) const {
+  const bool pairs = std::all_of(outputs_.begin(), outputs_.end(), [](const auto& output) { return output.eye; });
+  return presenter_.check_mode(mode) && (mode != scene::StereoMode::Dual || pairs);
 }
 
 void ViewPicture::change_mode(Step step) {
   constexpr std::size_t kCount = scene::kStereoModes.size();
-  auto index = static_cast<std::size_t>(settings_.composition.mode);
+  auto index = static_cast<std::size_t>(mode());
   do {
     index = (index + (step == Step::Next ? 1 : kCount - 1)) % kCount;
-  } while (!presenter_.check_mode(scene::kStereoModes[index].mode));
-  settings_.composition.mode = scene::kStereoModes[index].mode;
-  look_from(head_);
-  depth_ = {};
+  } while (!can_show(scene::kStereoModes[index].mode));
+  // where the first output's own mode comes round again, so do the others'
+  other_mode_ = scene::kStereoModes[index].mode;
+  if (other_mode_ == outputs_.front().mode) other_mode_.reset();
+  share_out();
   core::log_line(fmt::format("stereo: {}", scene::kStereoModes[index].name));
 }
 
@@ -83,21 +124,28 @@ void ViewPicture::widen_eyes(double by_m) {
 
 void ViewPicture::toggle_calibration() { calibrating_ = !calibrating_; }
 
-WallPicture ViewPicture::picture() const {
-  const glm::uvec2 picture_px = scene::picture_size(settings_.composition.mode, eye_size_px_);
-  return {.place = render::picture_place(glm::max(window_.size_px(), glm::uvec2(1)), picture_px),
-          .composition = settings_.composition,
-          .eyes = eyes_};
+WallPicture ViewPicture::picture(std::size_t window) const {
+  const auto share = std::find_if(shares_.begin(), shares_.end(), [&](const Share& candidate) {
+    return std::find(candidate.windows.begin(), candidate.windows.end(), window) != candidate.windows.end();
+  });
+  const render::WindowPicture& shown = pictures_[window];
+  const glm::uvec2 window_px = glm::max(windows_.at(window).size_px(), glm::uvec2(1));
+  const glm::uvec2 picture_px = scene::picture_size(shown.composition.mode, eye_size_px_);
+  return {.place = render::picture_place(window_px, picture_px, shown.fit),
+          .composition = shown.composition,
+          .eyes = share->eyes,
+          .screen = share->screen};
 }
 
 // What an earlier frame asked of the eyes; tells the log when that begins to be too much, and now and then.
 void ViewPicture::measure_depth(std::int64_t now_ns) {
-  if (flat() || calibrating_ || now_ns - depth_measured_ns_ < kMeasureNs) return;
+  if (shares_.front().flat || calibrating_ || now_ns - depth_measured_ns_ < kMeasureNs) return;
   depth_measured_ns_ = now_ns;
   if (const auto range = depth_meter_.newest()) {
     const bool was_hard = depth_.hard;
-    const glm::dvec3 middle = 0.5 * (eyes_[0].eye_position_m + eyes_[1].eye_position_m);
-    const double distance_m = glm::dot(middle - stage_.screen.lower_left, stage_.screen.normal());
+    const Share& first = shares_.front();
+    const glm::dvec3 middle = 0.5 * (first.eyes[0].eye_position_m + first.eyes[1].eye_position_m);
+    const double distance_m = glm::dot(middle - first.screen.lower_left, first.screen.normal());
     depth_ = report_depth(*range, distance_m, settings_.ipd_m);
     if ((depth_.hard && !was_hard) || now_ns - depth_logged_ns_ >= kDepthLogNs) {
       core::log_line(depth_.text);
@@ -108,16 +156,22 @@ void ViewPicture::measure_depth(std::int64_t now_ns) {
 }
 
 void ViewPicture::show(render::FrameState& frame, std::int64_t now_ns, const std::function<void()>& while_waiting) {
-  if (calibrating_) {
-    show_calibration(stage_.screen, settings_.composition.mode, settings_.ipd_m, frame);
-  } else if (!flat()) {
-    frame.labels.push_back(depth_label(depth_, stage_.screen));
+  if (!calibrating_ && !shares_.front().flat) frame.labels.push_back(depth_label(depth_, stage_.screen));
+  while_waiting();
+  if (!presenter_.begin(pictures_, while_waiting)) return;
+  for (const Share& share : shares_) {
+    frame.eyes = share.eyes;
+    if (calibrating_) {
+      const scene::StereoMode mode = other_mode_.value_or(outputs_[share.windows.front()].mode);
+      show_calibration(share.screen, mode, settings_.ipd_m, frame);
+    }
+    renderer_.render(frame);
+    if (&share == &shares_.front()) measure_depth(now_ns);
+    while_waiting();
+    presenter_.draw(share.windows, while_waiting);
+    while_waiting();
   }
-  while_waiting();
-  renderer_.render(frame);
-  measure_depth(now_ns);
-  while_waiting();
-  presenter_.present(settings_.composition, while_waiting);
+  presenter_.show();
   while_waiting();
   if (budget_) budget_->follow(renderer_);
 }

@@ -149,7 +149,7 @@ core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions&
                                     render::FrameState frame;
                                     frame.eyes = eyes;
                                     frame.room_from_node.assign(scene.nodes.size(), glm::dmat4(1.0));
-                                    show_calibration(output.screen, output.composition.mode, ipd_m, frame);
+                                    show_calibration(output.screen, output.mode, ipd_m, frame);
                                     return frame;
                                   });
   if (!pictures) return tl::unexpected(pictures.error());

@@ -91,7 +91,8 @@ core::Result<WallPlan> plan_wall(const scene::Wall& wall, const PictureWish& wis
   std::vector<bool> waiting;
   for (const scene::Output& output : drawn_outputs(wall, wish)) {
     const scene::Screen& screen = wall.screens[output.screen];
-    OutputPicture picture{output.name, screen, composition_of(output, wish), output.rect};
+    OutputPicture picture{output.name, screen, wish.mode.value_or(output.mode), composition_of(output, wish),
+                          output.rect};
     const bool has_rect = output.rect.size_px != glm::uvec2(0);
     const bool exact = scene::frame_packing(picture.composition.mode).has_value();
     if (exact || !has_rect) picture.rect.size_px = natural_size(screen, picture.composition.mode, wish.eye_width);

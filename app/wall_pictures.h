@@ -28,8 +28,9 @@ struct PictureWish {
 struct OutputPicture {
   std::string name;
   scene::Screen screen;
-  render::Composition composition;
-  scene::PixelRect rect;  // in the whole picture
+  scene::StereoMode mode = scene::StereoMode::Mono;  // as the wall file or the user says
+  render::Composition composition;                   // that follows from it: of dual, this output's eye
+  scene::PixelRect rect;                             // in the whole picture
 };
 
 struct WallPlan {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,11 +19,13 @@ namespace {
 
 constexpr std::uint64_t kTurnNs = 5'000'000;  // from one call of while_waiting to the next
 constexpr int kMostSurfacesLost = 20;         // one after the other
-constexpr std::size_t kMostWindows = 2;       // one for each eye
 
 }  // namespace
 
-PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px) {
+PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px, PictureFit fit) {
+  if (fit == PictureFit::Fill) {
+    return {.offset_px = glm::uvec2(0), .size_px = window_px};
+  }
   const glm::dvec2 window(window_px);
   const glm::dvec2 picture(picture_px);
   double scale = std::min(window.x / picture.x, window.y / picture.y);
@@ -49,49 +52,76 @@ struct Presenter::Parts {
   Parts& operator=(const Parts&) = delete;
   ~Parts() { device.wait_idle(); }
 
+  // A window, and what is done with it in this frame.
+  struct Pane {
+    std::unique_ptr<WindowSurface> surface;
+    WindowPicture picture;
+    bool taken = false;  // it has an image to draw into
+    bool drawn = false;
+  };
+
   core::Result<void> add(Window& window);
-  bool ready(scene::StereoMode mode, const std::function<void()>& while_waiting);
-  void draw(const Composition& composition);
+  template <class Work>
+  bool follow_surfaces(Work&& work);
+  void draw(std::span<const std::size_t> windows, const std::function<void()>& while_waiting);
   void show();
-  bool present(const Composition& composition, const std::function<void()>& while_waiting);
 
   const Device& device;
   Renderer::Parts& renderer;
   vk::raii::CommandPool pool;
   vk::raii::CommandBuffer commands;
   vk::raii::Fence finished;
-  std::vector<std::unique_ptr<WindowSurface>> surfaces;
+  std::vector<Pane> panes;
   int surfaces_lost = 0;  // since a picture was shown
 };
 
 core::Result<void> Presenter::Parts::add(Window& window) {
-  surfaces.push_back(std::make_unique<WindowSurface>(device, window, renderer.composer));
-  return surfaces.back()->choose_format();
+  panes.push_back({.surface = std::make_unique<WindowSurface>(device, window, renderer.composer), .picture = {}});
+  return panes.back().surface->choose_format();
 }
 
-// Whether every window has an image to draw into.
-bool Presenter::Parts::ready(scene::StereoMode mode, const std::function<void()>& while_waiting) {
-  const std::uint32_t layers = mode == scene::StereoMode::QuadBuffer ? 2 : 1;
-  for (const auto& surface : surfaces) {
-    if (!surface->follow_window(layers) || !surface->acquire(while_waiting)) {
-      return false;
+// Does what can find a surface outdated or lost; false if it has.
+template <class Work>
+bool Presenter::Parts::follow_surfaces(Work&& work) {
+  try {
+    std::forward<Work>(work)();
+    return true;
+  } catch (const vk::OutOfDateKHRError&) {
+    for (Pane& pane : panes) {
+      pane.surface->outdate();
+    }
+  } catch (const vk::SurfaceLostKHRError&) {
+    if (++surfaces_lost > kMostSurfacesLost) {
+      throw DeviceFailure("the window's surface was lost and no other can be had: see to the display and start again");
+    }
+    for (Pane& pane : panes) {
+      pane.surface->replace();
     }
   }
-  return true;
+  for (Pane& pane : panes) {
+    pane.taken = pane.drawn = false;
+  }
+  return false;
 }
 
-void Presenter::Parts::draw(const Composition& composition) {
-  const bool dual = composition.mode == scene::StereoMode::Dual;
+void Presenter::Parts::draw(std::span<const std::size_t> windows, const std::function<void()>& while_waiting) {
+  std::array<vk::SemaphoreSubmitInfo, kMostWindows> waits, signals;
+  std::uint32_t count = 0;
   pool.reset();
   commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-  std::array<vk::SemaphoreSubmitInfo, kMostWindows> waits, signals;
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    surfaces[i]->record(commands, composition, dual && i == 1 ? 1 : 0);
-    waits[i] = {.semaphore = surfaces[i]->acquired(), .stageMask = vk::PipelineStageFlagBits2::eColorAttachmentOutput};
-    signals[i] = {.semaphore = surfaces[i]->drawn(), .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
+  for (const std::size_t window : windows) {
+    Pane& pane = panes.at(window);
+    if (!pane.taken) {
+      continue;
+    }
+    const WindowSurface& surface = *pane.surface;
+    surface.record(commands, pane.picture);
+    waits[count] = {.semaphore = surface.acquired(), .stageMask = vk::PipelineStageFlagBits2::eColorAttachmentOutput};
+    signals[count] = {.semaphore = surface.drawn(), .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
+    pane.drawn = true;
+    ++count;
   }
   commands.end();
-  const auto count = static_cast<std::uint32_t>(surfaces.size());
   const vk::CommandBufferSubmitInfo submit{.commandBuffer = *commands};
   device.queue().submit2(vk::SubmitInfo2{.waitSemaphoreInfoCount = count,
                                          .pWaitSemaphoreInfos = waits.data(),
@@ -100,28 +130,42 @@ void Presenter::Parts::draw(const Composition& composition) {
                                          .signalSemaphoreInfoCount = count,
                                          .pSignalSemaphoreInfos = signals.data()},
                          *finished);
+
+  // presented only once it is drawn: some drivers (lavapipe) would wait inside the call, where nobody beats
+  while (device->waitForFences(*finished, VK_TRUE, kTurnNs) == vk::Result::eTimeout) {
+    while_waiting();
+  }
+  device->resetFences(*finished);
 }
 
-// All windows in one call: both eyes change in the same refresh where the device can do it.
 void Presenter::Parts::show() {
   std::array<vk::Semaphore, kMostWindows> drawn;
   std::array<vk::SwapchainKHR, kMostWindows> swapchains;
   std::array<std::uint32_t, kMostWindows> indices{};
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    drawn[i] = surfaces[i]->drawn();
-    swapchains[i] = surfaces[i]->swapchain();
-    indices[i] = surfaces[i]->index();
-    surfaces[i]->presented();
+  std::uint32_t count = 0;
+  for (Pane& pane : panes) {
+    if (!pane.drawn) {
+      continue;
+    }
+    drawn[count] = pane.surface->drawn();
+    swapchains[count] = pane.surface->swapchain();
+    indices[count] = pane.surface->index();
+    pane.surface->presented();
+    pane.taken = pane.drawn = false;
+    ++count;
   }
-  const auto count = static_cast<std::uint32_t>(surfaces.size());
+  if (count == 0) {
+    return;
+  }
   const vk::Result result = device.queue().presentKHR({.waitSemaphoreCount = count,
                                                        .pWaitSemaphores = drawn.data(),
                                                        .swapchainCount = count,
                                                        .pSwapchains = swapchains.data(),
                                                        .pImageIndices = indices.data()});
+  surfaces_lost = 0;
   if (result == vk::Result::eSuboptimalKHR) {
-    for (const auto& surface : surfaces) {
-      surface->outdate();
+    for (Pane& pane : panes) {
+      pane.surface->outdate();
     }
   }
 }
@@ -131,13 +175,11 @@ Presenter::Presenter(Presenter&&) noexcept = default;
 Presenter& Presenter::operator=(Presenter&&) noexcept = default;
 Presenter::~Presenter() = default;
 
-core::Result<Presenter> Presenter::create(Context& context, Window& window, Renderer& renderer, Window* second) {
+core::Result<Presenter> Presenter::create(Context& context, Renderer& renderer, std::span<Window* const> windows) {
+  AFM_CHECK(!windows.empty() && windows.size() <= kMostWindows);
   auto parts = std::make_unique<Parts>(context.device(), *renderer.parts_);
-  if (auto added = parts->add(window); !added) {
-    return tl::unexpected(added.error());
-  }
-  if (second != nullptr) {
-    if (auto added = parts->add(*second); !added) {
+  for (Window* const window : windows) {
+    if (auto added = parts->add(*window); !added) {
       return tl::unexpected(added.error());
     }
   }
@@ -145,53 +187,38 @@ core::Result<Presenter> Presenter::create(Context& context, Window& window, Rend
 }
 
 core::Result<void> Presenter::check_mode(scene::StereoMode mode) const {
-  const auto& surfaces = parts_->surfaces;
-  if (mode == scene::StereoMode::QuadBuffer && surfaces.front()->most_layers() < 2) {
+  const auto flat = [](const Parts::Pane& pane) { return pane.surface->most_layers() < 2; };
+  const auto& panes = parts_->panes;
+  if (mode == scene::StereoMode::QuadBuffer && std::any_of(panes.begin(), panes.end(), flat)) {
     return core::failure(core::ErrorCategory::DeviceMissing,
                          "stereo mode quad-buffer: " + parts_->device.name() +
                              " gives this display one picture for both eyes; enable stereo in the driver of a "
                              "professional graphics card, or choose another mode");
   }
-  if (mode == scene::StereoMode::Dual && surfaces.size() < 2) {
-    return core::failure(core::ErrorCategory::DeviceMissing,
-                         "stereo mode dual: there is one window; start with --stereo dual");
-  }
   return {};
 }
 
-bool Presenter::present(const Composition& composition, const std::function<void()>& while_waiting) {
-  AFM_CHECK(parts_->renderer.eyes_drawn);
-  return explained(parts_->device, "showing a picture", [&] { return parts_->present(composition, while_waiting); });
+bool Presenter::begin(std::span<const WindowPicture> pictures, const std::function<void()>& while_waiting) {
+  auto& panes = parts_->panes;
+  AFM_CHECK(pictures.size() == panes.size());
+  const auto take = [&] {
+    for (std::size_t i = 0; i < panes.size(); ++i) {
+      const bool quad = pictures[i].composition.mode == scene::StereoMode::QuadBuffer;
+      panes[i].picture = pictures[i];
+      panes[i].taken = panes[i].surface->follow_window(quad ? 2 : 1) && panes[i].surface->acquire(while_waiting);
+    }
+  };
+  return explained(parts_->device, "showing a picture", [&] { return parts_->follow_surfaces(take); }) &&
+         std::any_of(panes.begin(), panes.end(), [](const Parts::Pane& pane) { return pane.taken; });
 }
 
-bool Presenter::Parts::present(const Composition& composition, const std::function<void()>& while_waiting) {
-  try {
-    if (!ready(composition.mode, while_waiting)) {
-      return false;
-    }
-    draw(composition);
+void Presenter::draw(std::span<const std::size_t> windows, const std::function<void()>& while_waiting) {
+  AFM_CHECK(parts_->renderer.eyes_drawn);
+  explained(parts_->device, "showing a picture", [&] { parts_->draw(windows, while_waiting); });
+}
 
-    // presented only once it is drawn: some drivers (lavapipe) would wait inside the call, where nobody beats
-    while (device->waitForFences(*finished, VK_TRUE, kTurnNs) == vk::Result::eTimeout) {
-      while_waiting();
-    }
-    device->resetFences(*finished);
-    show();
-    surfaces_lost = 0;
-    return true;
-  } catch (const vk::OutOfDateKHRError&) {
-    for (const auto& surface : surfaces) {
-      surface->outdate();
-    }
-  } catch (const vk::SurfaceLostKHRError&) {
-    if (++surfaces_lost > kMostSurfacesLost) {
-      throw DeviceFailure("the window's surface was lost and no other can be had: see to the display and start again");
-    }
-    for (const auto& surface : surfaces) {
-      surface->replace();
-    }
-  }
-  return false;
+void Presenter::show() {
+  explained(parts_->device, "showing a picture", [&] { parts_->follow_surfaces([&] { parts_->show(); }); });
 }
 
 }  // namespace afm::render

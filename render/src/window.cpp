@@ -4,6 +4,8 @@
 #include <span>
 #include <utility>
 
+#include "render/device_failure.h"
+#include "render/monitor.h"
 #include "window_handle.h"
 
 namespace afm::render {
@@ -13,11 +15,16 @@ constexpr double kRefreshHz = 60.0;
 
 constexpr auto kNoWindow = core::ErrorCategory::DeviceMissing;
 
-// GLFW's words for its last failure on this thread.
-std::string glfw_error() {
-  const char* text = nullptr;
-  glfwGetError(&text);
-  return text == nullptr ? "no reason given" : text;
+constexpr double kLeftOver = 0.75;  // of a monitor that is left, each way: for a window whose own has gone
+
+// By its name; null if it is not there.
+GLFWmonitor* monitor_named(const std::string& name) {
+  int count = 0;
+  GLFWmonitor** const monitors = glfwGetMonitors(&count);
+  for (GLFWmonitor* candidate : std::span(monitors, static_cast<std::size_t>(count))) {
+    if (name == glfwGetMonitorName(candidate)) return candidate;
+  }
+  return nullptr;
 }
 
 Key key_of(int key) {
@@ -81,23 +88,24 @@ bool can_present(const vk::raii::Instance& instance, const vk::raii::PhysicalDev
 }
 
 core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptions& options) {
-  if (glfwInit() != GLFW_TRUE) {
-    return core::failure(kNoWindow, "cannot open a window (" + glfw_error() +
-                                        "): run this on a desktop, with DISPLAY or WAYLAND_DISPLAY set");
-  }
-  std::unique_ptr<WindowHandle> handle(new WindowHandle());  // from here on its destructor ends GLFW
-  ++open_windows_;
+  auto system = WindowSystem::join();
+  if (!system) return tl::unexpected(system.error());
+  std::unique_ptr<WindowHandle> handle(new WindowHandle(std::move(*system)));
   if (glfwVulkanSupported() != GLFW_TRUE) {
-    return core::failure(
-        kNoWindow, "this display cannot show Vulkan pictures (" + glfw_error() + "): install mesa-vulkan-drivers");
+    return core::failure(kNoWindow, "this display cannot show Vulkan pictures (" + window_system_error() +
+                                        "): install mesa-vulkan-drivers");
   }
+  glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a wall stays full when its operator looks at another screen
-  handle->window_ = glfwCreateWindow(static_cast<int>(options.width), static_cast<int>(options.height),
-                                     options.title.c_str(), nullptr, nullptr);
+  glfwWindowHint(GLFW_DECORATED, options.rect ? GLFW_FALSE : GLFW_TRUE);
+  glfwWindowHint(GLFW_VISIBLE, options.rect ? GLFW_FALSE : GLFW_TRUE);  // not before it is in its place
+  const glm::uvec2 size = options.rect ? options.rect->size_px : glm::uvec2(options.width, options.height);
+  handle->window_ =
+      glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), options.title.c_str(), nullptr, nullptr);
   if (handle->window_ == nullptr) {
-    return core::failure(kNoWindow, "cannot open a window of " + std::to_string(options.width) + "x" +
-                                        std::to_string(options.height) + " pixels: " + glfw_error());
+    return core::failure(kNoWindow, "cannot open a window of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                                        " pixels: " + window_system_error());
   }
   glfwSetWindowUserPointer(handle->window_, handle.get());
   glfwSetKeyCallback(handle->window_, on_key);
@@ -105,18 +113,36 @@ core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptio
   glfwSetCursorPosCallback(handle->window_, on_move);
   glfwSetScrollCallback(handle->window_, on_scroll);
   glfwGetCursorPos(handle->window_, &handle->cursor_.x, &handle->cursor_.y);
-  if (options.full_screen) {
-    handle->set_full_screen(true);
-  }
+  if (auto placed = handle->place(options); !placed) return tl::unexpected(placed.error());
   return handle;
+}
+
+core::Result<void> WindowHandle::place(const WindowOptions& options) {
+  if (options.rect) {
+    if (!can_place_windows()) {
+      return core::failure(
+          kNoWindow,
+          "a Wayland desktop lets no program place its windows: name a monitor instead of a rectangle, "
+          "or log into an X11 session");
+    }
+    placed_ = true;
+    glfwSetWindowPos(window_, options.rect->offset_px.x, options.rect->offset_px.y);
+    glfwShowWindow(window_);
+    return {};
+  }
+  if (options.monitor.empty()) {
+    if (options.full_screen) set_full_screen(true);
+    return {};
+  }
+  GLFWmonitor* const wanted = monitor_named(options.monitor);
+  if (wanted == nullptr) return core::failure(kNoWindow, "there is no monitor \"" + options.monitor + "\" here");
+  fill(wanted);
+  return {};
 }
 
 WindowHandle::~WindowHandle() {
   if (window_ != nullptr) {
     glfwDestroyWindow(window_);
-  }
-  if (--open_windows_ == 0) {
-    glfwTerminate();
   }
 }
 
@@ -129,9 +155,39 @@ vk::raii::SurfaceKHR WindowHandle::create_surface(const vk::raii::Instance& inst
 
 WindowInput WindowHandle::poll() {
   glfwPollEvents();
+  if (WindowSystem::lost()) {
+    throw DeviceFailure("the display was lost, with the window on it: see to the X server and start again");
+  }
+  int x = 0, y = 0;
+  glfwGetWindowPos(window_, &x, &y);
+  const WindowInput::MonitorNews news = follow_monitor();
   return {.events = std::exchange(events_, {}),
           .cursor_px = picture_px(cursor_),
-          .close_requested = glfwWindowShouldClose(window_) == GLFW_TRUE};
+          .origin_px = glm::dvec2(x, y) * pixels_per_unit(),
+          .close_requested = glfwWindowShouldClose(window_) == GLFW_TRUE,
+          .monitor_news = news,
+          .monitor = news == WindowInput::MonitorNews::None ? std::string() : full_on_};
+}
+
+// GLFW has made a small window of one whose monitor has gone, wherever it happens to lie.
+WindowInput::MonitorNews WindowHandle::follow_monitor() {
+  if (full_on_.empty() || full_screen()) return WindowInput::MonitorNews::None;
+  if (!monitor_lost_) {
+    monitor_lost_ = true;
+    GLFWmonitor* const left = glfwGetPrimaryMonitor();
+    if (const GLFWvidmode* const mode = left == nullptr ? nullptr : glfwGetVideoMode(left)) {
+      const glm::ivec2 whole(mode->width, mode->height), size(kLeftOver * glm::dvec2(whole));
+      glm::ivec2 corner(0);
+      glfwGetMonitorPos(left, &corner.x, &corner.y);
+      corner += (whole - size) / 2;
+      glfwSetWindowMonitor(window_, nullptr, corner.x, corner.y, size.x, size.y, 0);
+    }
+    return WindowInput::MonitorNews::Lost;
+  }
+  GLFWmonitor* const back = monitor_named(full_on_);
+  if (back == nullptr) return WindowInput::MonitorNews::None;
+  fill(back);
+  return WindowInput::MonitorNews::Back;
 }
 
 void WindowHandle::wait(double seconds) { glfwWaitEventsTimeout(seconds); }
@@ -146,13 +202,15 @@ glm::uvec2 WindowHandle::size_px() const {
   return {static_cast<unsigned>(std::max(width, 0)), static_cast<unsigned>(std::max(height, 0))};
 }
 
-// The cursor comes in the units of the desktop, which some window systems scale.
-glm::dvec2 WindowHandle::picture_px(const glm::dvec2& place) const {
+// Places come in the units of the desktop, which some window systems scale.
+glm::dvec2 WindowHandle::pixels_per_unit() const {
   int width = 0;
   int height = 0;
   glfwGetWindowSize(window_, &width, &height);
-  return place * glm::dvec2(size_px()) / glm::dvec2(std::max(width, 1), std::max(height, 1));
+  return glm::dvec2(size_px()) / glm::dvec2(std::max(width, 1), std::max(height, 1));
 }
+
+glm::dvec2 WindowHandle::picture_px(const glm::dvec2& place) const { return place * pixels_per_unit(); }
 
 // The monitor that shows the largest part of the window.
 GLFWmonitor* WindowHandle::monitor() const {
@@ -183,33 +241,39 @@ GLFWmonitor* WindowHandle::monitor() const {
   return best;
 }
 
-void WindowHandle::set_full_screen(bool wanted) {
-  GLFWmonitor* const screen = monitor();
-  const GLFWvidmode* const mode = screen == nullptr ? nullptr : glfwGetVideoMode(screen);
-  if (wanted == full_screen() || mode == nullptr) {
+void WindowHandle::fill(GLFWmonitor* monitor) {
+  const GLFWvidmode* const mode = glfwGetVideoMode(monitor);
+  if (mode == nullptr) {
     return;
   }
-  if (wanted) {
-    glfwGetWindowPos(window_, &windowed_x_, &windowed_y_);
-    glfwGetWindowSize(window_, &windowed_width_, &windowed_height_);
-    glfwSetWindowMonitor(window_, screen, 0, 0, mode->width, mode->height, mode->refreshRate);
-  } else {
+  glfwGetWindowPos(window_, &windowed_x_, &windowed_y_);
+  glfwGetWindowSize(window_, &windowed_width_, &windowed_height_);
+  full_on_ = glfwGetMonitorName(monitor);
+  monitor_lost_ = false;
+  glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void WindowHandle::set_full_screen(bool wanted) {
+  if (wanted == full_screen() || placed_) {
+    return;
+  }
+  if (!wanted) {
+    full_on_.clear();
     glfwSetWindowMonitor(window_, nullptr, windowed_x_, windowed_y_, windowed_width_, windowed_height_, 0);
+  } else if (GLFWmonitor* const screen = monitor()) {
+    fill(screen);
   }
 }
 
 glm::ivec2 WindowHandle::screen_px() const {
   GLFWmonitor* const screen = monitor();
-  int x = 0, y = 0, left = 0, top = 0, width = 0, height = 0;
-  glfwGetWindowPos(window_, &x, &y);
-  glfwGetWindowSize(window_, &width, &height);
-  if (screen == nullptr || width <= 0 || height <= 0) {
+  if (screen == nullptr) {
     return glm::ivec2(0);
   }
+  int x = 0, y = 0, left = 0, top = 0;
+  glfwGetWindowPos(window_, &x, &y);
   glfwGetMonitorPos(screen, &left, &top);
-  // places are in the desktop's units, which are not always pixels
-  const glm::dvec2 pixels_per_unit = glm::dvec2(size_px()) / glm::dvec2(width, height);
-  return glm::ivec2(glm::round(glm::dvec2(x - left, y - top) * pixels_per_unit));
+  return glm::ivec2(glm::round(glm::dvec2(x - left, y - top) * pixels_per_unit()));
 }
 
 double WindowHandle::refresh_hz() const {

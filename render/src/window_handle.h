@@ -3,9 +3,7 @@
 
 #include "render/window.h"
 #include "vulkan.h"
-
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
+#include "window_system.h"
 
 namespace afm::render {
 
@@ -31,8 +29,12 @@ class WindowHandle {
   double refresh_hz() const;
 
  private:
-  WindowHandle() = default;
+  explicit WindowHandle(WindowSystem system) : system_(std::move(system)) {}
+  core::Result<void> place(const WindowOptions& options);
   GLFWmonitor* monitor() const;
+  glm::dvec2 pixels_per_unit() const;
+  void fill(GLFWmonitor* monitor);
+  WindowInput::MonitorNews follow_monitor();
   glm::dvec2 picture_px(const glm::dvec2& place) const;
   void add(WindowEvent event);
   static WindowHandle& of(GLFWwindow* window);
@@ -41,8 +43,11 @@ class WindowHandle {
   static void on_move(GLFWwindow* window, double x, double y);
   static void on_scroll(GLFWwindow* window, double x, double y);
 
-  inline static int open_windows_ = 0;  // GLFW is one for the process, and ends with the last of them
+  WindowSystem system_;
   GLFWwindow* window_ = nullptr;
+  bool placed_ = false;  // by a rectangle
+  std::string full_on_;  // the monitor that it fills, or fills again when it is back; empty: a window
+  bool monitor_lost_ = false;
   std::vector<WindowEvent> events_;
   glm::dvec2 cursor_{0.0};  // after the newest event, in the desktop's units: asking GLFW tells where it is now
   int windowed_x_ = 0, windowed_y_ = 0, windowed_width_ = 0, windowed_height_ = 0;  // to come back from full screen

@@ -2,6 +2,7 @@
 #include "window_surface.h"
 
 #include <array>
+#include <utility>
 
 #include "barriers.h"
 #include "render/presenter.h"
@@ -68,7 +69,8 @@ bool WindowSurface::follow_window(std::uint32_t layers) {
 }
 
 bool WindowSurface::acquire(const std::function<void()>& while_waiting) {
-  for (int turn = 0; !index_ && turn < kMostTurns; ++turn) {
+  const int most_turns = std::exchange(starved_, false) ? 1 : kMostTurns;
+  for (int turn = 0; !index_ && turn < most_turns; ++turn) {
     const auto [result, index] = (*swapchain_)->acquireNextImage(kTurnNs, *acquired_);
     if (result == vk::Result::eSuccess || result == vk::Result::eSuboptimalKHR) {
       index_ = index;
@@ -76,14 +78,16 @@ bool WindowSurface::acquire(const std::function<void()>& while_waiting) {
       while_waiting();
     }
   }
-  return index_.has_value();
+  starved_ = !index_;
+  return !starved_;
 }
 
-void WindowSurface::record(const vk::raii::CommandBuffer& command, const Composition& composition,
-                           std::uint32_t first_layer) const {
+void WindowSurface::record(const vk::raii::CommandBuffer& command, const WindowPicture& picture) const {
+  const Composition& composition = picture.composition;
   const vk::Extent2D window_size = swapchain_->extent();
-  const vk::Extent2D picture = composer_.extent(composition.mode);
-  const PicturePlace place = picture_place({window_size.width, window_size.height}, {picture.width, picture.height});
+  const vk::Extent2D whole = composer_.extent(composition.mode);
+  const PicturePlace place =
+      picture_place({window_size.width, window_size.height}, {whole.width, whole.height}, picture.fit);
   const vk::Image image = swapchain_->image(*index_);
   record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, kAcquired, kDrawn)});
   for (std::uint32_t layer = 0; layer < swapchain_->layers(); ++layer) {
@@ -103,7 +107,7 @@ void WindowSurface::record(const vk::raii::CommandBuffer& command, const Composi
                              static_cast<std::int32_t>(place.offset_px.y)},
                   .extent = {place.size_px.x, place.size_px.y}},
          .screen_px = scene::is_interleaved(composition.mode) ? window_.handle().screen_px() : glm::ivec2(0),
-         .layer = first_layer + layer});
+         .layer = layer});
     command.endRendering();
   }
   record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, kDrawn, kPresented)});

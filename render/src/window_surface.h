@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "composer.h"
+#include "render/presenter.h"
 #include "swapchain.h"
 #include "window_handle.h"
 
@@ -27,11 +28,12 @@ class WindowSurface {
   // Makes the images that fit the window as it is now; false if there is nothing to fit.
   bool follow_window(std::uint32_t layers);
 
-  // Takes the image that is drawn next, unless one is already taken; false if the display lends none for a while.
+  // Takes the image that is drawn next, unless one is already taken; false if the display lends none for a while, as to
+  // a window that nobody sees.
   bool acquire(const std::function<void()>& while_waiting);
 
-  // Draws the picture into layer 0, or each eye's into its own; `first_layer` is 1 for the right eye's window of dual.
-  void record(const vk::raii::CommandBuffer& command, const Composition& composition, std::uint32_t first_layer) const;
+  // Draws the picture into layer 0, or each eye's into its own.
+  void record(const vk::raii::CommandBuffer& command, const WindowPicture& picture) const;
 
   vk::Semaphore acquired() const { return *acquired_; }
   vk::Semaphore drawn() const { return swapchain_->drawn(*index_); }
@@ -56,6 +58,7 @@ class WindowSurface {
   std::optional<Swapchain> swapchain_;
   std::optional<std::uint32_t> index_;  // of the image that is taken
   bool outdated_ = false;
+  bool starved_ = false;  // it lent no image last time, so that nobody waits long for the next
 };
 
 }  // namespace afm::render

@@ -42,6 +42,16 @@ class DeviceFailureTest : public ::testing::Test {
     return failing(fault, all);
   }
 
+  // The only session in the folder, which reads back, holds what was felt.
+  static void expect_a_session(const std::string& folder) {
+    std::vector<std::filesystem::path> kept;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) kept.push_back(entry.path());
+    ASSERT_EQ(kept.size(), 1U);
+    const auto session = load_session(kept.front().string());
+    ASSERT_TRUE(session) << session.error().message;
+    EXPECT_GT(session->samples.size(), 100U);
+  }
+
   support::ScratchFolder folder_;
   support::VirtualDisplay display_{640, 480};
 };
@@ -54,12 +64,20 @@ TEST_F(DeviceFailureTest, ALostDeviceEndsTheViewWithItsSessionKeptAndTheHandRele
   ASSERT_EQ(program.ends(), 1) << program.said();
   EXPECT_THAT(last_line(program.said()), AllOf(HasSubstr("error: the graphics device"), HasSubstr("was lost while")));
   EXPECT_THAT(program.said(), Not(HasSubstr("terminate")));
-  std::vector<std::filesystem::path> kept;
-  for (const auto& entry : std::filesystem::directory_iterator(sessions)) kept.push_back(entry.path());
-  ASSERT_EQ(kept.size(), 1U) << program.said();
-  const auto session = load_session(kept.front().string());
-  ASSERT_TRUE(session) << session.error().message;
-  EXPECT_GT(session->samples.size(), 100U);
+  expect_a_session(sessions);
+}
+
+TEST_F(DeviceFailureTest, AnXServerThatDiesEndsTheViewWithItsSessionKeptAndTheHandReleased) {
+  const std::string sessions = folder_.file("sessions");
+  support::LiveProgram program(view("nothing", {"--record", sessions}), display_.name());
+  ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
+  ASSERT_EQ(support::run_program("DISPLAY=" + display_.name() + " xdotool mousemove 100 100 key 1").exit_code, 0);
+  ASSERT_TRUE(program.says("jump to contact")) << program.said();
+  display_.die();
+  ASSERT_EQ(program.ends(), 1) << program.said();
+  EXPECT_THAT(last_line(program.said()), HasSubstr("error: the display was lost"));
+  EXPECT_THAT(program.said(), Not(HasSubstr("the servo ended unexpectedly")));
+  expect_a_session(sessions);
 }
 
 TEST_F(DeviceFailureTest, ASurfaceThatIsLostForGoodEndsTheView) {

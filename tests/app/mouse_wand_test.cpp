@@ -15,7 +15,10 @@ constexpr double kExact = 1e-12;
 class MouseWandTest : public ::testing::Test {
  protected:
   WallPicture picture(scene::StereoMode layout) const {
-    return {.place = {.offset_px = {100, 50}, .size_px = {800, 600}}, .composition = {.mode = layout}, .eyes = eyes_};
+    return {.place = {.offset_px = {100, 50}, .size_px = {800, 600}},
+            .composition = {.mode = layout},
+            .eyes = eyes_,
+            .screen = screen_};
   }
   glm::dvec3 on_wall(scene::StereoMode layout, const glm::dvec2& cursor_px) const {
     return wand_.wall_point(wand_.ray(picture(layout), cursor_px));
@@ -92,6 +95,26 @@ TEST_F(MouseWandTest, WhereBothEyesShareThePictureItPointsFromTheirMiddle) {
     }
     EXPECT_LT(glm::distance(on_wall(mode, {500.0, 350.0}), screen_.center()), kExact);
   }
+}
+
+TEST_F(MouseWandTest, AProjectorsKeystoneIsPointedThrough) {
+  WallPicture shown = picture(scene::StereoMode::Left);
+  shown.composition.picture_from_output = glm::inverse(glm::dmat3(0.8, 0.1, 0.05, 0.0, 0.7, 0.0, 0.1, 0.15, 1.0));
+  for (const glm::dvec2 share : {glm::dvec2(0.0, 0.0), glm::dvec2(0.3, 0.9), glm::dvec2(1.0, 1.0)}) {
+    const glm::dvec3 on_output = glm::inverse(shown.composition.picture_from_output) * glm::dvec3(share, 1.0);
+    const glm::dvec2 cursor = glm::dvec2(100.0, 50.0) + glm::dvec2(on_output) / on_output.z * glm::dvec2(800.0, 600.0);
+    const glm::dvec3 expected(-2.0 + 4.0 * share.x, 3.0 - 3.0 * share.y, 0.0);
+    EXPECT_LT(glm::distance(wand_.wall_point(wand_.ray(shown, cursor)), expected), 1e-9);
+  }
+}
+
+TEST_F(MouseWandTest, EachWindowPointsOntoItsOwnScreen) {
+  WallPicture shown = picture(scene::StereoMode::Right);
+  shown.screen = {"side", {2.0, 0.0, 0.0}, {2.0, 0.0, 4.0}, {2.0, 3.0, 0.0}};
+  const input::Ray ray = wand_.ray(shown, {500.0, 350.0});
+  EXPECT_LT(glm::distance(ray.origin_m + glm::distance(shown.screen.center(), ray.origin_m) * ray.direction,
+                          shown.screen.center()),
+            kExact);
 }
 
 TEST_F(MouseWandTest, TheDrawnWandPointsFromItsGripAtTheTarget) {

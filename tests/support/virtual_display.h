@@ -44,10 +44,10 @@ class VirtualDisplay {
   }
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
-  ~VirtualDisplay() {
-    ::kill(pid_, SIGTERM);
-    ::waitpid(pid_, nullptr, 0);
-  }
+  ~VirtualDisplay() { end(SIGTERM); }
+
+  // As if the X server had crashed.
+  void die() { end(SIGKILL); }
 
   const std::string& name() const { return name_; }
 
@@ -75,6 +75,13 @@ class VirtualDisplay {
   }
 
  private:
+  void end(int signal) {
+    if (pid_ <= 0) return;
+    ::kill(pid_, signal);
+    ::waitpid(pid_, nullptr, 0);
+    pid_ = -1;
+  }
+
   ScratchFolder folder_;
   pid_t pid_ = -1;
   std::string name_;

@@ -5,8 +5,9 @@
 
 namespace afm::render {
 
-// The graphics device is lost, or has no memory left: what Renderer and Presenter throw where their comments name no
-// other way. One line for people. Nothing more can be drawn with that renderer; it can be destroyed.
+// The graphics device or the display is lost, or no memory is left: what Renderer, Presenter and Window throw where
+// their comments name no other way. One line for people. Nothing more can be drawn with that renderer; it can be
+// destroyed.
 class DeviceFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <span>
 
 #include "core/result.h"
 #include "render/renderer.h"
@@ -11,35 +13,51 @@
 
 namespace afm::render {
 
-// Where a picture lies in a window: as large as fits at its own proportions, in the middle, between black bars.
+// How a picture lies in its window: at its own proportions between black bars, or stretched to all of it, as on a
+// projector whose light reaches just the measured corners of its screen.
+enum class PictureFit { Proportions, Fill };
 struct PicturePlace {
   glm::uvec2 offset_px{0};
   glm::uvec2 size_px{0};
 };
-PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px);
+PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px, PictureFit fit = PictureFit::Proportions);
 
-// Shows a renderer's frames in a window, or in two that are presented together, in step with their display. Follows
-// the windows through resizes, full screen and the loss of a surface. The main thread alone. A lost device and a lack
-// of memory are exceptions: DeviceFailure.
+// What a window shows of a frame. Of mode dual it is the left eye's: one window has one picture.
+struct WindowPicture {
+  Composition composition;
+  PictureFit fit = PictureFit::Proportions;
+};
+
+inline constexpr std::size_t kMostWindows = 16;
+
+// Shows a renderer's frames in windows that are presented together, in step with their display: begin(), then for the
+// windows of each screen render() and draw(), then show(). Follows the windows through resizes, full screen and the
+// loss of a surface. The main thread alone. A lost device and a lack of memory are exceptions: DeviceFailure.
 class Presenter {
  public:
-  // DeviceMissing: the device and the display have no way to show pictures in common. `second` is the right eye's
-  // window for mode dual, or null; in other modes it shows what the first one does. All must outlive the presenter;
-  // `context` was opened with Presentation::Window.
-  static core::Result<Presenter> create(Context& context, Window& window, Renderer& renderer, Window* second = nullptr);
+  // DeviceMissing: the device and the display have no way to show pictures in common. All must outlive the presenter;
+  // `context` was opened with Presentation::Window. One window at least, kMostWindows at most.
+  static core::Result<Presenter> create(Context& context, Renderer& renderer, std::span<Window* const> windows);
 
   Presenter(Presenter&&) noexcept;
   Presenter& operator=(Presenter&&) noexcept;
   ~Presenter();
 
-  // DeviceMissing, saying what is missing: quad-buffer needs a display with a picture for each eye, dual two windows.
+  // DeviceMissing, saying what is missing: quad-buffer needs a display with a picture for each eye.
   core::Result<void> check_mode(scene::StereoMode mode) const;
 
-  // Shows the renderer's newest frame and waits until it has been drawn; meanwhile calls `while_waiting` every few
-  // milliseconds, from this thread. False, with nothing shown: a window is minimised, has just changed its size, or its
-  // display accepts no picture now; go on and try with the next frame. At least one frame has been rendered, and
-  // check_mode() allows the mode.
-  bool present(const Composition& composition, const std::function<void()>& while_waiting);
+  // Takes the images that the windows show next; `pictures` has one entry a window, in modes that check_mode() allows.
+  // Calls `while_waiting` every few milliseconds, from this thread. False: no window can show anything now, since all
+  // are minimised, have just changed their size, or their display accepts no picture; go on and try with the next
+  // frame.
+  bool begin(std::span<const WindowPicture> pictures, const std::function<void()>& while_waiting);
+
+  // Draws the renderer's newest frame into those of these windows that have an image, and waits until it is drawn.
+  void draw(std::span<const std::size_t> windows, const std::function<void()>& while_waiting);
+
+  // Shows what has been drawn since begin(), in one call: all windows change in the same refresh where the device can
+  // do it.
+  void show();
 
  private:
   struct Parts;

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/result.h"
+#include "scene/wall.h"
 
 namespace afm::render {
 
@@ -57,7 +59,12 @@ struct WindowEvent {
 struct WindowInput {
   std::vector<WindowEvent> events;  // since the last poll, in their order
   glm::dvec2 cursor_px{0.0};
+  glm::dvec2 origin_px{0.0};     // where the picture's top left corner lies on the desktop; 0,0 where nobody tells
   bool close_requested = false;  // the window's own close button
+
+  // What has become of the monitor that the window fills: without it the window is a small one on what is left.
+  enum class MonitorNews { None, Lost, Back } monitor_news = MonitorNews::None;
+  std::string monitor;  // that the news is of
 };
 
 struct WindowOptions {
@@ -65,6 +72,8 @@ struct WindowOptions {
   std::uint32_t width = 1280;
   std::uint32_t height = 960;
   bool full_screen = false;
+  std::string monitor{};                   // to fill, as list_monitors() names it; empty: none in particular
+  std::optional<scene::PixelRect> rect{};  // of the desktop, without a frame, instead of width and height
 };
 
 class WindowHandle;
@@ -73,14 +82,14 @@ class WindowHandle;
 // Context that was opened to present to it.
 class Window {
  public:
-  // DeviceMissing: no display, or a window system without Vulkan.
+  // DeviceMissing: no display, no monitor of that name, or a window system without Vulkan or without places.
   static core::Result<Window> open(const WindowOptions& options);
 
   Window(Window&&) noexcept;
   Window& operator=(Window&&) noexcept;
   ~Window();
 
-  // What has happened since the last call. Does not wait.
+  // What has happened since the last call. Does not wait. A display that has gone is an exception: DeviceFailure.
   WindowInput poll();
 
   // Waits until something happens, but no longer than `seconds`: for a window that nobody sees.
@@ -90,7 +99,7 @@ class Window {
   glm::uvec2 size_px() const;
 
   bool full_screen() const;
-  void set_full_screen(bool full_screen);  // on the monitor that shows most of it
+  void set_full_screen(bool full_screen);  // on the monitor that shows most of it; not if it has its place by a rect
 
   // Of the monitor; 60 where it does not say.
   double refresh_hz() const;

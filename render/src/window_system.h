@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "core/result.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+namespace afm::render {
+
+// A share of GLFW, which is one for the process: begins with the first share and ends with the last. On the main thread
+// only.
+class WindowSystem {
+ public:
+  // DeviceMissing: no display.
+  static core::Result<WindowSystem> join();
+  WindowSystem(WindowSystem&& other) noexcept;
+  WindowSystem& operator=(WindowSystem&& other) noexcept;
+  ~WindowSystem();
+
+  // Whether the display has gone, with everything on it. Xlib would end the process by itself.
+  static bool lost() { return lost_; }
+
+ private:
+  WindowSystem() = default;
+  static void outlive_the_display();
+
+  inline static int shares_ = 0;
+  inline static bool lost_ = false;
+  bool joined_ = true;
+};
+
+// GLFW's words for its last failure on this thread.
+std::string window_system_error();
+
+}  // namespace afm::render
