@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "app/measurement.h"
 #include "core/log.h"
 
 namespace afm::app {
@@ -114,7 +115,19 @@ void ViewServo::keep_session() {
   }
 }
 
+// How punctual the servo was, for whoever looks at the log afterwards.
+void ViewServo::tell_timing() const {
+  const scene::ServoTiming timing = link_->timing();
+  if (timing.ticks == 0) return;
+  const Percentiles wake = percentiles(timing.wake_us, timing.wake_max_us);
+  core::log_line(
+      fmt::format("servo: {} ticks, {} missed; wakes late by p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, most {:.0f} "
+                  "\u00b5s; {} samples lost on the way to the wall",
+                  timing.ticks, timing.missed, wake.p50, wake.p99, wake.p999, wake.max, link_->lost_samples()));
+}
+
 void ViewServo::finish() {
+  tell_timing();
   recorder_.finish();
   keep_session();
   link_.reset();

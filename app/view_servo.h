@@ -37,7 +37,7 @@ class ViewServo {
   // pressed; one that dies again and again, or that cannot have its device, needs a person: then it has an error().
   void take_news(std::int64_t now_ns);
 
-  // The session under way is kept, and the hand is released.
+  // The session under way is kept, the log tells how punctual the servo was, and the hand is released.
   void finish();
 
   // The link to one that has ended still tells its last state.
@@ -57,6 +57,7 @@ class ViewServo {
   void replace(const core::Error& error, std::int64_t now_ns);
   void keep_session();
   void tell_state();
+  void tell_timing() const;
 
   Starter starter_;
   Started started_;

@@ -1,87 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real window with a tracker's Flystick and glasses: packets of DTrack's through a socket, garbage between them.
-#include <arpa/inet.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
-#include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <glm/geometric.hpp>
-#include <glm/gtx/quaternion.hpp>
-#include <mutex>
 #include <string>
-#include <thread>
 
 #include "app/stage_setup.h"
-#include "core/file_descriptor.h"
 #include "support/live_program.h"
+#include "support/tracker.h"
 #include "support/virtual_display.h"
 
 namespace afm::app {
 namespace {
 
-// A tracker that tells of a Flystick, 100 times a second, until it is destroyed.
-class Tracker {
- public:
-  Tracker() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-    // a port that was free a moment ago
-    const core::FileDescriptor probe(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-    to_.sin_family = AF_INET;
-    to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof to_;
-    EXPECT_EQ(::bind(probe.get(), reinterpret_cast<const sockaddr*>(&to_), size), 0);
-    EXPECT_EQ(::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&to_), &size), 0);
-    thread_ = std::thread([this] { run(); });
-  }
-  Tracker(const Tracker&) = delete;
-  Tracker& operator=(const Tracker&) = delete;
-  ~Tracker() {
-    ending_ = true;
-    thread_.join();
-  }
-
-  std::string place() const { return "127.0.0.1:" + std::to_string(ntohs(to_.sin_port)); }
-
-  void show(const glm::dvec3& hand_m, const glm::dvec3& target_m, unsigned buttons) {
-    const glm::dquat q = glm::rotation(glm::dvec3(0.0, 0.0, -1.0), glm::normalize(target_m - hand_m));
-    const glm::dmat3 r(q);
-    char line[512];
-    std::snprintf(
-        line, sizeof line,
-        "6d 1 [2 1.000][0 1650 2000 0 0 0][1 0 0 0 1 0 0 0 1]\n"
-        "6df2 1 1 [0 1.000 6 2][%.3f %.3f %.3f][%.9f %.9f %.9f %.9f %.9f %.9f %.9f %.9f %.9f][%u 0.00 0.00]\n",
-        hand_m.x * 1e3, hand_m.y * 1e3, hand_m.z * 1e3, r[0].x, r[0].y, r[0].z, r[1].x, r[1].y, r[1].z, r[2].x, r[2].y,
-        r[2].z, buttons);
-    const std::lock_guard lock(changing_);
-    lines_ = line;
-  }
-
- private:
-  void send(const std::string& packet) const {
-    ::sendto(socket_.get(), packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_);
-  }
-
-  void run() {
-    for (int frame = 0; !ending_; ++frame) {
-      {
-        const std::lock_guard lock(changing_);
-        send("fr " + std::to_string(frame) + "\n" + lines_);
-      }
-      for (int i = 0; i < 10; ++i) send(std::string(40, static_cast<char>(frame + i)));
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-  }
-
-  core::FileDescriptor socket_;
-  sockaddr_in to_{};
-  std::mutex changing_;
-  std::string lines_;
-  std::atomic<bool> ending_{false};
-  std::thread thread_;
-};
+using ::testing::HasSubstr;
 
 TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
   StageFiles files;
@@ -90,7 +25,7 @@ TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
   const glm::dvec3 gold = stage.wall_scene.swatch_targets()[1].center_m;
   const glm::dvec3 hand(0.5, 1.2, 1.8);
   const support::VirtualDisplay display(320, 240);
-  Tracker tracker;
+  support::Tracker tracker;
   tracker.show(hand, gold + glm::dvec3(3.0, 0.0, 0.0), 0);
   support::LiveProgram view(
       {AFM_PROGRAM, "view", "--size", "320x240", "--frame-rate", "12", "--eye-width", "160", "--servo", AFM_SERVO_MODE,
@@ -98,14 +33,18 @@ TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
       display.name());
   ASSERT_TRUE(view.says("listening for a tracker at " + tracker.place())) << view.said();
   ASSERT_TRUE(view.says("Point at a sample and press")) << view.said();
-  tracker.show(hand, gold, 0);
-  std::this_thread::sleep_for(std::chrono::seconds(1));
-  tracker.show(hand, gold, 1);
-  ASSERT_TRUE(view.says("chosen: Gold")) << view.said();
-  tracker.show(hand, gold, 2);
-  std::this_thread::sleep_for(std::chrono::seconds(1));
-  tracker.show(hand + glm::dvec3(0.2, 0.3, 0.0), gold, 2);
-  ASSERT_TRUE(view.says("wand: the scene is moved")) << view.said();
+  // a press before the ray has reached the swatch chooses nothing
+  for (int press = 0; press < 60; ++press) {
+    tracker.show(hand, gold, press % 2 == 0 ? 0 : 1);
+    if (view.says("chosen: Gold", std::chrono::seconds(1))) break;
+  }
+  ASSERT_THAT(view.said(), HasSubstr("chosen: Gold"));
+  // held fast wherever the first frame with the button finds it, then moved
+  for (int step = 0; step < 60; ++step) {
+    tracker.show(hand + (step % 2 == 0 ? glm::dvec3(0.0) : glm::dvec3(0.2, 0.3, 0.0)), gold, 2);
+    if (view.says("wand: the scene is moved", std::chrono::seconds(1))) break;
+  }
+  ASSERT_THAT(view.said(), HasSubstr("wand: the scene is moved"));
   tracker.show(hand, gold, 8);
   ASSERT_TRUE(view.says("wand: the scene is home")) << view.said();
   view.signal(SIGINT);

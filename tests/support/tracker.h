@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <glm/gtx/quaternion.hpp>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "core/file_descriptor.h"
+
+namespace afm::support {
+
+// A tracker that tells of a head and a Flystick through a real socket, 100 times a second with garbage between, until
+// it is destroyed.
+class Tracker {
+ public:
+  Tracker() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    // a port that was free a moment ago
+    const core::FileDescriptor probe(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    to_.sin_family = AF_INET;
+    to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof to_;
+    EXPECT_EQ(::bind(probe.get(), reinterpret_cast<const sockaddr*>(&to_), size), 0);
+    EXPECT_EQ(::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&to_), &size), 0);
+    thread_ = std::thread([this] { run(); });
+  }
+  Tracker(const Tracker&) = delete;
+  Tracker& operator=(const Tracker&) = delete;
+  ~Tracker() {
+    ending_ = true;
+    thread_.join();
+  }
+
+  // A cable that is pulled: silence, until there is something to show again.
+  void fall_silent() {
+    const std::lock_guard lock(changing_);
+    lines_.clear();
+  }
+
+  std::string place() const { return "127.0.0.1:" + std::to_string(ntohs(to_.sin_port)); }
+
+  void show(const glm::dvec3& hand_m, const glm::dvec3& target_m, unsigned buttons) {
+    const glm::dquat q = glm::rotation(glm::dvec3(0.0, 0.0, -1.0), glm::normalize(target_m - hand_m));
+    const glm::dmat3 r(q);
+    char line[512];
+    std::snprintf(
+        line, sizeof line,
+        "6d 1 [2 1.000][0 1650 2000 0 0 0][1 0 0 0 1 0 0 0 1]\n"
+        "6df2 1 1 [0 1.000 6 2][%.3f %.3f %.3f][%.9f %.9f %.9f %.9f %.9f %.9f %.9f %.9f %.9f][%u 0.00 0.00]\n",
+        hand_m.x * 1e3, hand_m.y * 1e3, hand_m.z * 1e3, r[0].x, r[0].y, r[0].z, r[1].x, r[1].y, r[1].z, r[2].x, r[2].y,
+        r[2].z, buttons);
+    const std::lock_guard lock(changing_);
+    lines_ = line;
+  }
+
+ private:
+  void send(const std::string& packet) const {
+    ::sendto(socket_.get(), packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_);
+  }
+
+  void run() {
+    for (int frame = 0; !ending_; ++frame) {
+      {
+        const std::lock_guard lock(changing_);
+        if (!lines_.empty()) send("fr " + std::to_string(frame) + "\n" + lines_);
+      }
+      for (int i = 0; i < 10; ++i) send(std::string(40, static_cast<char>(frame + i)));
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+
+  core::FileDescriptor socket_;
+  sockaddr_in to_{};
+  std::mutex changing_;
+  std::string lines_;
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+}  // namespace afm::support
