@@ -107,8 +107,9 @@ class Checker {
     if (!member.needs.empty() && !object.contains(member.needs)) {
       place.fail(fmt::format("has a {} but no {}", member.name, member.needs));
     }
+    if (member.bars.empty()) return;
     for (const auto& [name, value] : object.items()) {
-      if (!member.bars.empty() && is_among(member.bars, name)) {
+      if (is_among(member.bars, name)) {
         place.fail(fmt::format("has a {} beside a {}", member.name, name));
       }
     }

@@ -83,7 +83,7 @@ constexpr GltfMember kBufferView[]{index("buffer", GltfList::Buffers).required()
                                    text("name"),
                                    object("extensions", kBufferViewExtensions)};
 
-constexpr GltfMember kOrthographic[]{number("xmag").required(), number("ymag").required(),
+constexpr GltfMember kOrthographic[]{above_zero("xmag").required(), above_zero("ymag").required(),
                                      above_zero("zfar").required(), positive("znear").required()};
 constexpr GltfMember kPerspective[]{above_zero("aspectRatio"), number("yfov", 1e-6, 3.1415).required(),
                                     above_zero("zfar"), above_zero("znear").required()};

@@ -298,6 +298,15 @@ const std::vector<HostileCase>& rich_cases() {
        [](json& d) { d["animations"][0]["channels"][0]["target"]["path"] = "weights"; }},
       {"CameraMissing", "/nodes/0/camera is 4", [](json& d) { d["nodes"][0]["camera"] = 4; }},
       {"CameraWithoutAngle", "yfov is 0", [](json& d) { d["cameras"][0]["perspective"]["yfov"] = 0; }},
+      {"CameraWithoutHeight", "/cameras/0/orthographic/ymag is 0",
+       [](json& d) {
+         d["cameras"][0] = {{"type", "orthographic"},
+                            {"orthographic", {{"xmag", 1}, {"ymag", 0}, {"znear", 1}, {"zfar", 2}}}};
+       }},
+      {"CameraOfBothKinds", "orthographic beside a perspective",
+       [](json& d) {
+         d["cameras"][0]["orthographic"] = {{"xmag", 1}, {"ymag", 1}, {"znear", 1}, {"zfar", 2}};
+       }},
       {"TargetsOfUnequalCount", "TANGENT",
        [](json& d) {
          d["meshes"][0]["primitives"][0]["targets"] = {{{"TANGENT", 5}, {"POSITION", 0}}};
