@@ -31,6 +31,10 @@ if(AFM_SANITIZE)
   add_compile_options(-fsanitize=${AFM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${AFM_SANITIZE})
 endif()
+if(AFM_BUILD_FUZZERS)
+  # all of the code tells libFuzzer where it has been, not only the targets' own file
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
 
 # GLM's conventions are fixed here once: depth 0..1, no implicit or ambiguous conversions.
 add_library(afm_glm INTERFACE)
