@@ -123,6 +123,7 @@ core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& sub
   std::vector<Drawing> drawings;
   for (const RenderSubject& subject : subjects) {
     for (const Way& way : kWays) {
+      if (way.pass_mode == render::PassMode::Multiview && !context->draws_both_eyes_at_once()) continue;
       auto renderer = render::Renderer::create(*context, subject.scene,
                                                {.eye_width = subject.eye_px.x,
                                                 .eye_height = subject.eye_px.y,

@@ -22,6 +22,8 @@ core::Result<Context> Context::open(Validation validation, Presentation presenta
 
 const std::string& Context::device_name() const { return device_->name(); }
 
+bool Context::draws_both_eyes_at_once() const { return device_->multiview(); }
+
 std::uint32_t Context::largest_picture_px() const {
   return device_->physical().getProperties().limits.maxImageDimension2D;
 }

@@ -48,11 +48,6 @@ std::string missing_ability(const vk::raii::PhysicalDevice& physical) {
   if (physical.getProperties().apiVersion < VK_API_VERSION_1_3) {
     return "its driver is older than Vulkan 1.3";
   }
-  const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
-                                              vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features>();
-  if (!features.get<vk::PhysicalDeviceVulkan11Features>().multiview) {
-    return "it cannot draw both eyes in one pass (multiview)";
-  }
   if (!graphics_family(physical)) {
     return "it has no graphics queue";
   }
@@ -234,7 +229,11 @@ void Device::create_device(Presentation presentation) {
   vk::PhysicalDeviceVulkan13Features features13{
       .synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE, .maintenance4 = VK_TRUE};
   vk::PhysicalDeviceVulkan12Features features12{.pNext = &features13, .timelineSemaphore = VK_TRUE};
-  const vk::PhysicalDeviceVulkan11Features features11{.pNext = &features12, .multiview = VK_TRUE};
+  multiview_ = physical_.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features>()
+                   .get<vk::PhysicalDeviceVulkan11Features>()
+                   .multiview == VK_TRUE;
+  const vk::PhysicalDeviceVulkan11Features features11{.pNext = &features12,
+                                                      .multiview = multiview_ ? VK_TRUE : VK_FALSE};
   device_ = vk::raii::Device(physical_, {.pNext = &features11,
                                          .queueCreateInfoCount = 1,
                                          .pQueueCreateInfos = &queue_info,

@@ -49,6 +49,9 @@ class Device {
   // here.
   std::uint32_t memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags wanted) const;
 
+  // Whether both eyes can be drawn in one pass.
+  bool multiview() const { return multiview_; }
+
   // Mesa 22.3's lavapipe draws a triangle that is clipped into the first view of a multiview pass alone.
   bool clips_first_view_only() const { return clips_first_view_only_; }
 
@@ -84,6 +87,7 @@ class Device {
   std::string name_;
   std::uint32_t queue_family_ = 0;
   bool naming_ = false;
+  bool multiview_ = false;
   bool clips_first_view_only_ = false;
   vk::raii::Device device_{nullptr};
   vk::raii::Queue queue_{nullptr};

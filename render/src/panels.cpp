@@ -15,6 +15,7 @@
 #include "shaders/canvas_vert.h"
 #include "shaders/panel_frag.h"
 #include "shaders/panel_vert.h"
+#include "shaders/panel_vert_one_view.h"
 
 namespace afm::render {
 namespace {
@@ -57,10 +58,11 @@ vk::raii::PipelineLayout create_rectangle_layout(const Device& device, vk::Descr
       device, {.sets = sets, .push_stages = vk::ShaderStageFlagBits::eVertex, .push_size = sizeof(PanelBlock)});
 }
 
+constexpr EyeCode kRectangleVertex{shaders::panel_vert, shaders::panel_vert_one_view};
+constexpr EyeCode kRectangleFragment{shaders::panel_frag, shaders::panel_frag};
+
 PipelineRequest rectangle_request(vk::PipelineLayout layout) {
   return {.name = "panels",
-          .vertex_code = shaders::panel_vert,
-          .fragment_code = shaders::panel_frag,
           .layout = layout,
           .topology = vk::PrimitiveTopology::eTriangleStrip,
           .blending = Blending::Premultiplied,
@@ -100,7 +102,7 @@ Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout f
                                                      .push_size = sizeof(CanvasBlock)})),
       canvas_pipeline_(create_canvas_pipeline(device, *canvas_layout_)),
       rectangle_layout_(create_rectangle_layout(device, frame_set_layout, *texture_layout_)),
-      rectangle_pipeline_(device, rectangle_request(*rectangle_layout_)),
+      rectangle_pipeline_(device, rectangle_request(*rectangle_layout_), kRectangleVertex, kRectangleFragment),
       sampler_(*device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                               .minFilter = vk::Filter::eLinear,
                                               .addressModeU = vk::SamplerAddressMode::eClampToEdge,

@@ -48,6 +48,11 @@ core::Result<void> check_options(const Device& device, const RendererOptions& op
                     "pixels",
                     options.eye_width, options.eye_height, device.name(), needed_gb, memory_gb));
   }
+  if (options.pass_mode == PassMode::Multiview && !device.multiview()) {
+    return core::failure(
+        core::ErrorCategory::Failed,
+        fmt::format("cannot draw both eyes in one pass on {}: it has no multiview; draw them in two", device.name()));
+  }
   const auto counts = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
   if (options.samples != 1 && (options.samples != 4 || !(counts & vk::SampleCountFlagBits::e4))) {
     return core::failure(core::ErrorCategory::Failed, fmt::format("cannot draw {} samples a pixel on {}: choose 1 or 4",
@@ -97,7 +102,7 @@ EyeDrawing Renderer::Parts::choose_drawing(const FrameState& frame, const DrawLi
   };
   EyeDrawing drawing{.samples = detail.samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
                      .extent = {scaled(eyes.extent().width), scaled(eyes.extent().height)}};
-  const bool wrong_in_one = draws.clipped && device.clips_first_view_only();
+  const bool wrong_in_one = !device.multiview() || (draws.clipped && device.clips_first_view_only());
   if (see_the_same(frame.eyes)) {
     drawing.pass = EyePass::Single;
   } else if (options.pass_mode == PassMode::TwoPasses || (options.pass_mode == PassMode::Automatic && wrong_in_one)) {

@@ -7,9 +7,13 @@
 #include "shaders/background_frag.h"
 #include "shaders/fullscreen_vert.h"
 #include "shaders/material_frag.h"
+#include "shaders/material_frag_one_view.h"
 #include "shaders/material_vert.h"
+#include "shaders/material_vert_one_view.h"
 #include "shaders/scene_frag.h"
+#include "shaders/scene_frag_one_view.h"
 #include "shaders/scene_vert.h"
+#include "shaders/scene_vert_one_view.h"
 #include "shaders/shadow_vert.h"
 
 namespace afm::render {
@@ -19,11 +23,16 @@ namespace {
 constexpr float kShadowBiasConstant = 1.0F;
 constexpr float kShadowBiasSlope = 1.5F;
 
+constexpr EyeCode kSceneVertex{shaders::scene_vert, shaders::scene_vert_one_view};
+constexpr EyeCode kSceneFragment{shaders::scene_frag, shaders::scene_frag_one_view};
+constexpr EyeCode kMaterialVertex{shaders::material_vert, shaders::material_vert_one_view};
+constexpr EyeCode kMaterialFragment{shaders::material_frag, shaders::material_frag_one_view};
+constexpr EyeCode kBackgroundVertex{shaders::fullscreen_vert, shaders::fullscreen_vert};
+constexpr EyeCode kBackgroundFragment{shaders::background_frag, shaders::background_frag};
+
 PipelineRequest scene_request(vk::PipelineLayout layout, Blending blending) {
   const bool opaque = blending == Blending::Opaque;
   return {.name = opaque ? "opaque" : "blended",
-          .vertex_code = shaders::scene_vert,
-          .fragment_code = shaders::scene_frag,
           .layout = layout,
           .bindings = SceneGeometry::bindings(),
           .attributes = SceneGeometry::attributes(),
@@ -33,8 +42,6 @@ PipelineRequest scene_request(vk::PipelineLayout layout, Blending blending) {
 
 PipelineRequest background_request(vk::PipelineLayout layout) {
   return {.name = "background",
-          .vertex_code = shaders::fullscreen_vert,
-          .fragment_code = shaders::background_frag,
           .layout = layout,
           .topology = vk::PrimitiveTopology::eTriangleStrip,
           .depth = DepthUse::TestOnly,
@@ -54,8 +61,6 @@ vk::PrimitiveTopology topology(scene::Topology topology) {
 
 PipelineRequest look_request(vk::PipelineLayout layout, const SceneLook& look) {
   return {.name = "look",
-          .vertex_code = shaders::material_vert,
-          .fragment_code = shaders::material_frag,
           .layout = layout,
           .bindings = SceneGeometry::look_bindings(),
           .attributes = SceneGeometry::look_attributes(),
@@ -91,11 +96,11 @@ ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_lay
     : layout_(create_pipeline_layout(device, {.sets = {&frame_set_layout, 1}})),
       look_layout_(create_look_layout(device, frame_set_layout, materials.layout())),
       shadow_(create_shadow_pipeline(device, *layout_)),
-      opaque_(device, scene_request(*layout_, Blending::Opaque)),
-      background_(device, background_request(*layout_)),
-      blended_(device, scene_request(*layout_, Blending::Premultiplied)) {
+      opaque_(device, scene_request(*layout_, Blending::Opaque), kSceneVertex, kSceneFragment),
+      background_(device, background_request(*layout_), kBackgroundVertex, kBackgroundFragment),
+      blended_(device, scene_request(*layout_, Blending::Premultiplied), kSceneVertex, kSceneFragment) {
   for (const SceneLook& look : looks) {
-    looks_.emplace_back(device, look_request(*look_layout_, look));
+    looks_.emplace_back(device, look_request(*look_layout_, look), kMaterialVertex, kMaterialFragment);
   }
 }
 

@@ -2,11 +2,11 @@
 #include "render/device_failure.h"
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include <optional>
 #include <string>
 
+#include "support/faulty_device.h"
 #include "support/vulkan_fixture.h"
 
 // A layer of our own stands between the program and the driver and fails as real devices do.
@@ -19,16 +19,8 @@ using ::testing::Not;
 
 class DeviceFailureTest : public testing::Test {
  protected:
-  ~DeviceFailureTest() override {
-    unsetenv("VK_LAYER_PATH");
-    unsetenv("VK_INSTANCE_LAYERS");
-    unsetenv("AFM_TEST_FAULT");
-  }
-
   static render::Context open(const std::string& fault) {
-    setenv("VK_LAYER_PATH", AFM_FAULT_LAYER_DIR, 1);
-    setenv("VK_INSTANCE_LAYERS", "VK_LAYER_AFM_fault", 1);
-    setenv("AFM_TEST_FAULT", fault.c_str(), 1);
+    const FaultyDevice device(fault);
     auto context = render::Context::open();
     if (!context) throw std::runtime_error(context.error().message);
     return std::move(*context);

@@ -43,6 +43,9 @@ class Context {
 
   const std::string& device_name() const;
 
+  // Whether the device has multiview: both eyes in one pass.
+  bool draws_both_eyes_at_once() const;
+
   // Pixels of the longest picture, each way.
   std::uint32_t largest_picture_px() const;
 

@@ -15,8 +15,9 @@
 
 namespace afm::render {
 
-// How both eyes get their pictures: in one multiview pass, or one after the other, to the same bytes. Automatic: in one
-// pass unless the device would draw that frame wrongly. Where both eyes see the same, one is drawn.
+// How both eyes get their pictures: in one multiview pass, which not every device can, or one after the other, to the
+// same bytes. Automatic: in one pass unless the device cannot, or would draw that frame wrongly. Where both eyes see
+// the same, one is drawn.
 enum class PassMode { Automatic, Multiview, TwoPasses };
 
 struct RendererOptions {

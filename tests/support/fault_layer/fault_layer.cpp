@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Vulkan layer that makes a device fail as real ones do, for tests of what happens then. AFM_TEST_FAULT says how:
+// A Vulkan layer that makes a device fail as real ones do, or less able, for tests of what happens then. AFM_TEST_FAULT
+// says how:
 //   lost:N    the Nth submission, and everything that waits from then on, returns VK_ERROR_DEVICE_LOST
 //   memory:N  from the Nth allocation on there is no device memory
 //   surface:N from the Nth picture of a window on its surface is lost, and no other can be had
+//   one-view  there is no multiview
 // The interface is that of the Vulkan loader's documentation, "Layer Interface" version 2.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -75,6 +77,28 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire_next_image(VkDevice device, VkSwapchainKH
   return next<PFN_vkAcquireNextImageKHR>("vkAcquireNextImageKHR")(device, swapchain, timeout, semaphore, fence, index);
 }
 
+VKAPI_ATTR void VKAPI_CALL get_features(VkPhysicalDevice physical, VkPhysicalDeviceFeatures2* features) {
+  reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(next_instance(the_instance, "vkGetPhysicalDeviceFeatures2"))(
+      physical, features);
+  if (the_fault.kind != "one-view") return;
+  for (auto* each = static_cast<VkBaseOutStructure*>(features->pNext); each != nullptr; each = each->pNext) {
+    if (each->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES) {
+      reinterpret_cast<VkPhysicalDeviceVulkan11Features*>(each)->multiview = VK_FALSE;
+    }
+  }
+}
+
+// Whether a new device is to have multiview.
+bool asks_for_multiview(const VkDeviceCreateInfo& info) {
+  for (auto* each = static_cast<const VkBaseInStructure*>(info.pNext); each != nullptr; each = each->pNext) {
+    if (each->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES &&
+        reinterpret_cast<const VkPhysicalDeviceVulkan11Features*>(each)->multiview == VK_TRUE) {
+      return true;
+    }
+  }
+  return false;
+}
+
 template <class Info>
 Info* link_info(const void* chain, VkStructureType type) {
   for (auto* each = static_cast<const Info*>(chain); each != nullptr; each = static_cast<const Info*>(each->pNext)) {
@@ -101,6 +125,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const Vk
                                              const VkAllocationCallbacks* callbacks, VkDevice* device) {
   auto* link = link_info<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
   if (link == nullptr) return VK_ERROR_INITIALIZATION_FAILED;
+  if (the_fault.kind == "one-view" && asks_for_multiview(*info)) return VK_ERROR_FEATURE_NOT_PRESENT;
   const auto instance_function = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   next_device = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
@@ -123,6 +148,7 @@ PFN_vkVoidFunction own_function(const char* name) {
       {"vkGetDeviceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(get_device_function)},
       {"vkCreateInstance", reinterpret_cast<PFN_vkVoidFunction>(create_instance)},
       {"vkCreateDevice", reinterpret_cast<PFN_vkVoidFunction>(create_device)},
+      {"vkGetPhysicalDeviceFeatures2", reinterpret_cast<PFN_vkVoidFunction>(get_features)},
       {"vkQueueSubmit2", reinterpret_cast<PFN_vkVoidFunction>(queue_submit2)},
       {"vkWaitSemaphores", reinterpret_cast<PFN_vkVoidFunction>(wait_semaphores)},
       {"vkDeviceWaitIdle", reinterpret_cast<PFN_vkVoidFunction>(device_wait_idle)},

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdlib.h>
+
+#include <string>
+
+namespace afm::test {
+
+// While it lives, a layer of our own stands between new Vulkan instances and the driver, and makes the device fail as
+// tests/support/fault_layer says. One at a time.
+class FaultyDevice {
+ public:
+  explicit FaultyDevice(const std::string& fault) {
+    setenv("VK_ADD_LAYER_PATH", AFM_FAULT_LAYER_DIR, 1);
+    setenv("VK_INSTANCE_LAYERS", "VK_LAYER_AFM_fault", 1);
+    setenv("AFM_TEST_FAULT", fault.c_str(), 1);
+  }
+  FaultyDevice(const FaultyDevice&) = delete;
+  FaultyDevice& operator=(const FaultyDevice&) = delete;
+  ~FaultyDevice() {
+    unsetenv("VK_ADD_LAYER_PATH");
+    unsetenv("VK_INSTANCE_LAYERS");
+    unsetenv("AFM_TEST_FAULT");
+  }
+};
+
+}  // namespace afm::test
