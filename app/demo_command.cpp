@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,9 +18,9 @@
 #include "app/measured_material.h"
 #include "app/output_folder.h"
 #include "app/report.h"
+#include "app/report_pictures.h"
 #include "app/stage_setup.h"
 #include "app/sweep.h"
-#include "app/whole_file.h"
 #include "core/log.h"
 #include "haptics/scaling.h"
 #include "haptics/simulated_device.h"
@@ -135,16 +137,11 @@ core::Result<DemoPlan> plan_demo(const Stage& stage, const std::optional<Measure
   return plan;
 }
 
-core::Result<void> draw_picture(const std::string& file, const std::string& caption, const Moment& moment,
-                                const FrameBuilder& frames, render::Renderer& renderer, OutputFolder& out,
-                                std::vector<ReportPicture>& pictures) {
+void draw_picture(const std::string& file, const std::string& caption, const Moment& moment, const FrameBuilder& frames,
+                  render::Renderer& renderer, ReportPictures& pictures) {
   say(fmt::format("  {}", file));
-  const std::string path = out.staged(file);
-  if (auto drawn = draw_figure(moment, frames, renderer, path); !drawn) return drawn;
-  auto bytes = read_file(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  pictures.push_back({caption, std::move(*bytes)});
-  return {};
+  renderer.render(frames.build(moment));
+  pictures.add(file, caption);
 }
 
 core::Result<void> draw_journey(const FrameBuilder& frames, render::Renderer& renderer, OutputFolder& out,
@@ -162,23 +159,23 @@ core::Result<void> draw_figures(render::Context& context, const Stage& stage, co
   auto renderer = render::Renderer::create(context, stage.wall_scene.scene(), stage.renderer_options(kFigureEyeWidth));
   if (!renderer) return tl::unexpected(renderer.error());
   const FrameBuilder frames(stage.wall_scene, plan.materials, stage.eyes);
+  ReportPictures drawn(context, *renderer, out);
   const FigurePlan figures(result.sessions, result.measurements, 0);
   for (const Figure& figure : figures.figures()) {
-    if (auto drawn = draw_picture(figure.file, figure.caption, figure.moment, frames, *renderer, out, pictures); !drawn)
-      return drawn;
+    draw_picture(figure.file, figure.caption, figure.moment, frames, *renderer, drawn);
   }
-  if (auto drawn = draw_journey(frames, *renderer, out, pictures); !drawn) return drawn;
   for (std::size_t i = 0; i < plan.materials.size(); ++i) {
     if (plan.variations[i].empty()) continue;
     const VariationFigure figure(result.sessions[i], result.measurements[i], plan.materials[i], result.variations, i);
     const FrameBuilder varied(stage.wall_scene, figure.materials(), stage.eyes);
     const scene::MaterialEntry& entry = plan.materials[i].setup.material;
-    if (auto drawn = draw_picture("vary-" + entry.name + ".png", entry.title + ", felt with other numbers.",
-                                  figure.moment(), varied, *renderer, out, pictures);
-        !drawn)
-      return drawn;
+    draw_picture("vary-" + entry.name + ".png", entry.title + ", felt with other numbers.", figure.moment(), varied,
+                 *renderer, drawn);
   }
-  return {};
+  auto written = drawn.finish();
+  if (!written) return tl::unexpected(written.error());
+  std::move(written->begin(), written->end(), std::back_inserter(pictures));
+  return draw_journey(frames, *renderer, out, pictures);
 }
 
 core::Result<void> write_session(const RecordedSession& session, const std::string& name, OutputFolder& out) {
@@ -267,26 +264,26 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   result.hand_speed_m_per_s = options.hand.speed_m_per_s;
   say(fmt::format("drawing 2 x {} x {} pixels on {}", result.eye_width, result.eye_height, result.vulkan_device));
 
+  std::vector<ReportPicture> pictures;
   {
     const auto model = shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), plan->materials,
                                     stage->wall_scene.height_fields(), plan->curves);
     if (!model) return tl::unexpected(model.error());
     auto servo = ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
     if (!servo) return tl::unexpected(servo.error());
-    Demonstration live(*stage, *plan, *renderer, **servo, clock, on_scale(options.scale, options.hand));
+    ReportPictures live_pictures(*context, *renderer, *out);
+    Demonstration live(*stage, *plan, *renderer, **servo, clock, on_scale(options.scale, options.hand), [&] {
+      live_pictures.add("choosing.png", "The wand's ray chooses the sample: a frame of the live run.");
+    });
     if (auto ran = live.run(result, say); !ran) return ran;
     renderer->wait();
+    auto written = live_pictures.finish();
+    if (!written) return tl::unexpected(written.error());
+    pictures = std::move(*written);
   }
 
   if (auto measured = measure_all(*plan, result); !measured) return measured;
   say("drawing the figures");
-  std::vector<ReportPicture> pictures;
-  if (result.choosing) {
-    const auto png = render::encode_png(*result.choosing);
-    if (!png) return tl::unexpected(png.error());
-    pictures.push_back(
-        {"The wand's ray chooses the sample: a frame of the live run.", std::string(png->begin(), png->end())});
-  }
   if (auto drawn = draw_figures(*context, *stage, *plan, result, *out, pictures); !drawn) return drawn;
   result.seconds = static_cast<double>(clock.now_ns() - start_ns) * 1e-9;
   if (auto written = write_results(result, pictures, *out); !written) return written;

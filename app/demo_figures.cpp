@@ -7,7 +7,6 @@
 #include "app/demonstration.h"
 #include "app/film_strip.h"
 #include "core/check.h"
-#include "render/image_file.h"
 
 namespace afm::app {
 
@@ -107,12 +106,6 @@ render::Image journey_strip(const FrameBuilder& frames, render::Renderer& render
     stills.push_back(renderer.read_eye(scene::Eye::Left));
   }
   return film_strip(stills, kFilmColumns, kFilmReduction);
-}
-
-core::Result<void> draw_figure(const Moment& moment, const FrameBuilder& frames, render::Renderer& renderer,
-                               const std::string& path) {
-  renderer.render(frames.build(moment));
-  return render::write_png(renderer.read_composed({}), path);
 }
 
 }  // namespace afm::app

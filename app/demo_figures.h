@@ -56,8 +56,4 @@ class VariationFigure {
 // Ten places of the journey of scale on the first material, one for each order of magnitude, as a film strip.
 render::Image journey_strip(const FrameBuilder& frames, render::Renderer& renderer);
 
-// Draws a figure side by side and writes it as PNG.
-core::Result<void> draw_figure(const Moment& moment, const FrameBuilder& frames, render::Renderer& renderer,
-                               const std::string& path);
-
 }  // namespace afm::app

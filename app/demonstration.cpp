@@ -23,7 +23,7 @@ constexpr int kMostRestarts = 5;
 }  // namespace
 
 Demonstration::Demonstration(const Stage& stage, const DemoPlan& plan, render::Renderer& renderer, ServoLink& servo,
-                             const core::Clock& clock, const HandPath& path)
+                             const core::Clock& clock, const HandPath& path, std::function<void()> chosen)
     : wall_scene_(stage.wall_scene),
       guidance_(stage.guidance),
       plan_(plan),
@@ -33,6 +33,7 @@ Demonstration::Demonstration(const Stage& stage, const DemoPlan& plan, render::R
       servo_(servo),
       clock_(clock),
       path_(path),
+      chosen_(std::move(chosen)),
       person_(wall_scene_.wand_grip_m(), wall_scene_.sample_normal(), path),
       targets_(wall_scene_.swatch_targets()),
       between_eyes_m_(0.5 * (stage.eyes[0].eye_position_m + stage.eyes[1].eye_position_m)),
@@ -153,7 +154,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
 
   renderer_.render(frames_.build(now));
   if (budget_) budget_->follow(renderer_);
-  if (pointing.chosen && !result.choosing) result.choosing = renderer_.read_composed({});
+  if (pointing.chosen && chosen_) std::exchange(chosen_, nullptr)();
   result.frame_ms.push_back(static_cast<double>(clock_.now_ns() - start_ns) * 1e-6);
   return {};
 }

@@ -36,9 +36,9 @@ class Demonstration {
  public:
   using Progress = std::function<void(const std::string&)>;
 
-  // Everything must outlive it.
+  // `chosen` is called once a frame is drawn in which the ray chooses for the first time. Everything must outlive it.
   Demonstration(const Stage& stage, const DemoPlan& plan, render::Renderer& renderer, ServoLink& servo,
-                const core::Clock& clock, const HandPath& path);
+                const core::Clock& clock, const HandPath& path, std::function<void()> chosen);
 
   // Until every cycle is done. Fails when the servo dies, when something that must happen does not, or on SIGINT or
   // SIGTERM. Fills sessions, variations, frame times and the servo's timing of the result.
@@ -66,6 +66,7 @@ class Demonstration {
   const core::Clock& clock_;
   std::optional<FrameBudget> budget_;
   HandPath path_;
+  std::function<void()> chosen_;  // empty once it was called
   SimulatedPerson person_;
   input::Selector selector_;
   std::vector<input::Target> targets_;

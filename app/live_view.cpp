@@ -72,6 +72,7 @@ core::Result<void> LiveView::run() {
   head_.log_latency();
   servo_.finish();  // the hand is released, and what was felt is kept, while the last picture still stands
   if (lost) return tl::unexpected(*lost);
+  picture_.finish_saving();
   if (servo_.error()) return tl::unexpected(*servo_.error());
   return {};
 }
@@ -121,6 +122,9 @@ void LiveView::act(ViewAction action) {
       break;
     case ViewAction::FullScreen:
       windows_.toggle_full_screen();
+      break;
+    case ViewAction::SavePicture:
+      picture_.save();
       break;
     case ViewAction::NextScale:
       next_scale();

@@ -30,7 +30,6 @@ struct DemoResult {
   scene::ServoTiming servo;
   std::uint64_t lost_samples = 0;
   std::vector<double> frame_ms;
-  std::optional<render::Image> choosing;  // the live frame in which the wand first chose
   double seconds = 0;
   std::string vulkan_device;
   std::string haptic_device;

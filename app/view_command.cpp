@@ -149,6 +149,11 @@ void add_picture_options(CLI::App& command, ViewOptions& options) {
       ->type_name("PIXELS");
   add_frame_budget(command, options.display.frame_budget_ms);
   command
+      .add_option("--pictures", options.settings.picture.saved_folder,
+                  "an existing folder for the pictures that F12 saves, touchafm-001.png and on; default: this one")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("DIR");
+  command
       .add_option("--frame-rate", options.frame_rate, "most frames a second, 10 to 1000; default: the display's rate")
       ->check(CLI::Range(kSlowestFrames, kFastestFrames))
       ->type_name("RATE");

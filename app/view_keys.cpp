@@ -30,6 +30,7 @@ constexpr std::array kBindings{
     KeyBinding{render::Key::G, ViewAction::ShowCalibration, "Test pattern", "G"},
     KeyBinding{render::Key::B, ViewAction::BringToWall, "Contact to the wall's plane", "B"},
     KeyBinding{render::Key::F11, ViewAction::FullScreen, "Full screen", "F11"},
+    KeyBinding{render::Key::F12, ViewAction::SavePicture, "Save the picture", "F12"},
     KeyBinding{render::Key::Escape, ViewAction::Leave, "End", "Esc"},
     KeyBinding{render::Key::F1, ViewAction::ShowKeys, nullptr, "F1"},
 };

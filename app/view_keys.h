@@ -29,6 +29,7 @@ enum class ViewAction {
   WidenEyes,
   ShowCalibration,
   BringToWall,
+  SavePicture,
 };
 
 std::optional<ViewAction> action_of(render::Key key);

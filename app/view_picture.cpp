@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -44,6 +45,7 @@ ViewPicture::ViewPicture(const Stage& stage, const std::vector<ViewOutput>& outp
       settings_(settings),
       head_(stage.wall.viewers.front().sweet_spot),
       eye_size_px_(settings.eye_px),
+      saver_(context, renderer),
       depth_meter_(context, renderer) {
   if (settings_.frame_budget_ms > 0) budget_.emplace(settings_.frame_budget_ms, renderer.detail().samples);
   share_out();
@@ -155,6 +157,33 @@ void ViewPicture::measure_depth(std::int64_t now_ns) {
   depth_meter_.measure();
 }
 
+void ViewPicture::save() { ++to_save_; }
+
+// A mode with a picture for each eye is saved side by side. What finds no place in the saver waits for a later frame.
+void ViewPicture::save_newest() {
+  tell(saver_.collect());
+  if (to_save_ == 0) return;
+  render::Composition composition = pictures_.front().composition;
+  if (scene::has_two_pictures(composition.mode)) composition.mode = scene::StereoMode::SideBySide;
+  std::string path;
+  do {
+    path = fmt::format("{}/touchafm-{:03}.png", settings_.saved_folder, ++saved_number_);
+  } while (std::filesystem::exists(path));
+  if (saver_.save(composition, path)) {
+    --to_save_;
+  } else {
+    --saved_number_;
+  }
+}
+
+void ViewPicture::finish_saving() { tell(saver_.finish()); }
+
+void ViewPicture::tell(const std::vector<render::SavedPicture>& saved) {
+  for (const render::SavedPicture& picture : saved) {
+    core::log_line(picture.written ? "saved " + picture.path : picture.written.error().message);
+  }
+}
+
 void ViewPicture::show(render::FrameState& frame, std::int64_t now_ns, const std::function<void()>& while_waiting) {
   if (!calibrating_ && !shares_.front().flat) frame.labels.push_back(depth_label(depth_, stage_.screen));
   while_waiting();
@@ -166,7 +195,10 @@ void ViewPicture::show(render::FrameState& frame, std::int64_t now_ns, const std
       show_calibration(share.screen, mode, settings_.ipd_m, frame);
     }
     renderer_.render(frame);
-    if (&share == &shares_.front()) measure_depth(now_ns);
+    if (&share == &shares_.front()) {
+      measure_depth(now_ns);
+      save_newest();
+    }
     while_waiting();
     presenter_.draw(share.windows, while_waiting);
     while_waiting();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/depth_report.h"
@@ -14,6 +15,7 @@
 #include "app/view_outputs.h"
 #include "app/view_windows.h"
 #include "render/depth_meter.h"
+#include "render/picture_saver.h"
 #include "render/presenter.h"
 #include "render/renderer.h"
 
@@ -21,9 +23,10 @@ namespace afm::app {
 
 struct PictureSettings {
   double ipd_m = 0.063;
-  glm::uvec2 eye_px{0};         // as the renderer was made
-  bool fixed_eye_size = false;  // else the eyes get as many pixels as the windows have for them
-  double frame_budget_ms = 0;   // frames are drawn coarser to stay within it; 0: as they are
+  glm::uvec2 eye_px{0};            // as the renderer was made
+  bool fixed_eye_size = false;     // else the eyes get as many pixels as the windows have for them
+  double frame_budget_ms = 0;      // frames are drawn coarser to stay within it; 0: as they are
+  std::string saved_folder = ".";  // for the pictures that are saved
 };
 
 // How the live windows show the wall: for which eyes, in which layout, how large. The main thread alone.
@@ -52,6 +55,11 @@ class ViewPicture {
   // The picture for setting up the screens, instead of the scene.
   void toggle_calibration();
 
+  // Saves the next frame of the first window as a PNG file of its own, beside the drawing; finish_saving() waits for
+  // the last ones, and tells of them as the log does of the others.
+  void save();
+  void finish_saving();
+
   // What the next frame is drawn for in a window, and where it will lie there.
   WallPicture picture(std::size_t window) const;
 
@@ -74,6 +82,8 @@ class ViewPicture {
   bool can_show(scene::StereoMode mode) const;
   void share_out();
   void measure_depth(std::int64_t now_ns);
+  void save_newest();
+  static void tell(const std::vector<render::SavedPicture>& saved);
 
   const Stage& stage_;
   const std::vector<ViewOutput>& outputs_;
@@ -90,6 +100,9 @@ class ViewPicture {
   glm::uvec2 wanted_eye_px_{0};
   std::int64_t windows_steady_since_ns_ = 0;
   std::optional<FrameBudget> budget_;
+  render::PictureSaver saver_;
+  std::size_t to_save_ = 0;       // pictures that were asked for
+  std::size_t saved_number_ = 0;  // of the newest file
   render::DepthMeter depth_meter_;
   DepthReport depth_;
   std::int64_t depth_measured_ns_ = 0;

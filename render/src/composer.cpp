@@ -91,14 +91,15 @@ std::int32_t shader_mode(scene::StereoMode mode, std::uint32_t layer) {
   return layer == 0 ? AFM_COMPOSE_LEFT : AFM_COMPOSE_RIGHT;
 }
 
-ComposeBlock compose_block(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
+ComposeBlock compose_block(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place,
+                           std::uint32_t layer) {
   const auto mode = composition.mode;
   const bool swapped = composition.order == scene::EyeOrder::Swapped && mode != scene::StereoMode::Mono;
   const bool keystone = composition.picture_from_output != glm::dmat3(1.0);
   const auto* const anaglyph = std::find(kAnaglyphs.begin(), kAnaglyphs.end(), mode);
   const vk::Extent2D whole = eyes.extent(), drawn = eyes.drawing().extent;
   ComposeBlock block{
-      .mode = {shader_mode(mode, place.layer), swapped, keystone, static_cast<int>(anaglyph - kAnaglyphs.begin())},
+      .mode = {shader_mode(mode, layer), swapped, keystone, static_cast<int>(anaglyph - kAnaglyphs.begin())},
       .drawn = {static_cast<float>(drawn.width) / static_cast<float>(whole.width),
                 static_cast<float>(drawn.height) / static_cast<float>(whole.height), eyes.same_eyes() ? 1.0F : 0.0F,
                 0.0F},
@@ -173,61 +174,69 @@ vk::raii::Pipeline Composer::create_pipeline_for(vk::Format format) const {
                                    .color_format = format});
 }
 
-void Composer::record(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
-                      const ComposePlace& place) const {
+void Composer::draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
+                    const ComposePlace& place, std::uint32_t layer) const {
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
   set_viewport(command, place.target);
   command.setScissor(0, place.area);
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
   command.pushConstants<ComposeBlock>(*layout_, vk::ShaderStageFlagBits::eFragment, 0,
-                                      compose_block(eyes_, composition, place));
+                                      compose_block(eyes_, composition, place, layer));
   command.draw(4, 1, 0, 0);
 }
 
-const DeviceImage& Composer::target(vk::Extent2D extent, std::uint32_t layers) {
-  if (target_.extent != extent || target_.layers != layers) {
-    target_ = create_image(device_, "composed",
-                           {.format = kEyeFormat,
-                            .extent = extent,
-                            .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc |
-                                     vk::ImageUsageFlagBits::eSampled,
-                            .layers = layers});
+void Composer::record(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
+                      const ComposePlace& place, std::span<const vk::ImageView> layers) const {
+  const bool covered = place.area.extent == place.target;
+  for (std::uint32_t i = 0; i < layers.size(); ++i) {
+    const vk::RenderingAttachmentInfo color{
+        .imageView = layers[i],
+        .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
+        .loadOp = covered ? vk::AttachmentLoadOp::eDontCare : vk::AttachmentLoadOp::eClear,
+        .storeOp = vk::AttachmentStoreOp::eStore,
+        .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
+    command.beginRendering({.renderArea = {.extent = place.target},
+                            .layerCount = 1,
+                            .colorAttachmentCount = 1,
+                            .pColorAttachments = &color});
+    draw(command, pipeline, composition, place, place.first_layer + i);
+    command.endRendering();
   }
-  return target_;
+}
+
+void Composer::record(const vk::raii::CommandBuffer& command, const Composition& composition, const ReadArea& area,
+                      ComposeTarget& target) const {
+  const std::uint32_t count = scene::has_two_pictures(composition.mode) ? 2 : 1;
+  const vk::Extent2D size =
+      area.size_px == glm::uvec2(0) ? extent(composition.mode) : vk::Extent2D{area.size_px.x, area.size_px.y};
+  if (target.image.extent != size || target.image.layers != count) {
+    target.image =
+        create_image(device_, "composed",
+                     {.format = kEyeFormat,
+                      .extent = size,
+                      .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
+                      .layers = count});
+    for (std::uint32_t i = 0; i < count; ++i) target.views[i] = create_view(device_, target.image, kColor, i, 1);
+  }
+  const ImageUse drawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput, vk::AccessFlagBits2::eColorAttachmentWrite,
+                       vk::ImageLayout::eColorAttachmentOptimal};
+  const std::array layers{*target.views[0], *target.views[1]};
+  record_barriers(command, {image_barrier(*target.image.image, kColor, kCopied.discarded(), drawn)});
+  record(command, *pipeline_, composition, {.target = size, .area = {.extent = size}, .screen_px = area.screen_px},
+         std::span(layers).first(count));
+  record_barriers(command, {image_barrier(*target.image.image, kColor, drawn, kCopied)});
 }
 
 std::vector<Image> Composer::compose(const Composition& composition, const ReadArea& area) {
-  const std::uint32_t layers = scene::has_two_pictures(composition.mode) ? 2 : 1;
-  const vk::Extent2D size =
-      area.size_px == glm::uvec2(0) ? extent(composition.mode) : vk::Extent2D{area.size_px.x, area.size_px.y};
-  const DeviceImage& composed = target(size, layers);
-  std::vector<vk::raii::ImageView> views;
-  for (std::uint32_t layer = 0; layer < layers; ++layer) {
-    views.push_back(create_view(device_, composed, kColor, layer, 1));
-  }
-  const ImageUse discarded{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eNone, vk::ImageLayout::eUndefined};
-  const ImageUse drawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput, vk::AccessFlagBits2::eColorAttachmentWrite,
-                       vk::ImageLayout::eColorAttachmentOptimal};
-  const ImageUse shown{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
-                       vk::ImageLayout::eShaderReadOnlyOptimal};
+  HostCopy copy;
   device_.run_once([&](const vk::raii::CommandBuffer& command) {
-    record_barriers(command, {image_barrier(*composed.image, kColor, discarded, drawn)});
-    for (std::uint32_t layer = 0; layer < layers; ++layer) {
-      const vk::RenderingAttachmentInfo color{.imageView = *views[layer],
-                                              .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
-                                              .loadOp = vk::AttachmentLoadOp::eDontCare,
-                                              .storeOp = vk::AttachmentStoreOp::eStore};
-      command.beginRendering(
-          {.renderArea = {.extent = size}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &color});
-      record(command, *pipeline_, composition,
-             {.target = size, .area = {.extent = size}, .screen_px = area.screen_px, .layer = layer});
-      command.endRendering();
-    }
-    record_barriers(command, {image_barrier(*composed.image, kColor, drawn, shown)});
+    record(command, composition, area, target_);
+    copy.record(device_, command, target_.image);
   });
   std::vector<Image> pictures;
-  for (std::uint32_t layer = 0; layer < layers; ++layer) {
-    pictures.push_back(read_back(device_, *composed.image, layer, size));
+  for (std::uint32_t layer = 0; layer < target_.image.layers; ++layer) {
+    const ImageSpan picture = copy.picture(layer);
+    pictures.push_back({picture.width, picture.height, {picture.rgba.begin(), picture.rgba.end()}});
   }
   return pictures;
 }

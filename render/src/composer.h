@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "eye_targets.h"
@@ -12,10 +14,16 @@ namespace afm::render {
 
 // Where a picture is drawn.
 struct ComposePlace {
-  vk::Extent2D target;      // the whole image
-  vk::Rect2D area;          // what the picture fills
-  glm::ivec2 screen_px{0};  // where the target's first pixel lies on its screen
-  std::uint32_t layer = 0;  // of modes with two pictures: 1 is the right eye's place
+  vk::Extent2D target;            // the whole image
+  vk::Rect2D area;                // what the picture fills
+  glm::ivec2 screen_px{0};        // where the target's first pixel lies on its screen
+  std::uint32_t first_layer = 0;  // of modes with two pictures: 1 is the right eye's place
+};
+
+// An image that pictures are composed into to be read, with as many layers as the mode has pictures.
+struct ComposeTarget {
+  DeviceImage image;
+  std::array<vk::raii::ImageView, 2> views{nullptr, nullptr};  // of each layer alone
 };
 
 // Puts the two eye images into one picture: byte for byte where it is drawn at its own size. Every stereo mode is a
@@ -36,12 +44,19 @@ class Composer {
   // For targets of another format than the eyes'.
   vk::raii::Pipeline create_pipeline_for(vk::Format format) const;
 
-  // Draws the picture, scaled to fill its area; inside a rendering of the target.
+  // Draws the picture, or each of two into a layer of its own, scaled to fill its area and black around it: into what a
+  // window shows and into what is read alike. `layers` are views of single layers in eColorAttachmentOptimal.
   void record(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
-              const ComposePlace& place) const;
+              const ComposePlace& place, std::span<const vk::ImageView> layers) const;
+
+  // Draws what is read into `target`, which nothing in flight uses and which is made anew if it is not of that size,
+  // and leaves it in eTransferSrcOptimal.
+  void record(const vk::raii::CommandBuffer& command, const Composition& composition, const ReadArea& area,
+              ComposeTarget& target) const;
 
  private:
-  const DeviceImage& target(vk::Extent2D extent, std::uint32_t layers);
+  void draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
+            const ComposePlace& place, std::uint32_t layer) const;
 
   const Device& device_;
   const EyeTargets& eyes_;
@@ -52,7 +67,7 @@ class Composer {
   Buffer anaglyphs_;
   vk::raii::DescriptorPool pool_;
   vk::raii::DescriptorSet set_{nullptr};
-  DeviceImage target_;  // of the last size that was asked for
+  ComposeTarget target_;  // of compose()
 };
 
 }  // namespace afm::render

@@ -33,7 +33,7 @@ int write_all(const std::string& path, const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-core::Result<std::vector<std::uint8_t>> encode_png(const Image& image) {
+core::Result<std::vector<std::uint8_t>> encode_png(const ImageSpan& image) {
   std::vector<std::uint8_t> rgb;
   rgb.reserve(image.rgba.size() / 4 * 3);
   for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) {
@@ -53,7 +53,7 @@ core::Result<std::vector<std::uint8_t>> encode_png(const Image& image) {
   return bytes;
 }
 
-core::Result<void> write_png(const Image& image, const std::string& path) {
+core::Result<void> write_png(const ImageSpan& image, const std::string& path) {
   const auto bytes = encode_png(image);
   if (!bytes) {
     return tl::unexpected(bytes.error());

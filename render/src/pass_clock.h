@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "device.h"
 #include "render/renderer.h"
+#include "stopwatch.h"
 
 namespace afm::render {
 
-// When the passes of one frame in flight began and ended, by the device's own clock.
+// When the passes of one frame in flight began and ended.
 class PassClock {
  public:
-  static bool works_on(const Device& device);
-
   explicit PassClock(const Device& device);
 
   // In the order in which a frame reaches them; the first two only where panels are painted.
@@ -25,8 +23,7 @@ class PassClock {
  private:
   double between_ms(Mark begin, Mark end) const;
 
-  double ms_per_tick_;
-  vk::raii::QueryPool queries_;
+  Stopwatch stopwatch_;
 };
 
 }  // namespace afm::render

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -47,7 +48,9 @@ struct Presenter::Parts {
             vk::raii::CommandBuffers(
                 *device, {.commandPool = *pool, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1})
                 .front())),
-        finished(*device, vk::FenceCreateInfo{}) {}
+        finished(*device, vk::FenceCreateInfo{}) {
+    if (renderer.options.time_passes && Stopwatch::works_on(device)) stopwatch.emplace(device, 2);
+  }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
   ~Parts() { device.wait_idle(); }
@@ -71,6 +74,7 @@ struct Presenter::Parts {
   vk::raii::CommandPool pool;
   vk::raii::CommandBuffer commands;
   vk::raii::Fence finished;
+  std::optional<Stopwatch> stopwatch;  // marks 0 and 1: before and after composing
   std::vector<Pane> panes;
   int surfaces_lost = 0;  // since a picture was shown
 };
@@ -109,6 +113,10 @@ void Presenter::Parts::draw(std::span<const std::size_t> windows, const std::fun
   std::uint32_t count = 0;
   pool.reset();
   commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  if (stopwatch) {
+    stopwatch->reset(commands, 0, 2);
+    stopwatch->mark(commands, 0);
+  }
   for (const std::size_t window : windows) {
     Pane& pane = panes.at(window);
     if (!pane.taken) {
@@ -121,6 +129,7 @@ void Presenter::Parts::draw(std::span<const std::size_t> windows, const std::fun
     pane.drawn = true;
     ++count;
   }
+  if (stopwatch) stopwatch->mark(commands, 1);
   commands.end();
   const vk::CommandBufferSubmitInfo submit{.commandBuffer = *commands};
   device.queue().submit2(vk::SubmitInfo2{.waitSemaphoreInfoCount = count,
@@ -136,6 +145,7 @@ void Presenter::Parts::draw(std::span<const std::size_t> windows, const std::fun
     while_waiting();
   }
   device->resetFences(*finished);
+  if (stopwatch) renderer.compose_ms = stopwatch->between_ms(0, 1);
 }
 
 void Presenter::Parts::show() {

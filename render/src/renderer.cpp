@@ -85,7 +85,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       timeline(create_timeline(device)) {
   for (std::size_t i = 0; i < kFramesInFlight; ++i) {
     slots.emplace_back(device, *frame_set_layout, shadow_map, geometry.draws().size());
-    if (options.time_passes && PassClock::works_on(device)) {
+    if (options.time_passes && Stopwatch::works_on(device)) {
       clocks.emplace_back(device);
     }
   }
@@ -287,7 +287,10 @@ std::optional<PassTimes> Renderer::pass_times() const {
     return std::nullopt;
   }
   const std::size_t slot = (finished - 1) % kFramesInFlight;
-  return parts_->clocks[slot].times(parts_->slots[slot].painted);
+  PassTimes times = parts_->clocks[slot].times(parts_->slots[slot].painted);
+  times.compose_ms = parts_->compose_ms;
+  times.readback_ms = parts_->readback_ms;
+  return times;
 }
 
 void Renderer::wait() {

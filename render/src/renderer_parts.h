@@ -46,9 +46,10 @@ struct Renderer::Parts {
   std::vector<FrameSlot> slots;
   std::vector<PassClock> clocks;  // one a slot, or none
   vk::raii::Semaphore timeline;
-  std::uint64_t frames = 0;  // submitted
-  bool eyes_drawn = false;   // since the eye images were made
-  double near_m = 0;         // of the newest frame: its depth is near_m / distance
+  std::uint64_t frames = 0;                // submitted
+  bool eyes_drawn = false;                 // since the eye images were made
+  double near_m = 0;                       // of the newest frame: its depth is near_m / distance
+  double compose_ms = 0, readback_ms = 0;  // as in PassTimes, told by whoever does it
 };
 
 }  // namespace afm::render

@@ -42,7 +42,7 @@ vk::SurfaceFormatKHR choose_surface_format(const Device& device, vk::SurfaceKHR 
 
 Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
                      std::uint32_t layers, const Swapchain* old)
-    : layers_(layers) {
+    : layer_count_(layers) {
   const auto capabilities = device.physical().getSurfaceCapabilitiesKHR(surface);
   extent_ = choose_extent(capabilities, wanted);
   swapchain_ =
@@ -70,6 +70,7 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
                                                                        .levelCount = 1,
                                                                        .baseArrayLayer = layer,
                                                                        .layerCount = 1}});
+      layers_.push_back(*views_.back());
     }
     drawn_.emplace_back(*device, vk::SemaphoreCreateInfo{});
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "device.h"
@@ -23,18 +24,22 @@ class Swapchain {
   const vk::raii::SwapchainKHR* operator->() const { return &swapchain_; }
   vk::Extent2D extent() const { return extent_; }
   vk::Image image(std::uint32_t index) const { return images_[index]; }
-  std::uint32_t layers() const { return layers_; }
-  vk::ImageView view(std::uint32_t index, std::uint32_t layer) const { return *views_[index * layers_ + layer]; }
+  std::uint32_t layer_count() const { return layer_count_; }
+  // A view of each layer.
+  std::span<const vk::ImageView> layers(std::uint32_t index) const {
+    return std::span(layers_).subspan(index * layer_count_, layer_count_);
+  }
 
   // Signalled when the picture in the image is drawn; what presents it waits for it.
   vk::Semaphore drawn(std::uint32_t index) const { return *drawn_[index]; }
 
  private:
   vk::Extent2D extent_;
-  std::uint32_t layers_;
+  std::uint32_t layer_count_;
   vk::raii::SwapchainKHR swapchain_{nullptr};
   std::vector<vk::Image> images_;  // owned by the swapchain
   std::vector<vk::raii::ImageView> views_;
+  std::vector<vk::ImageView> layers_;  // of each image in turn
   std::vector<vk::raii::Semaphore> drawn_;
 };
 

@@ -42,6 +42,8 @@ Key key_of(int key) {
       return Key::F2;
     case GLFW_KEY_F11:
       return Key::F11;
+    case GLFW_KEY_F12:
+      return Key::F12;
     case GLFW_KEY_H:
       return Key::H;
     case GLFW_KEY_A:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window_surface.h"
 
-#include <array>
 #include <utility>
 
 #include "barriers.h"
@@ -52,7 +51,7 @@ bool WindowSurface::follow_window(std::uint32_t layers) {
     return false;
   }
   const vk::Extent2D wanted{size.x, size.y};
-  if (swapchain_ && !outdated_ && swapchain_->extent() == wanted && swapchain_->layers() == layers) {
+  if (swapchain_ && !outdated_ && swapchain_->extent() == wanted && swapchain_->layer_count() == layers) {
     return true;
   }
   const auto capabilities = device_.physical().getSurfaceCapabilitiesKHR(*surface_);
@@ -90,26 +89,13 @@ void WindowSurface::record(const vk::raii::CommandBuffer& command, const WindowP
       picture_place({window_size.width, window_size.height}, {whole.width, whole.height}, picture.fit);
   const vk::Image image = swapchain_->image(*index_);
   record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, kAcquired, kDrawn)});
-  for (std::uint32_t layer = 0; layer < swapchain_->layers(); ++layer) {
-    const vk::RenderingAttachmentInfo color{.imageView = swapchain_->view(*index_, layer),
-                                            .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
-                                            .loadOp = vk::AttachmentLoadOp::eClear,
-                                            .storeOp = vk::AttachmentStoreOp::eStore,
-                                            .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
-    command.beginRendering({.renderArea = {.extent = window_size},
-                            .layerCount = 1,
-                            .colorAttachmentCount = 1,
-                            .pColorAttachments = &color});
-    composer_.record(
-        command, *pipeline_, composition,
-        {.target = window_size,
-         .area = {.offset = {static_cast<std::int32_t>(place.offset_px.x),
-                             static_cast<std::int32_t>(place.offset_px.y)},
-                  .extent = {place.size_px.x, place.size_px.y}},
-         .screen_px = scene::is_interleaved(composition.mode) ? window_.handle().screen_px() : glm::ivec2(0),
-         .layer = layer});
-    command.endRendering();
-  }
+  composer_.record(
+      command, *pipeline_, composition,
+      {.target = window_size,
+       .area = {.offset = {static_cast<std::int32_t>(place.offset_px.x), static_cast<std::int32_t>(place.offset_px.y)},
+                .extent = {place.size_px.x, place.size_px.y}},
+       .screen_px = scene::is_interleaved(composition.mode) ? window_.handle().screen_px() : glm::ivec2(0)},
+      swapchain_->layers(*index_));
   record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, kDrawn, kPresented)});
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,22 @@
 
 namespace afm::render {
 
+// An image in somebody else's memory: rows as of Image.
+struct ImageSpan {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::span<const std::uint8_t> rgba;
+
+  ImageSpan(std::uint32_t width_px, std::uint32_t height_px, std::span<const std::uint8_t> bytes)
+      : width(width_px), height(height_px), rgba(bytes) {}
+  ImageSpan(const Image& image) : ImageSpan(image.width, image.height, image.rgba) {}
+};
+
 // The image as the bytes of a PNG file: 8-bit sRGB without alpha.
-core::Result<std::vector<std::uint8_t>> encode_png(const Image& image);
+core::Result<std::vector<std::uint8_t>> encode_png(const ImageSpan& image);
 
 // Writes a temporary file beside `path` and renames it, so that a file of that name is always whole. The error names
 // the path.
-core::Result<void> write_png(const Image& image, const std::string& path);
+core::Result<void> write_png(const ImageSpan& image, const std::string& path);
 
 }  // namespace afm::render

@@ -43,9 +43,12 @@ struct Detail {
 struct PassTimes {
   double panels_ms = 0;  // painting those that have changed
   double shadow_ms = 0;
-  double eyes_ms = 0;  // both, with the panels in the room
+  double eyes_ms = 0;      // both, with the panels in the room
+  double compose_ms = 0;   // of the newest frame that was shown in a window or saved
+  double readback_ms = 0;  // of the newest one that was saved
 
-  double total_ms() const { return panels_ms + shadow_ms + eyes_ms; }
+  // What every frame takes.
+  double total_ms() const { return panels_ms + shadow_ms + eyes_ms + compose_ms; }
 };
 
 // Draws frames of one Scene, which it uploads when it is made. Two frames are in flight: render() returns once a frame
@@ -92,6 +95,7 @@ class Renderer {
 
  private:
   friend class DepthMeter;
+  friend class PictureSaver;
   friend class Presenter;
   struct Parts;
   explicit Renderer(std::unique_ptr<Parts> parts);

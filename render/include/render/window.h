@@ -21,6 +21,7 @@ enum class Key {
   F1,
   F2,
   F11,
+  F12,
   A,
   B,
   C,
