@@ -3,7 +3,8 @@
 
 #include <array>
 #include <cmath>
-#include <vector>
+#include <iterator>
+#include <string_view>
 
 #include "panel_painting.h"
 
@@ -37,11 +38,11 @@ void paint_grid(Canvas& canvas, float step, float width, Color color) {
 }
 
 void paint_circle(Canvas& canvas, glm::vec2 center, float radius, float width, Color color) {
-  std::vector<glm::vec2> points;
-  constexpr int kCorners = 180;
-  for (int i = 0; i <= kCorners; ++i) {
+  constexpr std::size_t kCorners = 180;
+  std::array<glm::vec2, kCorners + 1> points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
     const float angle = 6.2831853F * static_cast<float>(i) / kCorners;
-    points.push_back(center + radius * glm::vec2(std::cos(angle), std::sin(angle)));
+    points[i] = center + radius * glm::vec2(std::cos(angle), std::sin(angle));
   }
   canvas.polyline(points, width, color);
 }
@@ -78,6 +79,15 @@ void paint_greys(Canvas& canvas, glm::vec2 at, float unit) {
                    grey(188.0F / 255.0F));
 }
 
+// As fmt::format(), into memory of the caller's.
+template <class... Values>
+std::string_view written(fmt::memory_buffer& text, fmt::format_string<const Values&...> format,
+                         const Values&... values) {
+  text.clear();
+  fmt::format_to(std::back_inserter(text), format, values...);
+  return {text.data(), text.size()};
+}
+
 }  // namespace
 
 void paint(Canvas& canvas, const CalibrationPanel& panel) {
@@ -94,16 +104,18 @@ void paint(Canvas& canvas, const CalibrationPanel& panel) {
   canvas.line({middle.x, middle.y - 300.0F * unit}, {middle.x, middle.y + 300.0F * unit}, 5.0F * unit,
               palette::kYellow);
 
-  const auto line = [&](float y, TextStyle style, const std::string& text) {
+  const auto line = [&](float y, TextStyle style, std::string_view text) {
     canvas.text({middle.x, y * unit}, style, kWhite, text, Align::Center, unit);
   };
-  line(220.0F, TextStyle::Title, fmt::format("{}   {:.3f} m x {:.3f} m", panel.screen, size.x * 1e-3F, size.y * 1e-3F));
+  fmt::memory_buffer text;
+  line(220.0F, TextStyle::Title,
+       written(text, "{}   {:.3f} m x {:.3f} m", panel.screen, size.x * 1e-3F, size.y * 1e-3F));
   line(320.0F, TextStyle::Strong, panel.mode);
   line(390.0F, TextStyle::Body,
-       fmt::format("a square is {:g} mm; the circle is round; L to the left eye, R to the right", step));
+       written(text, "a square is {:g} mm; the circle is round; L to the left eye, R to the right", step));
   paint_ruler(canvas, {middle.x - 0.5F * kMostIpdMm, 1840.0F * unit}, unit, panel.ipd_m);
   line(1860.0F, TextStyle::Body,
-       fmt::format("between the eyes: ticks from 45 to 80 mm, orange {:.1f} mm", panel.ipd_m * 1e3));
+       written(text, "between the eyes: ticks from 45 to 80 mm, orange {:.1f} mm", panel.ipd_m * 1e3));
   paint_greys(canvas, {middle.x - 490.0F * unit, 1950.0F * unit}, unit);
 }
 

@@ -6,11 +6,12 @@
 #include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <string>
+#include <iterator>
 
 namespace afm::render {
 namespace {
 
+constexpr const char* kEllipsis = "\u2026";
 constexpr float kPlateRounding = 22.0F;
 constexpr float kSubscriptScale = 0.70F;
 constexpr float kSubscriptDrop = 0.34F;  // of the line's height
@@ -26,8 +27,8 @@ bool in_subscript(char c) {
 
 }  // namespace
 
-Canvas::Canvas(ImDrawList& list, const PanelFonts& fonts, glm::vec2 size_mm)
-    : list_(list), fonts_(fonts), size_mm_(size_mm) {}
+Canvas::Canvas(ImDrawList& list, const PanelFonts& fonts, CanvasMemory& memory, glm::vec2 size_mm)
+    : list_(list), fonts_(fonts), memory_(memory), size_mm_(size_mm) {}
 
 ImVec2 Canvas::texel(glm::vec2 mm) const { return {mm.x * fonts_.texels_per_mm, mm.y * fonts_.texels_per_mm}; }
 
@@ -80,19 +81,21 @@ void Canvas::text(glm::vec2 position, TextStyle style, Color color, std::string_
   text_pass(position, style, scale, color, text, true);
 }
 
-std::string Canvas::fitted(TextStyle style, std::string_view text, float width_mm) const {
+void Canvas::fitted_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm) {
   if (text_width_mm(style, text) <= width_mm) {
-    return std::string(text);
+    this->text(position, style, color, text);
+    return;
   }
-  std::string cut(text);
-  while (!cut.empty() && text_width_mm(style, cut + "\u2026") > width_mm) {
+  const float room = width_mm - text_width_mm(style, kEllipsis);
+  while (!text.empty() && text_width_mm(style, text) > room) {
     // whole UTF-8 characters: continuation bytes go with their first byte
-    while (cut.size() > 1 && (static_cast<unsigned char>(cut.back()) & 0xC0U) == 0x80U) {
-      cut.pop_back();
+    while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) {
+      text.remove_suffix(1);
     }
-    cut.pop_back();
+    text.remove_suffix(1);
   }
-  return cut + "\u2026";
+  this->text(position, style, color, text);
+  this->text(position + glm::vec2(text_width_mm(style, text), 0.0F), style, color, kEllipsis);
 }
 
 void Canvas::line(glm::vec2 from, glm::vec2 to, float width_mm, Color color) {
@@ -101,29 +104,31 @@ void Canvas::line(glm::vec2 from, glm::vec2 to, float width_mm, Color color) {
 
 // Dear ImGui's mitres spike at sharp turns, so a line is broken there and the joint covered with a disc.
 void Canvas::polyline(std::span<const glm::vec2> points, float width_mm, Color color) {
+  std::vector<ImVec2>& texels = memory_.texels;
+  texels.clear();
   const float width = width_mm * fonts_.texels_per_mm;
   const auto flush = [&] {
-    if (points_.size() > 1) {
-      list_.AddPolyline(points_.data(), static_cast<int>(points_.size()), packed(color), ImDrawFlags_None, width);
+    if (texels.size() > 1) {
+      list_.AddPolyline(texels.data(), static_cast<int>(texels.size()), packed(color), ImDrawFlags_None, width);
     }
-    points_.clear();
+    texels.clear();
   };
   glm::vec2 direction(0.0F);
   glm::vec2 last(0.0F);
   for (const auto& point : points) {
-    const bool first = points_.empty();
+    const bool first = texels.empty();
     const glm::vec2 step = point - last;
     const float length = first ? 0.0F : glm::length(step);
     if (!first && length < 0.05F) {
       continue;
     }
-    if (points_.size() > 1 && glm::dot(direction, step / length) < 0.5F) {
+    if (texels.size() > 1 && glm::dot(direction, step / length) < 0.5F) {
       flush();
       list_.AddCircleFilled(texel(last), 0.5F * width, packed(color));
-      points_.push_back(texel(last));
+      texels.push_back(texel(last));
     }
     direction = first ? glm::vec2(0.0F) : step / length;
-    points_.push_back(texel(point));
+    texels.push_back(texel(point));
     last = point;
   }
   flush();
@@ -131,7 +136,8 @@ void Canvas::polyline(std::span<const glm::vec2> points, float width_mm, Color c
 
 void Canvas::dashed_polyline(std::span<const glm::vec2> points, float width_mm, float dash_mm, float gap_mm,
                              Color color) {
-  std::vector<glm::vec2> dash;
+  std::vector<glm::vec2>& dash = memory_.dash;
+  dash.clear();
   float place = 0.0F;  // along the period of dash and gap
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const float length = glm::distance(points[i], points[i + 1]);
@@ -173,10 +179,10 @@ void Canvas::disc(glm::vec2 center, float radius_mm, Color color) {
 }
 
 void Canvas::polygon(std::span<const glm::vec2> convex, Color color) {
-  points_.clear();
-  std::transform(convex.begin(), convex.end(), std::back_inserter(points_), [this](glm::vec2 p) { return texel(p); });
-  list_.AddConvexPolyFilled(points_.data(), static_cast<int>(points_.size()), packed(color));
-  points_.clear();
+  std::vector<ImVec2>& texels = memory_.texels;
+  texels.clear();
+  std::transform(convex.begin(), convex.end(), std::back_inserter(texels), [this](glm::vec2 p) { return texel(p); });
+  list_.AddConvexPolyFilled(texels.data(), static_cast<int>(texels.size()), packed(color));
 }
 
 void Canvas::push_clip(glm::vec2 from, glm::vec2 to) { list_.PushClipRect(texel(from), texel(to), true); }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "marker_layout.h"
 #include "panel_fonts.h"
 
 namespace afm::render {
@@ -32,10 +33,18 @@ inline constexpr Color kYellow{{0.941F, 0.894F, 0.259F}, 1.0F};
 
 enum class Align { Left, Center, Right };
 
+// What painting needs for a moment, kept so that painting again needs no new memory.
+struct CanvasMemory {
+  std::vector<ImVec2> texels;
+  std::vector<glm::vec2> points, dash;
+  std::vector<MarkerLabel> labels;
+  std::vector<LabelBox> boxes;
+};
+
 // Draws in millimetres from the panel's top left corner, x to the right and y down. Hides Dear ImGui's draw list.
 class Canvas {
  public:
-  Canvas(ImDrawList& list, const PanelFonts& fonts, glm::vec2 size_mm);
+  Canvas(ImDrawList& list, const PanelFonts& fonts, CanvasMemory& memory, glm::vec2 size_mm);
 
   glm::vec2 size_mm() const { return size_mm_; }
 
@@ -48,8 +57,11 @@ class Canvas {
             float scale = 1.0F);
   float text_width_mm(TextStyle style, std::string_view text, float scale = 1.0F) const;
 
-  // The text, cut with an ellipsis where it would be wider than `width_mm`.
-  std::string fitted(TextStyle style, std::string_view text, float width_mm) const;
+  // The same from the left, cut with an ellipsis where it would be wider than `width_mm`.
+  void fitted_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm);
+
+  // For who paints: nothing in it is kept from one call to the next, and `points` and `labels` no call here uses.
+  CanvasMemory& memory() { return memory_; }
 
   void line(glm::vec2 from, glm::vec2 to, float width_mm, Color color);
   void polyline(std::span<const glm::vec2> points, float width_mm, Color color);
@@ -73,7 +85,7 @@ class Canvas {
   ImDrawList& list_;
   const PanelFonts& fonts_;
   glm::vec2 size_mm_;
-  std::vector<ImVec2> points_;  // reused by polyline
+  CanvasMemory& memory_;
 };
 
 }  // namespace afm::render

@@ -44,7 +44,7 @@ void paint_row(Canvas& canvas, const ControlPanel& panel, std::size_t row, doubl
   const glm::dvec2 size(canvas.size_mm());
   const auto room = static_cast<float>(size.x - 2.0 * kMargin - 2.0 * kTargetWidth - 2.0 * kGap);
   const auto y = static_cast<float>(top + 0.5 * (pitch - 84.0));
-  canvas.text({kMargin, y}, TextStyle::Body, palette::kMuted, canvas.fitted(TextStyle::Body, content.name, room));
+  canvas.fitted_text({kMargin, y}, TextStyle::Body, palette::kMuted, content.name, room);
   const float scale =
       std::min(kValueScale, room / std::max(canvas.text_width_mm(TextStyle::Title, content.value), 1.0F));
   canvas.text({kMargin, y + 36.0F}, TextStyle::Title, content.changed ? palette::kOrange : palette::kInk, content.value,
@@ -94,19 +94,16 @@ void paint(Canvas& canvas, const ControlPanel& panel) {
   const glm::dvec2 size(canvas.size_mm());
   const auto width = static_cast<float>(size.x - 2.0 * kMargin);
   const float beside = static_cast<float>(static_cast<double>(panel.buttons.size()) * (kButtonWidth + kGap));
-  canvas.text({kMargin, 34.0F}, TextStyle::Title, palette::kInk,
-              canvas.fitted(TextStyle::Title, panel.title, width - beside));
+  canvas.fitted_text({kMargin, 34.0F}, TextStyle::Title, palette::kInk, panel.title, width - beside);
   const double pitch = row_pitch(panel, size.y);
   for (std::size_t row = 0; row < panel.rows.size(); ++row) {
     paint_row(canvas, panel, row, kTop + pitch * static_cast<double>(row), pitch);
   }
   double y = kTop + pitch * static_cast<double>(panel.rows.size()) + kGap;
-  canvas.text({kMargin, static_cast<float>(y)}, TextStyle::Body, palette::kYellow,
-              canvas.fitted(TextStyle::Body, panel.status, width));
+  canvas.fitted_text({kMargin, static_cast<float>(y)}, TextStyle::Body, palette::kYellow, panel.status, width);
   for (const std::string& note : panel.notes) {
     y += kNoteHeight;
-    canvas.text({kMargin, static_cast<float>(y)}, TextStyle::Body, palette::kInk,
-                canvas.fitted(TextStyle::Body, note, width));
+    canvas.fitted_text({kMargin, static_cast<float>(y)}, TextStyle::Body, palette::kInk, note, width);
   }
   for (std::size_t button = 0; button < panel.buttons.size(); ++button) {
     const ControlTarget target{ControlTarget::Kind::Button, button};

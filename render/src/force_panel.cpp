@@ -4,7 +4,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "marker_layout.h"
 #include "panel_painting.h"
 #include "plot_scale.h"
 
@@ -43,8 +42,8 @@ std::pair<double, double> sane_range(double low, double high) {
 
 void paint_heading(Canvas& canvas, const ForcePanel& panel) {
   canvas.text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title);
-  canvas.text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow,
-              canvas.fitted(TextStyle::Body, panel.stage, canvas.size_mm().x - 2.0F * kMargin));
+  canvas.fitted_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.stage,
+                     canvas.size_mm().x - 2.0F * kMargin);
 }
 
 // One entry for each curve, and what dashed and solid mean.
@@ -115,22 +114,24 @@ void paint_captions(Canvas& canvas, const Plot& plot) {
               palette::kInk, "Z (nm)", Align::Center);
 }
 
-std::vector<glm::vec2> placed(const Plot& plot, const std::vector<PlotPoint>& points) {
-  std::vector<glm::vec2> result;
-  result.reserve(points.size());
+// On the canvas, as many as it can show; valid until the next call.
+std::span<const glm::vec2> placed(Canvas& canvas, const Plot& plot, const std::vector<PlotPoint>& points) {
+  std::vector<glm::vec2>& places = canvas.memory().points;
+  places.clear();
   for (const auto& point : points) {
     if (std::isfinite(point.z_nm) && std::isfinite(point.force_nn)) {
-      result.push_back(plot.place(point));
+      places.push_back(plot.place(point));
     }
   }
-  return thin_out(result, kColumn);
+  thin_out(places, kColumn);
+  return places;
 }
 
 void paint_curve(Canvas& canvas, const Plot& plot, const PlotCurve& curve) {
   const Color color{curve.color, curve.faded ? kFadedAlpha : 1.0F};
   const float thin = curve.faded ? 0.75F : 1.0F;
-  canvas.polyline(placed(plot, curve.retract), kRetractWidth * thin, color);
-  canvas.dashed_polyline(placed(plot, curve.approach), kApproachWidth * thin, 16.0F, 10.0F, color);
+  canvas.polyline(placed(canvas, plot, curve.retract), kRetractWidth * thin, color);
+  canvas.dashed_polyline(placed(canvas, plot, curve.approach), kApproachWidth * thin, 16.0F, 10.0F, color);
 }
 
 bool in_range(const Plot& plot, const PlotMarker& marker) {
@@ -142,7 +143,8 @@ bool in_range(const Plot& plot, const PlotMarker& marker) {
 // All lines first, so that none crosses a label.
 void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarker>& markers) {
   const Color line_color{palette::kInk.srgb, 0.60F};
-  std::vector<MarkerLabel> labels;
+  std::vector<MarkerLabel>& labels = canvas.memory().labels;
+  labels.clear();
   for (const PlotMarker& marker : markers) {
     if (!in_range(plot, marker)) {
       continue;
@@ -158,9 +160,10 @@ void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarke
          line,
          {canvas.text_width_mm(TextStyle::Small, marker.label) + 12.0F, text_height_mm(TextStyle::Small) + 6.0F}});
   }
-  const std::vector<LabelBox> boxes =
-      place_labels(labels, {plot.top_left, plot.bottom_right}, {force_caption(canvas, plot)});
-  auto box = boxes.begin();
+  std::vector<LabelBox>& boxes = canvas.memory().boxes;
+  boxes.assign(1, force_caption(canvas, plot));
+  place_labels(labels, {plot.top_left, plot.bottom_right}, boxes);
+  auto box = boxes.begin() + 1;
   for (const PlotMarker& marker : markers) {
     if (!in_range(plot, marker)) {
       continue;

@@ -23,9 +23,8 @@ struct MarkerLabel {
   glm::vec2 size{0.0F};
 };
 
-// One box for each label, in their order, inside `plot`: beside its line, where it covers neither another label nor
-// what is `taken`. A label for which there is no such place stands where it would stand alone.
-std::vector<LabelBox> place_labels(std::span<const MarkerLabel> labels, const LabelBox& plot,
-                                   std::vector<LabelBox> taken);
+// Adds one box for each label, in their order, inside `plot`: beside its line, where it covers none of what is `taken`,
+// the labels before it included. A label for which there is no such place stands where it would stand alone.
+void place_labels(std::span<const MarkerLabel> labels, const LabelBox& plot, std::vector<LabelBox>& taken);
 
 }  // namespace afm::render

@@ -203,7 +203,7 @@ void Panels::paint_on(Panel& panel, const Content& content) {
   const vk::Extent2D extent = panel.texture.image.extent;
   ImGui::GetIO().DisplaySize = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
   ImGui::NewFrame();
-  Canvas canvas(*ImGui::GetBackgroundDrawList(), fonts_, glm::vec2(size_m(panel.placement) * 1000.0));
+  Canvas canvas(*ImGui::GetBackgroundDrawList(), fonts_, memory_, glm::vec2(size_m(panel.placement) * 1000.0));
   paint(canvas, content);
   ImGui::Render();
 

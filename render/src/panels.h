@@ -111,6 +111,7 @@ class Panels {
   std::size_t slot_ = 0;
 
   // what this frame paints; kept to reuse its memory
+  CanvasMemory memory_;
   std::vector<Painting> paintings_;
   std::vector<ImDrawVert> vertices_;
   std::vector<ImDrawIdx> indices_;

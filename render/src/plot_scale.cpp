@@ -27,8 +27,8 @@ std::string tick_text(double value, double step) {
   return rounded < 0.0 ? "\u2212" + digits : digits;
 }
 
-std::vector<glm::vec2> thin_out(std::span<const glm::vec2> points, float column_mm) {
-  std::vector<glm::vec2> result;
+void thin_out(std::vector<glm::vec2>& points, float column_mm) {
+  std::size_t written = 0;  // never beyond what has been read
   std::size_t begin = 0;
   while (begin < points.size()) {
     const float column = std::floor(points[begin].x / column_mm);
@@ -39,15 +39,13 @@ std::vector<glm::vec2> thin_out(std::span<const glm::vec2> points, float column_
       lowest = points[end].y < points[lowest].y ? end : lowest;
       highest = points[end].y > points[highest].y ? end : highest;
     }
-    std::array<std::size_t, 4> kept{begin, std::min(lowest, highest), std::max(lowest, highest), end - 1};
+    const std::array<std::size_t, 4> kept{begin, std::min(lowest, highest), std::max(lowest, highest), end - 1};
     for (std::size_t i = 0; i < kept.size(); ++i) {
-      if (i == 0 || kept[i] != kept[i - 1]) {
-        result.push_back(points[kept[i]]);
-      }
+      if (i == 0 || kept[i] != kept[i - 1]) points[written++] = points[kept[i]];
     }
     begin = end;
   }
-  return result;
+  points.resize(written);
 }
 
 }  // namespace afm::render

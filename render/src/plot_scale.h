@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -15,8 +14,8 @@ double tick_step(double range, int most);
 // A tick's or marker's number with as many decimals as `step` needs and a typographic minus.
 std::string tick_text(double value, double step);
 
-// A line that looks the same at this resolution: for every column of `column_mm` its first, lowest, highest and last
-// point, in their order. Points are in millimetres of the canvas, and need not advance in x.
-std::vector<glm::vec2> thin_out(std::span<const glm::vec2> points, float column_mm);
+// Leaves a line that looks the same at this resolution: of every column of `column_mm` its first, lowest, highest and
+// last point, in their order. Points are in millimetres of the canvas, and need not advance in x.
+void thin_out(std::vector<glm::vec2>& points, float column_mm);
 
 }  // namespace afm::render

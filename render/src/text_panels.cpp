@@ -57,11 +57,11 @@ void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
   const float value_width = canvas.text_width_mm(TextStyle::Strong, row.value);
   const float block = row.source.empty() ? 46.0F : 78.0F;
   const float y = top + std::max(0.0F, 0.5F * (pitch - block));
-  canvas.text({kMargin, y + 2.0F}, TextStyle::Body, palette::kMuted,
-              canvas.fitted(TextStyle::Body, row.name, right - kMargin - value_width - 20.0F));
+  canvas.fitted_text({kMargin, y + 2.0F}, TextStyle::Body, palette::kMuted, row.name,
+                     right - kMargin - value_width - 20.0F);
   canvas.text({right, y}, TextStyle::Strong, palette::kInk, row.value, Align::Right);
-  canvas.text({kMargin, y + 46.0F}, TextStyle::Small, Color{palette::kMuted.srgb, 0.85F},
-              canvas.fitted(TextStyle::Small, row.source, right - kMargin));
+  canvas.fitted_text({kMargin, y + 46.0F}, TextStyle::Small, Color{palette::kMuted.srgb, 0.85F}, row.source,
+                     right - kMargin);
   canvas.line({kMargin, top + pitch}, {right, top + pitch}, 1.5F, palette::kGrid);
 }
 
@@ -70,9 +70,8 @@ void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
 void paint(Canvas& canvas, const DataPanel& panel) {
   canvas.plate();
   const float width = canvas.size_mm().x - 2.0F * kMargin;
-  canvas.text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, canvas.fitted(TextStyle::Title, panel.title, width));
-  canvas.text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow,
-              canvas.fitted(TextStyle::Body, panel.subtitle, width));
+  canvas.fitted_text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title, width);
+  canvas.fitted_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.subtitle, width);
   const float top = 150.0F;
   canvas.line({kMargin, top}, {kMargin + width, top}, 2.0F, palette::kEdge);
   if (panel.rows.empty()) {
@@ -102,7 +101,7 @@ void paint(Canvas& canvas, const Banner& banner) {
   canvas.text({kMargin, top + lift}, TextStyle::Guidance, palette::kInk, banner.guidance, Align::Left, scale);
 
   const float second = top + text_height_mm(TextStyle::Guidance) + 16.0F;
-  canvas.text({kMargin, second}, TextStyle::Body, palette::kMuted, banner.scale.substr(0, end));
+  canvas.text({kMargin, second}, TextStyle::Body, palette::kMuted, std::string_view(banner.scale).substr(0, end));
   if (!more.empty()) {
     const float whole = right - kMargin;
     const float shrink = std::min(1.0F, whole / std::max(canvas.text_width_mm(TextStyle::Body, more), 1.0F));

@@ -2,13 +2,13 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "support/no_alloc.h"
 #include "support/vulkan_fixture.h"
 
-// Frames whose panels stay as they are; what is painted anew needs memory for its text. Without the validation layers,
-// which allocate in the caller's thread.
+// Once everything has been as large as it gets. Without the validation layers, which allocate in the caller's thread.
 namespace afm::test {
 namespace {
 
@@ -37,6 +37,41 @@ class FrameAllocation : public testing::Test {
     return frames;
   }
 
+  // A cycle is felt: its curve grows by some samples a frame, the cursor follows, numbers, words and colours change,
+  // and something else is pointed at.
+  std::vector<render::FrameState> telling_frames() const {
+    std::vector<render::FrameState> frames = moving_frames();
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      render::FrameState& frame = frames[i];
+      render::PlotCurve& curve = frame.force_panel.curves.front();
+      auto& branch = 2 * i < frames.size() ? curve.approach : curve.retract;
+      curve.retract.clear();
+      curve.approach.clear();
+      for (std::size_t k = 0; k < 200 * (i + 1); ++k) {
+        const double z_nm = 20.0 - 0.01 * static_cast<double>(k);
+        branch.push_back({z_nm, std::sin(z_nm)});
+      }
+      const std::string number = std::to_string(1000 + 37 * i);
+      frame.force_panel.cursor = branch.back();
+      frame.force_panel.stage = "pressed, at " + number + " of what a hand may push, and longer than the panel is wide";
+      frame.force_panel.markers = {{render::PlotMarker::Kind::VerticalLine, 2.4, "Z_jtc " + number + " nm"},
+                                   {render::PlotMarker::Kind::HorizontalLine, -1.4, "F_ad " + number + " nN"}};
+      for (render::DataRow& row : frame.data_panel.rows) row.value = number + " nN/m, by another hand";
+      frame.banner.guidance = "Move down, " + number + " nm are left until the tip snaps onto the surface";
+      frame.banner.state_shape = static_cast<render::StateShape>(i % 5);
+      frame.control_panel = {.title = "Parameters of a sample with a rather long name",
+                             .buttons = {"Apply"},
+                             .rows = {{"spring constant", number + " N/m", i % 2 == 0}},
+                             .notes = {"what follows from " + number},
+                             .status = "felt since " + number,
+                             .pointed = {}};
+      if (i % 3 == 0) frame.control_panel.pointed = render::ControlTarget{};
+      frame.control_placement = frame.data_placement;
+      for (render::Label& label : frame.labels) label.highlighted = i % 2 == 0;
+    }
+    return frames;
+  }
+
   void expect_none(const std::vector<render::FrameState>& frames, render::PassMode pass_mode) {
     auto context = open_context();
     auto renderer = render::Renderer::create(context, test_.scene, small(4, pass_mode));
@@ -57,6 +92,10 @@ class FrameAllocation : public testing::Test {
 TEST_F(FrameAllocation, AMovingSceneIsDrawnWithoutAny) { expect_none(moving_frames(), render::PassMode::Multiview); }
 
 TEST_F(FrameAllocation, EyeByEyeTakesNoneEither) { expect_none(moving_frames(), render::PassMode::TwoPasses); }
+
+TEST_F(FrameAllocation, PanelsThatChangeInEveryFrameTakeNone) {
+  expect_none(telling_frames(), render::PassMode::Multiview);
+}
 
 // Resolution and samples change while it runs.
 TEST_F(FrameAllocation, AChangeOfDetailTakesNone) {

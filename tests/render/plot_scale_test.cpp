@@ -34,7 +34,8 @@ TEST(ThinOut, KeepsTheEndsAndTheExtremesOfEveryColumn) {
     const float x = 0.01F * static_cast<float>(i);
     points.push_back({x, i == 5550 ? 40.0F : std::sin(x)});
   }
-  const auto thin = thin_out(points, 1.0F);
+  auto thin = points;
+  thin_out(thin, 1.0F);
   EXPECT_LE(thin.size(), 400U);
   EXPECT_EQ(thin.front(), points.front());
   EXPECT_EQ(thin.back(), points.back());
@@ -46,13 +47,18 @@ TEST(ThinOut, KeepsTheOrderOfAPathThatTurnsBack) {
   for (int i = 0; i < 100; ++i) {
     points.push_back({static_cast<float>(i < 50 ? i : 99 - i), static_cast<float>(i)});
   }
-  const auto thin = thin_out(points, 5.0F);
+  auto thin = points;
+  thin_out(thin, 5.0F);
   for (std::size_t i = 0; i + 1 < thin.size(); ++i) {
     EXPECT_LT(thin[i].y, thin[i + 1].y);
   }
 }
 
-TEST(ThinOut, OfNothingIsNothing) { EXPECT_TRUE(thin_out({}, 1.0F).empty()); }
+TEST(ThinOut, OfNothingIsNothing) {
+  std::vector<glm::vec2> none;
+  thin_out(none, 1.0F);
+  EXPECT_TRUE(none.empty());
+}
 
 }  // namespace
 }  // namespace afm::render
