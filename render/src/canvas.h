@@ -84,8 +84,8 @@ class Canvas {
 
   ImDrawList& list_;
   const PanelFonts& fonts_;
-  glm::vec2 size_mm_;
   CanvasMemory& memory_;
+  glm::vec2 size_mm_;
 };
 
 }  // namespace afm::render
