@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies behind everything, linear; `place` is 0..1 across an eye image, y down. A mid-dark gradient that is the same in
-// both eyes, so that it lies in the wall's plane and no eye disagrees with the other. Projectors leak one eye into the
-// other: nothing here is black or bright.
-vec3 background_color(vec2 place) {
+// What lies behind everything, linear: a mid-dark gradient that belongs to directions of the room, so that it goes on from
+// tile to tile and around a corner. Projectors leak one eye into the other: nothing here is black or bright. `place` is 0..1
+// across an eye image, y down. Seen from between the eyes, it is the same in both: it lies in the wall's plane, and no eye
+// disagrees with the other.
+vec3 background_color(FrameBlock frame, vec2 place) {
+  vec3 direction = normalize(frame.screen[0].xyz + place.x * frame.screen[1].xyz + place.y * frame.screen[2].xyz);
   vec3 top = vec3(0.020, 0.026, 0.040);
   vec3 bottom = vec3(0.046, 0.055, 0.073);
-  vec3 color = mix(top, bottom, smoothstep(0.0, 1.0, place.y));
-  vec2 from_light = (place - vec2(0.42, 0.55)) * vec2(1.0, 1.25);
-  return color + vec3(0.050, 0.058, 0.070) * exp(-5.0 * dot(from_light, from_light));
+  vec3 color = mix(bottom, top, smoothstep(-0.40, 0.40, direction.y));
+  vec2 from_light = (direction.xy - vec2(-0.09, -0.04)) * vec2(1.85, 3.1);
+  return color + vec3(0.050, 0.058, 0.070) * exp(-dot(from_light, from_light));
 }

@@ -4,10 +4,13 @@
 #include "interface.glsl.h"
 #include "tone.glsl"
 
-// Both eyes' images as one picture, every stereo mode: scene/stereo_layout.h says which pixel shows what. The eye images
-// hold sRGB values in a UNORM format: bytes go through unchanged where one pixel is one pixel.
+// Both eyes' images as one picture, every stereo mode: scene/stereo_layout.h says which pixel shows what, and a test compares
+// the two for each. The eye images hold sRGB values in a UNORM format: bytes go through unchanged where one pixel is one
+// pixel. What is scaled or mixed is so in linear light, through views of the same images that decode them.
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2D left_eye;
 layout(set = 0, binding = AFM_BINDING_RIGHT_EYE) uniform sampler2D right_eye;
+layout(set = 0, binding = AFM_BINDING_LEFT_LINEAR) uniform sampler2D left_linear;
+layout(set = 0, binding = AFM_BINDING_RIGHT_LINEAR) uniform sampler2D right_linear;
 layout(set = 0, binding = AFM_BINDING_ANAGLYPH) uniform Anaglyph { AnaglyphBlock anaglyph; };
 layout(push_constant) uniform Compose { ComposeBlock compose; };
 layout(location = 0) out vec4 out_color;
@@ -66,16 +69,21 @@ Source source_of_pixel(ivec2 pixel, ivec2 picture) {
   }
 }
 
-// The pixel itself where nothing is scaled, else bilinear within what is drawn of the image.
-vec3 eye_color(int eye, Source source) {
-  bool right = eye == kRight && compose.drawn.z == 0.0;
-  bool keystone = compose.mode.z != 0;
-  ivec2 texels = textureSize(left_eye, 0);
-  if (!keystone && source.region == texels && compose.drawn.xy == vec2(1.0)) {
-    return right ? texelFetch(right_eye, source.pixel, 0).rgb : texelFetch(left_eye, source.pixel, 0).rgb;
+bool shows_right(int eye) { return eye == kRight && compose.drawn.z == 0.0; }
+
+// Whether one pixel of the picture is one of the eye's image.
+bool unscaled(Source source) {
+  return compose.mode.z == 0 && source.region == textureSize(left_eye, 0) && compose.drawn.xy == vec2(1.0);
+}
+
+// Linear light: of the pixel itself where nothing is scaled, else bilinear within what is drawn of the image.
+vec3 eye_light(int eye, Source source) {
+  bool right = shows_right(eye);
+  if (unscaled(source)) {
+    return right ? texelFetch(right_linear, source.pixel, 0).rgb : texelFetch(left_linear, source.pixel, 0).rgb;
   }
   vec2 uv = (vec2(source.pixel) + 0.5) / vec2(source.region);
-  if (keystone) {
+  if (compose.mode.z != 0) {
     vec3 place = compose.picture_from_output[0].xyz * uv.x + compose.picture_from_output[1].xyz * uv.y +
                  compose.picture_from_output[2].xyz;
     uv = place.xy / place.z;
@@ -83,12 +91,16 @@ vec3 eye_color(int eye, Source source) {
       return vec3(0.0);
     }
   }
-  uv = min(uv * compose.drawn.xy, compose.drawn.xy - 0.5 / vec2(texels));
-  return right ? textureLod(right_eye, uv, 0.0).rgb : textureLod(left_eye, uv, 0.0).rgb;
+  uv = min(uv * compose.drawn.xy, compose.drawn.xy - 0.5 / vec2(textureSize(left_eye, 0)));
+  return right ? textureLod(right_linear, uv, 0.0).rgb : textureLod(left_linear, uv, 0.0).rgb;
 }
 
-vec3 linear_from_srgb(vec3 c) {
-  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
+// As it is shown, encoded.
+vec3 eye_color(int eye, Source source) {
+  if (!unscaled(source)) {
+    return srgb_from_linear(eye_light(eye, source));
+  }
+  return shows_right(eye) ? texelFetch(right_eye, source.pixel, 0).rgb : texelFetch(left_eye, source.pixel, 0).rgb;
 }
 
 void main() {
@@ -97,8 +109,8 @@ void main() {
   bool swapped = compose.mode.y != 0;
   vec3 color = vec3(0.0);
   if (compose.mode.x == AFM_COMPOSE_ANAGLYPH) {
-    vec3 left = linear_from_srgb(eye_color(swapped ? kRight : kLeft, source));
-    vec3 right = linear_from_srgb(eye_color(swapped ? kLeft : kRight, source));
+    vec3 left = eye_light(swapped ? kRight : kLeft, source);
+    vec3 right = eye_light(swapped ? kLeft : kRight, source);
     vec3 mixed = mat3(anaglyph.left[compose.mode.w]) * left + mat3(anaglyph.right[compose.mode.w]) * right;
     color = srgb_from_linear(clamp(mixed, 0.0, 1.0));
   } else if (source.eye != kBlank) {

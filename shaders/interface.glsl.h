@@ -35,6 +35,8 @@
 #define AFM_BINDING_TEXTURE 0
 #define AFM_BINDING_RIGHT_EYE 1
 #define AFM_BINDING_ANAGLYPH 2
+#define AFM_BINDING_LEFT_LINEAR 3
+#define AFM_BINDING_RIGHT_LINEAR 4
 #define AFM_BINDING_DEPTH_RANGE 2
 
 // one per frame; what has two elements belongs to the views
@@ -48,6 +50,8 @@ struct FrameBlock {
   vec4 contact;            // xyz: where the tip meets the sample; w: 1 / radius of the shade there, 0 without one
   vec4 contact_ring;       // rgb: linear radiance, 0 without a ring; a: its radius in radii of the shade
   vec4 haze;               // x: begin, y: 1 / (end - begin), 0 without a range; z: veil; w: 1 with a range
+  vec4 screen[3];          // xyz: the direction in which the upper left corner of the eye images is seen from between the
+                           // eyes, and what takes it to the upper right and to the lower left one
   vec4 haze_axis;          // what lies behind the haze's origin by its units is dot(axis, (place, 1))
   vec4 punctual_count;     // x: how many of the lights below there are
   vec4 punctual_position[AFM_MOST_LIGHTS];   // xyz; w: 1 / range, 0 without end

@@ -42,7 +42,7 @@ void main() {
 
   // what has dissolved is the background
   float gone = haze(frame, room_position);
-  if (gone > 0.0) shown = mix(shown, background_color(gl_FragCoord.xy * frame.target_size.zw), gone);
+  if (gone > 0.0) shown = mix(shown, background_color(frame, gl_FragCoord.xy * frame.target_size.zw), gone);
 
   // premultiplied, so that opaque and blended primitives share this shader
   out_color = vec4(srgb_from_linear(shown) * vertex_color.a, vertex_color.a);

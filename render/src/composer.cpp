@@ -25,14 +25,16 @@ vk::DescriptorSetLayoutBinding binding(std::uint32_t index, vk::DescriptorType t
 vk::raii::DescriptorSetLayout create_set_layout(const Device& device) {
   const std::array bindings{binding(AFM_BINDING_TEXTURE, vk::DescriptorType::eCombinedImageSampler),
                             binding(AFM_BINDING_RIGHT_EYE, vk::DescriptorType::eCombinedImageSampler),
-                            binding(AFM_BINDING_ANAGLYPH, vk::DescriptorType::eUniformBuffer)};
+                            binding(AFM_BINDING_ANAGLYPH, vk::DescriptorType::eUniformBuffer),
+                            binding(AFM_BINDING_LEFT_LINEAR, vk::DescriptorType::eCombinedImageSampler),
+                            binding(AFM_BINDING_RIGHT_LINEAR, vk::DescriptorType::eCombinedImageSampler)};
   return vk::raii::DescriptorSetLayout(
       *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
 vk::raii::DescriptorPool create_pool(const Device& device) {
   const std::array sizes{
-      vk::DescriptorPoolSize{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2},
+      vk::DescriptorPoolSize{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 4},
       vk::DescriptorPoolSize{.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = 1}};
   return vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                             .maxSets = 1,
@@ -146,18 +148,21 @@ Composer::Composer(const Device& device, const EyeTargets& eyes)
 }
 
 void Composer::eyes_changed() {
-  for (const auto eye : scene::kEyes) {
+  const auto write = [this](std::uint32_t binding, vk::ImageView view) {
     const vk::DescriptorImageInfo image{
-        .sampler = *sampler_, .imageView = eyes_.eye(eye).view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
-    device_->updateDescriptorSets(
-        vk::WriteDescriptorSet{
-            .dstSet = *set_,
-            .dstBinding = eye == scene::Eye::Left ? std::uint32_t{AFM_BINDING_TEXTURE} : AFM_BINDING_RIGHT_EYE,
-            .descriptorCount = 1,
-            .descriptorType = vk::DescriptorType::eCombinedImageSampler,
-            .pImageInfo = &image},
-        nullptr);
-  }
+        .sampler = *sampler_, .imageView = view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+    device_->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = *set_,
+                                                         .dstBinding = binding,
+                                                         .descriptorCount = 1,
+                                                         .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                                         .pImageInfo = &image},
+                                  nullptr);
+  };
+  const auto left = eyes_.eye(scene::Eye::Left), right = eyes_.eye(scene::Eye::Right);
+  write(AFM_BINDING_TEXTURE, left.view);
+  write(AFM_BINDING_RIGHT_EYE, right.view);
+  write(AFM_BINDING_LEFT_LINEAR, left.linear);
+  write(AFM_BINDING_RIGHT_LINEAR, right.linear);
 }
 
 vk::Extent2D Composer::extent(scene::StereoMode mode) const {

@@ -11,7 +11,8 @@
 
 namespace afm::render {
 
-inline constexpr vk::Format kEyeFormat = vk::Format::eR8G8B8A8Unorm;  // holds sRGB values, see tone.glsl
+inline constexpr vk::Format kEyeFormat = vk::Format::eR8G8B8A8Unorm;       // holds sRGB values, see tone.glsl
+inline constexpr vk::Format kEyeLinearFormat = vk::Format::eR8G8B8A8Srgb;  // sampled and filtered as linear light
 inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
 inline constexpr std::uint32_t kBothEyes = 0b11;  // the view mask of a multiview pass
 
@@ -56,7 +57,8 @@ class EyeTargets {
   struct EyeImage {
     vk::Image image;
     std::uint32_t layer = 0;
-    vk::ImageView view;  // of this eye alone
+    vk::ImageView view;    // of this eye alone
+    vk::ImageView linear;  // of its colour, in kEyeLinearFormat
   };
   // Only drawing().extent of it is drawn.
   EyeImage eye(scene::Eye eye) const;
@@ -69,7 +71,7 @@ class EyeTargets {
   struct Target {
     DeviceImage image;
     vk::raii::ImageView both{nullptr};
-    std::vector<vk::raii::ImageView> single;  // one a layer
+    std::vector<vk::raii::ImageView> single, linear;  // one a layer; of colour alone
   };
   struct Multisampled {
     DeviceImage color, depth;

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include "core/check.h"
 
@@ -27,6 +28,21 @@ void write_haze(const Haze& haze, FrameBlock& block) {
   block.haze =
       glm::vec4(haze.begin_m, ranged ? 1.0F / (haze.end_m - haze.begin_m) : 0.0F, haze.veil, ranged ? 1.0F : 0.0F);
   block.haze_axis = glm::vec4(glm::vec3(haze.away), static_cast<float>(-glm::dot(haze.away, haze.origin_m)));
+}
+
+// The direction in the room of a place on an eye's image, in clip coordinates; as far as the near plane.
+glm::dvec3 seen_at(const scene::EyeView& eye, double x, double y) {
+  const glm::dvec4 place = glm::inverse(eye.projection) * glm::dvec4(x, y, 1.0, 1.0);
+  return glm::transpose(glm::dmat3(eye.view)) * (glm::dvec3(place) / place.w);
+}
+
+void write_screen(const std::array<scene::EyeView, 2>& eyes, FrameBlock& block) {
+  const auto between_eyes = [&](double x, double y) { return 0.5 * (seen_at(eyes[0], x, y) + seen_at(eyes[1], x, y)); };
+  const glm::dvec3 corner = between_eyes(-1.0, -1.0);
+  const double length = glm::length(corner);
+  block.screen[0] = glm::vec4(glm::vec3(corner / length), 0.0F);
+  block.screen[1] = glm::vec4(glm::vec3((between_eyes(1.0, -1.0) - corner) / length), 0.0F);
+  block.screen[2] = glm::vec4(glm::vec3((between_eyes(-1.0, 1.0) - corner) / length), 0.0F);
 }
 
 }  // namespace
@@ -96,6 +112,7 @@ FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, cons
   block.light_direction = glm::vec4(glm::normalize(light.direction_to_light), 0.0F);
   block.light_radiance = glm::vec4(light.radiance, 2.0F * light.shadow_radius_m / static_cast<float>(kShadowMapSize));
   block.target_size = glm::vec4(size, 1.0F / size);
+  write_screen(frame.eyes, block);
   write_contact(frame.contact, block);
   write_haze(frame.haze, block);
   write_lights(frame.lights, block);

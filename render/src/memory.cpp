@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "memory.h"
 
+#include <array>
 #include <cstring>
 
 namespace afm::render {
@@ -49,13 +50,20 @@ DeviceImage create_image(const Device& device, const std::string& name, const Im
   result.format = request.format;
   result.extent = request.extent;
   result.layers = request.layers;
-  result.image = vk::raii::Image(*device, {.imageType = vk::ImageType::e2D,
-                                           .format = request.format,
-                                           .extent = {request.extent.width, request.extent.height, 1},
-                                           .mipLevels = request.mip_levels,
-                                           .arrayLayers = request.layers,
-                                           .samples = request.samples,
-                                           .usage = request.usage});
+  const std::array formats{request.format, request.seen_as};
+  const vk::ImageFormatListCreateInfo list{.viewFormatCount = static_cast<std::uint32_t>(formats.size()),
+                                           .pViewFormats = formats.data()};
+  const bool two_formats = request.seen_as != vk::Format::eUndefined;
+  result.image =
+      vk::raii::Image(*device, {.pNext = two_formats ? &list : nullptr,
+                                .flags = two_formats ? vk::ImageCreateFlagBits::eMutableFormat : vk::ImageCreateFlags(),
+                                .imageType = vk::ImageType::e2D,
+                                .format = request.format,
+                                .extent = {request.extent.width, request.extent.height, 1},
+                                .mipLevels = request.mip_levels,
+                                .arrayLayers = request.layers,
+                                .samples = request.samples,
+                                .usage = request.usage});
   const auto needs = result.image.getMemoryRequirements();
   result.memory = vk::raii::DeviceMemory(
       *device, {.allocationSize = needs.size,
@@ -66,10 +74,10 @@ DeviceImage create_image(const Device& device, const std::string& name, const Im
 }
 
 vk::raii::ImageView create_view(const Device& device, const DeviceImage& image, vk::ImageAspectFlags aspect,
-                                std::uint32_t first, std::uint32_t layers) {
+                                std::uint32_t first, std::uint32_t layers, vk::Format seen_as) {
   return vk::raii::ImageView(*device, {.image = *image.image,
                                        .viewType = layers > 1 ? vk::ImageViewType::e2DArray : vk::ImageViewType::e2D,
-                                       .format = image.format,
+                                       .format = seen_as == vk::Format::eUndefined ? image.format : seen_as,
                                        .subresourceRange = {.aspectMask = aspect,
                                                             .baseMipLevel = 0,
                                                             .levelCount = VK_REMAINING_MIP_LEVELS,

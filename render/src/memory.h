@@ -34,6 +34,7 @@ struct ImageRequest {
   std::uint32_t layers = 1;
   std::uint32_t mip_levels = 1;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+  vk::Format seen_as = vk::Format::eUndefined;  // views may have this format too
 };
 
 Buffer create_host_buffer(const Device& device, const std::string& name, vk::DeviceSize size,
@@ -45,8 +46,9 @@ Buffer upload_buffer(const Device& device, const std::string& name, std::span<co
 
 DeviceImage create_image(const Device& device, const std::string& name, const ImageRequest& request);
 
-// A view of `layers` layers from `first`: an array view if there is more than one.
+// A view of `layers` layers from `first`: an array view if there is more than one. In the image's format unless another
+// is given.
 vk::raii::ImageView create_view(const Device& device, const DeviceImage& image, vk::ImageAspectFlags aspect,
-                                std::uint32_t first, std::uint32_t layers);
+                                std::uint32_t first, std::uint32_t layers, vk::Format seen_as = vk::Format::eUndefined);
 
 }  // namespace afm::render

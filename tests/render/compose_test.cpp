@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <map>
 #include <string>
 
@@ -109,13 +110,14 @@ void expect_picture(const render::Image& picture, int tolerance, const Expected&
   EXPECT_LE(largest, tolerance);
 }
 
-TEST_F(Compose, HalfModesShowTheMeanOfTwoPixels) {
+TEST_F(Compose, HalfModesShowTheMeanLightOfTwoPixels) {
   render();
   for (const EyeOrder order : kOrders) {
     const auto mean = [&](unsigned x, unsigned y, glm::uvec2 step, bool second) {
       const render::Image& eye = seen((order == EyeOrder::Swapped) != second ? PixelEye::Right : PixelEye::Left);
       const auto a = rgb(eye, {x, y}), b = rgb(eye, glm::uvec2(x, y) + step);
-      return std::array<int, 3>{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+      const glm::dvec3 light = 0.5 * (linear_light(a) + linear_light(b));
+      return std::array<int, 3>{srgb8(light.x), srgb8(light.y), srgb8(light.z)};
     };
     expect_picture(renderer_->read_composed({StereoMode::SideBySideHalf, order}), 1, [&](unsigned x, unsigned y) {
       return mean(2 * (x % 128), y, {1, 0}, x >= 128);
@@ -123,6 +125,35 @@ TEST_F(Compose, HalfModesShowTheMeanOfTwoPixels) {
     expect_picture(renderer_->read_composed({StereoMode::TopBottomHalf, order}), 1, [&](unsigned x, unsigned y) {
       return mean(x, 2 * (y % 96), {0, 1}, y >= 96);
     });
+  }
+}
+
+// One eye sees white everywhere and the other does not: of every mode, at sizes that nothing divides and anywhere on
+// the screen, each pixel shows the eye that the layout says, and what it says belongs to none is black.
+TEST_F(Compose, EveryPixelOfEveryModeShowsTheEyeOfTheLayout) {
+  scene::Scene scene;
+  const auto white = add_material(scene, {.name = "white", .unlit = true});
+  add(scene, "wall", quad(white), glm::dmat4(glm::dmat3(6.0)));
+  auto frame = bare_frame(scene);
+  frame.eyes[1].view = glm::rotate(glm::dmat4(1.0), 2.0, glm::dvec3(0.0, 1.0, 0.0)) * frame.eyes[1].view;
+  renderer_.emplace(make_renderer(scene, small(1)));
+  renderer_->render(frame);
+  for (const auto& [mode, name] : scene::kStereoModes) {
+    if (scene::has_two_pictures(mode) || scene::anaglyph_matrices(mode)) continue;
+    for (const EyeOrder order : kOrders) {
+      const render::ReadArea area{.size_px = {61, 147}, .screen_px = {3, -2}};
+      const auto picture = renderer_->read_composed({mode, order}, area);
+      std::array<std::size_t, 4> wrong{};
+      for (unsigned y = 0; y < picture.height; ++y) {
+        for (unsigned x = 0; x < picture.width; ++x) {
+          const auto source = scene::source_of_pixel(mode, order, area.size_px, {x, y}, area.screen_px);
+          const int green = rgb(picture, {x, y})[1];
+          const PixelEye shown = green > 240 ? PixelEye::Left : green > 0 ? PixelEye::Right : PixelEye::Blank;
+          wrong.at(static_cast<std::size_t>(source.eye)) += shown == source.eye ? 0U : 1U;
+        }
+      }
+      EXPECT_EQ(wrong, (std::array<std::size_t, 4>{})) << name << (order == EyeOrder::Swapped ? " swapped" : "");
+    }
   }
 }
 
