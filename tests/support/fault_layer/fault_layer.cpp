@@ -5,6 +5,8 @@
 //   memory:N  from the Nth allocation on there is no device memory
 //   surface:N from the Nth picture of a window on its surface is lost, and no other can be had
 //   one-view  there is no multiview
+//   count     nothing fails
+// It counts the device's allocations that are not freed: afm_live_allocations().
 // The interface is that of the Vulkan loader's documentation, "Layer Interface" version 2.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -35,7 +37,7 @@ PFN_vkGetInstanceProcAddr next_instance = nullptr;
 PFN_vkGetDeviceProcAddr next_device = nullptr;
 VkInstance the_instance = VK_NULL_HANDLE;
 VkDevice the_device = VK_NULL_HANDLE;
-std::atomic<int> submissions{0}, allocations{0}, pictures{0};
+std::atomic<int> submissions{0}, allocations{0}, pictures{0}, live_allocations{0};
 
 template <class Function>
 Function next(const char* name) {
@@ -68,7 +70,14 @@ VKAPI_ATTR VkResult VKAPI_CALL device_wait_idle(VkDevice device) {
 VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAllocateInfo* info,
                                                const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
   if (failing("memory", allocations, 1)) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  return next<PFN_vkAllocateMemory>("vkAllocateMemory")(device, info, callbacks, memory);
+  const VkResult result = next<PFN_vkAllocateMemory>("vkAllocateMemory")(device, info, callbacks, memory);
+  live_allocations += result == VK_SUCCESS ? 1 : 0;
+  return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL free_memory(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks* callbacks) {
+  live_allocations -= memory == VK_NULL_HANDLE ? 0 : 1;
+  next<PFN_vkFreeMemory>("vkFreeMemory")(device, memory, callbacks);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL acquire_next_image(VkDevice device, VkSwapchainKHR swapchain, std::uint64_t timeout,
@@ -153,6 +162,7 @@ PFN_vkVoidFunction own_function(const char* name) {
       {"vkWaitSemaphores", reinterpret_cast<PFN_vkVoidFunction>(wait_semaphores)},
       {"vkDeviceWaitIdle", reinterpret_cast<PFN_vkVoidFunction>(device_wait_idle)},
       {"vkAllocateMemory", reinterpret_cast<PFN_vkVoidFunction>(allocate_memory)},
+      {"vkFreeMemory", reinterpret_cast<PFN_vkVoidFunction>(free_memory)},
       {"vkAcquireNextImageKHR", reinterpret_cast<PFN_vkVoidFunction>(acquire_next_image)},
   };
   for (const Own& own : kOwn) {
@@ -183,3 +193,5 @@ vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* interface) {
   interface->pfnGetPhysicalDeviceProcAddr = nullptr;
   return VK_SUCCESS;
 }
+
+extern "C" [[gnu::visibility("default")]] int afm_live_allocations() { return live_allocations; }
