@@ -108,15 +108,18 @@ core::Result<std::vector<RenderSubject>> subjects_of(const Options& options) {
 
 std::string table(const RenderFigures& result, const FirstFrame& first, const Options& options) {
   std::string text = fmt::format(
-      "ms a frame, {} samples, {} rounds of {} frames on {}\n{:<34}{:>8}{:>8}{:>8}{:>8}   {:>8}{:>8}{:>8}\n",
+      "ms a frame, {} samples, {} rounds of {} frames on {}\n{:<34}{:>8}{:>8}{:>8}{:>8}{:>8}   "
+      "{:>8}{:>8}{:>8}{:>8}{:>8}\n",
       options.plan.samples, options.plan.rounds, options.plan.frames, result.device, "", "p50", "p99", "max", "ratio",
-      "panels", "shadow", "eyes");
+      "cpu", "panels", "shadow", "eyes", "compose", "read");
   for (const RenderFigure& each : result.figures) {
     text += fmt::format("{:<34}{:>8.1f}{:>8.1f}{:>8.1f}{:>8.2f}", each.subject + ", " + each.way, each.frame_ms.p50,
                         each.frame_ms.p99, each.frame_ms.max, each.ratio);
+    if (each.processor_ms > 0.0) text += fmt::format("{:>8.1f}", each.processor_ms);
     if (each.pass_ms) {
-      text += fmt::format("   {:>8.1f}{:>8.1f}{:>8.1f}", each.pass_ms->panels_ms, each.pass_ms->shadow_ms,
-                          each.pass_ms->eyes_ms);
+      text +=
+          fmt::format("   {:>8.1f}{:>8.1f}{:>8.1f}{:>8.1f}{:>8.1f}", each.pass_ms->panels_ms, each.pass_ms->shadow_ms,
+                      each.pass_ms->eyes_ms, each.pass_ms->compose_ms, each.pass_ms->readback_ms);
     }
     text += "\n";
   }
@@ -151,10 +154,13 @@ std::string json(const RenderFigures& result, const FirstFrame& first, const Opt
                                   {"p99_s", kMillisecond * each.frame_ms.p99},
                                   {"max_s", kMillisecond * each.frame_ms.max},
                                   {"ratio", each.ratio}};
+    if (each.processor_ms > 0.0) figure["processor_s"] = kMillisecond * each.processor_ms;
     if (each.pass_ms) {
       figure["passes"] = {{"panels_s", kMillisecond * each.pass_ms->panels_ms},
                           {"shadow_s", kMillisecond * each.pass_ms->shadow_ms},
-                          {"eyes_s", kMillisecond * each.pass_ms->eyes_ms}};
+                          {"eyes_s", kMillisecond * each.pass_ms->eyes_ms},
+                          {"compose_s", kMillisecond * each.pass_ms->compose_ms},
+                          {"readback_s", kMillisecond * each.pass_ms->readback_ms}};
     }
     root["figures"].push_back(std::move(figure));
   }

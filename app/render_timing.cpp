@@ -2,11 +2,13 @@
 #include "app/render_timing.h"
 
 #include <fmt/format.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +17,7 @@
 #include "app/interruption.h"
 #include "core/log.h"
 #include "render/context.h"
+#include "render/picture_saver.h"
 
 namespace afm::app {
 
@@ -42,17 +45,25 @@ double resident_bytes() {
   return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 // One subject drawn in one way.
 class Drawing {
  public:
-  Drawing(const RenderSubject& subject, const Way& way, render::Renderer renderer)
-      : renderer_(std::move(renderer)), frames_(subject.frames) {
+  Drawing(render::Context& context, const RenderSubject& subject, const Way& way, render::Renderer renderer)
+      : context_(&context), renderer_(std::move(renderer)), frames_(subject.frames) {
     if (!way.one_eye) return;
     for (render::FrameState& frame : frames_) frame.eyes[1] = frame.eyes[0];
   }
 
   void draw_round(int count, const core::Clock& clock, RenderFigure& figure) {
     for (int i = 0; i < kSettlingFrames; ++i) renderer_.render(next());
+    renderer_.wait();
+    const double start_s = processor_seconds();
     std::int64_t last_ns = clock.now_ns();
     std::vector<double> times_ms;
     for (int i = 0; i < count; ++i) {
@@ -61,27 +72,49 @@ class Drawing {
       times_ms.push_back(static_cast<double>(now_ns - std::exchange(last_ns, now_ns)) * 1e-6);
     }
     renderer_.wait();
+    processor_ms_.push_back(1e3 * (processor_seconds() - start_s) / count);
+    figure.processor_ms = median(processor_ms_);
     times_ms_.insert(times_ms_.end(), times_ms.begin(), times_ms.end());
     figure.round_ms.push_back(median(std::move(times_ms)));
     figure.frame_ms = percentiles(times_ms_);
-    if (const auto passes = renderer_.pass_times()) {
-      panels_ms_.push_back(passes->panels_ms);
-      shadow_ms_.push_back(passes->shadow_ms);
-      eyes_ms_.push_back(passes->eyes_ms);
-      figure.pass_ms = {.panels_ms = median(panels_ms_), .shadow_ms = median(shadow_ms_), .eyes_ms = median(eyes_ms_)};
-    }
+    take_pass_times(figure);
   }
 
  private:
   const render::FrameState& next() { return frames_[drawn_++ % frames_.size()]; }
 
+  void take_pass_times(RenderFigure& figure) {
+    const auto path = std::filesystem::temp_directory_path() / fmt::format("touchafm-bench-{}.png", getpid());
+    {
+      render::PictureSaver saver(*context_, renderer_);
+      saver.save({}, path.string());
+    }
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    const auto newest = renderer_.pass_times();
+    if (!newest) return;
+    passes_.push_back(*newest);
+    const auto median_of = [this](double render::PassTimes::*pass) {
+      std::vector<double> times;
+      for (const render::PassTimes& each : passes_) times.push_back(each.*pass);
+      return median(std::move(times));
+    };
+    figure.pass_ms = {.panels_ms = median_of(&render::PassTimes::panels_ms),
+                      .shadow_ms = median_of(&render::PassTimes::shadow_ms),
+                      .eyes_ms = median_of(&render::PassTimes::eyes_ms),
+                      .compose_ms = median_of(&render::PassTimes::compose_ms),
+                      .readback_ms = median_of(&render::PassTimes::readback_ms)};
+  }
+
+  render::Context* context_;
   render::Renderer renderer_;
   std::vector<render::FrameState> frames_;
   std::size_t drawn_ = 0;
-  std::vector<double> times_ms_, panels_ms_, shadow_ms_, eyes_ms_;
+  std::vector<double> times_ms_, processor_ms_;
+  std::vector<render::PassTimes> passes_;
 };
 
-// By pairs within a round, against the first way of the same subject; peers against the very first.
+// By pairs within a round, against the first way of the same subject; peers against that of the last subject.
 void set_ratios(std::vector<RenderFigure>& figures) {
   const RenderFigure* base = nullptr;
   for (RenderFigure& figure : figures) {
@@ -131,7 +164,7 @@ core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& sub
                                                 .pass_mode = way.pass_mode,
                                                 .time_passes = true});
       if (!renderer) return tl::unexpected(renderer.error());
-      drawings.emplace_back(subject, way, std::move(*renderer));
+      drawings.emplace_back(*context, subject, way, std::move(*renderer));
       result.figures.push_back({.subject = subject.name, .way = way.name});
       RenderFigure warm_up;
       drawings.back().draw_round(kSettlingFrames, clock, warm_up);

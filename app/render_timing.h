@@ -26,7 +26,8 @@ struct RenderFigure {
   std::string subject, way;
   Percentiles frame_ms{};
   double ratio = 1.0;                          // of the medians of the rounds to those of the subject's first way
-  std::optional<render::PassTimes> pass_ms{};  // medians
+  double processor_ms = 0;                     // of all threads of the process, a frame; median of the rounds
+  std::optional<render::PassTimes> pass_ms{};  // medians; a round composes and reads back one picture, side by side
   std::vector<double> round_ms{};              // the median of each round
 };
 
