@@ -6,7 +6,7 @@
 
 // Both eyes' images as one picture, every stereo mode: scene/stereo_layout.h says which pixel shows what, and a test compares
 // the two for each. The eye images hold sRGB values in a UNORM format: bytes go through unchanged where one pixel is one
-// pixel. What is scaled or mixed is so in linear light, through views of the same images that decode them.
+// pixel. What is scaled is so in linear light, through views of the same images that decode them, and so is what is mixed.
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2D left_eye;
 layout(set = 0, binding = AFM_BINDING_RIGHT_EYE) uniform sampler2D right_eye;
 layout(set = 0, binding = AFM_BINDING_LEFT_LINEAR) uniform sampler2D left_linear;
@@ -76,11 +76,21 @@ bool unscaled(Source source) {
   return compose.mode.z == 0 && source.region == textureSize(left_eye, 0) && compose.drawn.xy == vec2(1.0);
 }
 
+// The pixel itself, encoded.
+vec3 eye_texel(int eye, Source source) {
+  return shows_right(eye) ? texelFetch(right_eye, source.pixel, 0).rgb : texelFetch(left_eye, source.pixel, 0).rgb;
+}
+
+// Exactly; the device's own decoding may be off by a step of 8 bits.
+vec3 linear_from_srgb(vec3 c) {
+  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
+}
+
 // Linear light: of the pixel itself where nothing is scaled, else bilinear within what is drawn of the image.
 vec3 eye_light(int eye, Source source) {
   bool right = shows_right(eye);
   if (unscaled(source)) {
-    return right ? texelFetch(right_linear, source.pixel, 0).rgb : texelFetch(left_linear, source.pixel, 0).rgb;
+    return linear_from_srgb(eye_texel(eye, source));
   }
   vec2 uv = (vec2(source.pixel) + 0.5) / vec2(source.region);
   if (compose.mode.z != 0) {
@@ -97,10 +107,7 @@ vec3 eye_light(int eye, Source source) {
 
 // As it is shown, encoded.
 vec3 eye_color(int eye, Source source) {
-  if (!unscaled(source)) {
-    return srgb_from_linear(eye_light(eye, source));
-  }
-  return shows_right(eye) ? texelFetch(right_eye, source.pixel, 0).rgb : texelFetch(left_eye, source.pixel, 0).rgb;
+  return unscaled(source) ? eye_texel(eye, source) : srgb_from_linear(eye_light(eye, source));
 }
 
 void main() {

@@ -52,7 +52,9 @@ class LongRun : public testing::Test {
       frame.data_placement.right_m *= 1.0 - 0.02 * (i % 3);
       frame.room_from_node[test_.floor][3].z += i % 7;  // past the eyes
       if (i % 5 == 0) frame.eyes[1] = frame.eyes[0];
-      if (i % 6 == 0) ASSERT_TRUE(renderer.resize(40 + 8 * static_cast<std::uint32_t>(i % 4), 30));
+      if (i % 6 == 0) {
+        ASSERT_TRUE(renderer.resize(40 + 8 * static_cast<std::uint32_t>(i % 4), 30));
+      }
       renderer.set_detail({.scale = i % 2 == 0 ? 1.0 : 0.6, .samples = i % 4 == 0 ? 1U : 4U});
       renderer.render(frame);
       meter.measure();

@@ -81,7 +81,7 @@ TEST_F(PictureSaving, NoFrameWaitsForADiskThatStandsStill) {
   std::size_t begun = 0;
   for (std::size_t i = 0; i < kMost + 3; ++i) {
     draw();
-    begun += saver_.save({}, file(begun)) ? 1 : 0;
+    begun += saver_.save({}, file(begun)) ? 1U : 0U;
     EXPECT_THAT(saver_.collect(), IsEmpty());
   }
   renderer_.wait();
@@ -89,7 +89,7 @@ TEST_F(PictureSaving, NoFrameWaitsForADiskThatStandsStill) {
   EXPECT_FALSE(std::filesystem::exists(file(1)));
 
   std::thread reader([&] {
-    const int end = open(pipe.c_str(), O_RDONLY | O_CLOEXEC);
+    const int end = ::open(pipe.c_str(), O_RDONLY | O_CLOEXEC);
     std::array<char, 65536> bytes;
     while (read(end, bytes.data(), bytes.size()) > 0) {
     }

@@ -35,6 +35,7 @@ Fault read_fault() {
 Fault the_fault;
 PFN_vkGetInstanceProcAddr next_instance = nullptr;
 PFN_vkGetDeviceProcAddr next_device = nullptr;
+PFN_vkGetPhysicalDeviceFeatures2 next_features = nullptr;
 VkInstance the_instance = VK_NULL_HANDLE;
 VkDevice the_device = VK_NULL_HANDLE;
 std::atomic<int> submissions{0}, allocations{0}, pictures{0}, live_allocations{0};
@@ -87,8 +88,7 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire_next_image(VkDevice device, VkSwapchainKH
 }
 
 VKAPI_ATTR void VKAPI_CALL get_features(VkPhysicalDevice physical, VkPhysicalDeviceFeatures2* features) {
-  reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(next_instance(the_instance, "vkGetPhysicalDeviceFeatures2"))(
-      physical, features);
+  next_features(physical, features);
   if (the_fault.kind != "one-view") return;
   for (auto* each = static_cast<VkBaseOutStructure*>(features->pNext); each != nullptr; each = each->pNext) {
     if (each->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES) {
@@ -127,6 +127,9 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
   const auto create = reinterpret_cast<PFN_vkCreateInstance>(next_instance(VK_NULL_HANDLE, "vkCreateInstance"));
   const VkResult result = create(info, callbacks, instance);
   the_instance = *instance;
+  // asked for later, the loader would name this layer again
+  next_features =
+      reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(next_instance(*instance, "vkGetPhysicalDeviceFeatures2"));
   return result;
 }
 
