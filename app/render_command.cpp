@@ -68,7 +68,7 @@ core::Result<void> draw(const Stage& stage, const std::vector<FeltMaterial>& fel
   }
   const auto plan = plan_wall(stage.wall, wish);
   if (!plan) return tl::unexpected(plan.error());
-  auto renderer = render::Renderer::create(*context, stage.wall_scene.scene(), renderer_options(*plan));
+  auto renderer = render::Renderer::create(*context, stage.wall_scene.scene(), renderer_options(*context, *plan));
   if (!renderer) return tl::unexpected(renderer.error());
   const FrameBuilder frames(stage.wall_scene, felt, stage.eyes);
   const auto pictures = draw_wall(*renderer, *plan, stage.wall.viewers.front(), wish,
@@ -120,8 +120,10 @@ core::Result<void> run_model(const RenderOptions& options) {
   }
   const auto view = open_model(choice);
   if (!view) return tl::unexpected(view.error());
-  auto renderer =
-      render::Renderer::create(*context, view->scene, {.eye_width = choice.size_px.x, .eye_height = choice.size_px.y});
+  auto renderer = render::Renderer::create(*context, view->scene,
+                                           {.eye_width = choice.size_px.x,
+                                            .eye_height = choice.size_px.y,
+                                            .samples = affordable_samples(*context, choice.size_px)});
   if (!renderer) return tl::unexpected(renderer.error());
   renderer->render(view->frame);
   const render::Composition composition{.mode = mode, .order = options.wish.order};

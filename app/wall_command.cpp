@@ -140,7 +140,7 @@ core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions&
   const auto plan = plan_wall(wall, wish);
   if (!plan) return tl::unexpected(plan.error());
   const scene::Scene scene = nothing();
-  auto renderer = render::Renderer::create(*context, scene, renderer_options(*plan));
+  auto renderer = render::Renderer::create(*context, scene, renderer_options(*context, *plan));
   if (!renderer) return tl::unexpected(renderer.error());
   const scene::Viewer& viewer = wall.viewers.front();
   const double ipd_m = wish.ipd_m.value_or(viewer.ipd_m);

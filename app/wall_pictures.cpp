@@ -10,7 +10,9 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "core/log.h"
 #include "render/image_file.h"
+#include "render/picture_memory.h"
 
 namespace afm::app {
 
@@ -140,7 +142,16 @@ core::Result<std::array<scene::EyeView, 2>> eyes_before(const scene::Screen& scr
   return eyes;
 }
 
-render::RendererOptions renderer_options(const WallPlan& plan) {
+std::uint32_t affordable_samples(render::Context& context, glm::uvec2 eye_px) {
+  const std::uint32_t samples = render::samples_within_memory(context, eye_px);
+  if (samples < 4) {
+    core::log_line(fmt::format("drawn with one sample a pixel: {} has no memory for four in eye images of {}x{} pixels",
+                               context.device_name(), eye_px.x, eye_px.y));
+  }
+  return samples;
+}
+
+render::RendererOptions renderer_options(render::Context& context, const WallPlan& plan) {
   const OutputPicture& first = plan.outputs.front();
   const glm::uvec2 eye_px = scene::eye_size(first.composition.mode, first.rect.size_px);
   constexpr std::uint32_t kLeastPanels = 64,
@@ -148,6 +159,12 @@ render::RendererOptions renderer_options(const WallPlan& plan) {
   render::RendererOptions options;
   options.eye_width = eye_px.x;
   options.eye_height = eye_px.y;
+  glm::uvec2 largest(0);
+  for (const OutputPicture& output : plan.outputs) {
+    const glm::uvec2 size = scene::eye_size(output.composition.mode, output.rect.size_px);
+    if (render::eye_memory_bytes(size, 4) > render::eye_memory_bytes(largest, 4)) largest = size;
+  }
+  options.samples = affordable_samples(context, largest);
   options.panel_texels_per_m = 2.0 * std::clamp(eye_px.x, kLeastPanels, kMostPanels) / first.screen.width_m();
   return options;
 }

@@ -46,8 +46,12 @@ core::Result<WallPlan> plan_wall(const scene::Wall& wall, const PictureWish& wis
 core::Result<std::array<scene::EyeView, 2>> eyes_before(const scene::Screen& screen, const scene::HeadPose& head,
                                                         double ipd_m);
 
-// For the plan's first output, with panels as sharp as its pixels.
-render::RendererOptions renderer_options(const WallPlan& plan);
+// For the plan's first output, with panels as sharp as its pixels, and with as many samples as the device has the
+// memory for in the largest one; fewer are told to the log.
+render::RendererOptions renderer_options(render::Context& context, const WallPlan& plan);
+
+// As many samples a pixel as the device has the memory for; fewer than usual are told to the log.
+std::uint32_t affordable_samples(render::Context& context, glm::uvec2 eye_px);
 
 // Draws each output in turn and puts them together: one picture, or with a mode of two pictures the left eye's and the
 // right eye's. `build` gives the frame for these eyes before that output.
