@@ -28,6 +28,9 @@
 #define AFM_LOOK_IRIDESCENCE 0x20000u
 #define AFM_LOOK_LIGHTS 0x40000u      // the scene has lights of its own
 
+// What a pipeline of plain materials does: dissolve what is far. A CPU device computes what a branch leaves out, too.
+#define AFM_LOOK_HAZE 0x1u
+
 // texels each way
 #define AFM_SHADOW_MAP_SIZE 2048
 
@@ -45,6 +48,7 @@ struct FrameBlock {
   vec4 eye_position[2];    // xyz; w: 0 left, 1 right
   mat4 shadow_from_room;   // to the shadow map's clip space, depth 0 nearest to the light
   vec4 light_direction;    // xyz: unit vector to the key light
+  vec4 light_side;         // xyz: unit, horizontal, across the light's direction
   vec4 light_radiance;     // rgb, linear; a: metres that one texel of the shadow map covers
   vec4 target_size;        // width, height of an eye image in pixels, and their reciprocals
   vec4 contact;            // xyz: where the tip meets the sample; w: 1 / radius of the shade there, 0 without one

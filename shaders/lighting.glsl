@@ -12,21 +12,41 @@ struct Surface {
   float roughness;  // perceptual, as in glTF
 };
 
-// A rectangle of light far away: brightness of it in `direction` as a surface of that roughness reflects it. A wider lobe
-// sees a wider, dimmer rectangle.
-float softbox(vec3 direction, vec3 axis, vec2 half_size, float roughness) {
-  vec3 side = normalize(cross(vec3(0.0, 1.0, 0.0), axis));
+// What roughness makes of the softboxes: a wider lobe sees a wider, dimmer rectangle.
+struct Lobe {
+  float border;  // half the width of a rectangle's soft edge
+  vec3 spread;   // how bright the key's, the rim's and the fill's stay
+};
+
+const vec2 kKeyHalfSize = vec2(0.75, 0.42);
+const vec2 kRimHalfSize = vec2(0.22, 1.10);
+const vec2 kFillHalfSize = vec2(0.50, 0.80);
+
+float spread_of(vec2 half_size, float border) {
+  vec2 wider = max(half_size, vec2(border));
+  return half_size.x * half_size.y / (wider.x * wider.y);
+}
+
+Lobe lobe_of(float roughness) {
+  float border = 0.04 + 0.9 * roughness * roughness + 0.25 * roughness;
+  return Lobe(border, vec3(spread_of(kKeyHalfSize, border), spread_of(kRimHalfSize, border),
+                           spread_of(kFillHalfSize, border)));
+}
+
+// A rectangle of light far away, upright about its axis: brightness of it in `direction`.
+float softbox(vec3 direction, vec3 axis, vec3 side, vec2 half_size, float border) {
   vec3 top = cross(axis, side);
   float facing = dot(direction, axis);
-  vec2 place = abs(vec2(dot(direction, side), dot(direction, top))) / max(facing, 0.05);
-  float blur = 0.04 + 0.9 * roughness * roughness + 0.25 * roughness;
-  vec2 inside = 1.0 - smoothstep(half_size - blur, half_size + blur, place);
-  vec2 spread = half_size / max(half_size, vec2(blur));
-  return facing > 0.05 ? inside.x * inside.y * spread.x * spread.y : 0.0;
+  vec2 place = abs(vec2(dot(direction, side), dot(direction, top))) * (1.0 / max(facing, 0.05));
+  vec2 inside = clamp((half_size + border - place) * (0.5 / border), 0.0, 1.0);
+  inside = inside * inside * (3.0 - 2.0 * inside);
+  return facing > 0.05 ? inside.x * inside.y : 0.0;
 }
 
 const vec3 kFillAxis = vec3(0.7346, 0.1130, 0.6690);
 const vec3 kRimAxis = vec3(0.5298, 0.3974, -0.7492);
+const vec3 kFillSide = vec3(0.6733, 0.0, -0.7394);  // normalize(cross(up, axis)), as Key::side
+const vec3 kRimSide = vec3(-0.8165, 0.0, -0.5774);
 const vec3 kKeyTint = vec3(1.00, 0.94, 0.85);
 const vec3 kRimTint = vec3(0.88, 0.94, 1.00);
 const vec3 kFillTint = vec3(1.00, 0.97, 0.93);
@@ -35,17 +55,19 @@ const vec3 kFillTint = vec3(1.00, 0.97, 0.93);
 // softbox away too, which gives depth to what lies in it.
 struct Key {
   vec3 axis;
+  vec3 side;  // horizontal, unit, across the axis
   float visibility;
 };
 
 // Radiance that arrives from `direction`, averaged over the lobe of a surface of that roughness.
-vec3 studio_radiance(vec3 direction, Key key, float roughness) {
+vec3 studio_radiance(vec3 direction, Key key, float roughness, Lobe lobe) {
   float blur = 0.10 + 0.8 * roughness;
   vec3 sky = mix(vec3(0.78, 0.72, 0.66), vec3(0.20, 0.22, 0.26), smoothstep(-0.1, 0.75, direction.y));
   vec3 radiance = mix(vec3(0.090, 0.078, 0.066), sky, smoothstep(-blur, blur, direction.y));
-  radiance += kKeyTint * (0.6 + 2.6 * key.visibility) * softbox(direction, key.axis, vec2(0.75, 0.42), roughness);
-  radiance += kRimTint * 1.5 * softbox(direction, kRimAxis, vec2(0.22, 1.10), roughness);
-  radiance += kFillTint * 0.45 * softbox(direction, kFillAxis, vec2(0.50, 0.80), roughness);
+  radiance += kKeyTint * ((0.6 + 2.6 * key.visibility) * lobe.spread.x *
+                          softbox(direction, key.axis, key.side, kKeyHalfSize, lobe.border));
+  radiance += kRimTint * (1.5 * lobe.spread.y * softbox(direction, kRimAxis, kRimSide, kRimHalfSize, lobe.border));
+  radiance += kFillTint * (0.45 * lobe.spread.z * softbox(direction, kFillAxis, kFillSide, kFillHalfSize, lobe.border));
   return radiance;
 }
 
@@ -81,17 +103,16 @@ vec3 key_reflection(Surface s, vec3 to_light) {
   float alpha = max(s.roughness * s.roughness, 0.01);
   float alpha2 = alpha * alpha;
   float d = n_dot_h * n_dot_h * (alpha2 - 1.0) + 1.0;
-  float distribution = alpha2 / (kPi * d * d);
-  float visibility = 0.5 / mix(2.0 * n_dot_l * n_dot_v, n_dot_l + n_dot_v, alpha);
+  float distribution_visibility = 0.5 * alpha2 / (kPi * d * d * mix(2.0 * n_dot_l * n_dot_v, n_dot_l + n_dot_v, alpha));
   float grazing = 1.0 - v_dot_h;
   float grazing2 = grazing * grazing;
   vec3 fresnel = s.specular + (1.0 - s.specular) * grazing2 * grazing2 * grazing;
-  return ((1.0 - fresnel) * s.diffuse / kPi + min(distribution * visibility, 12.0) * fresnel) * n_dot_l;
+  return ((1.0 - fresnel) * s.diffuse / kPi + min(distribution_visibility, 12.0) * fresnel) * n_dot_l;
 }
 
-vec3 studio_reflection(Surface s, Key key) {
+vec3 studio_reflection(Surface s, Key key, Lobe lobe) {
   float n_dot_v = max(dot(s.normal, s.to_eye), 0.0);
   vec3 reflected = reflect(-s.to_eye, s.normal);
   return s.diffuse * studio_irradiance(s.normal, key) +
-         specular_albedo(s.specular, s.roughness, n_dot_v) * studio_radiance(reflected, key, s.roughness);
+         specular_albedo(s.specular, s.roughness, n_dot_v) * studio_radiance(reflected, key, s.roughness, lobe);
 }

@@ -89,7 +89,7 @@ vec3 punctual_light(int i, out vec3 to_light) {
 
 // All light that a surface sends to the eye.
 vec3 lit(Surface s, Key key, float occlusion) {
-  vec3 radiance = occlusion * studio_reflection(s, key) +
+  vec3 radiance = occlusion * studio_reflection(s, key, lobe_of(s.roughness)) +
                   key_reflection(s, key.axis) * frame.light_radiance.rgb * key.visibility;
   if (looks(AFM_LOOK_LIGHTS)) {
     for (int i = 0; i < int(frame.punctual_count.x); ++i) {
@@ -139,7 +139,7 @@ void main() {
     vec3 film = thin_film_reflectance(material.iridescence.y, max(dot(normal, to_eye), 1e-3), nm * 1e-9, s.specular);
     s.specular = mix(s.specular, film, share);
   }
-  Key key = Key(frame.light_direction.xyz, key_light_visibility());
+  Key key = Key(frame.light_direction.xyz, frame.light_side.xyz, key_light_visibility());
   float occlusion = mix(1.0, AFM_TEXEL(kOcclusion).r, material.scales.y);
   vec3 radiance = lit(s, key, occlusion) + emitted;
   if (looks(AFM_LOOK_CLEARCOAT)) {

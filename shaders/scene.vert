@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl.h"
 #include "beam.glsl"
+#include "lighting.glsl"
 #include "view.glsl"
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
@@ -17,6 +18,7 @@ layout(location = 0) out vec3 room_position;
 layout(location = 1) centroid out vec3 room_normal;  // a thin triangle seldom covers the pixel's middle
 layout(location = 2) out vec4 vertex_color;
 layout(location = 3) out vec3 shadow_place;
+layout(location = 4) flat out vec4 lobe;  // border, spread
 
 #include "placing.glsl"
 
@@ -25,6 +27,8 @@ void main() {
   room_normal = normal_in_room(position, normal);
   vertex_color = color * draw.base_color;
   shadow_place = place_in_shadow_map(room_position, normalize(room_normal));
+  Lobe its = lobe_of(draw.surface.y);
+  lobe = vec4(its.border, its.spread);
   gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
   // the ruler is not lit, and stays in sight
   if (frame.haze.w * draw.surface.z > 0.0) gl_Position.z = AFM_FRONT_DEPTH * gl_Position.w;

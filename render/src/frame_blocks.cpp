@@ -109,7 +109,11 @@ FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, cons
   }
   const auto& light = frame.key_light;
   block.shadow_from_room = shadow_from_room(light);
-  block.light_direction = glm::vec4(glm::normalize(light.direction_to_light), 0.0F);
+  const glm::vec3 to_light = glm::normalize(light.direction_to_light);
+  const bool overhead = std::abs(to_light.y) > 0.9999F;
+  block.light_direction = glm::vec4(to_light, 0.0F);
+  block.light_side = glm::vec4(
+      overhead ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::normalize(glm::cross(glm::vec3(0.0F, 1.0F, 0.0F), to_light)), 0.0F);
   block.light_radiance = glm::vec4(light.radiance, 2.0F * light.shadow_radius_m / static_cast<float>(kShadowMapSize));
   block.target_size = glm::vec4(size, 1.0F / size);
   write_screen(frame.eyes, block);

@@ -62,10 +62,8 @@ vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device) {
           .binding = AFM_BINDING_FRAME, .descriptorType = kUniform, .descriptorCount = 1, .stageFlags = both},
       vk::DescriptorSetLayoutBinding{
           .binding = AFM_BINDING_DRAW, .descriptorType = kDynamicUniform, .descriptorCount = 1, .stageFlags = both},
-      vk::DescriptorSetLayoutBinding{.binding = AFM_BINDING_SHADOW,
-                                     .descriptorType = kSampled,
-                                     .descriptorCount = 1,
-                                     .stageFlags = vk::ShaderStageFlagBits::eFragment}};
+      vk::DescriptorSetLayoutBinding{
+          .binding = AFM_BINDING_SHADOW, .descriptorType = kSampled, .descriptorCount = 1, .stageFlags = both}};
   return vk::raii::DescriptorSetLayout(
       *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }

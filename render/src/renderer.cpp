@@ -13,6 +13,7 @@
 #include "core/check.h"
 #include "explained.h"
 #include "readback.h"
+#include "render/picture_memory.h"
 #include "renderer_parts.h"
 #include "scene_look.h"
 
@@ -24,12 +25,6 @@ vk::raii::Semaphore create_timeline(const Device& device) {
   return vk::raii::Semaphore(*device, vk::SemaphoreCreateInfo{.pNext = &type});
 }
 
-// Colour and depth of 4 bytes each, in both eyes, with one sample and with all.
-double bytes_of_eyes(const RendererOptions& options) {
-  const double images = 2.0 * (4.0 + 4.0) * (options.samples > 1 ? 1.0 + options.samples : 1.0);
-  return images * static_cast<double>(options.eye_width) * static_cast<double>(options.eye_height);
-}
-
 core::Result<void> check_options(const Device& device, const RendererOptions& options) {
   const auto limits = device.physical().getProperties().limits;
   const auto largest = limits.maxImageDimension2D;
@@ -39,7 +34,7 @@ core::Result<void> check_options(const Device& device, const RendererOptions& op
                          fmt::format("cannot draw eye images of {}x{} pixels on {}: choose 1 to {} pixels each way",
                                      options.eye_width, options.eye_height, device.name(), largest));
   }
-  const double needed_gb = 1e-9 * bytes_of_eyes(options);
+  const double needed_gb = 1e-9 * eye_memory_bytes({options.eye_width, options.eye_height}, options.samples);
   const double memory_gb = 1e-9 * static_cast<double>(device.largest_heap_bytes());
   if (needed_gb > memory_gb) {
     return core::failure(
@@ -170,7 +165,7 @@ void Renderer::Parts::render(const FrameState& frame) {
   const std::size_t slot_index = frames % kFramesInFlight;
   FrameSlot& slot = slots[slot_index];
   wait_for(slot.finished_at);
-  lister.list(frame, geometry, eyes.guard_band(), slot.draws);
+  lister.list(frame, geometry, eyes.guard_band(), detail.scale * eyes.extent().height, slot.draws);
   eyes.begin_frame(choose_drawing(frame, slot.draws));
   slot.write(frame, geometry, eyes.drawing(), eyes.guard_band());
   slot.painted = panels.update(frame, slot_index);

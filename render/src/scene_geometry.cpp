@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <span>
 
 namespace afm::render {
@@ -35,6 +36,22 @@ void measure_box(const scene::Primitive& primitive, Draw& draw) {
   }
   draw.center = 0.5F * (low + high);
   draw.half_size = 0.5F * (high - low);
+}
+
+void measure_edges(const scene::Primitive& primitive, Draw& draw) {
+  if (primitive.topology != scene::Topology::Triangles || primitive.indices.size() < 3) {
+    return;
+  }
+  std::vector<float> longest;
+  for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+    const auto corner = [&](std::size_t k) { return primitive.vertices[primitive.indices[i + k]].position; };
+    longest.push_back(std::max({glm::distance(corner(0), corner(1)), glm::distance(corner(1), corner(2)),
+                                glm::distance(corner(2), corner(0))}));
+  }
+  const auto usual = longest.begin() + static_cast<std::ptrdiff_t>(longest.size() * 9 / 10);
+  std::nth_element(longest.begin(), usual, longest.end());
+  draw.usual_edge = *usual;
+  draw.longest_edge = *std::max_element(usual, longest.end());
 }
 
 // Vertices and indices of all meshes end to end, those with a look first, and where each primitive lies.
@@ -84,6 +101,7 @@ void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive
     pack_look(primitive, packed.look_vertices);
   }
   measure_box(primitive, draws.back());
+  measure_edges(primitive, draws.back());
   for (const scene::Vertex& vertex : primitive.vertices) {
     packed.vertices.push_back(vertex);
     if (ignores_alpha(material)) {

@@ -28,7 +28,9 @@ struct Draw {
   std::uint32_t material = 0;
   glm::vec3 center{0.0F};  // of the primitive's box, in the node's frame
   glm::vec3 half_size{0.0F};
-  DrawBlock block{};  // with the material's constants filled in
+  float usual_edge = 0.0F;    // in the node's frame: nine triangles in ten have none that is longer
+  float longest_edge = 0.0F;  // 0: no triangles
+  DrawBlock block{};          // with the material's constants filled in
 };
 
 // What only a SceneLook reads of a vertex.

@@ -5,6 +5,9 @@
 
 #include "pipelines.h"
 #include "shaders/background_frag.h"
+#include "shaders/fine_frag.h"
+#include "shaders/fine_vert.h"
+#include "shaders/fine_vert_one_view.h"
 #include "shaders/fullscreen_vert.h"
 #include "shaders/material_frag.h"
 #include "shaders/material_frag_one_view.h"
@@ -25,6 +28,8 @@ constexpr float kShadowBiasSlope = 1.5F;
 
 constexpr EyeCode kSceneVertex{shaders::scene_vert, shaders::scene_vert_one_view};
 constexpr EyeCode kSceneFragment{shaders::scene_frag, shaders::scene_frag_one_view};
+constexpr EyeCode kFineVertex{shaders::fine_vert, shaders::fine_vert_one_view};
+constexpr EyeCode kFineFragment{shaders::fine_frag, shaders::fine_frag};
 constexpr EyeCode kMaterialVertex{shaders::material_vert, shaders::material_vert_one_view};
 constexpr EyeCode kMaterialFragment{shaders::material_frag, shaders::material_frag_one_view};
 constexpr EyeCode kBackgroundVertex{shaders::fullscreen_vert, shaders::fullscreen_vert};
@@ -38,6 +43,12 @@ PipelineRequest scene_request(vk::PipelineLayout layout, Blending blending) {
           .attributes = SceneGeometry::attributes(),
           .blending = blending,
           .depth = opaque ? DepthUse::TestAndWrite : DepthUse::TestOnly};
+}
+
+EyePipeline plain_pipeline(const Device& device, vk::PipelineLayout layout, Blending blending, std::uint32_t look) {
+  PipelineRequest request = scene_request(layout, blending);
+  request.look = look;
+  return {device, request, kSceneVertex, kSceneFragment};
 }
 
 PipelineRequest background_request(vk::PipelineLayout layout) {
@@ -96,9 +107,12 @@ ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_lay
     : layout_(create_pipeline_layout(device, {.sets = {&frame_set_layout, 1}})),
       look_layout_(create_look_layout(device, frame_set_layout, materials.layout())),
       shadow_(create_shadow_pipeline(device, *layout_)),
-      opaque_(device, scene_request(*layout_, Blending::Opaque), kSceneVertex, kSceneFragment),
+      opaque_{plain_pipeline(device, *layout_, Blending::Opaque, 0),
+              plain_pipeline(device, *layout_, Blending::Opaque, AFM_LOOK_HAZE)},
+      fine_(device, scene_request(*layout_, Blending::Opaque), kFineVertex, kFineFragment),
       background_(device, background_request(*layout_), kBackgroundVertex, kBackgroundFragment),
-      blended_(device, scene_request(*layout_, Blending::Premultiplied), kSceneVertex, kSceneFragment) {
+      blended_{plain_pipeline(device, *layout_, Blending::Premultiplied, 0),
+               plain_pipeline(device, *layout_, Blending::Premultiplied, AFM_LOOK_HAZE)} {
   for (const SceneLook& look : looks) {
     looks_.emplace_back(device, look_request(*look_layout_, look), kMaterialVertex, kMaterialFragment);
   }
@@ -116,7 +130,7 @@ void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const Eye
   const EyePipeline* bound = nullptr;
   for (const std::uint32_t i : draws) {
     const Draw& draw = input.geometry.draws()[i];
-    EyePipeline& pipeline = draw.look ? looks_[*draw.look] : plain;
+    EyePipeline& pipeline = draw.look ? looks_[*draw.look] : input.draws.fine[i] != 0 ? fine_ : plain;
     if (&pipeline != bound) {
       command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
       bound = &pipeline;
@@ -142,14 +156,15 @@ void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Inpu
 
 void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input) {
   input.geometry.bind(command);
-  record_in_eyes(command, drawing, input, input.draws.opaque, opaque_);
+  const std::size_t haze = input.draws.hazy ? 1 : 0;
+  record_in_eyes(command, drawing, input, input.draws.opaque, opaque_[haze]);
 
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, background_.get(drawing.pass, drawing.samples));
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, std::uint32_t{0});
   command.setCullMode(vk::CullModeFlagBits::eNone);
   command.draw(4, 1, 0, 0);
 
-  record_in_eyes(command, drawing, input, input.draws.blended, blended_);
+  record_in_eyes(command, drawing, input, input.draws.blended, blended_[haze]);
   command.setFrontFace(vk::FrontFace::eCounterClockwise);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "draw_list.h"
@@ -34,9 +35,10 @@ class ScenePass {
   vk::raii::PipelineLayout layout_;
   vk::raii::PipelineLayout look_layout_;
   vk::raii::Pipeline shadow_;
-  EyePipeline opaque_;
+  std::array<EyePipeline, 2> opaque_;  // without haze, and with it
+  EyePipeline fine_;                   // shaded at the vertices, without haze
   EyePipeline background_;
-  EyePipeline blended_;
+  std::array<EyePipeline, 2> blended_;
   std::vector<EyePipeline> looks_;  // as SceneGeometry::looks()
 };
 

@@ -9,10 +9,8 @@
 namespace afm::render {
 namespace {
 
-constexpr ImageUse kSampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
-                            vk::ImageLayout::eShaderReadOnlyOptimal};
-constexpr ImageUse kDiscarded{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eNone,
-                              vk::ImageLayout::eUndefined};
+constexpr ImageUse kSampled{vk::PipelineStageFlagBits2::eVertexShader | vk::PipelineStageFlagBits2::eFragmentShader,
+                            vk::AccessFlagBits2::eShaderSampledRead, vk::ImageLayout::eShaderReadOnlyOptimal};
 constexpr ImageUse kDrawn{
     vk::PipelineStageFlagBits2::eEarlyFragmentTests | vk::PipelineStageFlagBits2::eLateFragmentTests,
     vk::AccessFlagBits2::eDepthStencilAttachmentRead | vk::AccessFlagBits2::eDepthStencilAttachmentWrite,
@@ -37,7 +35,8 @@ ShadowMap::ShadowMap(const Device& device)
                                               .borderColor = vk::BorderColor::eFloatOpaqueWhite}) {}
 
 void ShadowMap::begin(const vk::raii::CommandBuffer& command) const {
-  record_barriers(command, {image_barrier(*depth_.image, vk::ImageAspectFlagBits::eDepth, kDiscarded, kDrawn)});
+  record_barriers(command,
+                  {image_barrier(*depth_.image, vk::ImageAspectFlagBits::eDepth, kSampled.discarded(), kDrawn)});
   const vk::RenderingAttachmentInfo depth{.imageView = *view_,
                                           .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
                                           .loadOp = vk::AttachmentLoadOp::eClear,
