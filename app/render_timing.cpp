@@ -61,9 +61,8 @@ class Drawing {
   }
 
   void draw_round(int count, const core::Clock& clock, RenderFigure& figure) {
-    for (int i = 0; i < kSettlingFrames; ++i) renderer_.render(next());
-    renderer_.wait();
     const double start_s = processor_seconds();
+    for (int i = 0; i < kSettlingFrames; ++i) renderer_.render(next());
     std::int64_t last_ns = clock.now_ns();
     std::vector<double> times_ms;
     for (int i = 0; i < count; ++i) {
@@ -72,7 +71,7 @@ class Drawing {
       times_ms.push_back(static_cast<double>(now_ns - std::exchange(last_ns, now_ns)) * 1e-6);
     }
     renderer_.wait();
-    processor_ms_.push_back(1e3 * (processor_seconds() - start_s) / count);
+    processor_ms_.push_back(1e3 * (processor_seconds() - start_s) / (kSettlingFrames + count));
     figure.processor_ms = median(processor_ms_);
     times_ms_.insert(times_ms_.end(), times_ms.begin(), times_ms.end());
     figure.round_ms.push_back(median(std::move(times_ms)));

@@ -7,6 +7,8 @@
 // Both eyes' images as one picture, every stereo mode: scene/stereo_layout.h says which pixel shows what, and a test compares
 // the two for each. The eye images hold sRGB values in a UNORM format: bytes go through unchanged where one pixel is one
 // pixel. What is scaled is so in linear light, through views of the same images that decode them, and so is what is mixed.
+layout(constant_id = 0) const uint kLook = 0;
+
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2D left_eye;
 layout(set = 0, binding = AFM_BINDING_RIGHT_EYE) uniform sampler2D right_eye;
 layout(set = 0, binding = AFM_BINDING_LEFT_LINEAR) uniform sampler2D left_linear;
@@ -115,13 +117,14 @@ void main() {
   Source source = source_of_pixel(pixel, compose.place.zw);
   bool swapped = compose.mode.y != 0;
   vec3 color = vec3(0.0);
-  if (compose.mode.x == AFM_COMPOSE_ANAGLYPH) {
+  if ((kLook & AFM_LOOK_MIXED) != 0u) {
     vec3 left = eye_light(swapped ? kRight : kLeft, source);
     vec3 right = eye_light(swapped ? kLeft : kRight, source);
     vec3 mixed = mat3(anaglyph.left[compose.mode.w]) * left + mat3(anaglyph.right[compose.mode.w]) * right;
     color = srgb_from_linear(clamp(mixed, 0.0, 1.0));
   } else if (source.eye != kBlank) {
-    color = eye_color(swapped ? kRight - source.eye : source.eye, source);
+    int eye = swapped ? kRight - source.eye : source.eye;
+    color = (kLook & AFM_LOOK_SCALED) != 0u ? eye_color(eye, source) : eye_texel(eye, source);
   }
   out_color = vec4(color, 1.0);
 }

@@ -105,6 +105,10 @@ struct ComposeBlock {
   vec4 picture_from_output[3];  // columns of the keystone
 };
 
+// What a pipeline of the compose pass does beside copying pixels; modes are not: they change while it runs.
+#define AFM_LOOK_SCALED 0x1u  // pictures of another size than the eyes', and keystones
+#define AFM_LOOK_MIXED 0x2u   // anaglyphs
+
 #define AFM_COMPOSE_LEFT 0
 #define AFM_COMPOSE_RIGHT 1
 #define AFM_COMPOSE_SIDE_BY_SIDE 2

@@ -118,7 +118,31 @@ ComposeBlock compose_block(const EyeTargets& eyes, const Composition& compositio
   return block;
 }
 
+// Of a pipeline for such a picture.
+std::uint32_t look_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
+  const vk::Extent2D whole = eyes.extent();
+  const glm::uvec2 seen = scene::eye_size(composition.mode, {place.area.extent.width, place.area.extent.height});
+  const bool exact = composition.picture_from_output == glm::dmat3(1.0) && eyes.drawing().extent == whole &&
+                     seen == glm::uvec2(whole.width, whole.height);
+  const bool mixed = scene::anaglyph_matrices(composition.mode).has_value();
+  return (exact ? 0U : AFM_LOOK_SCALED) | (mixed ? AFM_LOOK_MIXED : 0U);
+}
+
 }  // namespace
+
+vk::Pipeline ComposePipeline::get(std::uint32_t look) {
+  auto& pipeline = made_.at(look);
+  if (!*pipeline) {
+    pipeline = create_pipeline(*device_, {.name = "compose",
+                                          .vertex_code = shaders::fullscreen_vert,
+                                          .fragment_code = shaders::compose_frag,
+                                          .layout = layout_,
+                                          .topology = vk::PrimitiveTopology::eTriangleStrip,
+                                          .color_format = format_,
+                                          .look = look});
+  }
+  return *pipeline;
+}
 
 Composer::Composer(const Device& device, const EyeTargets& eyes)
     : device_(device),
@@ -170,15 +194,6 @@ vk::Extent2D Composer::extent(scene::StereoMode mode) const {
   return {size.x, size.y};
 }
 
-vk::raii::Pipeline Composer::create_pipeline_for(vk::Format format) const {
-  return create_pipeline(device_, {.name = "compose",
-                                   .vertex_code = shaders::fullscreen_vert,
-                                   .fragment_code = shaders::compose_frag,
-                                   .layout = *layout_,
-                                   .topology = vk::PrimitiveTopology::eTriangleStrip,
-                                   .color_format = format});
-}
-
 void Composer::draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
                     const ComposePlace& place, std::uint32_t layer) const {
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
@@ -190,8 +205,9 @@ void Composer::draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipelin
   command.draw(4, 1, 0, 0);
 }
 
-void Composer::record(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
+void Composer::record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
                       const ComposePlace& place, std::span<const vk::ImageView> layers) const {
+  const vk::Pipeline chosen = pipeline.get(look_of(eyes_, composition, place));
   const bool covered = place.area.extent == place.target;
   for (std::uint32_t i = 0; i < layers.size(); ++i) {
     const vk::RenderingAttachmentInfo color{
@@ -204,13 +220,13 @@ void Composer::record(const vk::raii::CommandBuffer& command, vk::Pipeline pipel
                             .layerCount = 1,
                             .colorAttachmentCount = 1,
                             .pColorAttachments = &color});
-    draw(command, pipeline, composition, place, place.first_layer + i);
+    draw(command, chosen, composition, place, i);
     command.endRendering();
   }
 }
 
 void Composer::record(const vk::raii::CommandBuffer& command, const Composition& composition, const ReadArea& area,
-                      ComposeTarget& target) const {
+                      ComposeTarget& target) {
   const std::uint32_t count = scene::has_two_pictures(composition.mode) ? 2 : 1;
   const vk::Extent2D size =
       area.size_px == glm::uvec2(0) ? extent(composition.mode) : vk::Extent2D{area.size_px.x, area.size_px.y};
@@ -227,7 +243,7 @@ void Composer::record(const vk::raii::CommandBuffer& command, const Composition&
                        vk::ImageLayout::eColorAttachmentOptimal};
   const std::array layers{*target.views[0], *target.views[1]};
   record_barriers(command, {image_barrier(*target.image.image, kColor, kCopied.discarded(), drawn)});
-  record(command, *pipeline_, composition, {.target = size, .area = {.extent = size}, .screen_px = area.screen_px},
+  record(command, pipeline_, composition, {.target = size, .area = {.extent = size}, .screen_px = area.screen_px},
          std::span(layers).first(count));
   record_barriers(command, {image_barrier(*target.image.image, kColor, drawn, kCopied)});
 }

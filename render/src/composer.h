@@ -14,16 +14,32 @@ namespace afm::render {
 
 // Where a picture is drawn.
 struct ComposePlace {
-  vk::Extent2D target;            // the whole image
-  vk::Rect2D area;                // what the picture fills
-  glm::ivec2 screen_px{0};        // where the target's first pixel lies on its screen
-  std::uint32_t first_layer = 0;  // of modes with two pictures: 1 is the right eye's place
+  vk::Extent2D target;      // the whole image
+  vk::Rect2D area;          // what the picture fills
+  glm::ivec2 screen_px{0};  // where the target's first pixel lies on its screen
 };
 
 // An image that pictures are composed into to be read, with as many layers as the mode has pictures.
 struct ComposeTarget {
   DeviceImage image;
   std::array<vk::raii::ImageView, 2> views{nullptr, nullptr};  // of each layer alone
+};
+
+// What composes into images of one format: a pipeline for each kind of picture, made when it is first asked for.
+class ComposePipeline {
+ public:
+  // `layout` must outlive it.
+  ComposePipeline(const Device& device, vk::PipelineLayout layout, vk::Format format)
+      : device_(&device), layout_(layout), format_(format) {}
+
+  // `look`: AFM_LOOK_SCALED and AFM_LOOK_MIXED.
+  vk::Pipeline get(std::uint32_t look);
+
+ private:
+  const Device* device_;
+  vk::PipelineLayout layout_;
+  vk::Format format_;
+  std::array<vk::raii::Pipeline, 4> made_{nullptr, nullptr, nullptr, nullptr};
 };
 
 // Puts the two eye images into one picture: byte for byte where it is drawn at its own size. Every stereo mode is a
@@ -42,17 +58,17 @@ class Composer {
   vk::Extent2D extent(scene::StereoMode mode) const;
 
   // For targets of another format than the eyes'.
-  vk::raii::Pipeline create_pipeline_for(vk::Format format) const;
+  ComposePipeline create_pipeline_for(vk::Format format) const { return {device_, *layout_, format}; }
 
   // Draws the picture, or each of two into a layer of its own, scaled to fill its area and black around it: into what a
   // window shows and into what is read alike. `layers` are views of single layers in eColorAttachmentOptimal.
-  void record(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
+  void record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
               const ComposePlace& place, std::span<const vk::ImageView> layers) const;
 
   // Draws what is read into `target`, which nothing in flight uses and which is made anew if it is not of that size,
   // and leaves it in eTransferSrcOptimal.
   void record(const vk::raii::CommandBuffer& command, const Composition& composition, const ReadArea& area,
-              ComposeTarget& target) const;
+              ComposeTarget& target);
 
  private:
   void draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
@@ -62,7 +78,7 @@ class Composer {
   const EyeTargets& eyes_;
   vk::raii::DescriptorSetLayout set_layout_;
   vk::raii::PipelineLayout layout_;
-  vk::raii::Pipeline pipeline_;
+  ComposePipeline pipeline_;
   vk::raii::Sampler sampler_;
   Buffer anaglyphs_;
   vk::raii::DescriptorPool pool_;

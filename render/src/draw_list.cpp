@@ -12,7 +12,7 @@ namespace afm::render {
 namespace {
 
 constexpr std::uint32_t kManyTriangles = 10'000;  // of one draw: fewer cost little
-constexpr double kFineEdgePx = 5.0;               // of nine triangles in ten
+constexpr double kFineEdgePx = 8.0;               // of nine triangles in ten
 constexpr double kLongestEdgePx = 32.0;           // of any: the sides of a slab whose surface is fine
 
 struct Box {

@@ -122,7 +122,7 @@ void Presenter::Parts::draw(std::span<const std::size_t> windows, const std::fun
     if (!pane.taken) {
       continue;
     }
-    const WindowSurface& surface = *pane.surface;
+    WindowSurface& surface = *pane.surface;
     surface.record(commands, pane.picture);
     waits[count] = {.semaphore = surface.acquired(), .stageMask = vk::PipelineStageFlagBits2::eColorAttachmentOutput};
     signals[count] = {.semaphore = surface.drawn(), .stageMask = vk::PipelineStageFlagBits2::eAllCommands};

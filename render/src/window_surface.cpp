@@ -81,7 +81,7 @@ bool WindowSurface::acquire(const std::function<void()>& while_waiting) {
   return !starved_;
 }
 
-void WindowSurface::record(const vk::raii::CommandBuffer& command, const WindowPicture& picture) const {
+void WindowSurface::record(const vk::raii::CommandBuffer& command, const WindowPicture& picture) {
   const Composition& composition = picture.composition;
   const vk::Extent2D window_size = swapchain_->extent();
   const vk::Extent2D whole = composer_.extent(composition.mode);

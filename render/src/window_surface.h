@@ -33,7 +33,7 @@ class WindowSurface {
   bool acquire(const std::function<void()>& while_waiting);
 
   // Draws the picture into layer 0, or each eye's into its own.
-  void record(const vk::raii::CommandBuffer& command, const WindowPicture& picture) const;
+  void record(const vk::raii::CommandBuffer& command, const WindowPicture& picture);
 
   vk::Semaphore acquired() const { return *acquired_; }
   vk::Semaphore drawn() const { return swapchain_->drawn(*index_); }
@@ -53,7 +53,7 @@ class WindowSurface {
   const Composer& composer_;
   vk::raii::SurfaceKHR surface_;
   vk::SurfaceFormatKHR format_;
-  vk::raii::Pipeline pipeline_{nullptr};
+  std::optional<ComposePipeline> pipeline_;
   vk::raii::Semaphore acquired_;
   std::optional<Swapchain> swapchain_;
   std::optional<std::uint32_t> index_;  // of the image that is taken
