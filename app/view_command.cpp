@@ -149,7 +149,7 @@ void add_picture_options(CLI::App& command, ViewOptions& options) {
       ->type_name("PIXELS");
   add_frame_budget(command, options.display.frame_budget_ms);
   command
-      .add_option("--pictures", options.settings.picture.saved_folder,
+      .add_option("--pictures", options.display.saved_folder,
                   "an existing folder for the pictures that F12 saves, touchafm-001.png and on; default: this one")
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");

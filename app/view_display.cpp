@@ -55,7 +55,8 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const Stage& stage,
                             PictureSettings{.ipd_m = wish.picture.ipd_m.value_or(stage.wall.viewers.front().ipd_m),
                                             .eye_px = {drawing.eye_width, drawing.eye_height},
                                             .fixed_eye_size = wish.eye_width > 0,
-                                            .frame_budget_ms = wish.frame_budget_ms});
+                                            .frame_budget_ms = wish.frame_budget_ms,
+                                            .saved_folder = wish.saved_folder});
   core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}; F1 shows the keys", drawing.eye_width,
                              drawing.eye_height, display->context_->device_name()));
   return display;

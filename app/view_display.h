@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/view_outputs.h"
@@ -18,9 +19,10 @@ namespace afm::app {
 struct DisplayWish {
   PictureWish picture;
   WindowWish window;
-  std::uint32_t eye_width = 0;  // 0: the windows'
-  double frame_budget_ms = 0;   // 0: none
-  bool validate = false;        // every Vulkan call
+  std::uint32_t eye_width = 0;     // 0: the windows'
+  double frame_budget_ms = 0;      // 0: none
+  std::string saved_folder = ".";  // for the pictures that are saved
+  bool validate = false;           // every Vulkan call
 };
 
 // The windows of the live view with all that draws into them. The main thread alone.
