@@ -122,7 +122,9 @@ ComposeBlock compose_block(const EyeTargets& eyes, const Composition& compositio
 std::uint32_t look_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
   const vk::Extent2D whole = eyes.extent();
   const glm::uvec2 seen = scene::eye_size(composition.mode, {place.area.extent.width, place.area.extent.height});
-  const bool exact = composition.picture_from_output == glm::dmat3(1.0) && eyes.drawing().extent == whole &&
+  const bool half =
+      composition.mode == scene::StereoMode::SideBySideHalf || composition.mode == scene::StereoMode::TopBottomHalf;
+  const bool exact = !half && composition.picture_from_output == glm::dmat3(1.0) && eyes.drawing().extent == whole &&
                      seen == glm::uvec2(whole.width, whole.height);
   const bool mixed = scene::anaglyph_matrices(composition.mode).has_value();
   return (exact ? 0U : AFM_LOOK_SCALED) | (mixed ? AFM_LOOK_MIXED : 0U);
