@@ -21,7 +21,7 @@ void FeltCycles::begin(const scene::TipSample& sample) {
   edit_revision_ = sample.edit_revision;
   curves_[static_cast<std::size_t>(material_)] = {};
   next_ = {};
-  attached_ = released_ = false;
+  attached_ = released_ = pressed_ = false;
   cycles_ = 0;
   drawn_height_m_ = std::numeric_limits<double>::infinity();
 }
@@ -47,6 +47,7 @@ void FeltCycles::add(const scene::TipSample& sample) {
     if (sample.phase == scene::ContactPhase::Free) ++cycles_;
   }
   attached_ = attached;
+  pressed_ = attached && (pressed_ || sample.z_m <= 0.0);
 
   // a hand at rest adds nothing
   if (std::abs(height - drawn_height_m_) < kKeptM) return;

@@ -23,6 +23,7 @@ class FeltCycles {
 
   std::span<const CycleCurve> curves() const { return curves_; }
   bool ascending() const { return ascending_; }  // the hand, last time that it moved
+  bool pressed() const { return pressed_; }      // below Z = 0 since the tip touched
   int cycles() const { return cycles_; }         // of the material under the tip, since it was laid there
 
  private:
@@ -34,6 +35,7 @@ class FeltCycles {
   std::uint32_t edit_revision_ = 0;
   bool attached_ = false;
   bool released_ = false;  // the curve of the material is whole
+  bool pressed_ = false;
   bool ascending_ = false;
   int cycles_ = 0;
   double turn_height_m_ = 0;   // the hand's, farthest in its direction

@@ -315,7 +315,9 @@ Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
   now.hovered = pointed.swatch;
   now.wand = wand_points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
   now.navigation = to_wall_ * view_wand_.navigation();
-  now.guidance = stage_.guidance.line(servo.tip(), cycles.ascending(), cycles.cycles());
+  // the pull of the sample jerks the hand down on its way up, which is no new approach
+  const bool upwards = cycles.ascending() || (cycles.pressed() && servo.tip().z_m > 0.0);
+  now.guidance = stage_.guidance.line(servo.tip(), upwards, cycles.cycles());
   now.cue = jump_cue(servo_.events(), servo.tip().time_ns);
   now.analogy = analogy_;
   now.journey_orders = travel_.orders();

@@ -91,7 +91,8 @@ void ViewServo::tell_state() {
   told_state_ = tip.servo_state;
   if (told_state_ == scene::ServoState::Running) core::log_line("force on");
   const bool off = told_state_ == scene::ServoState::Disarmed || told_state_ == scene::ServoState::Fault;
-  if (off) core::log_line(std::string("force off: ") + reason(tip.fault));
+  const bool fault = tip.fault != scene::FaultCode::None;
+  if (off) core::log_line(fault ? std::string("force off: ") + reason(tip.fault) : "force off");
 }
 
 void ViewServo::replace(const core::Error& error, std::int64_t now_ns) {

@@ -62,6 +62,19 @@ TEST_F(FeltCyclesTest, CountsCyclesAndKnowsWhereTheHandGoes) {
   EXPECT_FALSE(cycles_.ascending());
 }
 
+TEST_F(FeltCyclesTest, AContactRemembersThatItWasPressedUntilItEnds) {
+  move(0.010, scene::ContactPhase::Free);
+  move(0.001, scene::ContactPhase::Attached);
+  EXPECT_FALSE(cycles_.pressed());
+  move(-0.010, scene::ContactPhase::Attached);
+  EXPECT_TRUE(cycles_.pressed());
+  move(0.050, scene::ContactPhase::Attached);
+  move(0.040, scene::ContactPhase::Attached);  // jerked down by the pull
+  EXPECT_TRUE(cycles_.pressed());
+  move(0.070, scene::ContactPhase::Free);
+  EXPECT_FALSE(cycles_.pressed());
+}
+
 TEST_F(FeltCyclesTest, TheTremorOfAHandIsNoTurn) {
   cycle();
   for (int i = 0; i < 1000; ++i) {
