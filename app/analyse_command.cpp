@@ -2,6 +2,7 @@
 #include "app/analyse_command.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>

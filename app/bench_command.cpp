@@ -3,6 +3,8 @@
 #include <memory>
 
 #include "app/command.h"
+
+#include <CLI/CLI.hpp>
 #include "app/haptics_benchmarks.h"
 #include "app/physics_benchmarks.h"
 #include "app/render_benchmarks.h"

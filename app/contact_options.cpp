@@ -2,6 +2,7 @@
 #include "app/contact_options.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <limits>
 #include <utility>

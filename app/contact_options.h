@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,6 +9,10 @@
 #include "app/contact_setup.h"
 #include "core/result.h"
 #include "scene/probe_library.h"
+
+namespace CLI {
+class App;
+}
 
 namespace afm::app {
 

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "app/command.h"
+
+#include <CLI/CLI.hpp>
 #include "app/curves_plot.h"
 #include "app/demo_figures.h"
 #include "app/demonstration.h"

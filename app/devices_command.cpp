@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "app/command.h"
+
+#include <CLI/CLI.hpp>
 #include "app/haptic_choice.h"
 #include "core/clock.h"
 #include "input/dtrack_source.h"

@@ -10,6 +10,8 @@
 #include <span>
 
 #include "app/command.h"
+
+#include <CLI/CLI.hpp>
 #include "app/diagnosis.h"
 #include "app/measurement.h"
 #include "app/servo_link.h"

@@ -2,6 +2,7 @@
 #include "app/frame_budget.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "render/frame.h"
 #include "render/renderer.h"
+
+namespace CLI {
+class App;
+}
 
 namespace afm::app {
 

@@ -2,6 +2,7 @@
 #include "app/haptics_benchmarks.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>

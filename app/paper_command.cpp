@@ -2,6 +2,7 @@
 #include "app/paper_command.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <array>
 #include <memory>

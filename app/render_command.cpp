@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "app/command.h"
+
+#include <CLI/CLI.hpp>
 #include "app/demonstration.h"
 #include "app/frame_builder.h"
 #include "app/model_view.h"

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "app/command.h"
+
+#include <CLI/CLI.hpp>
 #include "app/replay.h"
 #include "app/session_file.h"
 

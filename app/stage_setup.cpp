@@ -2,6 +2,7 @@
 #include "app/stage_setup.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>

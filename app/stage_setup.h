@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -15,6 +14,10 @@
 #include "render/renderer.h"
 #include "scene/material_library.h"
 #include "scene/wall.h"
+
+namespace CLI {
+class App;
+}
 
 namespace afm::app {
 

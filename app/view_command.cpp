@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "app/command.h"
+
+#include <CLI/CLI.hpp>
 #include "app/felt_material.h"
 #include "app/frame_budget.h"
 #include "app/haptic_choice.h"

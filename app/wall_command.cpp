@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "app/calibration.h"
+
+#include <CLI/CLI.hpp>
 #include "app/command.h"
 #include "app/stage_setup.h"
 #include "render/context.h"
