@@ -14,6 +14,14 @@ target_link_libraries(afm_test_headers PRIVATE GTest::gmock_main afm_build_flags
 target_compile_options(afm_test_headers PRIVATE ${AFM_TEST_OPTIMISATION})
 target_precompile_headers(afm_test_headers PRIVATE ${AFM_PRECOMPILED_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
 
+# Where the sources and the build lie, for the tests that ask. In a header, not on every command line: a compiler's cache finds
+# the other tests in whatever folder they are compiled.
+set(AFM_TEST_PLACES ${CMAKE_BINARY_DIR}/tests/places)
+file(CONFIGURE OUTPUT ${AFM_TEST_PLACES}/places.h CONTENT [[#pragma once
+#define AFM_SOURCE_DIR "@CMAKE_SOURCE_DIR@"
+#define AFM_BINARY_DIR "@CMAKE_BINARY_DIR@"
+]] @ONLY)
+
 # afm_test(NAME folder.unit SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT seconds] [WHOLE])
 # One executable test_folder_unit; every TEST in it becomes a CTest case named folder.Suite.Case. With WHOLE the executable is
 # one case, for suites whose set-up is dear. Nothing runs beside it, nor beside a test of real time.
@@ -28,8 +36,7 @@ function(afm_test)
   target_link_libraries(${target} PRIVATE ${T_LIBRARIES} GTest::gmock_main afm_build_flags)
   target_compile_options(${target} PRIVATE ${AFM_TEST_OPTIMISATION})
   target_precompile_headers(${target} REUSE_FROM afm_test_headers)
-  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
-  target_compile_definitions(${target} PRIVATE AFM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" AFM_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/tests ${AFM_TEST_PLACES})
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(T_LABELS MATCHES "^(threads|realtime)$")
     add_dependencies(threaded_tests ${target})

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "places.h"
 #include "scene/material_library.h"
 
 namespace afm::app {

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/wall_scene.h"
+#include "places.h"
 
 namespace afm::app {
 namespace {

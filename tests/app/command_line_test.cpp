@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "app/curve_output.h"
+#include "places.h"
 
 namespace afm::app {
 namespace {

@@ -10,6 +10,7 @@
 #include "app/session_file.h"
 #include "app/whole_file.h"
 #include "physics/contact.h"
+#include "places.h"
 #include "scene/material_library.h"
 #include "support/read_png.h"
 #include "support/run_program.h"

@@ -12,6 +12,7 @@
 #include "app/frame_builder.h"
 #include "marker_layout.h"
 #include "physics/cycle_figures.h"
+#include "places.h"
 
 namespace afm::app {
 namespace {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {

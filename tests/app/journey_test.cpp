@@ -11,6 +11,7 @@
 #include <string>
 
 #include "app/wall_scene.h"
+#include "places.h"
 
 namespace afm::app {
 namespace {

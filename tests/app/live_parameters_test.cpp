@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/felt_material.h"
+#include "places.h"
 #include "scene/material_library.h"
 
 namespace afm::app {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/paper_tables.h"
+#include "places.h"
 
 namespace afm::app {
 namespace {

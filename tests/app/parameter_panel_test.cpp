@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "app/felt_material.h"
+#include "places.h"
 #include "render/control_layout.h"
 #include "render/presenter.h"
 #include "scene/material_library.h"

@@ -6,6 +6,7 @@
 #include "app/servo_reaction.h"
 #include "app/servo_wake.h"
 #include "app/servo_work.h"
+#include "places.h"
 
 // That the benchmarks of the servo measure something; how much is for people to judge.
 namespace afm::app {

@@ -15,6 +15,7 @@
 #include "haptics/servo_loop.h"
 #include "haptics/servo_process.h"
 #include "haptics/simulated_device.h"
+#include "places.h"
 #include "support/paper_model.h"
 #include "support/scratch_folder.h"
 

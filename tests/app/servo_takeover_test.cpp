@@ -18,6 +18,7 @@
 
 #include "app/servo_link.h"
 #include "core/clock.h"
+#include "places.h"
 #include "support/paper_model.h"
 
 // A renderer is killed, and another one comes. Real processes: what must happen is waited for, how long it takes

@@ -10,6 +10,7 @@
 
 #include "app/contact_options.h"
 #include "physics/contact.h"
+#include "places.h"
 
 namespace afm::app {
 namespace {

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "app/stage_setup.h"
+#include "places.h"
 #include "render/image_file.h"
 #include "support/live_program.h"
 #include "support/read_png.h"

@@ -15,6 +15,7 @@
 #include "app/mouse_hand.h"
 #include "app/parameter_panel.h"
 #include "app/stage_setup.h"
+#include "places.h"
 #include "render/control_layout.h"
 #include "render/image_file.h"
 #include "support/live_program.h"

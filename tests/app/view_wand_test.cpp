@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/stage_setup.h"
+#include "places.h"
 #include "support/live_program.h"
 #include "support/tracker.h"
 #include "support/virtual_display.h"

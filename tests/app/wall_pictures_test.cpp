@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "app/depth_report.h"
+#include "places.h"
 
 namespace afm::app {
 namespace {

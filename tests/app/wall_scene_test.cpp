@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "physics/contact.h"
+#include "places.h"
 
 namespace afm::app {
 namespace {

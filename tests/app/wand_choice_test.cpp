@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/view_wand.h"
+#include "places.h"
 
 namespace afm::app {
 namespace {

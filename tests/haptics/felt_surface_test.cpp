@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include "places.h"
 #include "scene/gltf_loader.h"
 #include "scene/height_field.h"
 #include "support/rough_surface.h"

@@ -10,6 +10,7 @@
 
 #include "core/clock.h"
 #include "haptics/servo_process.h"
+#include "places.h"
 #include "support/paper_model.h"
 
 // What touchafm does for a servo in real time, for tests with real processes. The machine that runs them may stall for

@@ -18,6 +18,7 @@
 #include "input/spacemouse.h"
 #include "input/wand.h"
 #include "input/wiimote.h"
+#include "places.h"
 
 namespace afm::input {
 namespace {

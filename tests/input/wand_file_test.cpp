@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::input {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case_table.h"
+#include "places.h"
 
 #include <gtest/gtest.h>
 

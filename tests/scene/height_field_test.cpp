@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "places.h"
 #include "scene/gltf_loader.h"
 
 namespace afm::scene {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "models.h"
+#include "places.h"
 #include "scene/gltf_loader.h"
 
 namespace afm::scene {

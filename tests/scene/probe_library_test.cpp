@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::scene {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "places.h"
 #include "scene/wall.h"
 #include "support/scratch_folder.h"
 

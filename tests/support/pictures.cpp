@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "places.h"
 #include "render/image_file.h"
 
 namespace afm::test {

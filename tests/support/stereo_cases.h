@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "places.h"
+
 namespace afm::test {
 
 // A row of tests/scene/data/stereo_cases.csv, the research's test vectors.
