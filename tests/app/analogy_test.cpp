@@ -4,20 +4,13 @@
 #include <glm/geometric.hpp>
 
 #include "app/wall_scene.h"
-#include "places.h"
+#include "support/paper_wall.h"
 
 namespace afm::app {
 namespace {
 
-class AnalogyTest : public ::testing::Test {
+class AnalogyTest : public test::PaperWall {
  protected:
-  const std::string assets_ = AFM_SOURCE_DIR "/assets";
-  const scene::MaterialLibrary materials_ =
-      scene::load_materials(assets_ + "/materials.toml").value().only(scene::kPaperMaterials).value();
-  const scene::Wall wall_ = scene::load_wall(assets_ + "/walls/powerwall.toml").value();
-  const WallScene scene_ =
-      WallScene::load(assets_, materials_, wall_.screens.front(), wall_.viewers.front().sweet_spot.position_m).value();
-
   render::FrameState frame(const TipView& tip) const {
     render::FrameState state;
     scene_.place({.material = 0, .tip = tip, .exhibit = WallScene::Exhibit::Analogy}, state);

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
 #include <algorithm>
 #include <atomic>
@@ -12,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "core/file_descriptor.h"
+#include "support/loopback_sender.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
@@ -55,22 +52,14 @@ TEST(DevicesCommand, SaysWhatTheLibraryAnswersWhenNoDeviceIsThere) {
 // A tracker that sends garbage, fast, until the end of its scope.
 class Garbage {
  public:
-  Garbage() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-    // a port that was free a moment ago
-    const core::FileDescriptor probe(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-    to_.sin_family = AF_INET;
-    to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof to_;
-    EXPECT_EQ(::bind(probe.get(), reinterpret_cast<const sockaddr*>(&to_), size), 0);
-    EXPECT_EQ(::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&to_), &size), 0);
-    thread_ = std::thread([this] {
-      const std::string packet(120, '\xA5');
-      while (!ending_) {
-        ::sendto(socket_.get(), packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_);
-        std::this_thread::sleep_for(std::chrono::microseconds(100));
-      }
-    });
-  }
+  Garbage()
+      : thread_([this] {
+          const std::string packet(120, '\xA5');
+          while (!ending_) {
+            sender_.send(packet);
+            std::this_thread::sleep_for(std::chrono::microseconds(100));
+          }
+        }) {}
   Garbage(const Garbage&) = delete;
   Garbage& operator=(const Garbage&) = delete;
   ~Garbage() {
@@ -78,11 +67,10 @@ class Garbage {
     thread_.join();
   }
 
-  std::string port() const { return std::to_string(ntohs(to_.sin_port)); }
+  std::string port() const { return std::to_string(sender_.port()); }
 
  private:
-  core::FileDescriptor socket_;
-  sockaddr_in to_{};
+  const support::LoopbackSender sender_;
   std::atomic<bool> ending_{false};
   std::thread thread_;
 };

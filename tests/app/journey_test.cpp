@@ -11,27 +11,18 @@
 #include <string>
 
 #include "app/wall_scene.h"
-#include "places.h"
+#include "support/paper_wall.h"
 
 namespace afm::app {
 namespace {
 
-class JourneyTest : public ::testing::Test {
+class JourneyTest : public test::PaperWall {
  protected:
-  const std::string assets_ = AFM_SOURCE_DIR "/assets";
-  const scene::MaterialLibrary materials_ =
-      scene::load_materials(assets_ + "/materials.toml").value().only(scene::kPaperMaterials).value();
-  const scene::Wall wall_ = scene::load_wall(assets_ + "/walls/powerwall.toml").value();
-  const WallScene scene_ =
-      WallScene::load(assets_, materials_, wall_.screens.front(), wall_.viewers.front().sweet_spot.position_m).value();
-
   render::FrameState frame(double orders, std::size_t material = 0) const {
     render::FrameState state;
     scene_.place({.material = material, .exhibit = WallScene::Exhibit::Journey, .journey_orders = orders}, state);
     return state;
   }
-  scene::NodeIndex node(const std::string& name) const { return scene_.scene().find_node(name).value(); }
-
   // The lowest and the highest z of a part, in the journey's frame, metres.
   std::pair<double, double> heights(const std::string& name) const {
     std::pair<double, double> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};

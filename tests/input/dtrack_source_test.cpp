@@ -2,15 +2,14 @@
 // A tracker's datagrams through a real socket of this machine.
 #include "input/dtrack_source.h"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
 #include <string>
+
+#include "support/loopback_sender.h"
 
 namespace afm::input {
 namespace {
@@ -19,24 +18,6 @@ class HandClock final : public core::Clock {
  public:
   std::int64_t now_ns() const noexcept override { return now; }
   std::int64_t now = 1'000'000'000;
-};
-
-class Sender {
- public:
-  explicit Sender(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-    to_.sin_family = AF_INET;
-    to_.sin_port = htons(port);
-    to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  }
-  void send(const std::string& packet) const {
-    EXPECT_EQ(
-        ::sendto(socket_.get(), packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_),
-        static_cast<ssize_t>(packet.size()));
-  }
-
- private:
-  core::FileDescriptor socket_;
-  sockaddr_in to_{};
 };
 
 DtrackSettings on_any_port() {
@@ -58,7 +39,7 @@ TEST(DtrackSource, TurnsATrackersFrameIntoTheRooms) {
   const auto source = DtrackSource::open(settings, clock);
   ASSERT_TRUE(source) << source.error().message;
   EXPECT_FALSE((*source)->poll().connected);
-  Sender((*source)->port()).send(kFlystick);
+  EXPECT_TRUE(support::LoopbackSender((*source)->port()).send(kFlystick));
   const WandState wand = (*source)->poll();
   ASSERT_TRUE(wand.connected && wand.orientation_valid && wand.position_valid);
   EXPECT_LT(glm::distance(wand.position_m, glm::dvec3(2.0, 3.0, -2.0)), 1e-9);
@@ -74,7 +55,7 @@ TEST(DtrackSource, LetsGoOfEverythingWhenTheTrackerFallsSilent) {
   HandClock clock;
   const auto source = DtrackSource::open(on_any_port(), clock);
   ASSERT_TRUE(source) << source.error().message;
-  Sender((*source)->port()).send(kFlystick);
+  EXPECT_TRUE(support::LoopbackSender((*source)->port()).send(kFlystick));
   EXPECT_TRUE((*source)->poll().connected);
   clock.now += 240'000'000;
   EXPECT_TRUE((*source)->poll().connected);
@@ -88,18 +69,18 @@ TEST(DtrackSource, CountsGarbageAndGoesOn) {
   HandClock clock;
   const auto source = DtrackSource::open(on_any_port(), clock);
   ASSERT_TRUE(source) << source.error().message;
-  const Sender sender((*source)->port());
+  const support::LoopbackSender sender((*source)->port());
   std::mt19937 random(5);
   constexpr int kRounds = 100, kPackets = 100;
   for (int round = 0; round < kRounds; ++round) {
     for (int i = 0; i < kPackets; ++i) {
       std::string packet(1 + random() % 200, '\0');
       for (char& c : packet) c = static_cast<char>(random());
-      sender.send(packet);
+      EXPECT_TRUE(sender.send(packet));
     }
     (*source)->poll();
   }
-  sender.send(kFlystick);
+  EXPECT_TRUE(sender.send(kFlystick));
   EXPECT_TRUE((*source)->poll().connected);
   const DtrackNews news = (*source)->news();
   EXPECT_EQ(news.bad_packets, static_cast<std::uint64_t>(kRounds * kPackets));

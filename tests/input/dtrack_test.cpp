@@ -1,40 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input/dtrack.h"
-#include "places.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <glm/mat3x3.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "support/stereo_cases.h"
 
 namespace afm::input {
 namespace {
 
-struct Row {
-  std::string id;
-  std::string packet;
-  std::vector<double> expected;
-};
-
-// The rows tracker_* of the research's test vectors whose convention is dtrack or dtrack_bad.
-std::vector<Row> dtrack_rows() {
-  std::ifstream file(AFM_SOURCE_DIR "/tests/scene/data/stereo_cases.csv");
-  std::vector<Row> rows;
-  for (std::string line; std::getline(file, line);) {
-    std::vector<std::string> cells;
-    std::istringstream in(line);
-    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-    if (cells.size() < 6 || cells[1] != "tracker" || cells[2].rfind("dtrack", 0) != 0) continue;
-    std::replace(cells[4].begin(), cells[4].end(), '|', '\n');
-    std::istringstream numbers(cells[5]);
-    Row row{cells[0], cells[4], {}};
-    for (double number = 0; numbers >> number;) row.expected.push_back(number);
-    rows.push_back(row);
-  }
+// The tracker rows of the research's test vectors whose convention is dtrack or dtrack_bad.
+std::vector<test::StereoCase> dtrack_rows() {
+  std::vector<test::StereoCase> rows = test::stereo_cases("tracker");
+  std::erase_if(rows, [](const test::StereoCase& row) { return row.convention.rfind("dtrack", 0) != 0; });
+  for (test::StereoCase& row : rows) std::replace(row.input.begin(), row.input.end(), '|', '\n');
   return rows;
 }
 
@@ -43,8 +26,8 @@ void append_body(const DtrackBody* body, std::vector<double>& values) {
   for (int i = 0; i < 3; ++i) values.push_back(body != nullptr ? body->position_m[i] : 0.0);
 }
 
-std::vector<double> parsed(const Row& row) {
-  const auto frame = parse_dtrack(row.packet);
+std::vector<double> parsed(const test::StereoCase& row) {
+  const auto frame = parse_dtrack(row.input);
   if (!frame) return {-1.0};
   std::vector<double> values{static_cast<double>(frame->frame)};
   const DtrackBody* const head = frame->body(0);
@@ -62,10 +45,10 @@ std::vector<double> parsed(const Row& row) {
 }
 
 TEST(ResearchVectors, OfDtrackAreReadAsTheySay) {
-  const std::vector<Row> rows = dtrack_rows();
+  const std::vector<test::StereoCase> rows = dtrack_rows();
   ASSERT_EQ(rows.size(), 4U);
   constexpr std::size_t kFirstOfRotation = 12;
-  for (const Row& row : rows) {
+  for (const test::StereoCase& row : rows) {
     const std::vector<double> values = parsed(row);
     ASSERT_EQ(values.size(), row.expected.size()) << row.id;
     for (std::size_t i = 0; i < values.size(); ++i) {

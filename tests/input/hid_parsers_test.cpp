@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
@@ -18,7 +17,7 @@
 #include "input/spacemouse.h"
 #include "input/wand.h"
 #include "input/wiimote.h"
-#include "places.h"
+#include "support/stereo_cases.h"
 
 namespace afm::input {
 namespace {
@@ -42,17 +41,9 @@ struct Row {
 };
 
 std::vector<Row> hid_rows() {
-  std::ifstream file(AFM_SOURCE_DIR "/tests/scene/data/stereo_cases.csv");
   std::vector<Row> rows;
-  for (std::string line; std::getline(file, line);) {
-    std::vector<std::string> cells;
-    std::istringstream in(line);
-    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-    if (cells.size() < 6 || cells[1] != "hid") continue;
-    std::istringstream numbers(cells[5]);
-    Row row{cells[2], from_hex(cells[4]), {}};
-    for (long number = 0; numbers >> number;) row.expected.push_back(number);
-    rows.push_back(row);
+  for (const test::StereoCase& row : test::stereo_cases("hid")) {
+    rows.push_back({row.convention, from_hex(row.input), {row.expected.begin(), row.expected.end()}});
   }
   return rows;
 }

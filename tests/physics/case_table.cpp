@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case_table.h"
-#include "places.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,8 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+
+#include "places.h"
 
 namespace afm::physics {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/material_library.h"
-#include "places.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +12,8 @@
 #include <numbers>
 #include <string>
 #include <vector>
+
+#include "places.h"
 
 namespace afm::scene {
 namespace {

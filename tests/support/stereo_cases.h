@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -13,13 +14,21 @@ namespace afm::test {
 // A row of tests/scene/data/stereo_cases.csv, the research's test vectors.
 struct StereoCase {
   std::string id, kind, convention;
-  std::vector<double> inputs, expected;
+  std::string input;           // as written
+  std::vector<double> inputs;  // where it is numbers
+  std::vector<double> expected;
 };
 
+// As far as the text is numbers.
 inline std::vector<double> numbers(const std::string& text) {
   std::istringstream stream(text);
   std::vector<double> values;
-  for (std::string word; stream >> word;) values.push_back(std::stod(word));  // unlike >>, knows "inf"
+  for (std::string word; stream >> word;) {
+    char* end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);  // unlike >>, knows "inf"
+    if (end != word.c_str() + word.size()) break;
+    values.push_back(value);
+  }
   return values;
 }
 
@@ -31,7 +40,7 @@ inline std::vector<StereoCase> stereo_cases(const std::string& kind) {
     std::istringstream stream(line);
     for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
     if (fields.size() >= 6 && fields[1] == kind) {
-      cases.push_back({fields[0], fields[1], fields[2], numbers(fields[4]), numbers(fields[5])});
+      cases.push_back({fields[0], fields[1], fields[2], fields[4], numbers(fields[4]), numbers(fields[5])});
     }
   }
   return cases;

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <arpa/inet.h>
-#include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -15,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "core/file_descriptor.h"
+#include "support/loopback_sender.h"
 
 namespace afm::support {
 
@@ -23,16 +18,7 @@ namespace afm::support {
 // it is destroyed.
 class Tracker {
  public:
-  Tracker() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-    // a port that was free a moment ago
-    const core::FileDescriptor probe(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-    to_.sin_family = AF_INET;
-    to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof to_;
-    EXPECT_EQ(::bind(probe.get(), reinterpret_cast<const sockaddr*>(&to_), size), 0);
-    EXPECT_EQ(::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&to_), &size), 0);
-    thread_ = std::thread([this] { run(); });
-  }
+  Tracker() : thread_([this] { run(); }) {}
   Tracker(const Tracker&) = delete;
   Tracker& operator=(const Tracker&) = delete;
   ~Tracker() {
@@ -46,7 +32,7 @@ class Tracker {
     lines_.clear();
   }
 
-  std::string place() const { return "127.0.0.1:" + std::to_string(ntohs(to_.sin_port)); }
+  std::string place() const { return "127.0.0.1:" + std::to_string(sender_.port()); }
 
   void show(const glm::dvec3& hand_m, const glm::dvec3& target_m, unsigned buttons) {
     const glm::dquat q = glm::rotation(glm::dvec3(0.0, 0.0, -1.0), glm::normalize(target_m - hand_m));
@@ -63,23 +49,18 @@ class Tracker {
   }
 
  private:
-  void send(const std::string& packet) const {
-    ::sendto(socket_.get(), packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_);
-  }
-
   void run() {
     for (int frame = 0; !ending_; ++frame) {
       {
         const std::lock_guard lock(changing_);
-        if (!lines_.empty()) send("fr " + std::to_string(frame) + "\n" + lines_);
+        if (!lines_.empty()) sender_.send("fr " + std::to_string(frame) + "\n" + lines_);
       }
-      for (int i = 0; i < 10; ++i) send(std::string(40, static_cast<char>(frame + i)));
+      for (int i = 0; i < 10; ++i) sender_.send(std::string(40, static_cast<char>(frame + i)));
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }
 
-  core::FileDescriptor socket_;
-  sockaddr_in to_{};
+  const LoopbackSender sender_;
   std::mutex changing_;
   std::string lines_;
   std::atomic<bool> ending_{false};

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "app/wall_scene.h"
+#include "places.h"
+#include "scene/material_library.h"
+#include "scene/wall.h"
+
+namespace afm::test {
+
+// The paper's samples before the paper's wall, as they are shown.
+class PaperWall : public ::testing::Test {
+ protected:
+  const std::string assets_ = AFM_SOURCE_DIR "/assets";
+  const scene::MaterialLibrary materials_ =
+      scene::load_materials(assets_ + "/materials.toml").value().only(scene::kPaperMaterials).value();
+  const scene::Wall wall_ = scene::load_wall(assets_ + "/walls/powerwall.toml").value();
+  const app::WallScene scene_ =
+      app::WallScene::load(assets_, materials_, wall_.screens.front(), wall_.viewers.front().sweet_spot.position_m)
+          .value();
+
+  scene::NodeIndex node(const std::string& name) const { return scene_.scene().find_node(name).value(); }
+};
+
+}  // namespace afm::test
