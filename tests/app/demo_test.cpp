@@ -139,7 +139,9 @@ TEST_F(Demo, TheReportStandsAlone) {
 TEST_F(Demo, LeavesNothingElse) {
   std::size_t files = 0;
   for (const auto& entry : fs::directory_iterator(folder_->path())) files += entry.is_regular_file() ? 1U : 100U;
-  EXPECT_EQ(files, 6U + 3U + 3U + 2U);
+  const std::size_t pictures = 7, curves = 3, sessions = 3, report_and_summary = 2;
+  EXPECT_EQ(files, pictures + curves + sessions + report_and_summary);
+  EXPECT_TRUE(support::read_png(folder_->file("choosing.png")).has_value());
 }
 
 TEST_F(Demo, ASessionIsDrawnAgain) {
