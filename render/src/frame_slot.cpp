@@ -30,11 +30,9 @@ vk::raii::DescriptorPool create_pool(const Device& device, std::uint32_t sets) {
                                             .pPoolSizes = sizes.data()});
 }
 
-void write_set(const Device& device, vk::DescriptorSet set, const Buffer& uniforms, const Buffer& draws,
-               const ShadowMap& shadow_map) {
+void write_uniforms(const Device& device, vk::DescriptorSet set, const Buffer& uniforms, const Buffer& draws) {
   const vk::DescriptorBufferInfo uniform_info{.buffer = *uniforms.buffer, .range = VK_WHOLE_SIZE};
   const vk::DescriptorBufferInfo draw_info{.buffer = *draws.buffer, .range = sizeof(DrawBlock)};
-  const vk::DescriptorImageInfo shadow_info = shadow_map.descriptor();
   const std::array writes{vk::WriteDescriptorSet{.dstSet = set,
                                                  .dstBinding = AFM_BINDING_FRAME,
                                                  .descriptorCount = 1,
@@ -44,48 +42,58 @@ void write_set(const Device& device, vk::DescriptorSet set, const Buffer& unifor
                                                  .dstBinding = AFM_BINDING_DRAW,
                                                  .descriptorCount = 1,
                                                  .descriptorType = kDynamicUniform,
-                                                 .pBufferInfo = &draw_info},
-                          vk::WriteDescriptorSet{.dstSet = set,
-                                                 .dstBinding = AFM_BINDING_SHADOW,
-                                                 .descriptorCount = 1,
-                                                 .descriptorType = kSampled,
-                                                 .pImageInfo = &shadow_info}};
+                                                 .pBufferInfo = &draw_info}};
   device->updateDescriptorSets(writes, nullptr);
+}
+
+void write_shadow_map(const Device& device, vk::DescriptorSet set, const ShadowMap& shadow_map) {
+  const vk::DescriptorImageInfo shadow_info = shadow_map.descriptor();
+  device->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
+                                                      .dstBinding = AFM_BINDING_SHADOW,
+                                                      .descriptorCount = 1,
+                                                      .descriptorType = kSampled,
+                                                      .pImageInfo = &shadow_info},
+                               nullptr);
 }
 
 }  // namespace
 
-vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device) {
+vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowMapUse use) {
   const auto both = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
-  const std::array bindings{
-      vk::DescriptorSetLayoutBinding{
-          .binding = AFM_BINDING_FRAME, .descriptorType = kUniform, .descriptorCount = 1, .stageFlags = both},
-      vk::DescriptorSetLayoutBinding{
-          .binding = AFM_BINDING_DRAW, .descriptorType = kDynamicUniform, .descriptorCount = 1, .stageFlags = both},
-      vk::DescriptorSetLayoutBinding{
-          .binding = AFM_BINDING_SHADOW, .descriptorType = kSampled, .descriptorCount = 1, .stageFlags = both}};
+  std::vector<vk::DescriptorSetLayoutBinding> bindings{
+      {.binding = AFM_BINDING_FRAME, .descriptorType = kUniform, .descriptorCount = 1, .stageFlags = both},
+      {.binding = AFM_BINDING_DRAW, .descriptorType = kDynamicUniform, .descriptorCount = 1, .stageFlags = both}};
+  if (use == ShadowMapUse::Read) {
+    bindings.push_back(
+        {.binding = AFM_BINDING_SHADOW, .descriptorType = kSampled, .descriptorCount = 1, .stageFlags = both});
+  }
   return vk::raii::DescriptorSetLayout(
       *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
-FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, const ShadowMap& shadow_map,
-                     std::size_t draw_count)
+FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::DescriptorSetLayout shadow_layout,
+                     const ShadowMap& shadow_map, std::size_t draw_count)
     : pool_(*device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                .queueFamilyIndex = device.queue_family()}),
       commands_(*device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 2}),
       draw_stride_(aligned_stride(device, sizeof(DrawBlock))),
       draw_blocks_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * draw_stride_,
                                       vk::BufferUsageFlagBits::eUniformBuffer)),
-      descriptor_pool_(create_pool(device, kMostPasses)) {
+      descriptor_pool_(create_pool(device, kMostPasses + 1)) {
+  const auto allocate = [&](vk::DescriptorSetLayout of) {
+    return std::move(vk::raii::DescriptorSets(
+                         *device, {.descriptorPool = *descriptor_pool_, .descriptorSetCount = 1, .pSetLayouts = &of})
+                         .front());
+  };
   for (std::uint32_t pass = 0; pass < kMostPasses; ++pass) {
     uniforms_.push_back(
         create_host_buffer(device, "frame uniforms", sizeof(FrameBlock), vk::BufferUsageFlagBits::eUniformBuffer));
-    sets_.push_back(
-        std::move(vk::raii::DescriptorSets(
-                      *device, {.descriptorPool = *descriptor_pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})
-                      .front()));
-    write_set(device, *sets_.back(), uniforms_.back(), draw_blocks_, shadow_map);
+    sets_.push_back(allocate(layout));
+    write_uniforms(device, *sets_.back(), uniforms_.back(), draw_blocks_);
+    write_shadow_map(device, *sets_.back(), shadow_map);
   }
+  shadow_set_ = allocate(shadow_layout);
+  write_uniforms(device, *shadow_set_, uniforms_.front(), draw_blocks_);
 }
 
 bool FrameSlot::Recorded::take(const DrawList& new_draws, const EyeDrawing& new_drawing, std::uint64_t new_panels) {

@@ -11,19 +11,27 @@
 
 namespace afm::render {
 
-// Set 0 of all pipelines that draw the room: the frame's uniforms, the draw's, the shadow map.
-vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device);
+// Set 0 of all pipelines that draw the room: the frame's uniforms, the draw's, and the shadow map where it is read.
+// What draws the shadow map has a set without: lavapipe would finish each draw before the next, to let it read what the
+// other wrote.
+enum class ShadowMapUse { Read, Drawn };
+vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowMapUse use);
 
 // What one frame in flight owns: its commands, uniforms and draw blocks. Reused once the frame is finished.
 class FrameSlot {
  public:
-  FrameSlot(const Device& device, vk::DescriptorSetLayout layout, const ShadowMap& shadow_map, std::size_t draw_count);
+  // `layout` where the shadow map is read, `shadow_layout` where it is drawn.
+  FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::DescriptorSetLayout shadow_layout,
+            const ShadowMap& shadow_map, std::size_t draw_count);
 
   // Writes everything that the frame's shaders read.
   void write(const FrameState& frame, const SceneGeometry& geometry, const EyeDrawing& drawing, float guard_band);
 
   // The frame's set of a pass: with the left eye's view first, or the right one's.
   vk::DescriptorSet set(std::size_t pass) const { return *sets_[pass]; }
+
+  // The frame's set of the pass that draws the shadow map.
+  vk::DescriptorSet shadow_set() const { return *shadow_set_; }
 
   // Bytes from one draw's block to the next: dynamic offsets of binding AFM_BINDING_DRAW are multiples of it.
   std::uint32_t draw_stride() const { return draw_stride_; }
@@ -59,6 +67,7 @@ class FrameSlot {
   std::vector<std::uint8_t> glowing_;
   vk::raii::DescriptorPool descriptor_pool_{nullptr};
   std::vector<vk::raii::DescriptorSet> sets_;
+  vk::raii::DescriptorSet shadow_set_{nullptr};
 };
 
 }  // namespace afm::render

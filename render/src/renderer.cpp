@@ -73,13 +73,14 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       materials(device, scene),
       node_count(scene.nodes.size()),
       shadow_map(device),
-      frame_set_layout(create_frame_set_layout(device)),
-      scene_pass(device, *frame_set_layout, materials, geometry.looks()),
+      frame_set_layout(create_frame_set_layout(device, ShadowMapUse::Read)),
+      shadow_set_layout(create_frame_set_layout(device, ShadowMapUse::Drawn)),
+      scene_pass(device, *frame_set_layout, *shadow_set_layout, materials, geometry.looks()),
       panels(device, std::move(fonts), *frame_set_layout),
       composer(device, eyes),
       timeline(create_timeline(device)) {
   for (std::size_t i = 0; i < kFramesInFlight; ++i) {
-    slots.emplace_back(device, *frame_set_layout, shadow_map, geometry.draws().size());
+    slots.emplace_back(device, *frame_set_layout, *shadow_set_layout, shadow_map, geometry.draws().size());
     if (options.time_passes && Stopwatch::works_on(device)) {
       clocks.emplace_back(device);
     }
@@ -134,7 +135,7 @@ void Renderer::Parts::record_drawing(std::size_t slot_index) {
   command.begin({});
   mark(command, slot_index, PassClock::Mark::ShadowBegin);
   shadow_map.begin(command);
-  scene_pass.record_shadow(command, {geometry, materials, slot.draws, slot.set(0), slot.draw_stride()});
+  scene_pass.record_shadow(command, {geometry, materials, slot.draws, slot.shadow_set(), slot.draw_stride()});
   shadow_map.end(command);
   mark(command, slot_index, PassClock::Mark::ShadowEnd);
   for (std::size_t pass = 0; pass < drawing.pass_count; ++pass) {

@@ -38,7 +38,7 @@ struct Renderer::Parts {
   SceneMaterials materials;
   std::size_t node_count;
   ShadowMap shadow_map;
-  vk::raii::DescriptorSetLayout frame_set_layout;
+  vk::raii::DescriptorSetLayout frame_set_layout, shadow_set_layout;
   ScenePass scene_pass;
   Panels panels;
   Composer composer;

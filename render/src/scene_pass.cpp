@@ -102,11 +102,13 @@ vk::raii::Pipeline create_shadow_pipeline(const Device& device, vk::PipelineLayo
 
 }  // namespace
 
-ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout, const SceneMaterials& materials,
+ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout,
+                     vk::DescriptorSetLayout shadow_set_layout, const SceneMaterials& materials,
                      const std::vector<SceneLook>& looks)
     : layout_(create_pipeline_layout(device, {.sets = {&frame_set_layout, 1}})),
+      shadow_layout_(create_pipeline_layout(device, {.sets = {&shadow_set_layout, 1}})),
       look_layout_(create_look_layout(device, frame_set_layout, materials.layout())),
-      shadow_(create_shadow_pipeline(device, *layout_)),
+      shadow_(create_shadow_pipeline(device, *shadow_layout_)),
       opaque_{plain_pipeline(device, *layout_, Blending::Opaque, 0),
               plain_pipeline(device, *layout_, Blending::Opaque, AFM_LOOK_HAZE)},
       fine_(device, scene_request(*layout_, Blending::Opaque), kFineVertex, kFineFragment),
@@ -118,9 +120,10 @@ ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_lay
   }
 }
 
-void ScenePass::set_state(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t i) const {
+void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
+                          std::uint32_t i) {
   const Draw& draw = input.geometry.draws()[i];
-  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, i * input.draw_stride);
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, input.frame_set, i * input.draw_stride);
   command.setCullMode(draw.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
   command.setFrontFace(input.draws.mirrored[i] != 0 ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
 }
@@ -135,7 +138,7 @@ void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const Eye
       command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
       bound = &pipeline;
     }
-    set_state(command, input, i);
+    set_state(command, *layout_, input, i);
     if (draw.look) {
       command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *look_layout_, 1, input.materials.set(draw.material),
                                  nullptr);
@@ -149,7 +152,7 @@ void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Inpu
   input.geometry.bind(command);
   for (const std::uint32_t i : input.draws.shadow) {
     const Draw& draw = input.geometry.draws()[i];
-    set_state(command, input, i);
+    set_state(command, *shadow_layout_, input, i);
     command.drawIndexed(draw.index_count, 1, draw.first_index, draw.first_vertex, 0);
   }
 }

@@ -14,8 +14,8 @@ namespace afm::render {
 // The pipelines that draw a SceneGeometry: into the shadow map, and into the eyes with the background behind.
 class ScenePass {
  public:
-  ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout, const SceneMaterials& materials,
-            const std::vector<SceneLook>& looks);
+  ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout, vk::DescriptorSetLayout shadow_set_layout,
+            const SceneMaterials& materials, const std::vector<SceneLook>& looks);
 
   struct Input {
     const SceneGeometry& geometry;
@@ -24,15 +24,18 @@ class ScenePass {
     vk::DescriptorSet frame_set;
     std::uint32_t draw_stride = 0;  // as FrameSlot::draw_stride()
   };
+  // The input's set is FrameSlot::shadow_set().
   void record_shadow(const vk::raii::CommandBuffer& command, const Input& input) const;
   void record_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input);
 
  private:
-  void set_state(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t draw) const;
+  static void set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
+                        std::uint32_t draw);
   void record_in_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input,
                       std::span<const std::uint32_t> draws, EyePipeline& plain);
 
   vk::raii::PipelineLayout layout_;
+  vk::raii::PipelineLayout shadow_layout_;
   vk::raii::PipelineLayout look_layout_;
   vk::raii::Pipeline shadow_;
   std::array<EyePipeline, 2> opaque_;  // without haze, and with it
