@@ -5,8 +5,8 @@ include(GoogleTest)
 # What the tsan preset builds and runs: the tests in which more than one thread or process takes part.
 add_custom_target(threaded_tests)
 
-# GoogleTest is read once for all tests. Their own code is optimised less than what they test: that halves the time to compile
-# it, and none of it is timed.
+# GoogleTest is read once for all tests. Their own code is optimised less than what they test: it compiles sooner, and none of
+# it is timed.
 set(AFM_TEST_OPTIMISATION $<$<CONFIG:Release>:-O1>)
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp "")
 add_library(afm_test_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
@@ -31,6 +31,9 @@ function(afm_test)
   string(REGEX REPLACE "\\..*" "" folder "${T_NAME}")
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 120)
+  endif()
+  if(T_LABELS STREQUAL "realtime")
+    list(APPEND T_SOURCES ${CMAKE_SOURCE_DIR}/tests/support/awake_processors.cpp)
   endif()
   add_executable(${target} ${T_SOURCES})
   target_link_libraries(${target} PRIVATE ${T_LIBRARIES} GTest::gmock_main afm_build_flags)
