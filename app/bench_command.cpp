@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
 #include "app/command.h"
-
-#include <CLI/CLI.hpp>
 #include "app/haptics_benchmarks.h"
 #include "app/physics_benchmarks.h"
 #include "app/render_benchmarks.h"

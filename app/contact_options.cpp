@@ -2,8 +2,8 @@
 #include "app/contact_options.h"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
+#include <CLI/CLI.hpp>
 #include <limits>
 #include <utility>
 

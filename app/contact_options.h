@@ -10,10 +10,6 @@
 #include "core/result.h"
 #include "scene/probe_library.h"
 
-namespace CLI {
-class App;
-}
-
 namespace afm::app {
 
 // What the command line says of a contact, as it was written; an empty text is an option that was not given.

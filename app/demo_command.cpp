@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
@@ -11,8 +12,6 @@
 #include <utility>
 
 #include "app/command.h"
-
-#include <CLI/CLI.hpp>
 #include "app/curves_plot.h"
 #include "app/demo_figures.h"
 #include "app/demonstration.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -9,8 +10,6 @@
 #include <vector>
 
 #include "app/command.h"
-
-#include <CLI/CLI.hpp>
 #include "app/haptic_choice.h"
 #include "core/clock.h"
 #include "input/dtrack_source.h"

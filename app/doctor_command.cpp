@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -10,8 +11,6 @@
 #include <span>
 
 #include "app/command.h"
-
-#include <CLI/CLI.hpp>
 #include "app/diagnosis.h"
 #include "app/measurement.h"
 #include "app/servo_link.h"

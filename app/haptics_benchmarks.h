@@ -3,10 +3,6 @@
 
 #include "app/command.h"
 
-namespace CLI {
-class App;
-}
-
 namespace afm::app {
 
 // touchafm bench haptics: the work of a tick, the wake-ups of the real servo beside a renderer that draws as fast as it

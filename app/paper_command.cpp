@@ -2,8 +2,8 @@
 #include "app/paper_command.h"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
 #include <utility>

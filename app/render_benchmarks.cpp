@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 #include <stdlib.h>
-#include <CLI/CLI.hpp>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>

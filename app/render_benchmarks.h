@@ -3,10 +3,6 @@
 
 #include "app/command.h"
 
-namespace CLI {
-class App;
-}
-
 namespace afm::app {
 
 // touchafm bench render: frames of the wall, of generated scenes and of glTF files in one multiview pass, in two passes

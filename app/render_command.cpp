@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -11,8 +12,6 @@
 #include <vector>
 
 #include "app/command.h"
-
-#include <CLI/CLI.hpp>
 #include "app/demonstration.h"
 #include "app/frame_builder.h"
 #include "app/model_view.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -8,8 +9,6 @@
 #include <string>
 
 #include "app/command.h"
-
-#include <CLI/CLI.hpp>
 #include "app/replay.h"
 #include "app/session_file.h"
 

@@ -15,10 +15,6 @@
 #include "scene/material_library.h"
 #include "scene/wall.h"
 
-namespace CLI {
-class App;
-}
-
 namespace afm::app {
 
 // What the shelf in front of the wall holds.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <map>
@@ -11,8 +12,6 @@
 #include <vector>
 
 #include "app/command.h"
-
-#include <CLI/CLI.hpp>
 #include "app/felt_material.h"
 #include "app/frame_budget.h"
 #include "app/haptic_choice.h"

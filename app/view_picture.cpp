@@ -176,7 +176,10 @@ void ViewPicture::save_newest() {
   }
 }
 
-void ViewPicture::finish_saving() { tell(saver_.finish()); }
+void ViewPicture::finish_saving() {
+  tell(saver_.finish());
+  if (to_save_ > 0) core::log_line(fmt::format("{} pictures were asked for too late to be saved", to_save_));
+}
 
 void ViewPicture::tell(const std::vector<render::SavedPicture>& saved) {
   for (const render::SavedPicture& picture : saved) {

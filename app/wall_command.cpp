@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -12,8 +13,6 @@
 #include <vector>
 
 #include "app/calibration.h"
-
-#include <CLI/CLI.hpp>
 #include "app/command.h"
 #include "app/stage_setup.h"
 #include "render/context.h"

@@ -145,7 +145,7 @@ core::Result<std::array<scene::EyeView, 2>> eyes_before(const scene::Screen& scr
 std::uint32_t affordable_samples(render::Context& context, glm::uvec2 eye_px) {
   const std::uint32_t samples = render::samples_within_memory(context, eye_px);
   if (samples < 4) {
-    core::log_line(fmt::format("drawn with one sample a pixel: {} has no memory for four in eye images of {}x{} pixels",
+    core::log_line(fmt::format("one sample a pixel: {} has no memory for four in eye images of {}x{} pixels",
                                context.device_name(), eye_px.x, eye_px.y));
   }
   return samples;

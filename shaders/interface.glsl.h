@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the shaders and render/ agree on; included by both. Only vec4 and mat4 members, so that std140, std430 and C++ lay
-// the blocks out alike; render/src/shader_interface.h asserts sizes and offsets. Lengths are metres in the room.
+// What the shaders and render/ agree on; included by both. Only vec4 and mat4 members, so that std140, std430 and C++
+// lay the blocks out alike; render/src/shader_interface.h asserts sizes and offsets. Lengths are metres in the room.
 #ifndef AFM_INTERFACE_GLSL_H
 #define AFM_INTERFACE_GLSL_H
 
@@ -20,13 +20,13 @@
 #define AFM_TEXTURE_SLOTS 12
 
 // What a pipeline of such materials does beside sampling the textures whose bits, 1 << slot, are set.
-#define AFM_LOOK_TANGENTS 0x01000u    // the vertices have tangents
+#define AFM_LOOK_TANGENTS 0x01000u  // the vertices have tangents
 #define AFM_LOOK_UNLIT 0x02000u
-#define AFM_LOOK_MASK 0x04000u        // alphaMode MASK
-#define AFM_LOOK_BLEND 0x08000u       // alphaMode BLEND
+#define AFM_LOOK_MASK 0x04000u   // alphaMode MASK
+#define AFM_LOOK_BLEND 0x08000u  // alphaMode BLEND
 #define AFM_LOOK_CLEARCOAT 0x10000u
 #define AFM_LOOK_IRIDESCENCE 0x20000u
-#define AFM_LOOK_LIGHTS 0x40000u      // the scene has lights of its own
+#define AFM_LOOK_LIGHTS 0x40000u  // the scene has lights of its own
 
 // What a pipeline of plain materials does: dissolve what is far. A CPU device computes what a branch leaves out, too.
 #define AFM_LOOK_HAZE 0x1u
@@ -45,19 +45,19 @@
 // one per frame; what has two elements belongs to the views
 struct FrameBlock {
   mat4 clip_from_room[2];
-  vec4 eye_position[2];    // xyz; w: 0 left, 1 right
-  mat4 shadow_from_room;   // to the shadow map's clip space, depth 0 nearest to the light
-  vec4 light_direction;    // xyz: unit vector to the key light
-  vec4 light_side;         // xyz: unit, horizontal, across the light's direction
-  vec4 light_radiance;     // rgb, linear; a: metres that one texel of the shadow map covers
-  vec4 target_size;        // width, height of an eye image in pixels, and their reciprocals
-  vec4 contact;            // xyz: where the tip meets the sample; w: 1 / radius of the shade there, 0 without one
-  vec4 contact_ring;       // rgb: linear radiance, 0 without a ring; a: its radius in radii of the shade
-  vec4 haze;               // x: begin, y: 1 / (end - begin), 0 without a range; z: veil; w: 1 with a range
-  vec4 screen[3];          // xyz: the direction in which the upper left corner of the eye images is seen from between the
-                           // eyes, and what takes it to the upper right and to the lower left one
-  vec4 haze_axis;          // what lies behind the haze's origin by its units is dot(axis, (place, 1))
-  vec4 punctual_count;     // x: how many of the lights below there are
+  vec4 eye_position[2];   // xyz; w: 0 left, 1 right
+  mat4 shadow_from_room;  // to the shadow map's clip space, depth 0 nearest to the light
+  vec4 light_direction;   // xyz: unit vector to the key light
+  vec4 light_side;        // xyz: unit, horizontal, across the light's direction
+  vec4 light_radiance;    // rgb, linear; a: metres that one texel of the shadow map covers
+  vec4 target_size;       // width, height of an eye image in pixels, and their reciprocals
+  vec4 contact;           // xyz: where the tip meets the sample; w: 1 / radius of the shade there, 0 without one
+  vec4 contact_ring;      // rgb: linear radiance, 0 without a ring; a: its radius in radii of the shade
+  vec4 haze;              // x: begin, y: 1 / (end - begin), 0 without a range; z: veil; w: 1 with a range
+  vec4 screen[3];       // xyz: the direction in which the upper left corner of the eye images is seen from between the
+                        // eyes, and what takes it to the upper right and to the lower left one
+  vec4 haze_axis;       // what lies behind the haze's origin by its units is dot(axis, (place, 1))
+  vec4 punctual_count;  // x: how many of the lights below there are
   vec4 punctual_position[AFM_MOST_LIGHTS];   // xyz; w: 1 / range, 0 without end
   vec4 punctual_direction[AFM_MOST_LIGHTS];  // xyz: unit, along the rays; w: 0 directional, 1 all others
   vec4 punctual_intensity[AFM_MOST_LIGHTS];  // rgb
@@ -80,7 +80,8 @@ struct MaterialBlock {
   vec4 specular;     // rgb: colour, a: weight
   vec4 clearcoat;    // x factor, y roughness, z scale of its normals, w unused
   vec4 iridescence;  // x factor, y index of refraction, z and w thickness in nm at a texture's 0 and 1
-  vec4 scales;       // x of normals, y of occlusion, z reflectance at normal incidence by the index of refraction, w alpha cutoff
+  vec4 scales;  // x of normals, y of occlusion, z reflectance at normal incidence by the index of refraction, w alpha
+                // cutoff
   vec4 uv_rows[2 * AFM_TEXTURE_SLOTS];  // two rows a slot: xyz maps (u, v, 1); w of the first row: set 0 or 1
 };
 
@@ -98,8 +99,9 @@ struct CanvasBlock {
 
 // push constants of the compose pass; sizes and places in pixels
 struct ComposeBlock {
-  ivec4 mode;    // x: AFM_COMPOSE_*, y: 1 swaps the eyes, z: 1 for a keystone, w: which of the anaglyphs
-  vec4 drawn;    // xy: share of the eye images, from their upper left corner, that is drawn; z: 1: the right eye sees the left one's
+  ivec4 mode;  // x: AFM_COMPOSE_*, y: 1 swaps the eyes, z: 1 for a keystone, w: which of the anaglyphs
+  vec4 drawn;  // xy: share of the eye images, from their upper left corner, that is drawn; z: 1: the right eye sees the
+               // left one's
   ivec4 place;   // xy: where the picture begins in the target, zw: its size
   ivec4 screen;  // xy: where the target's first pixel lies on its screen; z: lines of a packed eye, w: lines between
   vec4 picture_from_output[3];  // columns of the keystone

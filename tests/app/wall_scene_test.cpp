@@ -8,20 +8,15 @@
 #include <glm/matrix.hpp>
 
 #include "physics/contact.h"
-#include "places.h"
+#include "support/paper_wall.h"
 
 namespace afm::app {
 namespace {
 
-class WallSceneTest : public ::testing::Test {
+class WallSceneTest : public test::PaperWall {
  protected:
-  const std::string assets_ = AFM_SOURCE_DIR "/assets";
-  const scene::MaterialLibrary materials_ =
-      scene::load_materials(assets_ + "/materials.toml").value().only(scene::kPaperMaterials).value();
-  const scene::Wall wall_ = scene::load_wall(assets_ + "/walls/powerwall.toml").value();
   const scene::Screen& screen_ = wall_.screens.front();
   const glm::dvec3 viewer_ = wall_.viewers.front().sweet_spot.position_m;
-  const WallScene scene_ = WallScene::load(assets_, materials_, screen_, viewer_).value();
 
   render::FrameState frame(const WallScene::Pose& pose) const {
     render::FrameState state;

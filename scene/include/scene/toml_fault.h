@@ -12,7 +12,8 @@
 
 namespace afm::scene {
 
-// A fault in a TOML file, thrown by whoever reads a key and turned into an Error by read_toml; never leaves the folder that reads.
+// A fault in a TOML file, thrown by whoever reads a key and turned into an Error by read_toml; never leaves the folder
+// that reads.
 struct Fault {
   toml::source_region where;
   std::string key;
