@@ -22,11 +22,18 @@ file(CONFIGURE OUTPUT ${AFM_TEST_PLACES}/places.h CONTENT [[#pragma once
 #define AFM_BINARY_DIR "@CMAKE_BINARY_DIR@"
 ]] @ONLY)
 
-# afm_test(NAME folder.unit SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT seconds] [WHOLE])
+# The programs that show pretended HID devices to a test and to what it starts.
+find_package(PkgConfig REQUIRED)
+find_program(AFM_UMOCKDEV_WRAPPER umockdev-wrapper REQUIRED)
+pkg_check_modules(UMOCKDEV REQUIRED IMPORTED_TARGET umockdev-1.0)
+set(AFM_WITH_PRETENDED_DEVICES ${CMAKE_SOURCE_DIR}/tests/input/with_pseudo_terminals.sh ${AFM_UMOCKDEV_WRAPPER})
+
+# afm_test(NAME folder.unit SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT seconds] [WHOLE] [PRETENDED_DEVICES])
 # One executable test_folder_unit; every TEST in it becomes a CTest case named folder.Suite.Case. With WHOLE the executable is
-# one case, for suites whose set-up is dear. Nothing runs beside it, nor beside a test of real time.
+# one case, for suites whose set-up is dear. Nothing runs beside it, nor beside a test of real time. PRETENDED_DEVICES is
+# WHOLE and runs under umockdev.
 function(afm_test)
-  cmake_parse_arguments(T "WHOLE" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(T "WHOLE;PRETENDED_DEVICES" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   string(REPLACE "." "_" target "test_${T_NAME}")
   string(REGEX REPLACE "\\..*" "" folder "${T_NAME}")
   if(NOT T_TIMEOUT)
@@ -44,9 +51,18 @@ function(afm_test)
   if(T_LABELS MATCHES "^(threads|realtime)$")
     add_dependencies(threaded_tests ${target})
   endif()
+  set(wrapper "")
+  set(environment "")
+  if(T_PRETENDED_DEVICES)
+    target_link_libraries(${target} PRIVATE PkgConfig::UMOCKDEV)
+    set(T_WHOLE TRUE)
+    set(wrapper ${AFM_WITH_PRETENDED_DEVICES})
+    # a sanitizer's library has to bear that umockdev's comes before it
+    set(environment ASAN_OPTIONS=verify_asan_link_order=0)
+  endif()
   if(T_WHOLE)
-    add_test(NAME ${T_NAME} COMMAND ${target})
-    set_tests_properties(${T_NAME} PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL TRUE)
+    add_test(NAME ${T_NAME} COMMAND ${wrapper} $<TARGET_FILE:${target}>)
+    set_tests_properties(${T_NAME} PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL TRUE ENVIRONMENT "${environment}")
     return()
   endif()
   set(alone FALSE)

@@ -3,16 +3,11 @@
 #include "input/hid_source.h"
 
 #include <gtest/gtest.h>
-#include <linux/hidraw.h>
-#include <umockdev.h>
-#include <unistd.h>
 
 #include <array>
-#include <cstring>
-#include <memory>
 #include <string>
 
-#include "hid_guest/virtual_spacemouse.h"
+#include "support/wand_port.h"
 
 namespace afm::input {
 namespace {
@@ -20,73 +15,14 @@ namespace {
 constexpr const char* kCompact = "256F:0000C635";
 constexpr const char* kCadMouse = "256F:0000C650";
 
-struct Releaser {
-  void operator()(gpointer object) const { g_object_unref(object); }
-};
-
-gboolean answer_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer) {
-  const auto& descriptor = hid_guest::kSpaceMouseDescriptor;
-  const auto request = umockdev_ioctl_client_get_request(client);
-  UMockdevIoctlData* const argument = umockdev_ioctl_client_get_arg(client);
-  if (request == HIDIOCGRDESCSIZE) {
-    int size = static_cast<int>(descriptor.size());
-    UMockdevIoctlData* const place = umockdev_ioctl_data_resolve(argument, 0, sizeof size, nullptr);
-    umockdev_ioctl_data_update(place, 0, reinterpret_cast<guint8*>(&size), sizeof size);
-    g_object_unref(place);
-  } else if (request == HIDIOCGRDESC) {
-    hidraw_report_descriptor answer{};
-    answer.size = static_cast<__u32>(descriptor.size());
-    std::memcpy(answer.value, descriptor.data(), descriptor.size());
-    UMockdevIoctlData* const place = umockdev_ioctl_data_resolve(argument, 0, sizeof answer, nullptr);
-    umockdev_ioctl_data_update(place, 0, reinterpret_cast<guint8*>(&answer), sizeof answer);
-    g_object_unref(place);
-  } else {
-    return FALSE;
-  }
-  umockdev_ioctl_client_complete(client, 0, 0);
-  return TRUE;
-}
-
-// A computer into which a device can be plugged.
+// With a computer into which a device can be plugged.
 class HidSourceTest : public ::testing::Test {
  protected:
-  HidSourceTest() : testbed_(umockdev_testbed_new()), ioctls_(g_object_new(UMOCKDEV_TYPE_IOCTL_BASE, nullptr)) {
-    g_signal_connect(ioctls_.get(), "handle-ioctl", G_CALLBACK(answer_ioctl), nullptr);
-  }
-
-  // Every time as another node, as a kernel does that still holds the old one.
-  void plug(const std::string& ids, const std::string& name) {
-    ++plugged_;
-    const std::string text = "P: " + device_path() + "\nE: DRIVER=hid-generic\nE: SUBSYSTEM=hid\nE: HID_ID=0003:0000" +
-                             ids + "\nE: HID_NAME=" + name +
-                             "\nE: HID_PHYS=mock/0\nE: HID_UNIQ=SN0001\n\nP: " + device_path() + "/hidraw/" + node() +
-                             "\nN: " + node() + "\nE: DEVNAME=/dev/" + node() +
-                             "\nE: SUBSYSTEM=hidraw\nL: device=../../../" + device_name() + "\n\n";
-    GError* error = nullptr;
-    ASSERT_TRUE(umockdev_testbed_add_from_string(testbed_.get(), text.c_str(), &error)) << error->message;
-    const auto& descriptor = hid_guest::kSpaceMouseDescriptor;
-    umockdev_testbed_set_attribute_binary(testbed_.get(), ("/sys" + device_path()).c_str(), "report_descriptor",
-                                          const_cast<guint8*>(descriptor.data()), static_cast<gint>(descriptor.size()));
-    ASSERT_TRUE(umockdev_testbed_attach_ioctl(testbed_.get(), ("/dev/" + node()).c_str(),
-                                              reinterpret_cast<UMockdevIoctlBase*>(ioctls_.get()), &error))
-        << error->message;
-    device_ = umockdev_testbed_get_dev_fd(testbed_.get(), ("/dev/" + node()).c_str());
-    ASSERT_GE(device_, 0);
-  }
-
-  void unplug() {
-    ::close(device_);
-    umockdev_testbed_remove_device(testbed_.get(), ("/sys" + device_path() + "/hidraw/" + node()).c_str());
-    umockdev_testbed_remove_device(testbed_.get(), ("/sys" + device_path()).c_str());
-  }
-
-  std::string node() const { return "hidraw" + std::to_string(plugged_); }
-  std::string device_name() const { return "0003:256F:C635.000" + std::to_string(plugged_); }
-  std::string device_path() const { return "/devices/virtual/misc/uhid/" + device_name(); }
-
+  void plug(const std::string& ids, const std::string& name) { port_.plug(ids, name); }
+  void unplug() { port_.unplug(); }
   template <std::size_t Size>
   void send(const std::array<std::uint8_t, Size>& report) const {
-    ASSERT_EQ(::write(device_, report.data(), report.size()), static_cast<ssize_t>(report.size()));
+    ASSERT_TRUE(port_.send(report));
   }
 
   // Polls as the wand's thread does until `done`, for a few seconds of this clock at most.
@@ -109,10 +45,7 @@ class HidSourceTest : public ::testing::Test {
   };
 
   HandClock clock_;
-  std::unique_ptr<UMockdevTestbed, Releaser> testbed_;
-  std::unique_ptr<void, Releaser> ioctls_;
-  int device_ = -1;
-  int plugged_ = 0;
+  support::WandPort port_;
 };
 
 TEST_F(HidSourceTest, ListsAWandAndSaysThatItCanBeUsed) {

@@ -49,6 +49,9 @@ class LiveProgram {
     return says_one_of({text}, patience) == text;
   }
 
+  // What it has said until now is not waited for.
+  void skip_what_it_said() { read_ = said().size(); }
+
   // The same for the first one that is said of several; empty if none is.
   std::string says_one_of(const std::vector<std::string>& texts,
                           std::chrono::seconds patience = std::chrono::minutes(1)) {

@@ -34,16 +34,17 @@ class Tracker {
 
   std::string place() const { return "127.0.0.1:" + std::to_string(sender_.port()); }
 
-  void show(const glm::dvec3& hand_m, const glm::dvec3& target_m, unsigned buttons) {
+  void show(const glm::dvec3& hand_m, const glm::dvec3& target_m, unsigned buttons,
+            const glm::dvec3& head_m = {0.0, 1.65, 2.0}) {
     const glm::dquat q = glm::rotation(glm::dvec3(0.0, 0.0, -1.0), glm::normalize(target_m - hand_m));
     const glm::dmat3 r(q);
     char line[512];
     std::snprintf(
         line, sizeof line,
-        "6d 1 [2 1.000][0 1650 2000 0 0 0][1 0 0 0 1 0 0 0 1]\n"
+        "6d 1 [2 1.000][%.3f %.3f %.3f 0 0 0][1 0 0 0 1 0 0 0 1]\n"
         "6df2 1 1 [0 1.000 6 2][%.3f %.3f %.3f][%.9f %.9f %.9f %.9f %.9f %.9f %.9f %.9f %.9f][%u 0.00 0.00]\n",
-        hand_m.x * 1e3, hand_m.y * 1e3, hand_m.z * 1e3, r[0].x, r[0].y, r[0].z, r[1].x, r[1].y, r[1].z, r[2].x, r[2].y,
-        r[2].z, buttons);
+        head_m.x * 1e3, head_m.y * 1e3, head_m.z * 1e3, hand_m.x * 1e3, hand_m.y * 1e3, hand_m.z * 1e3, r[0].x, r[0].y,
+        r[0].z, r[1].x, r[1].y, r[1].z, r[2].x, r[2].y, r[2].z, buttons);
     const std::lock_guard lock(changing_);
     lines_ = line;
   }
