@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string_view>
 
 #include "gltf_fault.h"
@@ -96,6 +97,12 @@ void check_indices(const std::string& path, const Accessor& accessor) {
   if (accessor.components != 1 || !is_unsigned || accessor.normalized) {
     throw GltfFault(fmt::format("{} has indices of a type that they may not have", path));
   }
+}
+
+std::uint32_t restart_index(const Accessor& accessor) {
+  if (accessor.type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return std::numeric_limits<std::uint8_t>::max();
+  if (accessor.type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return std::numeric_limits<std::uint16_t>::max();
+  return std::numeric_limits<std::uint32_t>::max();
 }
 
 }  // namespace afm::scene

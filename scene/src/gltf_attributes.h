@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "gltf_accessor.h"
@@ -19,5 +20,9 @@ void check_attribute(const std::string& path, const std::string& name, const Acc
                      bool quantized);
 
 void check_indices(const std::string& path, const Accessor& accessor);
+
+// The largest number of the indices' type, which would restart a primitive and which glTF 2.0 (section 3.7.2.1)
+// forbids. `accessor` has passed check_indices().
+std::uint32_t restart_index(const Accessor& accessor);
 
 }  // namespace afm::scene

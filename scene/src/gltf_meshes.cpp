@@ -144,8 +144,13 @@ class PrimitiveReader {
     if (is_draco_) {
       corners = std::move(draco_.indices);
     } else if (source_.indices >= 0) {
-      check_indices(path_, accessors_[source_.indices]);
+      const Accessor& accessor = accessors_[source_.indices];
+      check_indices(path_, accessor);
       corners = accessors_.integers(source_.indices);
+      const std::uint32_t restart = restart_index(accessor);
+      if (std::find(corners.begin(), corners.end(), restart) != corners.end()) {
+        fail(fmt::format("has index {}, which would restart the primitive", restart));
+      }
     } else {
       corners.resize(count_);
       std::iota(corners.begin(), corners.end(), 0U);

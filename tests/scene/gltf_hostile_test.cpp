@@ -165,6 +165,16 @@ TEST_F(HostileGltf, IsRefusedForPositionsThatAreNotFinite) {
   }
 }
 
+TEST_F(HostileGltf, IsRefusedForAnIndexThatRestartsThoughThereIsSuchAVertex) {
+  json document = square_json();
+  document["accessors"][0] = {{"componentType", 5126}, {"count", 65536}, {"type", "VEC3"}};
+  std::string binary = square_binary();
+  EXPECT_TRUE(load(document, binary.replace(48, 2, "\xFE\xFF")));
+  expect_refused(load(document, binary.replace(48, 2, "\xFF\xFF")), "index 65535, which would restart");
+  document["accessors"][1]["componentType"] = 5121;
+  expect_refused(load(document, binary), "index 255, which would restart");
+}
+
 TEST_F(HostileGltf, IsRefusedForNumbersBeyondDouble) {
   std::string text = square_json().dump();
   const std::string name = R"("name":"sample")";
