@@ -114,11 +114,11 @@ void main() {
   vec4 color = vertex_color * AFM_TEXEL(kBaseColor);
   vec3 emitted = draw.emissive.rgb * AFM_TEXEL(kEmissive).rgb;
   vec3 to_eye = normalize(view_eye_position(frame) - room_position);
-  vec3 face = normalize(room_normal);
-  face = gl_FrontFacing ? face : -face;
-  vec3 normal = face;
+  vec3 front = normalize(room_normal);
+  float facing = gl_FrontFacing ? 1.0 : -1.0;  // a back has its front's normal reversed, bent or not
+  vec3 normal = facing * front;
   if (looks(1u << kNormal)) {
-    normal = mapped_normal(face, AFM_TEXEL(kNormal).xyz, material.scales.x, place_in(kNormal));
+    normal = facing * mapped_normal(front, AFM_TEXEL(kNormal).xyz, material.scales.x, place_in(kNormal));
   }
 
   vec4 metal_rough = AFM_TEXEL(kMetallicRoughness);
@@ -143,9 +143,10 @@ void main() {
   float occlusion = mix(1.0, AFM_TEXEL(kOcclusion).r, material.scales.y);
   vec3 radiance = lit(s, key, occlusion) + emitted;
   if (looks(AFM_LOOK_CLEARCOAT)) {
-    vec3 coat_normal = face;
+    vec3 coat_normal = facing * front;
     if (looks(1u << kClearcoatNormal)) {
-      coat_normal = mapped_normal(face, AFM_TEXEL(kClearcoatNormal).xyz, material.clearcoat.z, place_in(kClearcoatNormal));
+      coat_normal = facing * mapped_normal(front, AFM_TEXEL(kClearcoatNormal).xyz, material.clearcoat.z,
+                                           place_in(kClearcoatNormal));
     }
     float coat = material.clearcoat.x * AFM_TEXEL(kClearcoat).r;
     float coat_roughness = material.clearcoat.y * AFM_TEXEL(kClearcoatRoughness).g;

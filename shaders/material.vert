@@ -27,7 +27,9 @@ layout(location = 5) out vec4 texture_coordinates;
 void main() {
   room_position = (draw.room_from_node * vec4(bent_position(position), 1.0)).xyz;
   room_normal = normal_in_room(position, normal);
-  room_tangent = vec4((draw.room_from_node * vec4(tangent.xyz, 0.0)).xyz, tangent.w);
+  // a node that mirrors turns the cross product of normal and tangent about, but not the bitangent
+  mat3 linear = mat3(draw.room_from_node);
+  room_tangent = vec4(linear * tangent.xyz, determinant(linear) < 0.0 ? -tangent.w : tangent.w);
   vertex_color = color * draw.base_color;
   texture_coordinates = coordinates;
   shadow_place = place_in_shadow_map(room_position, normalize(room_normal));

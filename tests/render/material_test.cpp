@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <vector>
 
@@ -192,23 +193,69 @@ TEST_F(Materials, TakeLightFromWhereItStands) {
   EXPECT_GT(at(see(), -1, 0).g, dark.g + 20);
 }
 
-// The left half of the normal map leans to the left, the right half to the right.
-TEST_F(Materials, BendLightByANormalMapAlikeWithAndWithoutTangents) {
-  add_image(scene::TextureFilter::Nearest);
-  scene_.images[0].rgba = {37, 128, 218, 255, 218, 128, 218, 255, 37, 128, 218, 255, 218, 128, 218, 255};
-  material_.unlit = false;
-  material_.metallic = 0.0F;
-  material_.roughness = 1.0F;
-  material_.texture(TextureSlot::Normal).texture = 0;
-  scene_.lights.resize(1);
-  scene::PunctualLight sun;
-  sun.kind = scene::PunctualLight::Kind::Directional;
-  sun.intensity = glm::vec3(3.0F);
-  lights_ = {{sun, glm::vec3(0.0F), glm::normalize(glm::vec3(1.0F, 0.0F, -1.0F))}};  // from the left
-  const render::Image derived = see();
-  EXPECT_GT(at(derived, -1, 1).g, at(derived, 1, 1).g + 30);
-  square_.tangents.assign(square_.vertices.size(), glm::vec4(1, 0, 0, 1));
-  EXPECT_LE(difference(see(), derived, 3).share_beyond, 0.01);
+// A normal map of two by two pixels, each of which leans outwards, and a sun.
+class NormalMaps : public Materials {
+ protected:
+  NormalMaps() {
+    add_image(scene::TextureFilter::Nearest);
+    scene_.images[0].rgba = {55, 201, 201, 255, 201, 201, 201, 255, 55, 55, 201, 255, 201, 55, 201, 255};
+    material_.unlit = false;
+    material_.double_sided = true;
+    material_.metallic = 0.0F;
+    material_.roughness = 1.0F;
+    material_.texture(TextureSlot::Normal).texture = 0;
+    scene_.lights.resize(1);
+  }
+
+  void shine(const glm::vec3& along) {
+    scene::PunctualLight sun;
+    sun.kind = scene::PunctualLight::Kind::Directional;
+    sun.intensity = glm::vec3(3.0F);
+    lights_ = {{sun, glm::vec3(0.0F), glm::normalize(along)}};
+  }
+
+  // Without tangents, having made sure that it looks the same with them.
+  render::Image see_both(const glm::dmat4& room_from_node) {
+    square_.tangents.clear();
+    render::Image derived = see(room_from_node);
+    square_.tangents.assign(square_.vertices.size(), glm::vec4(1, 0, 0, 1));
+    EXPECT_LE(difference(see(room_from_node), derived, 3).share_beyond, 0.01);
+    return derived;
+  }
+};
+
+TEST_F(NormalMaps, BendLightAlikeWithAndWithoutTangents) {
+  const glm::dmat4 plain = glm::scale(glm::dmat4(1.0), glm::dvec3(2.0));
+  shine({1.0F, 0.0F, -1.0F});
+  const render::Image from_left = see_both(plain);
+  EXPECT_GT(at(from_left, -1, 1).g, at(from_left, 1, 1).g + 30);
+  shine({0.0F, -1.0F, -1.0F});
+  const render::Image from_above = see_both(plain);
+  EXPECT_GT(at(from_above, 1, -1).g, at(from_above, 1, 1).g + 30);
+}
+
+TEST_F(NormalMaps, LeanOutwardsInANodeThatMirrorsToo) {
+  for (const glm::dvec3& mirror : {glm::dvec3(-2.0, 2.0, 2.0), glm::dvec3(2.0, -2.0, 2.0)}) {
+    const glm::dmat4 mirrored = glm::scale(glm::dmat4(1.0), mirror);
+    shine({1.0F, 0.0F, -1.0F});
+    const render::Image from_left = see_both(mirrored);
+    EXPECT_GT(at(from_left, -1, 1).g, at(from_left, 1, 1).g + 30);
+    shine({0.0F, -1.0F, -1.0F});
+    const render::Image from_above = see_both(mirrored);
+    EXPECT_GT(at(from_above, 1, -1).g, at(from_above, 1, 1).g + 30);
+  }
+}
+
+// What leans outwards in front is, from behind, a dent: everything leans inwards.
+TEST_F(NormalMaps, AreReversedOnTheBack) {
+  const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), glm::pi<double>(), glm::dvec3(0.0, 1.0, 0.0)) *
+                            glm::scale(glm::dmat4(1.0), glm::dvec3(2.0));
+  shine({1.0F, 0.0F, -1.0F});
+  const render::Image from_left = see_both(turned);
+  EXPECT_GT(at(from_left, 1, 1).g, at(from_left, -1, 1).g + 30);
+  shine({0.0F, -1.0F, -1.0F});
+  const render::Image from_above = see_both(turned);
+  EXPECT_GT(at(from_above, 1, 1).g, at(from_above, 1, -1).g + 30);
 }
 
 TEST_F(Materials, EmitWhatTheirTextureSays) {
