@@ -25,6 +25,7 @@ vec3 shadow_place;
 
 #include "key_light.glsl"
 #include "placing.glsl"
+#include "shadow_place.glsl"
 #include "shading.glsl"
 
 void main() {

@@ -28,6 +28,9 @@
 #define AFM_LOOK_IRIDESCENCE 0x20000u
 #define AFM_LOOK_LIGHTS 0x40000u  // the scene has lights of its own
 
+// Of plain materials too: the shadow on a back is looked up a step off the back, not off the front.
+#define AFM_LOOK_DOUBLE_SIDED 0x80000u
+
 // What a pipeline of plain materials does: dissolve what is far. A CPU device computes what a branch leaves out, too.
 #define AFM_LOOK_HAZE 0x1u
 

@@ -22,13 +22,16 @@ layout(set = 1, binding = AFM_BINDING_TEXTURES) uniform sampler2D textures[AFM_T
 layout(location = 0) in vec3 room_position;
 layout(location = 1) centroid in vec3 room_normal;
 layout(location = 2) in vec4 vertex_color;
-layout(location = 3) in vec3 shadow_place;
+layout(location = 3) in vec3 front_shadow_place;
 layout(location = 4) in vec4 room_tangent;
 layout(location = 5) in vec4 texture_coordinates;
 
 layout(location = 0) out vec4 out_color;
 
+vec3 shadow_place;
+
 #include "key_light.glsl"
+#include "shadow_place.glsl"
 
 // in the order of scene::TextureSlot
 const int kBaseColor = 0, kMetallicRoughness = 1, kNormal = 2, kOcclusion = 3, kEmissive = 4, kSpecular = 5,
@@ -117,6 +120,7 @@ void main() {
   vec3 front = normalize(room_normal);
   float facing = gl_FrontFacing ? 1.0 : -1.0;  // a back has its front's normal reversed, bent or not
   vec3 normal = facing * front;
+  shadow_place = looks(AFM_LOOK_DOUBLE_SIDED) ? place_in_shadow_map(room_position, normal) : front_shadow_place;
   if (looks(1u << kNormal)) {
     normal = facing * mapped_normal(front, AFM_TEXEL(kNormal).xyz, material.scales.x, place_in(kNormal));
   }

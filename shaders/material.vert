@@ -23,6 +23,7 @@ layout(location = 4) out vec4 room_tangent;
 layout(location = 5) out vec4 texture_coordinates;
 
 #include "placing.glsl"
+#include "shadow_place.glsl"
 
 void main() {
   room_position = (draw.room_from_node * vec4(bent_position(position), 1.0)).xyz;

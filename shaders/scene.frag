@@ -18,19 +18,24 @@ layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map
 layout(location = 0) in vec3 room_position;
 layout(location = 1) centroid in vec3 room_normal;
 layout(location = 2) in vec4 vertex_color;
-layout(location = 3) in vec3 shadow_place;  // texture coordinates and depth in the shadow map
+layout(location = 3) in vec3 front_shadow_place;
 
 layout(location = 4) flat in vec4 lobe;             // border, spread
 
 layout(location = 0) out vec4 out_color;
 
+vec3 shadow_place;
+
 #include "key_light.glsl"
+#include "shadow_place.glsl"
 #include "shading.glsl"
 
 void main() {
-  vec3 normal = normalize(room_normal);
-  vec3 shown = shaded(room_position, gl_FrontFacing ? normal : -normal, vertex_color.rgb,
-                      Lobe(lobe.x, lobe.yzw));
+  vec3 front = normalize(room_normal);
+  vec3 normal = gl_FrontFacing ? front : -front;
+  bool has_back = (kLook & AFM_LOOK_DOUBLE_SIDED) != 0u;
+  shadow_place = has_back ? place_in_shadow_map(room_position, normal) : front_shadow_place;
+  vec3 shown = shaded(room_position, normal, vertex_color.rgb, Lobe(lobe.x, lobe.yzw));
 
   // what has dissolved is the background
   if ((kLook & AFM_LOOK_HAZE) != 0u) {

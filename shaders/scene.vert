@@ -21,6 +21,7 @@ layout(location = 3) out vec3 shadow_place;
 layout(location = 4) flat out vec4 lobe;  // border, spread
 
 #include "placing.glsl"
+#include "shadow_place.glsl"
 
 void main() {
   room_position = (draw.room_from_node * vec4(bent_position(position), 1.0)).xyz;

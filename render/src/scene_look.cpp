@@ -38,6 +38,7 @@ std::optional<SceneLook> look_of(const scene::Scene& scene, const scene::Primiti
   add(material.clearcoat > 0.0F, AFM_LOOK_CLEARCOAT);
   add(material.iridescence > 0.0F, AFM_LOOK_IRIDESCENCE);
   add(!scene.lights.empty(), AFM_LOOK_LIGHTS);
+  add(material.double_sided, AFM_LOOK_DOUBLE_SIDED);
   return look;
 }
 

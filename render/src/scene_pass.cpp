@@ -109,15 +109,21 @@ ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_lay
       shadow_layout_(create_pipeline_layout(device, {.sets = {&shadow_set_layout, 1}})),
       look_layout_(create_look_layout(device, frame_set_layout, materials.layout())),
       shadow_(create_shadow_pipeline(device, *shadow_layout_)),
-      opaque_{plain_pipeline(device, *layout_, Blending::Opaque, 0),
-              plain_pipeline(device, *layout_, Blending::Opaque, AFM_LOOK_HAZE)},
+      opaque_{plain_pipelines(device, *layout_, Blending::Opaque, 0),
+              plain_pipelines(device, *layout_, Blending::Opaque, AFM_LOOK_HAZE)},
       fine_(device, scene_request(*layout_, Blending::Opaque), kFineVertex, kFineFragment),
       background_(device, background_request(*layout_), kBackgroundVertex, kBackgroundFragment),
-      blended_{plain_pipeline(device, *layout_, Blending::Premultiplied, 0),
-               plain_pipeline(device, *layout_, Blending::Premultiplied, AFM_LOOK_HAZE)} {
+      blended_{plain_pipelines(device, *layout_, Blending::Premultiplied, 0),
+               plain_pipelines(device, *layout_, Blending::Premultiplied, AFM_LOOK_HAZE)} {
   for (const SceneLook& look : looks) {
     looks_.emplace_back(device, look_request(*look_layout_, look), kMaterialVertex, kMaterialFragment);
   }
+}
+
+ScenePass::BothSides ScenePass::plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
+                                                std::uint32_t look) {
+  return {plain_pipeline(device, layout, blending, look),
+          plain_pipeline(device, layout, blending, look | AFM_LOOK_DOUBLE_SIDED)};
 }
 
 void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
@@ -129,11 +135,13 @@ void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLa
 }
 
 void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input,
-                               std::span<const std::uint32_t> draws, EyePipeline& plain) {
+                               std::span<const std::uint32_t> draws, BothSides& plain) {
   const EyePipeline* bound = nullptr;
   for (const std::uint32_t i : draws) {
     const Draw& draw = input.geometry.draws()[i];
-    EyePipeline& pipeline = draw.look ? looks_[*draw.look] : input.draws.fine[i] != 0 ? fine_ : plain;
+    EyePipeline& pipeline = draw.look                  ? looks_[*draw.look]
+                            : input.draws.fine[i] != 0 ? fine_
+                                                       : plain[draw.double_sided ? 1 : 0];
     if (&pipeline != bound) {
       command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
       bound = &pipeline;

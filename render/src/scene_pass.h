@@ -29,19 +29,22 @@ class ScenePass {
   void record_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input);
 
  private:
+  using BothSides = std::array<EyePipeline, 2>;  // of single-sided materials, of double-sided ones
+  static BothSides plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
+                                   std::uint32_t look);
   static void set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
                         std::uint32_t draw);
   void record_in_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input,
-                      std::span<const std::uint32_t> draws, EyePipeline& plain);
+                      std::span<const std::uint32_t> draws, BothSides& plain);
 
   vk::raii::PipelineLayout layout_;
   vk::raii::PipelineLayout shadow_layout_;
   vk::raii::PipelineLayout look_layout_;
   vk::raii::Pipeline shadow_;
-  std::array<EyePipeline, 2> opaque_;  // without haze, and with it
-  EyePipeline fine_;                   // shaded at the vertices, without haze
+  std::array<BothSides, 2> opaque_;  // without haze, and with it
+  EyePipeline fine_;                 // shaded at the vertices, without haze
   EyePipeline background_;
-  std::array<EyePipeline, 2> blended_;
+  std::array<BothSides, 2> blended_;
   std::vector<EyePipeline> looks_;  // as SceneGeometry::looks()
 };
 

@@ -161,6 +161,19 @@ TEST_F(Materials, ShowTheFrontOfANodeThatMirrors) {
   EXPECT_LT(at(see(turned), -1, -1).r, 110) << "the back of a single-sided material";
 }
 
+TEST_F(Materials, AreLitAlikeOnBothSides) {
+  add_image(scene::TextureFilter::Nearest);
+  scene_.images[0].rgba.assign(16, 255);
+  material_.unlit = false;
+  material_.double_sided = true;
+  material_.metallic = 0.0F;
+  const glm::dmat4 front = glm::scale(glm::dmat4(1.0), glm::dvec3(2.0));
+  const glm::dmat4 back = glm::rotate(glm::dmat4(1.0), glm::pi<double>(), glm::dvec3(0.0, 1.0, 0.0)) * front;
+  EXPECT_LE(difference(see(back), see(front), 3).share_beyond, 0.001) << "plain";
+  material_.texture(TextureSlot::BaseColor).texture = 0;
+  EXPECT_LE(difference(see(back), see(front), 3).share_beyond, 0.001) << "with a texture";
+}
+
 TEST_F(Materials, DrawLinesAndPoints) {
   const render::Image bare = see(glm::translate(glm::dmat4(1.0), glm::dvec3(50, 0, 0)));
   const auto drawn = [&] { return difference(see(), bare, 8).share_beyond * bare.width * bare.height; };

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a place of the room lies in the shadow map. Needs the block `frame`.
+
+// The light is far away, so that this is linear across a triangle. A step off the surface by about a texel of the map, more
+// where light grazes, keeps it from shadowing itself.
+vec3 place_in_shadow_map(vec3 place, vec3 normal) {
+  float grazing = 1.0 - max(dot(normal, frame.light_direction.xyz), 0.0);
+  vec3 from = place + normal * frame.light_radiance.w * (0.5 + 1.5 * grazing);
+  vec3 clip = (frame.shadow_from_room * vec4(from, 1.0)).xyz;
+  return vec3(0.5 * clip.xy + 0.5, clip.z);
+}
