@@ -153,6 +153,15 @@ void mark_highlighted(const FrameState& frame, const SceneGeometry& geometry, st
   }
 }
 
+glm::vec4 bend_of(const FrameState& frame, scene::NodeIndex node) {
+  for (const auto& bend : frame.bends) {
+    if (bend.node == node && bend.length > 0.0F) {
+      return {1.0F / bend.length, bend.end_deflection, 0.0F, 0.0F};
+    }
+  }
+  return glm::vec4(0.0F);
+}
+
 void write_draw_blocks(const FrameState& frame, const SceneGeometry& geometry, const std::vector<std::uint8_t>& glowing,
                        std::byte* blocks, std::size_t stride) {
   const auto& draws = geometry.draws();
@@ -166,11 +175,7 @@ void write_draw_blocks(const FrameState& frame, const SceneGeometry& geometry, c
       block.normal_column[column] = glm::vec4(normals[column], 0.0F);
     }
     block.emissive.a = glowing[node] != 0 ? 1.0F : 0.0F;
-    for (const auto& bend : frame.bends) {
-      if (bend.node == node && bend.length > 0.0F) {
-        block.bend = glm::vec4(1.0F / bend.length, bend.end_deflection, 0.0F, 0.0F);
-      }
-    }
+    block.bend = bend_of(frame, node);
     std::memcpy(blocks + i * stride, &block, sizeof(block));
   }
 }

@@ -24,6 +24,9 @@ FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, cons
 // decades. Identity for a singular matrix, whose mesh has no area.
 glm::dmat3 normal_matrix(const glm::dmat4& room_from_node);
 
+// A node's DrawBlock::bend.
+glm::vec4 bend_of(const FrameState& frame, scene::NodeIndex node);
+
 // Which nodes glow: the highlighted ones with all that hangs below them.
 void mark_highlighted(const FrameState& frame, const SceneGeometry& geometry, std::vector<std::uint8_t>& glowing);
 

@@ -75,7 +75,7 @@ FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::D
                      const ShadowMap& shadow_map, std::size_t draw_count)
     : pool_(*device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                .queueFamilyIndex = device.queue_family()}),
-      commands_(*device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 2}),
+      commands_(*device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 3}),
       draw_stride_(aligned_stride(device, sizeof(DrawBlock))),
       draw_blocks_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * draw_stride_,
                                       vk::BufferUsageFlagBits::eUniformBuffer)),

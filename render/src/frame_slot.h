@@ -41,9 +41,10 @@ class FrameSlot {
 
   // Commands that are recorded for one frame, and commands that stay for as many frames as `recorded` says.
   const vk::raii::CommandBuffer& painting() const { return commands_[0]; }
-  const vk::raii::CommandBuffer& drawing() const { return commands_[1]; }
+  const vk::raii::CommandBuffer& shadow() const { return commands_[1]; }
+  const vk::raii::CommandBuffer& drawing() const { return commands_[2]; }
 
-  // All that the commands of drawing() depend on.
+  // All that the commands of shadow() and drawing() depend on.
   struct Recorded {
     DrawList draws;
     EyeDrawing drawing;
@@ -56,6 +57,7 @@ class FrameSlot {
   Recorded recorded;
 
   bool painted = false;           // panels, in the slot's newest frame
+  bool shadowed = false;          // the shadow map was drawn again, in the slot's newest frame
   std::uint64_t finished_at = 0;  // the timeline's value when the slot's newest frame is finished
 
  private:

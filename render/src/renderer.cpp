@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "core/check.h"
@@ -123,21 +122,24 @@ void Renderer::Parts::record_painting(std::size_t slot) {
   command.end();
 }
 
-// What is recorded here is submitted again as it is while the slot's Recorded stays the same: what changes from frame
-// to frame comes from the slot's buffers.
-void Renderer::Parts::record_drawing(std::size_t slot_index) {
+void Renderer::Parts::record_shadow(std::size_t slot_index) {
   FrameSlot& slot = slots[slot_index];
-  const EyeDrawing& drawing = eyes.drawing();
-  if (!slot.recorded.take(slot.draws, drawing, panels.revision())) {
-    return;
-  }
-  const auto& command = slot.drawing();
+  const auto& command = slot.shadow();
   command.begin({});
   mark(command, slot_index, PassClock::Mark::ShadowBegin);
   shadow_map.begin(command);
   scene_pass.record_shadow(command, {geometry, materials, slot.draws, slot.shadow_set(), slot.draw_stride()});
   shadow_map.end(command);
   mark(command, slot_index, PassClock::Mark::ShadowEnd);
+  command.end();
+}
+
+void Renderer::Parts::record_drawing(std::size_t slot_index) {
+  FrameSlot& slot = slots[slot_index];
+  const EyeDrawing& drawing = eyes.drawing();
+  const auto& command = slot.drawing();
+  command.begin({});
+  mark(command, slot_index, PassClock::Mark::EyesBegin);
   for (std::size_t pass = 0; pass < drawing.pass_count; ++pass) {
     eyes.begin(command, pass);
     scene_pass.record_eyes(command, drawing, {geometry, materials, slot.draws, slot.set(pass), slot.draw_stride()});
@@ -151,13 +153,19 @@ void Renderer::Parts::record_drawing(std::size_t slot_index) {
 void Renderer::Parts::submit(std::size_t slot_index) {
   FrameSlot& slot = slots[slot_index];
   slot.finished_at = ++frames;
-  const std::array commands{vk::CommandBufferSubmitInfo{.commandBuffer = *slot.painting()},
-                            vk::CommandBufferSubmitInfo{.commandBuffer = *slot.drawing()}};
-  const std::span submitted = std::span(commands).subspan(slot.painted ? 0 : 1);
+  std::array<vk::CommandBufferSubmitInfo, 3> commands;
+  std::uint32_t count = 0;
+  if (slot.painted) {
+    commands[count++].commandBuffer = *slot.painting();
+  }
+  if (slot.shadowed) {
+    commands[count++].commandBuffer = *slot.shadow();
+  }
+  commands[count++].commandBuffer = *slot.drawing();
   const vk::SemaphoreSubmitInfo signal{
       .semaphore = *timeline, .value = slot.finished_at, .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
-  device.queue().submit2(vk::SubmitInfo2{.commandBufferInfoCount = static_cast<std::uint32_t>(submitted.size()),
-                                         .pCommandBufferInfos = submitted.data(),
+  device.queue().submit2(vk::SubmitInfo2{.commandBufferInfoCount = count,
+                                         .pCommandBufferInfos = commands.data(),
                                          .signalSemaphoreInfoCount = 1,
                                          .pSignalSemaphoreInfos = &signal});
 }
@@ -173,7 +181,14 @@ void Renderer::Parts::render(const FrameState& frame) {
   if (slot.painted) {
     record_painting(slot_index);
   }
-  record_drawing(slot_index);
+  slot.shadowed = shadow_casters.take(frame, geometry, slot.draws);
+
+  // What is recorded here is submitted again as it is while the slot's Recorded stays the same: what changes from frame
+  // to frame comes from the slot's buffers.
+  if (slot.recorded.take(slot.draws, eyes.drawing(), panels.revision())) {
+    record_shadow(slot_index);
+    record_drawing(slot_index);
+  }
   submit(slot_index);
   eyes_drawn = true;
   near_m = frame.eyes[0].projection[3][2];
@@ -283,7 +298,7 @@ std::optional<PassTimes> Renderer::pass_times() const {
     return std::nullopt;
   }
   const std::size_t slot = (finished - 1) % kFramesInFlight;
-  PassTimes times = parts_->clocks[slot].times(parts_->slots[slot].painted);
+  PassTimes times = parts_->clocks[slot].times(parts_->slots[slot].painted, parts_->slots[slot].shadowed);
   times.compose_ms = parts_->compose_ms;
   times.readback_ms = parts_->readback_ms;
   return times;

@@ -11,6 +11,7 @@
 #include "render/renderer.h"
 #include "scene_geometry.h"
 #include "scene_pass.h"
+#include "shadow_casters.h"
 #include "shadow_map.h"
 
 namespace afm::render {
@@ -26,6 +27,7 @@ struct Renderer::Parts {
   EyeDrawing choose_drawing(const FrameState& frame, const DrawList& draws) const;
   void mark(const vk::raii::CommandBuffer& command, std::size_t slot, PassClock::Mark mark) const;
   void record_painting(std::size_t slot);
+  void record_shadow(std::size_t slot);
   void record_drawing(std::size_t slot);
   void submit(std::size_t slot);
   void render(const FrameState& frame);
@@ -43,6 +45,7 @@ struct Renderer::Parts {
   Panels panels;
   Composer composer;
   DrawLister lister;
+  ShadowCasters shadow_casters;
   std::vector<FrameSlot> slots;
   std::vector<PassClock> clocks;  // one a slot, or none
   vk::raii::Semaphore timeline;

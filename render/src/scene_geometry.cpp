@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "mesh_order.h"
+
 namespace afm::render {
 namespace {
 
@@ -72,8 +74,8 @@ std::uint32_t place_of(const SceneLook& look, std::vector<SceneLook>& looks) {
   return place;
 }
 
-void pack_look(const scene::Primitive& primitive, std::vector<LookVertex>& vertices) {
-  for (std::size_t i = 0; i < primitive.vertices.size(); ++i) {
+void pack_look(const scene::Primitive& primitive, const MeshOrder& order, std::vector<LookVertex>& vertices) {
+  for (const std::uint32_t i : order.vertices) {
     LookVertex& vertex = vertices.emplace_back();
     if (!primitive.tangents.empty()) {
       vertex.tangent = primitive.tangents[i];
@@ -87,9 +89,10 @@ void pack_look(const scene::Primitive& primitive, std::vector<LookVertex>& verti
 void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive, const std::optional<SceneLook>& look,
                     Packed& packed, std::vector<Draw>& draws) {
   const auto& material = scene.materials.at(primitive.material);
+  const MeshOrder order = drawing_order(primitive, material.blended);
   draws.push_back({.node = 0,
                    .first_index = static_cast<std::uint32_t>(packed.indices.size()),
-                   .index_count = static_cast<std::uint32_t>(primitive.indices.size()),
+                   .index_count = static_cast<std::uint32_t>(order.indices.size()),
                    .first_vertex = static_cast<std::int32_t>(packed.vertices.size()),
                    .double_sided = material.double_sided,
                    .blended = material.blended,
@@ -98,17 +101,17 @@ void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive
                    .block = material_block(material)});
   if (look) {
     draws.back().look = place_of(*look, packed.looks);
-    pack_look(primitive, packed.look_vertices);
+    pack_look(primitive, order, packed.look_vertices);
   }
   measure_box(primitive, draws.back());
   measure_edges(primitive, draws.back());
-  for (const scene::Vertex& vertex : primitive.vertices) {
-    packed.vertices.push_back(vertex);
+  for (const std::uint32_t i : order.vertices) {
+    packed.vertices.push_back(primitive.vertices[i]);
     if (ignores_alpha(material)) {
       packed.vertices.back().color.a = 1.0F;
     }
   }
-  packed.indices.insert(packed.indices.end(), primitive.indices.begin(), primitive.indices.end());
+  packed.indices.insert(packed.indices.end(), order.indices.begin(), order.indices.end());
 }
 
 Packed pack(const scene::Scene& scene) {

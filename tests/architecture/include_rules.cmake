@@ -17,7 +17,7 @@ set(libraries_physics)
 set(libraries_scene glm fmt toml\\+\\+ draco meshoptimizer nlohmann png pugixml tiny_gltf turbojpeg tl)
 set(libraries_haptics glm fmt tl SDL2 boost nlohmann)
 set(libraries_input glm fmt toml\\+\\+ tl hidapi)
-set(libraries_render glm vulkan GLFW imgui fmt png shaders)
+set(libraries_render glm meshoptimizer vulkan GLFW imgui fmt png shaders)
 set(libraries_app glm fmt CLI nlohmann tl hdf5 unzip benchmark)
 set(known_libraries "glm|fmt|toml\\+\\+|draco|meshoptimizer|turbojpeg|nlohmann|tl|vulkan|GLFW|imgui|png|CLI|hidapi|SDL2|stb|spdlog|gtest|gmock|benchmark|hdf5|unzip|boost|pugixml|tiny_gltf")
 

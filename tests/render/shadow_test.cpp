@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/vulkan_fixture.h"
+
+// The shadow map stays as it is while nothing that it depends on changes.
+namespace afm::test {
+namespace {
+
+class ShadowTest : public VulkanTest {
+ protected:
+  // What the map depends on, changed one at a time.
+  std::vector<std::pair<std::string, render::FrameState>> changed_frames() {
+    std::vector<std::pair<std::string, render::FrameState>> frames;
+    const auto with = [&](const char* what, const std::function<void(render::FrameState&)>& change) {
+      change(frames.emplace_back(what, full_frame(test_)).second);
+    };
+    with("a place", [&](auto& f) {
+      f.room_from_node[test_.gold] = glm::translate(f.room_from_node[test_.gold], glm::dvec3(0.2, 0.1, 0.0));
+    });
+    with("a bend", [&](auto& f) { f.bends.front().end_deflection *= -2.0F; });
+    with("a hidden caster", [&](auto& f) {
+      f.visible.assign(f.room_from_node.size(), 1);
+      f.visible[test_.mica] = 0;
+    });
+    with("a mirrored caster", [&](auto& f) {
+      f.room_from_node[test_.beam] = glm::scale(f.room_from_node[test_.beam], glm::dvec3(1.0, -1.0, 1.0));
+    });
+    with("the light", [&](auto& f) { f.key_light.direction_to_light = {0.6F, 0.7F, 0.2F}; });
+    with("what the light covers", [&](auto& f) { f.key_light.shadow_radius_m *= 0.5F; });
+    return frames;
+  }
+
+  TestScene test_ = make_test_scene();
+};
+
+TEST_F(ShadowTest, FollowsEverythingThatItDependsOn) {
+  auto renderer = make_renderer(test_.scene, small(1));
+  for (const auto& [what, frame] : changed_frames()) {
+    for (int i = 0; i < 3; ++i) renderer.render(full_frame(test_));
+    renderer.render(frame);
+    const render::Image drawn = renderer.read_eye(scene::Eye::Left);
+    EXPECT_EQ(drawn.rgba, draw(test_.scene, frame, small(1)).left.rgba) << what;
+  }
+}
+
+TEST_F(ShadowTest, IsNotDrawnAgainWhileNothingOfItMoves) {
+  render::RendererOptions options = small(1);
+  options.time_passes = true;
+  auto renderer = make_renderer(test_.scene, options);
+  const auto shadow_ms = [&](const render::FrameState& frame) {
+    renderer.render(frame);
+    renderer.wait();
+    return renderer.pass_times().value().shadow_ms;
+  };
+  EXPECT_GT(shadow_ms(full_frame(test_)), 0.0);
+  render::FrameState frame = full_frame(test_);
+  EXPECT_EQ(shadow_ms(frame), 0.0);
+  frame.eyes = {eye_view(scene::Eye::Left, {0.3, 0.1, 2.0}), eye_view(scene::Eye::Right, {0.3, 0.1, 2.0})};
+  EXPECT_EQ(shadow_ms(frame), 0.0);
+  for (const auto& [what, changed] : changed_frames()) EXPECT_GT(shadow_ms(changed), 0.0) << what;
+}
+
+}  // namespace
+}  // namespace afm::test
