@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens where the tip meets the sample, and how far a place has dissolved into the haze.
+// What happens where the tip meets the sample, and how far a place has dissolved into the haze. Nothing branches by a
+// uniform: where that would leave out much of a vertex shader, lavapipe compiles the shader anew with every new block of
+// uniforms, that is in each frame, and keeps what it has compiled.
 
 // Light that the tip and the sample take from each other near the contact: a Gaussian of the distance from the apex, so that
 // the shade under the tip grows dark only as the gap closes.
 float contact_shade(FrameBlock frame, vec3 place) {
   vec3 away = (place - frame.contact.xyz) * frame.contact.w;
-  return frame.contact.w > 0.0 ? 1.0 - 0.72 * exp2(-2.0 * dot(away, away)) : 1.0;
+  return 1.0 - 0.72 * exp2(-2.0 * dot(away, away));
 }
 
 // A thin shell of light around the apex, seen where it cuts a surface.
 vec3 contact_ring(FrameBlock frame, vec3 place) {
-  if (frame.contact_ring.a == 0.0) return vec3(0.0);
   float off = 3.5 * (length(place - frame.contact.xyz) * frame.contact.w - frame.contact_ring.a);
   return frame.contact_ring.rgb * exp2(-off * off);
 }
 
 float haze(FrameBlock frame, vec3 place) {
-  if (frame.haze.y == 0.0) return frame.haze.z;
   float behind = dot(frame.haze_axis, vec4(place, 1.0));
   float far = smoothstep(0.0, 1.0, (behind - frame.haze.x) * frame.haze.y);
   return max(frame.haze.z, far);

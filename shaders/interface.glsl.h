@@ -54,7 +54,7 @@ struct FrameBlock {
   vec4 light_side;        // xyz: unit, horizontal, across the light's direction
   vec4 light_radiance;    // rgb, linear; a: metres that one texel of the shadow map covers
   vec4 target_size;       // width, height of an eye image in pixels, and their reciprocals
-  vec4 contact;           // xyz: where the tip meets the sample; w: 1 / radius of the shade there, 0 without one
+  vec4 contact;           // xyz: where the tip meets the sample; w: 1 / radius of the shade there; far away without one
   vec4 contact_ring;      // rgb: linear radiance, 0 without a ring; a: its radius in radii of the shade
   vec4 haze;              // x: begin, y: 1 / (end - begin), 0 without a range; z: veil; w: 1 with a range
   vec4 screen[3];       // xyz: the direction in which the upper left corner of the eye images is seen from between the

@@ -15,7 +15,11 @@ namespace afm::render {
 
 namespace {
 
+// So far away that it shades nothing; its square is still a number.
+constexpr glm::vec4 kNoContact(1e18F, 0.0F, 0.0F, 1.0F);
+
 void write_contact(const ContactMark& mark, FrameBlock& block) {
+  block.contact = kNoContact;
   if (!(mark.shade_radius_m > 0.0F)) {
     return;
   }

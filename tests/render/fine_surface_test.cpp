@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "support/pictures.h"
@@ -40,7 +43,7 @@ scene::Primitive hills(std::uint32_t material) {
 class FineSurface : public VulkanTest {
  protected:
   // The same surface with the shadow of a lever on it; what is seen from both sides is shaded by fragment.
-  Pair draw_hills(bool by_fragment, const render::RendererOptions& options) {
+  static scene::Scene scene_of_hills(bool by_fragment) {
     scene::Scene scene;
     const auto gold = add_material(scene, {.name = "gold",
                                            .base_color = {1.0F, 0.76F, 0.33F, 1.0F},
@@ -51,9 +54,28 @@ class FineSurface : public VulkanTest {
     const glm::dmat4 tilted = glm::rotate(glm::dmat4(1.0), glm::radians(-60.0), glm::dvec3(1.0, 0.0, 0.0));
     add(scene, "hills", hills(gold), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.3, -0.2)) * tilted);
     add(scene, "bar", lever(grey, 0.05, 0.02, 1), glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5, 0.1, 0.1)));
+    return scene;
+  }
+  Pair draw_hills(bool by_fragment, const render::RendererOptions& options) {
+    const scene::Scene scene = scene_of_hills(by_fragment);
     return draw(scene, bare_frame(scene), options);
   }
 };
+
+// Executable memory of no file: what a driver that draws on the CPU has compiled.
+std::size_t compiled_bytes() {
+  std::ifstream maps("/proc/self/maps");
+  std::size_t bytes = 0;
+  for (std::string line; std::getline(maps, line);) {
+    std::istringstream fields(line);
+    std::string range, access, offset, device, inode;
+    fields >> range >> access >> offset >> device >> inode;
+    if (access != "r-xp" || inode != "0" || line.find('[') != std::string::npos) continue;
+    const std::size_t dash = range.find('-');
+    bytes += std::stoul(range.substr(dash + 1), nullptr, 16) - std::stoul(range.substr(0, dash), nullptr, 16);
+  }
+  return bytes;
+}
 
 // Triangles of about a pixel are shaded at their vertices: nobody sees the difference, and it is not the same program.
 TEST_F(FineSurface, LooksAsItWouldByFragment) {
@@ -76,6 +98,24 @@ TEST_F(FineSurface, IsTheSameInOnePassAndInTwo) {
   const auto two = draw_hills(false, small(4, render::PassMode::TwoPasses));
   EXPECT_EQ(one.left.rgba, two.left.rgba);
   EXPECT_EQ(one.right.rgba, two.right.rgba);
+}
+
+// lavapipe compiles a shader anew for every value of a uniform that much of it branches by, and keeps them all.
+TEST_F(FineSurface, IsNotCompiledAnewInEveryFrame) {
+  const scene::Scene scene = scene_of_hills(false);
+  auto renderer = make_renderer(scene, small(1));
+  std::size_t warm = 0;
+  for (int i = 0; i < 20; ++i) {
+    auto frame = bare_frame(scene);
+    frame.contact = {.place_m = {0.01F * static_cast<float>(i), 0.0F, 0.0F},
+                     .shade_radius_m = 0.1F + 0.01F * static_cast<float>(i),
+                     .ring_color = glm::vec3(i % 2 == 0 ? 0.0F : 0.5F),
+                     .ring_radius_m = i % 2 == 0 ? 0.0F : 0.01F * static_cast<float>(i)};
+    renderer.render(frame);
+    renderer.wait();
+    if (i == 5) warm = compiled_bytes();
+  }
+  EXPECT_EQ(compiled_bytes(), warm);
 }
 
 }  // namespace
