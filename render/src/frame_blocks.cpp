@@ -59,8 +59,9 @@ glm::mat4 shadow_from_room(const KeyLight& light) {
   const auto radius = static_cast<double>(light.shadow_radius_m);
   const glm::dvec3 center(light.shadow_center_m);
 
-  // rows of the matrix: x and y span -1..1 across the sphere, z 0..1 along the light
-  const glm::dvec3 rows[3]{right / radius, up / radius, -to_light / (2.0 * radius)};
+  // rows of the matrix: x and y span -1..1 across the sphere, z 0..1 along the light; y down, as in the eyes, or the
+  // light would see backs for fronts
+  const glm::dvec3 rows[3]{right / radius, -up / radius, -to_light / (2.0 * radius)};
   glm::dmat4 m(1.0);
   for (glm::length_t row = 0; row < 3; ++row) {
     for (glm::length_t column = 0; column < 3; ++column) {

@@ -174,6 +174,25 @@ TEST_F(Materials, AreLitAlikeOnBothSides) {
   EXPECT_LE(difference(see(back), see(front), 3).share_beyond, 0.001) << "with a texture";
 }
 
+// A small square before the large one, up and to the left, whose shadow falls down and to the right.
+TEST_F(Materials, CastShadowsWhereTheirFrontSeesTheLight) {
+  material_.unlit = false;
+  material_.metallic = 0.0F;
+  const auto shaded = [&](double turn_rad) {
+    scene_ = {};
+    scene_.materials = {material_};
+    add(scene_, "floor", square_, glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)));
+    const glm::dmat4 place = glm::translate(glm::dmat4(1.0), glm::dvec3(-0.26, 0.37, 0.6));
+    const glm::dmat4 turned = glm::rotate(place, turn_rad, glm::dvec3(0.0, 1.0, 0.0));
+    add(scene_, "sheet", square_, glm::scale(turned, glm::dvec3(0.4)));
+    return pixel(draw(scene_, bare_frame(scene_), small()).left, kMiddleX + 22, kMiddleY + 31).g;
+  };
+  const auto lit = shaded(glm::pi<double>());
+  EXPECT_LT(shaded(0.0), lit - 30);
+  material_.double_sided = true;
+  EXPECT_LT(shaded(glm::pi<double>()), lit - 30);
+}
+
 TEST_F(Materials, DrawLinesAndPoints) {
   const render::Image bare = see(glm::translate(glm::dmat4(1.0), glm::dvec3(50, 0, 0)));
   const auto drawn = [&] { return difference(see(), bare, 8).share_beyond * bare.width * bare.height; };
