@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <utility>
 
 namespace afm::app {
@@ -37,21 +35,6 @@ core::Result<std::string> monitor_name(const std::string& who, const std::string
                                                                  who, wanted, list_of(monitors)));
 }
 
-bool holds(const scene::PixelRect& rect, const glm::ivec2& pixel) {
-  const glm::ivec2 inside = pixel - rect.offset_px, size(rect.size_px);
-  return inside.x >= 0 && inside.y >= 0 && inside.x < size.x && inside.y < size.y;
-}
-
-// Whether each corner lies on some monitor.
-bool is_seen(const scene::PixelRect& rect, const std::vector<render::Monitor>& monitors) {
-  const glm::ivec2 first = rect.offset_px, last = first + glm::ivec2(rect.size_px) - 1;
-  const std::array corners{first, glm::ivec2(last.x, first.y), glm::ivec2(first.x, last.y), last};
-  return std::all_of(corners.begin(), corners.end(), [&](const glm::ivec2& corner) {
-    return std::any_of(monitors.begin(), monitors.end(),
-                       [&](const auto& monitor) { return holds(monitor.rect, corner); });
-  });
-}
-
 core::Result<render::WindowOptions> placed(const scene::Output& output, const std::vector<render::Monitor>& monitors) {
   render::WindowOptions window{.title = fmt::format("{}, {}", kTitle, output.name)};
   const std::string who = fmt::format("output \"{}\"", output.name);
@@ -61,7 +44,7 @@ core::Result<render::WindowOptions> placed(const scene::Output& output, const st
     window.monitor = std::move(*name);
     return window;
   }
-  if (!is_seen(output.rect, monitors)) {
+  if (!render::is_shown(output.rect, monitors)) {
     return core::failure(ErrorCategory::DeviceMissing,
                          fmt::format("{}: no monitor shows all of its {} x {} pixels at {}, {}; there are: {}; --size "
                                      "shows the wall in one window",

@@ -19,7 +19,7 @@ core::Result<ViewWindows> ViewWindows::open(const std::vector<ViewOutput>& outpu
       return core::failure(window.error().category, who + window.error().message);
     }
     windows.windows_.push_back(std::make_unique<render::Window>(std::move(*window)));
-    windows.placed_.push_back(output.window.rect.has_value());
+    windows.rects_.push_back(output.window.rect);
   }
   windows.cursors_.resize(outputs.size());
   windows.origins_.resize(outputs.size());
@@ -27,7 +27,6 @@ core::Result<ViewWindows> ViewWindows::open(const std::vector<ViewOutput>& outpu
 }
 
 ViewInput ViewWindows::poll() {
-  using News = render::WindowInput::MonitorNews;
   ViewInput all;
   for (std::size_t i = 0; i < windows_.size(); ++i) {
     render::WindowInput input = windows_[i]->poll();
@@ -35,16 +34,23 @@ ViewInput ViewWindows::poll() {
     if (std::exchange(cursors_[i], input.cursor_px) != input.cursor_px || !input.events.empty()) window_ = i;
     for (render::WindowEvent& event : input.events) all.events.push_back({i, event});
     all.close_requested = all.close_requested || input.close_requested;
-    if (input.monitor_news == News::Lost) {
-      core::log_line(
-          fmt::format("monitor {} is lost; its window goes on as a small one until it is back", input.monitor));
-    } else if (input.monitor_news == News::Back) {
-      core::log_line(fmt::format("monitor {} is back, and filled again", input.monitor));
-    }
+    if (input.monitor_news != render::WindowInput::MonitorNews::None) tell(i, input);
   }
   all.window = window_;
   all.cursor_px = cursors_[window_];
   return all;
+}
+
+void ViewWindows::tell(std::size_t window, const render::WindowInput& news) const {
+  std::string which = news.monitor;
+  if (const auto& rect = rects_[window]) {
+    which = fmt::format("under the {} x {} pixels at {}, {}", rect->size_px.x, rect->size_px.y, rect->offset_px.x,
+                        rect->offset_px.y);
+  }
+  const bool lost = news.monitor_news == render::WindowInput::MonitorNews::Lost;
+  core::log_line(
+      fmt::format("monitor {} is {}", which,
+                  lost ? "lost; its window goes on as a small one until it is back" : "back, and filled again"));
 }
 
 std::vector<render::Window*> ViewWindows::all() const {
@@ -59,9 +65,9 @@ bool ViewWindows::hidden() const {
 
 void ViewWindows::toggle_full_screen() {
   for (std::size_t i = 0; i < windows_.size(); ++i) {
-    if (!placed_[i]) windows_[i]->set_full_screen(!windows_[i]->full_screen());
+    if (!rects_[i]) windows_[i]->set_full_screen(!windows_[i]->full_screen());
   }
-  if (std::find(placed_.begin(), placed_.end(), false) == placed_.end()) {
+  if (std::all_of(rects_.begin(), rects_.end(), [](const auto& rect) { return rect.has_value(); })) {
     core::log_line("the windows stay where the wall file places them");
   }
 }

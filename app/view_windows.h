@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/view_outputs.h"
@@ -44,10 +45,12 @@ class ViewWindows {
   glm::dvec2 on_desktop(std::size_t window, const glm::dvec2& cursor_px) const;
 
  private:
+  void tell(std::size_t window, const render::WindowInput& news) const;
+
   std::vector<std::unique_ptr<render::Window>> windows_;
-  std::vector<bool> placed_;         // by a rectangle
-  std::vector<glm::dvec2> cursors_;  // in each of them
-  std::vector<glm::dvec2> origins_;  // on the desktop
+  std::vector<std::optional<scene::PixelRect>> rects_;  // of those that have their place by one
+  std::vector<glm::dvec2> cursors_;                     // in each of them
+  std::vector<glm::dvec2> origins_;                     // on the desktop
   std::size_t window_ = 0;
 };
 

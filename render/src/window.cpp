@@ -127,8 +127,8 @@ core::Result<void> WindowHandle::place(const WindowOptions& options) {
           "a Wayland desktop lets no program place its windows: name a monitor instead of a rectangle, "
           "or log into an X11 session");
     }
-    placed_ = true;
-    glfwSetWindowPos(window_, options.rect->offset_px.x, options.rect->offset_px.y);
+    rect_ = options.rect;
+    take_rect();
     glfwShowWindow(window_);
     return {};
   }
@@ -171,25 +171,51 @@ WindowInput WindowHandle::poll() {
           .monitor = news == WindowInput::MonitorNews::None ? std::string() : full_on_};
 }
 
-// GLFW has made a small window of one whose monitor has gone, wherever it happens to lie.
 WindowInput::MonitorNews WindowHandle::follow_monitor() {
+  if (rect_) return follow_rect();
   if (full_on_.empty() || full_screen()) return WindowInput::MonitorNews::None;
   if (!monitor_lost_) {
     monitor_lost_ = true;
-    GLFWmonitor* const left = glfwGetPrimaryMonitor();
-    if (const GLFWvidmode* const mode = left == nullptr ? nullptr : glfwGetVideoMode(left)) {
-      const glm::ivec2 whole(mode->width, mode->height), size(kLeftOver * glm::dvec2(whole));
-      glm::ivec2 corner(0);
-      glfwGetMonitorPos(left, &corner.x, &corner.y);
-      corner += (whole - size) / 2;
-      glfwSetWindowMonitor(window_, nullptr, corner.x, corner.y, size.x, size.y, 0);
-    }
+    become_small();
     return WindowInput::MonitorNews::Lost;
   }
   GLFWmonitor* const back = monitor_named(full_on_);
   if (back == nullptr) return WindowInput::MonitorNews::None;
   fill(back);
   return WindowInput::MonitorNews::Back;
+}
+
+// Asking where the monitors are takes a while: only when some have come or gone, or the window waits for one.
+WindowInput::MonitorNews WindowHandle::follow_rect() {
+  const unsigned changes = WindowSystem::monitor_changes();
+  const bool changed = std::exchange(monitor_changes_, changes) != changes;
+  if (!changed && !monitor_lost_) return WindowInput::MonitorNews::None;
+  const auto monitors = list_monitors();
+  const bool lost = !monitors || !is_shown(*rect_, *monitors);
+  if (std::exchange(monitor_lost_, lost) == lost) return WindowInput::MonitorNews::None;
+  if (lost) {
+    become_small();
+    return WindowInput::MonitorNews::Lost;
+  }
+  take_rect();
+  return WindowInput::MonitorNews::Back;
+}
+
+// On what is left, wherever the window happened to lie when its monitor went.
+void WindowHandle::become_small() {
+  GLFWmonitor* const left = glfwGetPrimaryMonitor();
+  const GLFWvidmode* const mode = left == nullptr ? nullptr : glfwGetVideoMode(left);
+  if (mode == nullptr) return;
+  const glm::ivec2 whole(mode->width, mode->height), size(kLeftOver * glm::dvec2(whole));
+  glm::ivec2 corner(0);
+  glfwGetMonitorPos(left, &corner.x, &corner.y);
+  corner += (whole - size) / 2;
+  glfwSetWindowMonitor(window_, nullptr, corner.x, corner.y, size.x, size.y, 0);
+}
+
+void WindowHandle::take_rect() {
+  const glm::ivec2 size(rect_->size_px);
+  glfwSetWindowMonitor(window_, nullptr, rect_->offset_px.x, rect_->offset_px.y, size.x, size.y, 0);
 }
 
 void WindowHandle::wait(double seconds) { glfwWaitEventsTimeout(seconds); }
@@ -256,7 +282,7 @@ void WindowHandle::fill(GLFWmonitor* monitor) {
 }
 
 void WindowHandle::set_full_screen(bool wanted) {
-  if (wanted == full_screen() || placed_) {
+  if (wanted == full_screen() || rect_) {
     return;
   }
   if (!wanted) {

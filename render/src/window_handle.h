@@ -35,6 +35,9 @@ class WindowHandle {
   glm::dvec2 pixels_per_unit() const;
   void fill(GLFWmonitor* monitor);
   WindowInput::MonitorNews follow_monitor();
+  WindowInput::MonitorNews follow_rect();
+  void become_small();
+  void take_rect();
   glm::dvec2 picture_px(const glm::dvec2& place) const;
   void add(WindowEvent event);
   static WindowHandle& of(GLFWwindow* window);
@@ -45,7 +48,8 @@ class WindowHandle {
 
   WindowSystem system_;
   GLFWwindow* window_ = nullptr;
-  bool placed_ = false;  // by a rectangle
+  std::optional<scene::PixelRect> rect_;  // its place, or the one that it takes again when a monitor is back
+  unsigned monitor_changes_ = WindowSystem::monitor_changes();  // as follow_rect() saw them last
   std::string full_on_;  // the monitor that it fills, or fills again when it is back; empty: a window
   bool monitor_lost_ = false;
   std::vector<WindowEvent> events_;

@@ -3,6 +3,8 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <span>
 #include <string_view>
@@ -24,7 +26,10 @@ core::Result<WindowSystem> WindowSystem::join() {
                          "cannot open a window (" + window_system_error() +
                              "): run this on a desktop, with DISPLAY or WAYLAND_DISPLAY set");
   }
-  if (++shares_ == 1) outlive_the_display();
+  if (++shares_ == 1) {
+    outlive_the_display();
+    glfwSetMonitorCallback([](GLFWmonitor*, int) { ++monitor_changes_; });
+  }
   return WindowSystem();
 }
 
@@ -86,6 +91,17 @@ const Monitor* find_monitor(const std::vector<Monitor>& monitors, const std::str
   const auto read = std::from_chars(name_or_number.data(), end, number);
   const bool counted = read.ec == std::errc() && read.ptr == end && number >= 1 && number <= monitors.size();
   return counted ? &monitors[number - 1] : nullptr;
+}
+
+bool is_shown(const scene::PixelRect& rect, const std::vector<Monitor>& monitors) {
+  const glm::ivec2 first = rect.offset_px, last = first + glm::ivec2(rect.size_px) - 1;
+  const std::array corners{first, glm::ivec2(last.x, first.y), glm::ivec2(first.x, last.y), last};
+  return std::all_of(corners.begin(), corners.end(), [&](const glm::ivec2& corner) {
+    return std::any_of(monitors.begin(), monitors.end(), [&](const Monitor& monitor) {
+      const glm::ivec2 inside = corner - monitor.rect.offset_px, size(monitor.rect.size_px);
+      return inside.x >= 0 && inside.y >= 0 && inside.x < size.x && inside.y < size.y;
+    });
+  });
 }
 
 // GLFW 3.3 is built for one window system.

@@ -23,12 +23,16 @@ class WindowSystem {
   // Whether the display has gone, with everything on it. Xlib would end the process by itself.
   static bool lost() { return lost_; }
 
+  // How many monitors have come and gone until now.
+  static unsigned monitor_changes() { return monitor_changes_; }
+
  private:
   WindowSystem() = default;
   static void outlive_the_display();
 
   inline static int shares_ = 0;
   inline static bool lost_ = false;
+  inline static unsigned monitor_changes_ = 0;
   bool joined_ = true;
 };
 

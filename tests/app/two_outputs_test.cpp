@@ -143,6 +143,24 @@ TEST_F(TwoOutputsTest, AMonitorThatIsSwitchedOffAndOnAgainIsFilledAgain) {
   EXPECT_EQ(program.ends(), 0) << program.said();
 }
 
+TEST_F(TwoOutputsTest, AMonitorUnderARectangleThatIsSwitchedOffAndOnAgainIsFilledAgain) {
+  support::LiveProgram program(view("named.toml"), monitors_.name());
+  ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
+  ASSERT_TRUE(program.says("Point at a sample")) << program.said();
+  const auto place = [&] { return on_display("xdotool search --name 'right projector' getwindowgeometry").out; };
+  EXPECT_THAT(place(), AllOf(HasSubstr("Position: 320,0"), HasSubstr("Geometry: 320x240")));
+  monitors_.xrandr("--output DUMMY1 --off");
+  ASSERT_TRUE(program.says("monitor under the 320 x 240 pixels at 320, 0 is lost")) << program.said();
+  EXPECT_THAT(place(), AllOf(HasSubstr("Position: 40,30"), HasSubstr("Geometry: 240x180")));
+  ASSERT_EQ(on_display("xdotool key 1").exit_code, 0);
+  ASSERT_TRUE(program.says("chosen: Mica")) << program.said();
+  monitors_.xrandr("--output DUMMY1 --mode small --pos 320x0");
+  ASSERT_TRUE(program.says("monitor under the 320 x 240 pixels at 320, 0 is back")) << program.said();
+  EXPECT_THAT(place(), AllOf(HasSubstr("Position: 320,0"), HasSubstr("Geometry: 320x240")));
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.ends(), 0) << program.said();
+}
+
 TEST_F(TwoOutputsTest, MonitorsAreListedAndOneThatIsNotThereIsNamed) {
   const auto devices = on_display(AFM_PROGRAM " devices");
   EXPECT_THAT(devices.out, AllOf(HasSubstr("DUMMY0"), HasSubstr("number 2, 320 x 240 pixels at 320, 0")));

@@ -22,6 +22,9 @@ core::Result<std::vector<Monitor>> list_monitors();
 // The one that is called so or, if none is, the one of that number, counted from 1; null if there is neither.
 const Monitor* find_monitor(const std::vector<Monitor>& monitors, const std::string& name_or_number);
 
+// Whether every corner of a rectangle of the desktop lies on some of them.
+bool is_shown(const scene::PixelRect& rect, const std::vector<Monitor>& monitors);
+
 // Whether a program may choose where its windows stand. Wayland lets it choose the monitor alone.
 bool can_place_windows();
 

@@ -63,9 +63,10 @@ struct WindowInput {
   glm::dvec2 origin_px{0.0};     // where the picture's top left corner lies on the desktop; 0,0 where nobody tells
   bool close_requested = false;  // the window's own close button
 
-  // What has become of the monitor that the window fills: without it the window is a small one on what is left.
+  // What has become of the monitor that the window fills, or of those under its rectangle: without it the window is a
+  // small one on what is left.
   enum class MonitorNews { None, Lost, Back } monitor_news = MonitorNews::None;
-  std::string monitor;  // that the news is of
+  std::string monitor;  // that the news is of; empty: under the rectangle
 };
 
 struct WindowOptions {
