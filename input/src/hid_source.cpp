@@ -101,7 +101,12 @@ struct HidSource::Device {
       }
       driver.calibrate(reports);
     }
-    for (const std::vector<std::uint8_t>& report : driver.set_up()) {
+    return write(driver.set_up());
+  }
+
+  // False if it does not take one of them.
+  bool write(const std::vector<std::vector<std::uint8_t>>& reports) const {
+    for (const std::vector<std::uint8_t>& report : reports) {
       if (hid_write(handle, report.data(), report.size()) < 0) return false;
       std::this_thread::sleep_for(kSetUpPause);
     }
@@ -221,6 +226,10 @@ WandState HidSource::poll() {
       return nothing();
     }
     if (!wand_->take(Bytes(report).first(static_cast<std::size_t>(size)), clock_.now_ns())) ++refused_;
+    if (!device_->write(wand_->take_answers())) {
+      lose();
+      return nothing();
+    }
   }
   return wand_->state(clock_.now_ns());
 }

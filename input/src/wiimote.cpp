@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "input/wand.h"
 
@@ -16,6 +17,54 @@ constexpr double kCountsPerG = 104.0;
 // the camera sees 33 degrees across its 1024 columns (WiiBrew)
 constexpr double kRadPerColumn = 33.0 / 1024.0 * std::numbers::pi / 180.0;
 constexpr double kMiddleColumn = 511.5;
+constexpr double kGyroRestCount = 8192.0;
+constexpr double kSlowRadPerS = 440.0 / 8192.0 * std::numbers::pi / 180.0;  // a count, in the finer range
+constexpr double kFastRadPerS = 2000.0 / 8192.0 * std::numbers::pi / 180.0;
+constexpr std::uint16_t kExtensionIdentifier = 0x00FA;
+
+using Reports = std::vector<std::vector<std::uint8_t>>;
+
+// Into the registers of what lies at `space`, 0xb0 the camera, 0xa6 a MotionPlus that sleeps.
+std::vector<std::uint8_t> write_register(std::uint8_t space, std::uint16_t address, std::vector<std::uint8_t> data) {
+  std::vector<std::uint8_t> report{0x16,
+                                   0x04,
+                                   space,
+                                   static_cast<std::uint8_t>(address >> 8),
+                                   static_cast<std::uint8_t>(address),
+                                   static_cast<std::uint8_t>(data.size())};
+  data.resize(16);
+  report.insert(report.end(), data.begin(), data.end());
+  return report;
+}
+
+// Wakes a MotionPlus, which then takes the extension's place, asks the extension what it is, and for report 0x37 all
+// the time: the remote stops reporting when the extension changes. With none, the remote answers that it could not
+// write.
+Reports wake_motion_plus() {
+  return {write_register(0xa6, 0x00f0, {0x55}),
+          write_register(0xa6, 0x00fe, {0x04}),
+          {0x17, 0x04, 0xa4, 0x00, kExtensionIdentifier, 0x00, 0x06},
+          {0x12, 0x04, 0x37}};
+}
+
+// xx xx a4 20 xx 05; a Nunchuk ends with 00 00, a Classic Controller with 01 01 (WiiBrew).
+bool is_motion_plus(const WiimoteReport::Memory& identifier) {
+  const auto& id = identifier.bytes;
+  return identifier.size == 6 && id[2] == 0xa4 && id[3] == 0x20 && id[5] == 0x05;
+}
+
+glm::dvec3 in_wand(const std::array<double, 3>& left_back_up) {
+  return {-left_back_up[0], left_back_up[2], left_back_up[1]};
+}
+
+ImuSample sample_of(const std::array<std::uint16_t, 3>& acceleration, const std::optional<MotionPlusReport>& turn) {
+  std::array<double, 3> pull{}, rate{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    pull[i] = (acceleration[i] - kRestCount) / kCountsPerG;
+    if (turn) rate[i] = (turn->rates[i] - kGyroRestCount) * (turn->slow[i] ? kSlowRadPerS : kFastRadPerS);
+  }
+  return {.rate_rad_per_s = in_wand(rate), .acceleration_g = in_wand(pull)};
+}
 
 std::array<std::uint16_t, 3> acceleration_of(Bytes r) {
   const auto ten_bits = [](unsigned high, unsigned low) { return static_cast<std::uint16_t>((high << 2) | low); };
@@ -30,6 +79,21 @@ std::optional<WiimoteReport::Dot> dot_of(unsigned x_low, unsigned y_low, unsigne
   return WiimoteReport::Dot{x, y};
 }
 
+std::array<std::uint8_t, 6> extension_at(Bytes report, std::size_t at) {
+  std::array<std::uint8_t, 6> bytes;
+  std::copy_n(report.begin() + static_cast<std::ptrdiff_t>(at), bytes.size(), bytes.begin());
+  return bytes;
+}
+
+// Byte 3: how many less one in its upper half, an error in its lower one; then the address, high byte first.
+WiimoteReport::Memory memory_of(Bytes report) {
+  WiimoteReport::Memory memory;
+  memory.address = static_cast<std::uint16_t>((report[4] << 8) | report[5]);
+  memory.size = (report[3] & 0x0F) == 0 ? (report[3] >> 4) + std::size_t{1} : 0;
+  std::copy_n(report.begin() + 6, memory.bytes.size(), memory.bytes.begin());
+  return memory;
+}
+
 class Wiimote final : public HidDriver {
  public:
   std::optional<HidInput> read(Bytes report) override {
@@ -39,11 +103,14 @@ class Wiimote final : public HidDriver {
     input.buttons = wand_buttons(parsed->buttons);
     const auto held = [&](unsigned mask) { return (parsed->buttons & mask) != 0 ? 1.0 : 0.0; };
     input.push = glm::dvec3(held(0x0002) - held(0x0001), 0.0, held(0x0004) - held(0x0008));
-    if (parsed->acceleration) {
-      const auto g = [&](std::size_t i) { return ((*parsed->acceleration)[i] - kRestCount) / kCountsPerG; };
-      input.imu[0].acceleration_g = {-g(0), g(2), g(1)};
+    follow_extension(*parsed);
+    const bool has_gyro = motion_plus_ && parsed->extension;
+    const auto turn = has_gyro ? parse_motion_plus(*parsed->extension) : std::nullopt;
+    // what comes from behind a MotionPlus says nothing of the turn since the report before
+    if (parsed->acceleration && turn.has_value() == has_gyro) {
+      input.imu[0] = sample_of(*parsed->acceleration, turn);
       input.imu_count = 1;
-      input.has_gyro = false;
+      input.has_gyro = has_gyro;
     }
     double sum = 0.0;
     int seen = 0;
@@ -56,31 +123,35 @@ class Wiimote final : public HidDriver {
     return input;
   }
 
-  // Switches the camera on, in the order of WiiBrew, and asks for report 0x33 all the time.
-  std::vector<std::vector<std::uint8_t>> set_up() const override {
-    const auto write = [](std::uint16_t address, std::vector<std::uint8_t> data) {
-      std::vector<std::uint8_t> report{0x16,
-                                       0x04,
-                                       0xb0,
-                                       static_cast<std::uint8_t>(address >> 8),
-                                       static_cast<std::uint8_t>(address),
-                                       static_cast<std::uint8_t>(data.size())};
-      data.resize(16);
-      report.insert(report.end(), data.begin(), data.end());
-      return report;
+  // Switches the camera on, in the order of WiiBrew, for the dots of report 0x37.
+  Reports set_up() const override {
+    Reports reports{
+        {0x11, 0x10},
+        {0x13, 0x04},
+        {0x1a, 0x04},
+        write_register(0xb0, 0x30, {0x08}),
+        write_register(0xb0, 0x00, {0x02, 0x00, 0x00, 0x71, 0x01, 0x00, 0xaa, 0x00, 0x64}),
+        write_register(0xb0, 0x1a, {0x63, 0x03}),
+        write_register(0xb0, 0x33, {0x01}),
+        write_register(0xb0, 0x30, {0x08}),
     };
-    return {{0x11, 0x10},
-            {0x13, 0x04},
-            {0x1a, 0x04},
-            write(0x30, {0x08}),
-            write(0x00, {0x02, 0x00, 0x00, 0x71, 0x01, 0x00, 0xaa, 0x00, 0x64}),
-            write(0x1a, {0x63, 0x03}),
-            write(0x33, {0x03}),
-            write(0x30, {0x08}),
-            {0x12, 0x04, 0x33}};
+    for (auto& report : wake_motion_plus()) reports.push_back(std::move(report));
+    return reports;
   }
 
+  Reports take_answers() override { return std::exchange(answers_, {}); }
+
  private:
+  // A MotionPlus that wakes is a change, too; one that is awake does not answer to waking, so that it ends there.
+  void follow_extension(const WiimoteReport& report) {
+    if (report.plug_changed) {
+      motion_plus_ = false;
+      answers_ = wake_motion_plus();
+    } else if (report.memory && report.memory->address == kExtensionIdentifier) {
+      motion_plus_ = is_motion_plus(*report.memory);
+    }
+  }
+
   static std::uint32_t wand_buttons(std::uint16_t raw) {
     std::uint32_t buttons = 0;
     if ((raw & 0x0800) != 0) buttons |= bit(WandButton::Select);
@@ -90,6 +161,9 @@ class Wiimote final : public HidDriver {
     if ((raw & 0x1000) != 0) buttons |= bit(WandButton::Recenter);
     return buttons;
   }
+
+  bool motion_plus_ = false;  // it is awake
+  Reports answers_;
 };
 
 }  // namespace
@@ -99,6 +173,14 @@ std::optional<WiimoteReport> parse_wiimote(Bytes report) {
   WiimoteReport parsed;
   parsed.buttons = unsigned16(report, 1) & kButtonBits;
   switch (report[0]) {
+    case 0x20:
+      if (report.size() < 7) return std::nullopt;
+      parsed.plug_changed = true;
+      return parsed;
+    case 0x21:
+      if (report.size() < 22) return std::nullopt;
+      parsed.memory = memory_of(report);
+      return parsed;
     case 0x30:
       return parsed;
     case 0x31:
@@ -111,6 +193,10 @@ std::optional<WiimoteReport> parse_wiimote(Bytes report) {
         parsed.dots[i] = dot_of(dot[0], dot[1], dot[2] >> 4);
       }
       break;
+    case 0x35:
+      if (report.size() < 22) return std::nullopt;
+      parsed.extension = extension_at(report, 6);
+      break;
     case 0x37:
       if (report.size() < 22) return std::nullopt;
       for (std::size_t i = 0; i < 2; ++i) {
@@ -118,12 +204,23 @@ std::optional<WiimoteReport> parse_wiimote(Bytes report) {
         parsed.dots[2 * i] = dot_of(pair[0], pair[1], pair[2] >> 4);
         parsed.dots[2 * i + 1] = dot_of(pair[3], pair[4], pair[2] & 15U);
       }
+      parsed.extension = extension_at(report, 16);
       break;
     default:
       return std::nullopt;
   }
   parsed.acceleration = acceleration_of(report);
   return parsed;
+}
+
+std::optional<MotionPlusReport> parse_motion_plus(Bytes e) {
+  if (e.size() < 6 || (e[5] & 3U) != 2U) return std::nullopt;
+  const auto rate = [&](std::size_t axis) {
+    return static_cast<std::uint16_t>(e[axis] | ((e[axis + 3] & 0xFCU) << 6));
+  };
+  // sent as yaw, roll, pitch
+  return MotionPlusReport{.rates = {rate(2), rate(1), rate(0)},
+                          .slow = {(e[3] & 1U) != 0, (e[4] & 2U) != 0, (e[3] & 2U) != 0}};
 }
 
 std::unique_ptr<HidDriver> wiimote_driver() { return std::make_unique<Wiimote>(); }

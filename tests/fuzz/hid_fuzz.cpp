@@ -59,6 +59,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   std::int64_t now_ns = 1'000'000'000;
   for (const auto& report : reports) {
     wand.take(report, now_ns += 4'000'000);
+    for (const auto& answer : wand.take_answers()) {
+      if (answer.empty()) std::abort();
+    }
     const WandState state = wand.state(now_ns);
     const glm::dvec3 d = ray_of(state).direction;
     if (!(std::abs(d.x * d.x + d.y * d.y + d.z * d.z - 1.0) < 1e-6)) std::abort();

@@ -69,6 +69,9 @@ class HidDriver {
   // Output reports that make the device send what read() understands.
   virtual std::vector<std::vector<std::uint8_t>> set_up() const { return {}; }
 
+  // Output reports that what was read last asks for. Gives them once.
+  virtual std::vector<std::vector<std::uint8_t>> take_answers() { return {}; }
+
   // The calibration that the device keeps, if any; what it is without is used when it makes no sense.
   virtual std::optional<FeatureRequest> calibration() const { return std::nullopt; }
   virtual void calibrate(std::span<const std::vector<std::uint8_t>> reports) { static_cast<void>(reports); }

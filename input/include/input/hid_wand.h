@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <vector>
 
 #include "input/hid_report.h"
 #include "input/orientation_filter.h"
@@ -27,6 +28,9 @@ class HidWand {
 
   // A report that came in at `now_ns`. False, and nothing changes: not a report of this device, or damaged.
   bool take(Bytes report, std::int64_t now_ns);
+
+  // Output reports for the device, after every report that was taken.
+  std::vector<std::vector<std::uint8_t>> take_answers() { return driver_->take_answers(); }
 
   // Once for every state that is published: steering goes on between the reports.
   WandState state(std::int64_t now_ns);
