@@ -13,6 +13,7 @@
 
 #include "app/loading_notice.h"
 #include "app/model_builder.h"
+#include "core/log.h"
 #include "scene/gltf_loader.h"
 #include "scene/pose.h"
 
@@ -78,7 +79,11 @@ scene::Scene without_shape(const scene::Scene& scene) {
 
 core::Result<scene::Scene> load(const std::string& file) {
   const LoadingNotice notice(file);
-  return scene::load_gltf(file);
+  auto loaded = scene::load_gltf(file);
+  if (loaded && !loaded->animations.empty()) {
+    core::log_line(fmt::format("'{}' stands at rest: the animations of a model are not played on the wall", file));
+  }
+  return loaded;
 }
 
 core::Result<scene::Scene> load_probe(const std::string& file) {

@@ -174,5 +174,16 @@ TEST_F(OwnModel, BecomesASampleThatIsFeltAsItIsDrawn) {
   EXPECT_NEAR(large->sample->meshes[0].primitives[0].vertices.at(2).position.x, 60e-9, 1e-14);
 }
 
+TEST_F(OwnModel, SaysThatItsAnimationsAreNotPlayedOnTheWall) {
+  const auto said = [&](const std::string& more) {
+    const std::string path = write(R"("nodes": [{"name": "surface", "mesh": 0}])" + more);
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(load_own_models("", path));
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(""), "");
+  EXPECT_THAT(said(R"(, "animations": [{"samplers": [], "channels": []}])"), HasSubstr("stands at rest"));
+}
+
 }  // namespace
 }  // namespace afm::app
