@@ -90,7 +90,7 @@ std::vector<Part> board() {
 }
 
 MaterialSpec red_light(const char* name, double alpha) {
-  return {.name = name, .base_color = {1.0, 0.10, 0.06}, .alpha = alpha, .emissive = {1.0, 0.10, 0.06}, .unlit = true};
+  return {.name = name, .base_color = {1.0, 0.20, 0.12}, .alpha = alpha, .unlit = true};
 }
 
 }  // namespace
@@ -106,10 +106,10 @@ Model optics() {
   for (std::size_t i = 0; i < 4; ++i) {
     model.nodes.push_back({.name = names[i], .parent = 1, .parts = {{quadrant(middles[i], half), sensor()}}});
   }
-  model.nodes.push_back({.name = "beam", .parts = {{unit_beam(), red_light("beam light", 0.55)}}});
+  model.nodes.push_back({.name = "beam", .parts = {{unit_beam(), red_light("beam light", 0.7)}}});
   Surface disc;
   add_cap(disc, circle(1, 3), 0, Facing::Up);
-  model.nodes.push_back({.name = "spot", .parts = {{std::move(disc), red_light("spot light", 0.9)}}});
+  model.nodes.push_back({.name = "spot", .parts = {{std::move(disc), red_light("spot light", 0.95)}}});
   return model;
 }
 

@@ -67,13 +67,9 @@ Model wand() {
   Model model{"wand", {}};
   model.nodes.push_back(
       {.name = "wand", .parts = {{turned(handle()), grip()}, {turned(neck()), shell()}, {turned(sphere()), ball()}}});
-  model.nodes.push_back({.name = "ray",
-                         .parts = {{unit_beam(),
-                                    {.name = "ray light",
-                                     .base_color = {0.10, 0.85, 1.0},
-                                     .alpha = 0.6,
-                                     .emissive = {0.10, 0.85, 1.0},
-                                     .unlit = true}}}});
+  model.nodes.push_back(
+      {.name = "ray",
+       .parts = {{unit_beam(), {.name = "ray light", .base_color = {0.20, 1.0, 1.0}, .alpha = 0.75, .unlit = true}}}});
   return model;
 }
 

@@ -97,6 +97,8 @@ class MaterialReader {
     if (const Value* strong = extension("KHR_materials_emissive_strength")) {
       material_.emissive *= number(*strong, "emissiveStrength", 1);
     }
+    // KHR_materials_unlit: what else the material says is for programs that do not know the extension
+    if (material_.unlit) material_.emissive = glm::vec3(0.0F);
     if (const Value* refractive = extension("KHR_materials_ior")) {
       material_.ior = number(*refractive, "ior", 1.5);
       if (material_.ior != 0.0F && material_.ior < 1.0F) {

@@ -99,12 +99,12 @@ TEST_F(GltfLoader, ReadsTransformsOfBothKinds) {
 
 TEST_F(GltfLoader, ReadsMaterialFactorsAndExtensions) {
   json document = square_json();
-  document["extensionsUsed"] = {"KHR_materials_unlit", "KHR_materials_emissive_strength"};
+  document["extensionsUsed"] = {"KHR_materials_emissive_strength"};
   document["extensionsRequired"] = document["extensionsUsed"];
   document["materials"][0] = json::parse(R"({"name": "beam", "doubleSided": true, "alphaMode": "BLEND",
     "emissiveFactor": [1, 0.5, 0],
     "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0, "roughnessFactor": 0.25},
-    "extensions": {"KHR_materials_unlit": {}, "KHR_materials_emissive_strength": {"emissiveStrength": 4}}})");
+    "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}}})");
   const core::Result<Scene> scene = load(document);
   ASSERT_TRUE(scene) << scene.error().message;
   const Material& material = scene->materials.at(0);
@@ -112,7 +112,19 @@ TEST_F(GltfLoader, ReadsMaterialFactorsAndExtensions) {
   EXPECT_EQ(material.emissive, glm::vec3(4, 2, 0));
   EXPECT_EQ(material.metallic, 0.0F);
   EXPECT_EQ(material.roughness, 0.25F);
-  EXPECT_TRUE(material.double_sided && material.blended && material.unlit);
+  EXPECT_TRUE(material.double_sided && material.blended && !material.unlit);
+}
+
+// What it says beside its base colour is for programs that do not know the extension.
+TEST_F(GltfLoader, TakesNoEmissionFromAnUnlitMaterial) {
+  json document = square_json();
+  document["extensionsUsed"] = {"KHR_materials_unlit"};
+  document["materials"][0] =
+      json::parse(R"({"emissiveFactor": [1, 0.5, 0], "extensions": {"KHR_materials_unlit": {}}})");
+  const core::Result<Scene> scene = load(document);
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_TRUE(scene->materials.at(0).unlit);
+  EXPECT_EQ(scene->materials.at(0).emissive, glm::vec3(0));
 }
 
 TEST_F(GltfLoader, GivesPrimitivesWithoutMaterialTheDefaultOne) {
