@@ -9,10 +9,8 @@
 // pixel. What is scaled is so in linear light, through views of the same images that decode them, and so is what is mixed.
 layout(constant_id = 0) const uint kLook = 0;
 
-layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2D left_eye;
-layout(set = 0, binding = AFM_BINDING_RIGHT_EYE) uniform sampler2D right_eye;
-layout(set = 0, binding = AFM_BINDING_LEFT_LINEAR) uniform sampler2D left_linear;
-layout(set = 0, binding = AFM_BINDING_RIGHT_LINEAR) uniform sampler2D right_linear;
+layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2DArray eyes;
+layout(set = 0, binding = AFM_BINDING_LINEAR) uniform sampler2DArray linear_eyes;
 layout(set = 0, binding = AFM_BINDING_ANAGLYPH) uniform Anaglyph { AnaglyphBlock anaglyph; };
 layout(push_constant) uniform Compose { ComposeBlock compose; };
 layout(location = 0) out vec4 out_color;
@@ -39,7 +37,7 @@ Source shared_by_two(ivec2 pixel, ivec2 picture, int axis) {
 
 // Whole lines; a picture of another size shows the nearest of them.
 Source frame_packed(ivec2 pixel, ivec2 picture) {
-  ivec2 eye = ivec2(textureSize(left_eye, 0).x, compose.screen.z);
+  ivec2 eye = ivec2(textureSize(eyes, 0).x, compose.screen.z);
   int right_begins = eye.y + compose.screen.w;
   vec2 scale = vec2(eye.x, right_begins + eye.y) / vec2(picture);
   ivec2 exact = ivec2((vec2(pixel) + 0.5) * scale);
@@ -71,17 +69,15 @@ Source source_of_pixel(ivec2 pixel, ivec2 picture) {
   }
 }
 
-bool shows_right(int eye) { return eye == kRight && compose.drawn.z == 0.0; }
+int layer_of(int eye) { return eye == kRight && compose.drawn.z == 0.0 ? 1 : 0; }
 
 // Whether one pixel of the picture is one of the eye's image.
 bool unscaled(Source source) {
-  return compose.mode.z == 0 && source.region == textureSize(left_eye, 0) && compose.drawn.xy == vec2(1.0);
+  return compose.mode.z == 0 && source.region == textureSize(eyes, 0).xy && compose.drawn.xy == vec2(1.0);
 }
 
 // The pixel itself, encoded.
-vec3 eye_texel(int eye, Source source) {
-  return shows_right(eye) ? texelFetch(right_eye, source.pixel, 0).rgb : texelFetch(left_eye, source.pixel, 0).rgb;
-}
+vec3 eye_texel(int eye, Source source) { return texelFetch(eyes, ivec3(source.pixel, layer_of(eye)), 0).rgb; }
 
 // Exactly; the device's own decoding may be off by a step of 8 bits.
 vec3 linear_from_srgb(vec3 c) {
@@ -90,7 +86,6 @@ vec3 linear_from_srgb(vec3 c) {
 
 // Linear light: of the pixel itself where nothing is scaled, else bilinear within what is drawn of the image.
 vec3 eye_light(int eye, Source source) {
-  bool right = shows_right(eye);
   if (unscaled(source)) {
     return linear_from_srgb(eye_texel(eye, source));
   }
@@ -103,8 +98,8 @@ vec3 eye_light(int eye, Source source) {
       return vec3(0.0);
     }
   }
-  uv = min(uv * compose.drawn.xy, compose.drawn.xy - 0.5 / vec2(textureSize(left_eye, 0)));
-  return right ? textureLod(right_linear, uv, 0.0).rgb : textureLod(left_linear, uv, 0.0).rgb;
+  uv = min(uv * compose.drawn.xy, compose.drawn.xy - 0.5 / vec2(textureSize(eyes, 0).xy));
+  return textureLod(linear_eyes, vec3(uv, layer_of(eye)), 0.0).rgb;
 }
 
 // As it is shown, encoded.

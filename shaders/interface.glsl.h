@@ -41,8 +41,7 @@
 #define AFM_BINDING_TEXTURE 0
 #define AFM_BINDING_RIGHT_EYE 1
 #define AFM_BINDING_ANAGLYPH 2
-#define AFM_BINDING_LEFT_LINEAR 3
-#define AFM_BINDING_RIGHT_LINEAR 4
+#define AFM_BINDING_LINEAR 3
 #define AFM_BINDING_DEPTH_RANGE 2
 
 // one per frame; what has two elements belongs to the views

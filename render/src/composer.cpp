@@ -24,17 +24,15 @@ vk::DescriptorSetLayoutBinding binding(std::uint32_t index, vk::DescriptorType t
 
 vk::raii::DescriptorSetLayout create_set_layout(const Device& device) {
   const std::array bindings{binding(AFM_BINDING_TEXTURE, vk::DescriptorType::eCombinedImageSampler),
-                            binding(AFM_BINDING_RIGHT_EYE, vk::DescriptorType::eCombinedImageSampler),
-                            binding(AFM_BINDING_ANAGLYPH, vk::DescriptorType::eUniformBuffer),
-                            binding(AFM_BINDING_LEFT_LINEAR, vk::DescriptorType::eCombinedImageSampler),
-                            binding(AFM_BINDING_RIGHT_LINEAR, vk::DescriptorType::eCombinedImageSampler)};
+                            binding(AFM_BINDING_LINEAR, vk::DescriptorType::eCombinedImageSampler),
+                            binding(AFM_BINDING_ANAGLYPH, vk::DescriptorType::eUniformBuffer)};
   return vk::raii::DescriptorSetLayout(
       *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
 vk::raii::DescriptorPool create_pool(const Device& device) {
   const std::array sizes{
-      vk::DescriptorPoolSize{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 4},
+      vk::DescriptorPoolSize{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2},
       vk::DescriptorPoolSize{.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = 1}};
   return vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                             .maxSets = 1,
@@ -184,11 +182,8 @@ void Composer::eyes_changed() {
                                                          .pImageInfo = &image},
                                   nullptr);
   };
-  const auto left = eyes_.eye(scene::Eye::Left), right = eyes_.eye(scene::Eye::Right);
-  write(AFM_BINDING_TEXTURE, left.view);
-  write(AFM_BINDING_RIGHT_EYE, right.view);
-  write(AFM_BINDING_LEFT_LINEAR, left.linear);
-  write(AFM_BINDING_RIGHT_LINEAR, right.linear);
+  write(AFM_BINDING_TEXTURE, eyes_.both_eyes());
+  write(AFM_BINDING_LINEAR, eyes_.both_eyes_linear());
 }
 
 vk::Extent2D Composer::extent(scene::StereoMode mode) const {

@@ -70,8 +70,8 @@ EyeTargets::Target EyeTargets::create_target(const char* name, vk::Format format
   target.both = create_view(*device_, target.image, aspect, 0, layers);
   for (std::uint32_t layer = 0; layer < layers; ++layer) {
     target.single.push_back(create_view(*device_, target.image, aspect, layer, 1));
-    if (!is_depth) target.linear.push_back(create_view(*device_, target.image, aspect, layer, 1, kEyeLinearFormat));
   }
+  if (!is_depth) target.linear = create_view(*device_, target.image, aspect, 0, layers, kEyeLinearFormat);
   return target;
 }
 
@@ -175,14 +175,11 @@ void EyeTargets::copy_second(const vk::raii::CommandBuffer& command) const {
 }
 
 EyeTargets::EyeImage EyeTargets::eye(scene::Eye eye) const {
-  return {.image = *color_.image.image,
-          .layer = layer(eye),
-          .view = *color_.single[layer(eye)],
-          .linear = *color_.linear[layer(eye)]};
+  return {.image = *color_.image.image, .layer = layer(eye), .view = *color_.single[layer(eye)]};
 }
 
 EyeTargets::EyeImage EyeTargets::depth(scene::Eye eye) const {
-  return {.image = *depth_.image.image, .layer = layer(eye), .view = *depth_.single[layer(eye)], .linear = {}};
+  return {.image = *depth_.image.image, .layer = layer(eye), .view = *depth_.single[layer(eye)]};
 }
 
 }  // namespace afm::render

@@ -57,11 +57,15 @@ class EyeTargets {
   struct EyeImage {
     vk::Image image;
     std::uint32_t layer = 0;
-    vk::ImageView view;    // of this eye alone
-    vk::ImageView linear;  // of its colour, in kEyeLinearFormat
+    vk::ImageView view;  // of this eye alone
   };
   // Only drawing().extent of it is drawn.
   EyeImage eye(scene::Eye eye) const;
+
+  // Of the colour in both layers, the left eye's first: as it is stored, and in kEyeLinearFormat. Where both eyes see
+  // the same, only the first is drawn.
+  vk::ImageView both_eyes() const { return *color_.both; }
+  vk::ImageView both_eyes_linear() const { return *color_.linear; }
 
   // Reversed infinite depth of each pixel's first sample, 0 where nothing was drawn; kDepthFormat, as eye() sampled or
   // copied from in eShaderReadOnlyOptimal.
@@ -70,8 +74,8 @@ class EyeTargets {
  private:
   struct Target {
     DeviceImage image;
-    vk::raii::ImageView both{nullptr};
-    std::vector<vk::raii::ImageView> single, linear;  // one a layer; of colour alone
+    vk::raii::ImageView both{nullptr}, linear{nullptr};  // the latter of colour alone
+    std::vector<vk::raii::ImageView> single;             // one a layer
   };
   struct Multisampled {
     DeviceImage color, depth;
