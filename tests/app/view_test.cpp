@@ -8,6 +8,7 @@
 #include <glm/mat4x4.hpp>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "app/felt_material.h"
 #include "app/frame_builder.h"
@@ -29,6 +30,7 @@ namespace afm::app {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr int kWidth = 640, kHeight = 480;
 constexpr double kHandPerPixel = 0.255 / kHeight;  // of the drag, as docs/manual.md says: 85 mm on a third of the wall
@@ -243,6 +245,30 @@ TEST_F(ViewTest, OutlivesAStormOfSizesAndTheDeathOfItsServo) {
     EXPECT_TRUE(view.says("chosen: Gold")) << view.said();
   }
   picture("side-by-side");
+  view.signal(SIGINT);
+  EXPECT_EQ(view.ends(), 0) << view.said();
+}
+
+// Only a window manager makes an icon of a window.
+TEST_F(ViewTest, RestsWhileItIsMinimisedAndComesBack) {
+  const support::LiveProgram manager({"/usr/bin/openbox", "--sm-disable"}, display_.name());
+  support::LiveProgram view(command(), display_.name());
+  ASSERT_TRUE(view.says("Point at a sample")) << view.said();
+  const std::string window = "search --sync --name '^TouchAFM$' ";
+  xdotool(window + "windowactivate --sync key 2");
+  ASSERT_TRUE(view.says("chosen: Gold")) << view.said();
+  xdotool(window + "windowminimize");
+  const auto is_seen = [&] {
+    const std::string search = "DISPLAY=" + display_.name() + " xdotool search --onlyvisible --name '^TouchAFM$'";
+    return support::run_program(search).exit_code == 0;
+  };
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (is_seen() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_FALSE(is_seen()) << "minimised, and still on the screen";
+  xdotool(window + "windowactivate --sync key 3");
+  EXPECT_TRUE(view.says("chosen: Silicon nitride")) << view.said();
+  EXPECT_THAT(view.said(), Not(HasSubstr("the servo ended")));
   view.signal(SIGINT);
   EXPECT_EQ(view.ends(), 0) << view.said();
 }
