@@ -12,7 +12,8 @@ int dlclose(void* library);
 const char* __lsan_default_suppressions() {
   return "leak:libVkLayer_khronos_validation\n"
          "leak:libvulkan_lvp\n"
-         "leak:libLLVM\n";
+         "leak:libLLVM\n"
+         "leak:xcb_register_for_special_xge\n";  // of a swapchain whose X server died
 }
 
 const char* __tsan_default_options() { return "ignore_noninstrumented_modules=1"; }
