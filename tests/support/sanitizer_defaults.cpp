@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linked into programs that use Vulkan when they are built with a sanitizer. The driver and the validation layer are
-// not ours to mend: their leaks are suppressed by the library's name, and ThreadSanitizer looks at instrumented code
-// only (a race in our own is still reported; `race:` suppressions leave reports with the validation layer).
+// Linked into programs that use Vulkan when they are built with a sanitizer. The driver, the validation layer and what
+// SDL loads are not ours to mend: their leaks are suppressed by the library's name, and ThreadSanitizer looks at
+// instrumented code only (a race in our own is still reported; `race:` suppressions leave reports with the validation
+// layer).
 
 extern "C" {
 
@@ -13,6 +14,7 @@ const char* __lsan_default_suppressions() {
   return "leak:libVkLayer_khronos_validation\n"
          "leak:libvulkan_lvp\n"
          "leak:libLLVM\n"
+         "leak:libdbus\n"                        // what SDL asks for a screen saver, where a display has a session bus
          "leak:xcb_register_for_special_xge\n";  // of a swapchain whose X server died
 }
 
