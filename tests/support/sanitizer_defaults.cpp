@@ -6,6 +6,7 @@
 
 extern "C" {
 
+const char* __lsan_default_options();
 const char* __lsan_default_suppressions();
 const char* __tsan_default_options();
 int dlclose(void* library);
@@ -17,6 +18,9 @@ const char* __lsan_default_suppressions() {
          "leak:libdbus\n"                        // what SDL asks for a screen saver, where a display has a session bus
          "leak:xcb_register_for_special_xge\n";  // of a swapchain whose X server died
 }
+
+// A program's last line stays its own.
+const char* __lsan_default_options() { return "print_suppressions=0"; }
 
 const char* __tsan_default_options() { return "ignore_noninstrumented_modules=1"; }
 
