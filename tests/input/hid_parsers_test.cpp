@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,20 +16,15 @@
 #include "input/spacemouse.h"
 #include "input/wand.h"
 #include "input/wiimote.h"
+#include "support/hex_report.h"
 #include "support/stereo_cases.h"
 
 namespace afm::input {
 namespace {
 
-using Report = std::vector<std::uint8_t>;
+using test::from_hex;
+using test::Report;
 constexpr double kRadPerDegree = std::numbers::pi / 180.0;
-
-Report from_hex(const std::string& text) {
-  std::istringstream in(text);
-  Report report;
-  for (unsigned byte = 0; in >> std::hex >> byte;) report.push_back(static_cast<std::uint8_t>(byte));
-  return report;
-}
 
 // ---- the rows hid_* of the research's test vectors ----
 

@@ -4,25 +4,19 @@
 
 #include <cstdint>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "input/hid_wand.h"
 #include "input/wiimote.h"
+#include "support/hex_report.h"
 
 namespace afm::input {
 namespace {
 
-using Report = std::vector<std::uint8_t>;
+using test::from_hex;
+using test::Report;
 constexpr double kRadPerDegree = std::numbers::pi / 180.0;
-
-Report from_hex(const std::string& text) {
-  std::istringstream in(text);
-  Report report;
-  for (unsigned byte = 0; in >> std::hex >> byte;) report.push_back(static_cast<std::uint8_t>(byte));
-  return report;
-}
 
 // Flat on a table, without dots, with the six bytes of an extension.
 Report flat_with(const std::string& extension) {
