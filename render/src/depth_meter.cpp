@@ -120,7 +120,7 @@ struct DepthMeter::Parts {
 void DepthMeter::Parts::bind(const EyeTargets& eyes) {
   const auto depth = [&](scene::Eye eye) {
     return vk::DescriptorImageInfo{
-        .sampler = *sampler, .imageView = eyes.depth(eye).view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+        .sampler = *sampler, .imageView = eyes.depth(eye), .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
   };
   const std::array images{depth(scene::Eye::Left), depth(scene::Eye::Right)};
   const vk::DescriptorBufferInfo buffer{.buffer = *range.buffer, .range = VK_WHOLE_SIZE};

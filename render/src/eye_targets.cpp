@@ -175,11 +175,7 @@ void EyeTargets::copy_second(const vk::raii::CommandBuffer& command) const {
 }
 
 EyeTargets::EyeImage EyeTargets::eye(scene::Eye eye) const {
-  return {.image = *color_.image.image, .layer = layer(eye), .view = *color_.single[layer(eye)]};
-}
-
-EyeTargets::EyeImage EyeTargets::depth(scene::Eye eye) const {
-  return {.image = *depth_.image.image, .layer = layer(eye), .view = *depth_.single[layer(eye)]};
+  return {.image = *color_.image.image, .layer = layer(eye)};
 }
 
 }  // namespace afm::render

@@ -57,7 +57,6 @@ class EyeTargets {
   struct EyeImage {
     vk::Image image;
     std::uint32_t layer = 0;
-    vk::ImageView view;  // of this eye alone
   };
   // Only drawing().extent of it is drawn.
   EyeImage eye(scene::Eye eye) const;
@@ -67,9 +66,9 @@ class EyeTargets {
   vk::ImageView both_eyes() const { return *color_.both; }
   vk::ImageView both_eyes_linear() const { return *color_.linear; }
 
-  // Reversed infinite depth of each pixel's first sample, 0 where nothing was drawn; kDepthFormat, as eye() sampled or
-  // copied from in eShaderReadOnlyOptimal.
-  EyeImage depth(scene::Eye eye) const;
+  // Reversed infinite depth of each pixel's first sample, 0 where nothing was drawn; kDepthFormat, of this eye alone,
+  // to be sampled in eShaderReadOnlyOptimal.
+  vk::ImageView depth(scene::Eye eye) const { return *depth_.single[layer(eye)]; }
 
  private:
   struct Target {
