@@ -8,6 +8,8 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
+#include "draw_box.h"
+
 namespace afm::render {
 namespace {
 
@@ -15,37 +17,12 @@ constexpr std::uint32_t kManyTriangles = 10'000;  // of one draw: fewer cost lit
 constexpr double kFineEdgePx = 8.0;               // of nine triangles in ten
 constexpr double kLongestEdgePx = 32.0;           // of any: the sides of a slab whose surface is fine
 
-struct Box {
-  glm::dvec3 center;
-  glm::dvec3 half_size;
-};
-
-Box bent_box(const Draw& draw, const FrameState& frame) {
-  Box box{glm::dvec3(draw.center), glm::dvec3(draw.half_size)};
-  for (const auto& bend : frame.bends) {
-    if (bend.node == draw.node && bend.length > 0.0F) {
-      // beyond its end a loaded beam is straight, with 3/2 of the mean slope
-      const double reach = (box.center.x + box.half_size.x) / static_cast<double>(bend.length);
-      box.half_size.z += std::abs(static_cast<double>(bend.end_deflection)) * (1.0 + 1.5 * std::max(reach - 1.0, 0.0));
-    }
-  }
-  return box;
-}
-
-// The least and the largest value of a linear form over the box.
-std::pair<double, double> range(const glm::dvec4& form, const Box& box) {
-  const glm::dvec3 slope(form);
-  const double middle = glm::dot(slope, box.center) + form.w;
-  const double reach = glm::dot(glm::abs(slope), box.half_size);
-  return {middle - reach, middle + reach};
-}
-
 struct Sight {
   bool seen = false;
   bool clipped = false;
 };
 
-Sight sight(const scene::EyeView& eye, const glm::dmat4& room_from_node, const Box& box, double guard_band) {
+Sight sight(const scene::EyeView& eye, const glm::dmat4& room_from_node, const DrawBox& box, double guard_band) {
   const glm::dmat4 rows = glm::transpose(eye.projection * eye.view * room_from_node);
   const glm::dvec4 near = rows[3] - rows[2];  // reversed depth: nothing is nearer than z = w
   Sight sight{.seen = range(near, box).second >= 0.0, .clipped = range(near, box).first < 0.0};
@@ -99,7 +76,7 @@ void DrawLister::list(const FrameState& frame, const SceneGeometry& geometry, fl
     const auto& room_from_node = frame.room_from_node[draw.node];
     list.mirrored[i] = glm::determinant(glm::dmat3(room_from_node)) < 0.0 ? 1 : 0;
     list.fine[i] = !list.hazy && is_fine(draw, frame.eyes[0], room_from_node, pixels_high) ? 1 : 0;
-    const Box box = bent_box(draw, frame);
+    const DrawBox box = bent_box(draw, frame);
     bool seen = false;
     for (const auto& eye : frame.eyes) {
       const Sight its = sight(eye, room_from_node, box, static_cast<double>(guard_band));

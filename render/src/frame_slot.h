@@ -39,12 +39,14 @@ class FrameSlot {
   // What the frame draws; the slot only keeps its memory.
   DrawList draws;
 
-  // Commands that are recorded for one frame, and commands that stay for as many frames as `recorded` says.
+  // Commands that are recorded for one frame.
   const vk::raii::CommandBuffer& painting() const { return commands_[0]; }
   const vk::raii::CommandBuffer& shadow() const { return commands_[1]; }
+
+  // Commands that stay for as many frames as `recorded` says.
   const vk::raii::CommandBuffer& drawing() const { return commands_[2]; }
 
-  // All that the commands of shadow() and drawing() depend on.
+  // All that the commands of drawing() depend on.
   struct Recorded {
     DrawList draws;
     EyeDrawing drawing;

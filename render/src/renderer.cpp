@@ -122,13 +122,24 @@ void Renderer::Parts::record_painting(std::size_t slot) {
   command.end();
 }
 
-void Renderer::Parts::record_shadow(std::size_t slot_index) {
+void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
   FrameSlot& slot = slots[slot_index];
   const auto& command = slot.shadow();
-  command.begin({});
+  const ScenePass::Input input{geometry, materials, slot.draws, slot.shadow_set(), slot.draw_stride()};
+  command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   mark(command, slot_index, PassClock::Mark::ShadowBegin);
-  shadow_map.begin(command);
-  scene_pass.record_shadow(command, {geometry, materials, slot.draws, slot.shadow_set(), slot.draw_stride()});
+  if (step == ShadowStep::Everything) {
+    shadow_map.begin(command);
+    scene_pass.record_shadow(command, input, slot.draws.shadow);
+  } else {
+    if (step == ShadowStep::RestingAndMoving) {
+      shadow_map.begin_resting(command);
+      scene_pass.record_shadow(command, input, shadow_casters.resting());
+      shadow_map.end_resting(command);
+    }
+    shadow_map.begin_on_resting(command, shadow_casters.stale());
+    scene_pass.record_shadow(command, input, shadow_casters.moving());
+  }
   shadow_map.end(command);
   mark(command, slot_index, PassClock::Mark::ShadowEnd);
   command.end();
@@ -181,12 +192,15 @@ void Renderer::Parts::render(const FrameState& frame) {
   if (slot.painted) {
     record_painting(slot_index);
   }
-  slot.shadowed = shadow_casters.take(frame, geometry, slot.draws);
+  const ShadowStep step = shadow_casters.take(frame, geometry, slot.draws);
+  slot.shadowed = step != ShadowStep::Nothing;
+  if (slot.shadowed) {
+    record_shadow(slot_index, step);
+  }
 
   // What is recorded here is submitted again as it is while the slot's Recorded stays the same: what changes from frame
   // to frame comes from the slot's buffers.
   if (slot.recorded.take(slot.draws, eyes.drawing(), panels.revision())) {
-    record_shadow(slot_index);
     record_drawing(slot_index);
   }
   submit(slot_index);

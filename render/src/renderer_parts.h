@@ -27,7 +27,7 @@ struct Renderer::Parts {
   EyeDrawing choose_drawing(const FrameState& frame, const DrawList& draws) const;
   void mark(const vk::raii::CommandBuffer& command, std::size_t slot, PassClock::Mark mark) const;
   void record_painting(std::size_t slot);
-  void record_shadow(std::size_t slot);
+  void record_shadow(std::size_t slot, ShadowStep step);
   void record_drawing(std::size_t slot);
   void submit(std::size_t slot);
   void render(const FrameState& frame);

@@ -155,10 +155,11 @@ void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const Eye
   }
 }
 
-void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Input& input) const {
+void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
+                              std::span<const std::uint32_t> draws) const {
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, *shadow_);
   input.geometry.bind(command);
-  for (const std::uint32_t i : input.draws.shadow) {
+  for (const std::uint32_t i : draws) {
     const Draw& draw = input.geometry.draws()[i];
     set_state(command, *shadow_layout_, input, i);
     command.drawIndexed(draw.index_count, 1, draw.first_index, draw.first_vertex, 0);

@@ -24,8 +24,9 @@ class ScenePass {
     vk::DescriptorSet frame_set;
     std::uint32_t draw_stride = 0;  // as FrameSlot::draw_stride()
   };
-  // The input's set is FrameSlot::shadow_set().
-  void record_shadow(const vk::raii::CommandBuffer& command, const Input& input) const;
+  // `draws` of the input's geometry; the input's set is FrameSlot::shadow_set().
+  void record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
+                     std::span<const std::uint32_t> draws) const;
   void record_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input);
 
  private:

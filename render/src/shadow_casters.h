@@ -4,19 +4,34 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "draw_list.h"
 #include "render/frame.h"
 #include "scene_geometry.h"
+#include "vulkan.h"
 
 namespace afm::render {
 
-// All that the shadow map depends on, as of the newest frame: the map stays as it is while nothing of it changes.
+// What of the shadow map a frame draws: nothing; everything; or what moves, onto a map of what rests, which is drawn
+// first where it is another than before.
+enum class ShadowStep { Nothing, Everything, RestingAndMoving, Moving };
+
+// Which casters of shadows rest and which move, and where what moves was drawn. In most frames the tip alone moves: its
+// shadow is a small part of the map.
 class ShadowCasters {
  public:
-  // Whether the light or anything that casts a shadow is another than at the call before; the first time, too.
-  bool take(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list);
+  // To be called for each frame in turn: by what it asks for, the map follows the light and everything that casts a
+  // shadow.
+  ShadowStep take(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list);
+
+  // Draws of the newest step. Those that rest have done so for many frames.
+  std::span<const std::uint32_t> resting() const { return resting_; }
+  std::span<const std::uint32_t> moving() const { return moving_; }
+
+  // Where the map is not that of what rests, before moving() is drawn onto it: the whole of it in the first step of two.
+  const vk::Rect2D& stale() const { return stale_; }
 
  private:
   struct Caster {
@@ -28,9 +43,16 @@ class ShadowCasters {
     bool operator==(const Caster&) const = default;
   };
 
-  bool taken_ = false;
-  glm::mat4 map_from_room_{1.0F};
+  bool follow(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list);
+  bool sort_out(const SceneGeometry& geometry);
+  vk::Rect2D drawn_by_moving(const FrameState& frame, const SceneGeometry& geometry) const;
+
+  glm::mat4 map_from_room_{0.0F};
   std::vector<Caster> casters_;
+  std::vector<int> frames_at_rest_;  // of each caster, up to those after which it is one that rests
+  std::vector<std::uint32_t> resting_, moving_, moved_before_;
+  bool resting_drawn_ = false;  // resting_ is what the map of what rests holds
+  vk::Rect2D stale_, drawn_;
 };
 
 }  // namespace afm::render

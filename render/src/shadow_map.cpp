@@ -16,15 +16,38 @@ constexpr ImageUse kDrawn{
     vk::AccessFlagBits2::eDepthStencilAttachmentRead | vk::AccessFlagBits2::eDepthStencilAttachmentWrite,
     vk::ImageLayout::eDepthAttachmentOptimal};
 
+constexpr ImageUse kCopiedFrom{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferRead,
+                               vk::ImageLayout::eTransferSrcOptimal};
+constexpr ImageUse kCopiedTo{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferWrite,
+                             vk::ImageLayout::eTransferDstOptimal};
+
+constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
+constexpr vk::Extent2D kSize{kShadowMapSize, kShadowMapSize};
+
+DeviceImage create_map(const Device& device, const char* name, vk::ImageUsageFlags usage) {
+  return create_image(device, name,
+                      {.format = kDepthFormat,
+                       .extent = kSize,
+                       .usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | usage});
+}
+
+void begin_drawing(const vk::raii::CommandBuffer& command, vk::ImageView view, vk::AttachmentLoadOp before) {
+  const vk::RenderingAttachmentInfo depth{.imageView = view,
+                                          .imageLayout = kDrawn.layout,
+                                          .loadOp = before,
+                                          .storeOp = vk::AttachmentStoreOp::eStore,
+                                          .clearValue = vk::ClearDepthStencilValue{.depth = 1.0F}};
+  command.beginRendering({.renderArea = {.extent = kSize}, .layerCount = 1, .pDepthAttachment = &depth});
+  set_viewport(command, kSize);
+}
+
 }  // namespace
 
 ShadowMap::ShadowMap(const Device& device)
-    : depth_(
-          create_image(device, "shadow map",
-                       {.format = kDepthFormat,
-                        .extent = {kShadowMapSize, kShadowMapSize},
-                        .usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled})),
-      view_(create_view(device, depth_, vk::ImageAspectFlagBits::eDepth, 0, 1)),
+    : depth_(create_map(device, "shadow map", vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst)),
+      resting_(create_map(device, "shadow map of what rests", vk::ImageUsageFlagBits::eTransferSrc)),
+      view_(create_view(device, depth_, kDepth, 0, 1)),
+      resting_view_(create_view(device, resting_, kDepth, 0, 1)),
       sampler_(*device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                               .minFilter = vk::Filter::eLinear,
                                               .addressModeU = vk::SamplerAddressMode::eClampToBorder,
@@ -35,20 +58,41 @@ ShadowMap::ShadowMap(const Device& device)
                                               .borderColor = vk::BorderColor::eFloatOpaqueWhite}) {}
 
 void ShadowMap::begin(const vk::raii::CommandBuffer& command) const {
-  record_barriers(command,
-                  {image_barrier(*depth_.image, vk::ImageAspectFlagBits::eDepth, kSampled.discarded(), kDrawn)});
-  const vk::RenderingAttachmentInfo depth{.imageView = *view_,
-                                          .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
-                                          .loadOp = vk::AttachmentLoadOp::eClear,
-                                          .storeOp = vk::AttachmentStoreOp::eStore,
-                                          .clearValue = vk::ClearDepthStencilValue{.depth = 1.0F}};
-  command.beginRendering({.renderArea = {.extent = depth_.extent}, .layerCount = 1, .pDepthAttachment = &depth});
-  set_viewport(command, depth_.extent);
+  record_barriers(command, {image_barrier(*depth_.image, kDepth, kSampled.discarded(), kDrawn)});
+  begin_drawing(command, *view_, vk::AttachmentLoadOp::eClear);
 }
 
 void ShadowMap::end(const vk::raii::CommandBuffer& command) const {
   command.endRendering();
-  record_barriers(command, {image_barrier(*depth_.image, vk::ImageAspectFlagBits::eDepth, kDrawn, kSampled)});
+  record_barriers(command, {image_barrier(*depth_.image, kDepth, kDrawn, kSampled)});
+}
+
+void ShadowMap::begin_resting(const vk::raii::CommandBuffer& command) const {
+  record_barriers(command, {image_barrier(*resting_.image, kDepth, kCopiedFrom.discarded(), kDrawn)});
+  begin_drawing(command, *resting_view_, vk::AttachmentLoadOp::eClear);
+}
+
+void ShadowMap::end_resting(const vk::raii::CommandBuffer& command) const {
+  command.endRendering();
+  record_barriers(command, {image_barrier(*resting_.image, kDepth, kDrawn, kCopiedFrom)});
+}
+
+void ShadowMap::begin_on_resting(const vk::raii::CommandBuffer& command, const vk::Rect2D& stale) const {
+  if (stale.extent.width == 0 || stale.extent.height == 0) {
+    record_barriers(command, {image_barrier(*depth_.image, kDepth, kSampled, kDrawn)});
+  } else {
+    record_barriers(command, {image_barrier(*depth_.image, kDepth, kSampled, kCopiedTo)});
+    const vk::ImageSubresourceLayers depth{.aspectMask = kDepth, .layerCount = 1};
+    const vk::Offset3D offset{stale.offset.x, stale.offset.y, 0};
+    command.copyImage(*resting_.image, kCopiedFrom.layout, *depth_.image, kCopiedTo.layout,
+                      vk::ImageCopy{.srcSubresource = depth,
+                                    .srcOffset = offset,
+                                    .dstSubresource = depth,
+                                    .dstOffset = offset,
+                                    .extent = {stale.extent.width, stale.extent.height, 1}});
+    record_barriers(command, {image_barrier(*depth_.image, kDepth, kCopiedTo, kDrawn)});
+  }
+  begin_drawing(command, *view_, vk::AttachmentLoadOp::eLoad);
 }
 
 vk::DescriptorImageInfo ShadowMap::descriptor() const {

@@ -48,6 +48,34 @@ TEST_F(ShadowTest, FollowsEverythingThatItDependsOn) {
   }
 }
 
+// What moves is drawn onto what rests: it leaves nothing behind, off the map too, and another one may move next.
+TEST_F(ShadowTest, IsRestoredWhereSomethingHasMovedAway) {
+  auto renderer = make_renderer(test_.scene, small(1));
+  render::FrameState frame = full_frame(test_);
+  renderer.render(frame);
+  const auto expect_right = [&](const std::string& what) {
+    renderer.render(frame);
+    EXPECT_EQ(renderer.read_eye(scene::Eye::Left).rgba, draw(test_.scene, frame, small(1)).left.rgba) << what;
+  };
+  const auto move = [&](scene::NodeIndex node, const glm::dvec3& by, const std::string& what) {
+    frame.room_from_node[node] = glm::translate(glm::dmat4(1.0), by) * frame.room_from_node[node];
+    expect_right(what);
+  };
+  for (const double x : {0.15, 0.15, 3.0, -3.3}) move(test_.gold, {x, 0.05, 0.0}, "one at " + std::to_string(x));
+  for (const double y : {0.1, -0.2}) move(test_.beam, {0.0, y, 0.0}, "two at " + std::to_string(y));
+  for (int i = 0; i < 3; ++i) {
+    for (const scene::NodeIndex node : {test_.gold, test_.mica, test_.beam}) move(node, {0.0, 0.02, 0.0}, "all");
+  }
+  // the first one rests for long enough to be one of those that do
+  for (int i = 0; i < 200; ++i) {
+    frame.room_from_node[test_.beam][3].y += i % 2 == 0 ? 0.01 : -0.01;
+    renderer.render(frame);
+  }
+  expect_right("after a rest");
+  move(test_.beam, {0.1, 0.0, 0.0}, "one beside those that rest");
+  move(test_.gold, {0.1, 0.0, 0.0}, "one that has rested");
+}
+
 TEST_F(ShadowTest, IsNotDrawnAgainWhileNothingOfItMoves) {
   render::RendererOptions options = small(1);
   options.time_passes = true;
