@@ -16,6 +16,10 @@ namespace afm::render {
 namespace {
 
 constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
+constexpr ImageUse kDrawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+                          vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal};
+constexpr ImageUse kCopiedTo{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferWrite,
+                             vk::ImageLayout::eTransferDstOptimal};
 
 vk::DescriptorSetLayoutBinding binding(std::uint32_t index, vk::DescriptorType type) {
   return {
@@ -116,16 +120,29 @@ ComposeBlock compose_block(const EyeTargets& eyes, const Composition& compositio
   return block;
 }
 
-// Of a pipeline for such a picture.
-std::uint32_t look_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
+bool is_exact(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
   const vk::Extent2D whole = eyes.extent();
   const glm::uvec2 seen = scene::eye_size(composition.mode, {place.area.extent.width, place.area.extent.height});
   const bool half =
       composition.mode == scene::StereoMode::SideBySideHalf || composition.mode == scene::StereoMode::TopBottomHalf;
-  const bool exact = !half && composition.picture_from_output == glm::dmat3(1.0) && eyes.drawing().extent == whole &&
-                     seen == glm::uvec2(whole.width, whole.height);
+  return !half && composition.picture_from_output == glm::dmat3(1.0) && eyes.drawing().extent == whole &&
+         seen == glm::uvec2(whole.width, whole.height);
+}
+
+// Of a pipeline for such a picture.
+std::uint32_t look_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
   const bool mixed = scene::anaglyph_matrices(composition.mode).has_value();
-  return (exact ? 0U : AFM_LOOK_SCALED) | (mixed ? AFM_LOOK_MIXED : 0U);
+  return (is_exact(eyes, composition, place) ? 0U : AFM_LOOK_SCALED) | (mixed ? AFM_LOOK_MIXED : 0U);
+}
+
+// Whether the target shows the eyes' images beside each other, whole, and nothing else.
+bool shows_eyes_alone(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
+  const std::int32_t mode = shader_mode(composition.mode, 0);
+  const bool beside = mode == AFM_COMPOSE_LEFT || mode == AFM_COMPOSE_RIGHT || mode == AFM_COMPOSE_SIDE_BY_SIDE ||
+                      mode == AFM_COMPOSE_TOP_BOTTOM;
+  const glm::uvec2 size = scene::picture_size(composition.mode, {eyes.extent().width, eyes.extent().height});
+  return beside && is_exact(eyes, composition, place) && place.area.extent == place.target &&
+         glm::uvec2(place.target.width, place.target.height) == size;
 }
 
 }  // namespace
@@ -202,14 +219,40 @@ void Composer::draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipelin
   command.draw(4, 1, 0, 0);
 }
 
+void Composer::copy(const vk::raii::CommandBuffer& command, const Composition& composition,
+                    const ComposeInto& into) const {
+  const bool swapped = composition.order == scene::EyeOrder::Swapped && composition.mode != scene::StereoMode::Mono;
+  const auto put = [&](scene::Eye eye, std::uint32_t layer, vk::Offset2D place) {
+    const bool left = (eye == scene::Eye::Left) != swapped;
+    eyes_.copy(command, left ? scene::Eye::Left : scene::Eye::Right, into.image, layer, place);
+  };
+  const auto width = static_cast<std::int32_t>(eyes_.extent().width);
+  const auto height = static_cast<std::int32_t>(eyes_.extent().height);
+  eyes_.begin_copies(command);
+  for (std::uint32_t layer = 0; layer < into.layers.size(); ++layer) {
+    const std::int32_t mode = shader_mode(composition.mode, layer);
+    put(mode == AFM_COMPOSE_RIGHT ? scene::Eye::Right : scene::Eye::Left, layer, {0, 0});
+    if (mode == AFM_COMPOSE_SIDE_BY_SIDE) put(scene::Eye::Right, layer, {width, 0});
+    if (mode == AFM_COMPOSE_TOP_BOTTOM) put(scene::Eye::Right, layer, {0, height});
+  }
+  eyes_.end_copies(command);
+}
+
 void Composer::record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
-                      const ComposePlace& place, std::span<const vk::ImageView> layers) const {
+                      const ComposePlace& place, const ComposeInto& into) const {
+  if (into.takes_copies && shows_eyes_alone(eyes_, composition, place)) {
+    record_barriers(command, {image_barrier(into.image, kColor, into.before.discarded(), kCopiedTo)});
+    copy(command, composition, into);
+    record_barriers(command, {image_barrier(into.image, kColor, kCopiedTo, into.after)});
+    return;
+  }
   const vk::Pipeline chosen = pipeline.get(look_of(eyes_, composition, place));
   const bool covered = place.area.extent == place.target;
-  for (std::uint32_t i = 0; i < layers.size(); ++i) {
+  record_barriers(command, {image_barrier(into.image, kColor, into.before.discarded(), kDrawn)});
+  for (std::uint32_t i = 0; i < into.layers.size(); ++i) {
     const vk::RenderingAttachmentInfo color{
-        .imageView = layers[i],
-        .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
+        .imageView = into.layers[i],
+        .imageLayout = kDrawn.layout,
         .loadOp = covered ? vk::AttachmentLoadOp::eDontCare : vk::AttachmentLoadOp::eClear,
         .storeOp = vk::AttachmentStoreOp::eStore,
         .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
@@ -220,6 +263,7 @@ void Composer::record(const vk::raii::CommandBuffer& command, ComposePipeline& p
     draw(command, chosen, composition, place, i);
     command.endRendering();
   }
+  record_barriers(command, {image_barrier(into.image, kColor, kDrawn, into.after)});
 }
 
 void Composer::record(const vk::raii::CommandBuffer& command, const Composition& composition, const ReadArea& area,
@@ -232,17 +276,18 @@ void Composer::record(const vk::raii::CommandBuffer& command, const Composition&
         create_image(device_, "composed",
                      {.format = kEyeFormat,
                       .extent = size,
-                      .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
+                      .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc |
+                               vk::ImageUsageFlagBits::eTransferDst,
                       .layers = count});
     for (std::uint32_t i = 0; i < count; ++i) target.views[i] = create_view(device_, target.image, kColor, i, 1);
   }
-  const ImageUse drawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput, vk::AccessFlagBits2::eColorAttachmentWrite,
-                       vk::ImageLayout::eColorAttachmentOptimal};
   const std::array layers{*target.views[0], *target.views[1]};
-  record_barriers(command, {image_barrier(*target.image.image, kColor, kCopied.discarded(), drawn)});
   record(command, pipeline_, composition, {.target = size, .area = {.extent = size}, .screen_px = area.screen_px},
-         std::span(layers).first(count));
-  record_barriers(command, {image_barrier(*target.image.image, kColor, drawn, kCopied)});
+         {.image = *target.image.image,
+          .layers = std::span(layers).first(count),
+          .before = kCopied,
+          .after = kCopied,
+          .takes_copies = true});
 }
 
 std::vector<Image> Composer::compose(const Composition& composition, const ReadArea& area) {
@@ -253,8 +298,7 @@ std::vector<Image> Composer::compose(const Composition& composition, const ReadA
   });
   std::vector<Image> pictures;
   for (std::uint32_t layer = 0; layer < target_.image.layers; ++layer) {
-    const ImageSpan picture = copy.picture(layer);
-    pictures.push_back({picture.width, picture.height, {picture.rgba.begin(), picture.rgba.end()}});
+    pictures.push_back(to_image(copy.picture(layer)));
   }
   return pictures;
 }

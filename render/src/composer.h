@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "barriers.h"
 #include "eye_targets.h"
 #include "render/composition.h"
 #include "render/frame.h"
@@ -17,6 +18,14 @@ struct ComposePlace {
   vk::Extent2D target;      // the whole image
   vk::Rect2D area;          // what the picture fills
   glm::ivec2 screen_px{0};  // where the target's first pixel lies on its screen
+};
+
+// What a picture is composed into: an image with a layer for each picture of the mode, whose contents are not needed.
+struct ComposeInto {
+  vk::Image image;
+  std::span<const vk::ImageView> layers;  // views of single layers
+  ImageUse before, after;                 // how the image is found and left
+  bool takes_copies = false;              // it has the eyes' format, and may be copied to
 };
 
 // An image that pictures are composed into to be read, with as many layers as the mode has pictures.
@@ -61,9 +70,10 @@ class Composer {
   ComposePipeline create_pipeline_for(vk::Format format) const { return {device_, *layout_, format}; }
 
   // Draws the picture, or each of two into a layer of its own, scaled to fill its area and black around it: into what a
-  // window shows and into what is read alike. `layers` are views of single layers in eColorAttachmentOptimal.
+  // window shows and into what is read alike. Where the picture is nothing but the eyes' images beside each other, these
+  // are copied: on a CPU device that takes a fifth of the time.
   void record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
-              const ComposePlace& place, std::span<const vk::ImageView> layers) const;
+              const ComposePlace& place, const ComposeInto& into) const;
 
   // Draws what is read into `target`, which nothing in flight uses and which is made anew if it is not of that size,
   // and leaves it in eTransferSrcOptimal.
@@ -73,6 +83,7 @@ class Composer {
  private:
   void draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
             const ComposePlace& place, std::uint32_t layer) const;
+  void copy(const vk::raii::CommandBuffer& command, const Composition& composition, const ComposeInto& into) const;
 
   const Device& device_;
   const EyeTargets& eyes_;

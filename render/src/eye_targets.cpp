@@ -174,6 +174,24 @@ void EyeTargets::copy_second(const vk::raii::CommandBuffer& command) const {
   copy(second_depth_, depth_, kDepth);
 }
 
+void EyeTargets::begin_copies(const vk::raii::CommandBuffer& command) const {
+  record_barriers(command, {image_barrier(*color_.image.image, kColor, kRead, kCopiedFrom)});
+}
+
+void EyeTargets::copy(const vk::raii::CommandBuffer& command, scene::Eye eye, vk::Image to, std::uint32_t to_layer,
+                      vk::Offset2D place) const {
+  const vk::ImageCopy region{
+      .srcSubresource = {.aspectMask = kColor, .baseArrayLayer = layer(eye), .layerCount = 1},
+      .dstSubresource = {.aspectMask = kColor, .baseArrayLayer = to_layer, .layerCount = 1},
+      .dstOffset = {place.x, place.y, 0},
+      .extent = {extent_.width, extent_.height, 1}};
+  command.copyImage(*color_.image.image, kCopiedFrom.layout, to, vk::ImageLayout::eTransferDstOptimal, region);
+}
+
+void EyeTargets::end_copies(const vk::raii::CommandBuffer& command) const {
+  record_barriers(command, {image_barrier(*color_.image.image, kColor, kCopiedFrom, kRead)});
+}
+
 EyeTargets::EyeImage EyeTargets::eye(scene::Eye eye) const {
   return {.image = *color_.image.image, .layer = layer(eye)};
 }

@@ -11,8 +11,9 @@
 
 namespace afm::render {
 
-inline constexpr vk::Format kEyeFormat = vk::Format::eR8G8B8A8Unorm;       // holds sRGB values, see tone.glsl
-inline constexpr vk::Format kEyeLinearFormat = vk::Format::eR8G8B8A8Srgb;  // sampled and filtered as linear light
+// Holds sRGB values, see tone.glsl. In the order in which windows have their bytes, so that a picture can be copied there.
+inline constexpr vk::Format kEyeFormat = vk::Format::eB8G8R8A8Unorm;
+inline constexpr vk::Format kEyeLinearFormat = vk::Format::eB8G8R8A8Srgb;  // sampled and filtered as linear light
 inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
 inline constexpr std::uint32_t kBothEyes = 0b11;  // the view mask of a multiview pass
 
@@ -60,6 +61,13 @@ class EyeTargets {
   };
   // Only drawing().extent of it is drawn.
   EyeImage eye(scene::Eye eye) const;
+
+  // Copies all of an eye's colour to a place of an image that lies in eTransferDstOptimal; between begin_copies() and
+  // end_copies().
+  void begin_copies(const vk::raii::CommandBuffer& command) const;
+  void copy(const vk::raii::CommandBuffer& command, scene::Eye eye, vk::Image to, std::uint32_t layer,
+            vk::Offset2D place) const;
+  void end_copies(const vk::raii::CommandBuffer& command) const;
 
   // Of the colour in both layers, the left eye's first: as it is stored, and in kEyeLinearFormat. Where both eyes see
   // the same, only the first is drawn.

@@ -20,7 +20,7 @@
 namespace afm::render {
 namespace {
 
-constexpr vk::Format kTextureFormat = kEyeFormat;
+constexpr vk::Format kTextureFormat = vk::Format::eR8G8B8A8Unorm;
 constexpr double kLargestTexture = 4096.0;
 constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
 

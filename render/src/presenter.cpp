@@ -124,7 +124,7 @@ void Presenter::Parts::draw(std::span<const std::size_t> windows, const std::fun
     }
     WindowSurface& surface = *pane.surface;
     surface.record(commands, pane.picture);
-    waits[count] = {.semaphore = surface.acquired(), .stageMask = vk::PipelineStageFlagBits2::eColorAttachmentOutput};
+    waits[count] = {.semaphore = surface.acquired(), .stageMask = kFilling};
     signals[count] = {.semaphore = surface.drawn(), .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
     pane.drawn = true;
     ++count;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "readback.h"
 
-#include <cstring>
+#include "eye_targets.h"
 
 namespace afm::render {
 namespace {
+
+static_assert(kEyeFormat == vk::Format::eB8G8R8A8Unorm);
+constexpr auto kOrder = ChannelOrder::Bgra;
 
 std::size_t bytes_of(vk::Extent2D extent) { return std::size_t{4} * extent.width * extent.height; }
 
@@ -35,7 +38,7 @@ void HostCopy::record(const Device& device, const vk::raii::CommandBuffer& comma
 
 ImageSpan HostCopy::picture(std::uint32_t layer) const {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(buffer_.mapped);
-  return {extent_.width, extent_.height, {bytes + layer * bytes_of(extent_), bytes_of(extent_)}};
+  return {extent_.width, extent_.height, {bytes + layer * bytes_of(extent_), bytes_of(extent_)}, kOrder};
 }
 
 Image read_back(const Device& device, vk::Image image, std::uint32_t layer, vk::Extent2D extent) {
@@ -47,10 +50,8 @@ Image read_back(const Device& device, vk::Image image, std::uint32_t layer, vk::
     record_copy(command, image, layer, 1, extent, host);
     record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, kCopied, shown)});
   });
-  Image result{.width = extent.width, .height = extent.height, .rgba = {}};
-  result.rgba.resize(bytes_of(extent));
-  std::memcpy(result.rgba.data(), host.mapped, result.rgba.size());
-  return result;
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(host.mapped);
+  return to_image({extent.width, extent.height, {bytes, bytes_of(extent)}, kOrder});
 }
 
 }  // namespace afm::render

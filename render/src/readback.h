@@ -11,7 +11,7 @@ namespace afm::render {
 inline constexpr ImageUse kCopied{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferRead,
                                   vk::ImageLayout::eTransferSrcOptimal};
 
-// All layers of an 8-bit RGBA image in host memory, which is kept for the next one.
+// All layers of an image of kEyeFormat in host memory, which is kept for the next one.
 class HostCopy {
  public:
   // The image lies in eTransferSrcOptimal; what an earlier record() wrote is done and not needed any more.
@@ -25,7 +25,7 @@ class HostCopy {
   vk::Extent2D extent_;
 };
 
-// Copies one layer of an 8-bit RGBA image that lies in eShaderReadOnlyOptimal, and leaves it there; waits for the
+// Copies one layer of an image of kEyeFormat that lies in eShaderReadOnlyOptimal, and leaves it there; waits for the
 // queue.
 Image read_back(const Device& device, vk::Image image, std::uint32_t layer, vk::Extent2D extent);
 

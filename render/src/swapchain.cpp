@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "eye_targets.h"
+
 namespace afm::render {
 namespace {
 
@@ -33,11 +35,11 @@ vk::CompositeAlphaFlagBitsKHR choose_alpha(const vk::SurfaceCapabilitiesKHR& sur
 
 vk::SurfaceFormatKHR choose_surface_format(const Device& device, vk::SurfaceKHR surface) {
   const auto formats = device.physical().getSurfaceFormatsKHR(surface);
-  const auto found = std::find_if(formats.begin(), formats.end(), [](const vk::SurfaceFormatKHR& candidate) {
-    const bool bytes = candidate.format == vk::Format::eB8G8R8A8Unorm || candidate.format == vk::Format::eR8G8B8A8Unorm;
-    return bytes && candidate.colorSpace == vk::ColorSpaceKHR::eSrgbNonlinear;
-  });
-  return found == formats.end() ? vk::SurfaceFormatKHR{} : *found;
+  for (const vk::Format wanted : {kEyeFormat, vk::Format::eR8G8B8A8Unorm}) {
+    const vk::SurfaceFormatKHR format{wanted, vk::ColorSpaceKHR::eSrgbNonlinear};
+    if (std::find(formats.begin(), formats.end(), format) != formats.end()) return format;
+  }
+  return {};
 }
 
 Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
@@ -45,6 +47,10 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
     : layer_count_(layers) {
   const auto capabilities = device.physical().getSurfaceCapabilitiesKHR(surface);
   extent_ = choose_extent(capabilities, wanted);
+  constexpr auto kCopiedTo = vk::ImageUsageFlagBits::eTransferDst;
+  takes_copies_ = static_cast<bool>(capabilities.supportedUsageFlags & kCopiedTo);
+  vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eColorAttachment;
+  if (takes_copies_) usage |= kCopiedTo;
   swapchain_ =
       vk::raii::SwapchainKHR(*device, {.surface = surface,
                                        .minImageCount = choose_image_count(capabilities),
@@ -52,7 +58,7 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
                                        .imageColorSpace = format.colorSpace,
                                        .imageExtent = extent_,
                                        .imageArrayLayers = layers,
-                                       .imageUsage = vk::ImageUsageFlagBits::eColorAttachment,
+                                       .imageUsage = usage,
                                        .imageSharingMode = vk::SharingMode::eExclusive,
                                        .preTransform = capabilities.currentTransform,
                                        .compositeAlpha = choose_alpha(capabilities),

@@ -25,6 +25,7 @@ class Swapchain {
   vk::Extent2D extent() const { return extent_; }
   vk::Image image(std::uint32_t index) const { return images_[index]; }
   std::uint32_t layer_count() const { return layer_count_; }
+  bool takes_copies() const { return takes_copies_; }
   // A view of each layer.
   std::span<const vk::ImageView> layers(std::uint32_t index) const {
     return std::span(layers_).subspan(index * layer_count_, layer_count_);
@@ -36,6 +37,7 @@ class Swapchain {
  private:
   vk::Extent2D extent_;
   std::uint32_t layer_count_;
+  bool takes_copies_ = false;
   vk::raii::SwapchainKHR swapchain_{nullptr};
   std::vector<vk::Image> images_;  // owned by the swapchain
   std::vector<vk::raii::ImageView> views_;

@@ -12,10 +12,7 @@ namespace {
 constexpr std::uint64_t kTurnNs = 5'000'000;  // from one call of while_waiting to the next
 constexpr int kMostTurns = 40;                // how long a display may keep all its images before the loop goes on
 
-constexpr ImageUse kAcquired{vk::PipelineStageFlagBits2::eColorAttachmentOutput, vk::AccessFlagBits2::eNone,
-                             vk::ImageLayout::eUndefined};
-constexpr ImageUse kDrawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-                          vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal};
+constexpr ImageUse kAcquired{kFilling, vk::AccessFlagBits2::eNone, vk::ImageLayout::eUndefined};
 constexpr ImageUse kPresented{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagBits2::eNone,
                               vk::ImageLayout::ePresentSrcKHR};
 
@@ -87,16 +84,17 @@ void WindowSurface::record(const vk::raii::CommandBuffer& command, const WindowP
   const vk::Extent2D whole = composer_.extent(composition.mode);
   const PicturePlace place =
       picture_place({window_size.width, window_size.height}, {whole.width, whole.height}, picture.fit);
-  const vk::Image image = swapchain_->image(*index_);
-  record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, kAcquired, kDrawn)});
   composer_.record(
       command, *pipeline_, composition,
       {.target = window_size,
        .area = {.offset = {static_cast<std::int32_t>(place.offset_px.x), static_cast<std::int32_t>(place.offset_px.y)},
                 .extent = {place.size_px.x, place.size_px.y}},
        .screen_px = scene::is_interleaved(composition.mode) ? window_.handle().screen_px() : glm::ivec2(0)},
-      swapchain_->layers(*index_));
-  record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, kDrawn, kPresented)});
+      {.image = swapchain_->image(*index_),
+       .layers = swapchain_->layers(*index_),
+       .before = kAcquired,
+       .after = kPresented,
+       .takes_copies = swapchain_->takes_copies() && format_.format == kEyeFormat});
 }
 
 void WindowSurface::replace() {

@@ -11,6 +11,9 @@
 
 namespace afm::render {
 
+// What waits until an image that was acquired may be filled.
+inline constexpr auto kFilling = vk::PipelineStageFlagBits2::eColorAttachmentOutput | vk::PipelineStageFlagBits2::eCopy;
+
 // A window's surface with the images that it shows in turn, made anew as the window changes. Not moved: the window and
 // the composer must outlive it.
 class WindowSurface {

@@ -11,16 +11,23 @@
 
 namespace afm::render {
 
-// An image in somebody else's memory: rows as of Image.
+enum class ChannelOrder { Rgba, Bgra };
+
+// An image in somebody else's memory: rows as of Image, four bytes a pixel.
 struct ImageSpan {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::span<const std::uint8_t> rgba;
+  std::span<const std::uint8_t> bytes;
+  ChannelOrder order = ChannelOrder::Rgba;
 
-  ImageSpan(std::uint32_t width_px, std::uint32_t height_px, std::span<const std::uint8_t> bytes)
-      : width(width_px), height(height_px), rgba(bytes) {}
-  ImageSpan(const Image& image) : ImageSpan(image.width, image.height, image.rgba) {}
+  ImageSpan(std::uint32_t width_px, std::uint32_t height_px, std::span<const std::uint8_t> its_bytes,
+            ChannelOrder its_order)
+      : width(width_px), height(height_px), bytes(its_bytes), order(its_order) {}
+  ImageSpan(const Image& image) : ImageSpan(image.width, image.height, image.rgba, ChannelOrder::Rgba) {}
 };
+
+// A copy of its own.
+Image to_image(const ImageSpan& span);
 
 // The image as the bytes of a PNG file: 8-bit sRGB without alpha.
 core::Result<std::vector<std::uint8_t>> encode_png(const ImageSpan& image);
