@@ -72,7 +72,7 @@ core::Result<void> LiveView::run() {
   head_.log_latency();
   servo_.finish();  // the hand is released, and what was felt is kept, while the last picture still stands
   if (lost) return tl::unexpected(*lost);
-  picture_.finish_saving();
+  picture_.finish();
   if (servo_.error()) return tl::unexpected(*servo_.error());
   return {};
 }
@@ -86,6 +86,7 @@ void LiveView::turn(std::int64_t now_ns) {
   servo_.take_news(now_ns);
   follow_wand(now_ns);
   if (windows_.hidden()) {
+    picture_.rest();
     windows_.at(0).wait(kHiddenPauseS);
     return;
   }

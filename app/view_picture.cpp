@@ -176,7 +176,8 @@ void ViewPicture::save_newest() {
   }
 }
 
-void ViewPicture::finish_saving() {
+void ViewPicture::finish() {
+  if (const std::string text = times_.text(); !text.empty()) core::log_line(text);
   tell(saver_.finish());
   if (to_save_ > 0) core::log_line(fmt::format("{} pictures were asked for too late to be saved", to_save_));
 }
@@ -207,6 +208,7 @@ void ViewPicture::show(render::FrameState& frame, std::int64_t now_ns, const std
     while_waiting();
   }
   presenter_.show();
+  times_.shown(now_ns);
   while_waiting();
   if (budget_) budget_->follow(renderer_);
 }

@@ -10,6 +10,7 @@
 
 #include "app/depth_report.h"
 #include "app/frame_budget.h"
+#include "app/frame_times.h"
 #include "app/mouse_wand.h"
 #include "app/stage_setup.h"
 #include "app/view_outputs.h"
@@ -55,10 +56,14 @@ class ViewPicture {
   // The picture for setting up the screens, instead of the scene.
   void toggle_calibration();
 
-  // Saves the next frame of the first window as a PNG file of its own, beside the drawing; finish_saving() waits for
-  // the last ones, and tells of them as the log does of the others.
+  // Saves the next frame of the first window as a PNG file of its own, beside the drawing.
   void save();
-  void finish_saving();
+
+  // Nobody sees the windows; to be said instead of show().
+  void rest() { times_.hidden(); }
+
+  // Waits for the last saved pictures, and tells the log of them and how long frames took.
+  void finish();
 
   // What the next frame is drawn for in a window, and where it will lie there.
   WallPicture picture(std::size_t window) const;
@@ -105,6 +110,7 @@ class ViewPicture {
   std::size_t saved_number_ = 0;  // of the newest file
   render::DepthMeter depth_meter_;
   DepthReport depth_;
+  FrameTimes times_;
   std::int64_t depth_measured_ns_ = 0;
   std::int64_t depth_logged_ns_ = 0;
   bool calibrating_ = false;
