@@ -5,15 +5,11 @@
 
 namespace afm::app {
 
-namespace {
-constexpr double kMmPerM = 1000.0;
+glm::dvec2 size_mm(const render::PanelPlacement& panel, double millimetre_m) {
+  return glm::dvec2(glm::length(panel.right_m), glm::length(panel.up_m)) / millimetre_m;
 }
 
-glm::dvec2 size_mm(const render::PanelPlacement& panel) {
-  return kMmPerM * glm::dvec2(glm::length(panel.right_m), glm::length(panel.up_m));
-}
-
-std::optional<PanelHit> hit_of(const input::Ray& ray, const render::PanelPlacement& panel) {
+std::optional<PanelHit> hit_of(const input::Ray& ray, const render::PanelPlacement& panel, double millimetre_m) {
   const glm::dvec3 normal = glm::cross(panel.right_m, panel.up_m);
   const double along = glm::dot(ray.direction, normal);
   if (along == 0.0) return std::nullopt;
@@ -25,7 +21,7 @@ std::optional<PanelHit> hit_of(const input::Ray& ray, const render::PanelPlaceme
   const double right = glm::dot(offset, panel.right_m) / glm::dot(panel.right_m, panel.right_m);
   const double up = glm::dot(offset, panel.up_m) / glm::dot(panel.up_m, panel.up_m);
   if (!(right >= 0.0 && right <= 1.0 && up >= 0.0 && up <= 1.0)) return std::nullopt;
-  return PanelHit{.point_m = point, .place_mm = size_mm(panel) * glm::dvec2(right, 1.0 - up)};
+  return PanelHit{.point_m = point, .place_mm = size_mm(panel, millimetre_m) * glm::dvec2(right, 1.0 - up)};
 }
 
 }  // namespace afm::app

@@ -12,13 +12,14 @@ namespace afm::app {
 
 struct PanelHit {
   glm::dvec3 point_m{0.0};   // in the room
-  glm::dvec2 place_mm{0.0};  // from the panel's top left corner, x to the right and y down
+  glm::dvec2 place_mm{0.0};  // of the panel, from the panel's top left corner, x to the right and y down
 };
 
-// Where a ray meets a panel, from whichever side; nothing beside it, or if the panel has no area.
-std::optional<PanelHit> hit_of(const input::Ray& ray, const render::PanelPlacement& panel);
+// Where a ray meets a panel, from whichever side; nothing beside it, or if the panel has no area. `millimetre_m` as in
+// render::RendererOptions.
+std::optional<PanelHit> hit_of(const input::Ray& ray, const render::PanelPlacement& panel, double millimetre_m);
 
-// Width and height of a panel in millimetres.
-glm::dvec2 size_mm(const render::PanelPlacement& panel);
+// Width and height of a panel in its millimetres.
+glm::dvec2 size_mm(const render::PanelPlacement& panel, double millimetre_m);
 
 }  // namespace afm::app

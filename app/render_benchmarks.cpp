@@ -55,9 +55,9 @@ core::Result<double> first_frame_ms(const Options& options) {
   const std::int64_t start_ns = clock.now_ns();
   auto context = render::Context::open();
   if (!context) return tl::unexpected(context.error());
-  auto renderer = render::Renderer::create(
-      *context, subject->scene,
-      {.eye_width = subject->eye_px.x, .eye_height = subject->eye_px.y, .samples = options.plan.samples});
+  render::RendererOptions drawing = subject->drawing;
+  drawing.samples = options.plan.samples;
+  auto renderer = render::Renderer::create(*context, subject->scene, drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   renderer->render(subject->frames.front());
   renderer->wait();

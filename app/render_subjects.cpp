@@ -98,7 +98,10 @@ core::Result<RenderSubject> standing_alone(std::string name, scene::Scene scene,
     return core::failure(core::ErrorCategory::BadInputFile,
                          name + ": has nothing to look at: no mesh, or one of no size");
   }
-  RenderSubject subject{.name = std::move(name), .scene = std::move(scene), .eye_px = eye_px, .frames = {}};
+  RenderSubject subject{.name = std::move(name),
+                        .scene = std::move(scene),
+                        .drawing = {.eye_width = eye_px.x, .eye_height = eye_px.y},
+                        .frames = {}};
   for (int i = 0; i < kFrames; ++i) {
     render::FrameState frame;
     const double yaw = kSwayRad * std::sin(2.0 * glm::pi<double>() * i / kFrames);
@@ -149,8 +152,8 @@ core::Result<RenderSubject> wall_subject(const Stage& stage, std::uint32_t eye_w
     if (!felt) return tl::unexpected(felt.error());
     materials.push_back(std::move(*felt));
   }
-  const render::RendererOptions size = stage.renderer_options(eye_width_px);
-  RenderSubject subject{.name = "wall", .scene = stage.wall_scene.scene(), .eye_px = {size.eye_width, size.eye_height}};
+  RenderSubject subject{
+      .name = "wall", .scene = stage.wall_scene.scene(), .drawing = stage.renderer_options(eye_width_px)};
   const std::size_t felt = std::min(kFeltMaterial, materials.size() - 1);
   const double release_m = materials[felt].scaling.release_z_m();
   const double stiffness = materials[felt].setup.material.interaction.spring_constant.si;

@@ -9,6 +9,7 @@
 #include "app/stage_setup.h"
 #include "core/result.h"
 #include "render/frame.h"
+#include "render/renderer.h"
 #include "scene/scene.h"
 
 namespace afm::app {
@@ -18,7 +19,7 @@ namespace afm::app {
 struct RenderSubject {
   std::string name;
   scene::Scene scene;
-  glm::uvec2 eye_px{0};
+  render::RendererOptions drawing{};  // the size of the eyes, and of the panels
   std::vector<render::FrameState> frames{};
 };
 

@@ -156,12 +156,11 @@ core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& sub
   for (const RenderSubject& subject : subjects) {
     for (const Way& way : kWays) {
       if (way.pass_mode == render::PassMode::Multiview && !context->draws_both_eyes_at_once()) continue;
-      auto renderer = render::Renderer::create(*context, subject.scene,
-                                               {.eye_width = subject.eye_px.x,
-                                                .eye_height = subject.eye_px.y,
-                                                .samples = plan.samples,
-                                                .pass_mode = way.pass_mode,
-                                                .time_passes = true});
+      render::RendererOptions drawing = subject.drawing;
+      drawing.samples = plan.samples;
+      drawing.pass_mode = way.pass_mode;
+      drawing.time_passes = true;
+      auto renderer = render::Renderer::create(*context, subject.scene, drawing);
       if (!renderer) return tl::unexpected(renderer.error());
       drawings.emplace_back(*context, subject, way, std::move(*renderer));
       result.figures.push_back({.subject = subject.name, .way = way.name});

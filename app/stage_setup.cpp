@@ -23,6 +23,7 @@ render::RendererOptions Stage::renderer_options(std::uint32_t eye_width) const {
   options.eye_width = eye_width;
   options.eye_height = static_cast<std::uint32_t>(std::lround(eye_width * screen.height_m() / screen.width_m()));
   options.panel_texels_per_m = 2.0 * eye_width / screen.width_m();
+  options.panel_millimetre_m = wall_scene.panel_millimetre_m();
   return options;
 }
 

@@ -21,6 +21,7 @@ render::RendererOptions ViewDisplay::drawing(const Stage& stage, const DisplayWi
     drawing.eye_width = eye_px.x;
     drawing.eye_height = eye_px.y;
     drawing.panel_texels_per_m = 2.0 * eye_px.x / outputs_.front().screen.width_m();
+    drawing.panel_millimetre_m = stage.wall_scene.panel_millimetre_m();
   }
   drawing.time_passes = wish.frame_budget_ms > 0;
   return drawing;

@@ -29,12 +29,13 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
                                std::optional<std::size_t> material) {
   Pointed pointed{.control = {}, .tab = false, .swatch = {}, .point_m = wall_point_m};
   const render::PanelPlacement panel = wall_scene_.parameter_placement();
-  if (const auto hit = material && parameters_shown_ && !hidden_ ? hit_of(ray, panel) : std::nullopt) {
+  const double millimetre_m = wall_scene_.panel_millimetre_m();
+  if (const auto hit = material && parameters_shown_ && !hidden_ ? hit_of(ray, panel, millimetre_m) : std::nullopt) {
     pointed.control = render::control_at(parameter_panel(edits_.of(*material), "", ChangeState::AsLoaded),
-                                         size_mm(panel), hit->place_mm);
+                                         size_mm(panel, millimetre_m), hit->place_mm);
     return pointed;
   }
-  if (!parameters_shown_ && material && hit_of(ray, wall_scene_.parameter_tab_placement())) {
+  if (!parameters_shown_ && material && hit_of(ray, wall_scene_.parameter_tab_placement(), millimetre_m)) {
     pointed.tab = true;
     return pointed;
   }

@@ -15,6 +15,7 @@
 #include "app/calibration.h"
 #include "app/command.h"
 #include "app/stage_setup.h"
+#include "app/wall_layout.h"
 #include "render/context.h"
 #include "scene/disparity.h"
 
@@ -141,7 +142,8 @@ core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions&
   const auto plan = plan_wall(wall, wish);
   if (!plan) return tl::unexpected(plan.error());
   const scene::Scene scene = nothing();
-  auto renderer = render::Renderer::create(*context, scene, renderer_options(*context, *plan));
+  const double millimetre_m = 1e-3 * layout_unit_m(plan->outputs.front().screen);
+  auto renderer = render::Renderer::create(*context, scene, renderer_options(*context, *plan, millimetre_m));
   if (!renderer) return tl::unexpected(renderer.error());
   const scene::Viewer& viewer = wall.viewers.front();
   const double ipd_m = wish.ipd_m.value_or(viewer.ipd_m);

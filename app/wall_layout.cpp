@@ -11,6 +11,10 @@ namespace afm::app {
 using glm::dmat4;
 using glm::dvec3;
 
+double layout_unit_m(const scene::Screen& wall) {
+  return std::min(wall.width_m() / kReferenceWallWidthM, wall.height_m() / kReferenceWallHeightM);
+}
+
 dmat4 frame_matrix(const dvec3& x, const dvec3& y, const dvec3& z, const dvec3& origin) {
   return {glm::dvec4(x, 0.0), glm::dvec4(y, 0.0), glm::dvec4(z, 0.0), glm::dvec4(origin, 1.0)};
 }

@@ -5,11 +5,13 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include "scene/wall.h"
+
 namespace afm::app {
 
-// The layout, in fractions of the paper wall's metre: one unit is the wall's height / 2.286. The origin is the contact
+// The layout, in metres of the paper's wall: another wall shows it as large as it has room for. The origin is the contact
 // point; x right, y up, z out of the wall towards the viewer.
-inline constexpr double kReferenceWallHeightM = 2.286;
+inline constexpr double kReferenceWallWidthM = 3.048, kReferenceWallHeightM = 2.286;
 inline constexpr double kStrokeHeight = kReferenceWallHeightM / 3.0;  // what the current material's stroke fills
 inline constexpr double kSampleTiltRad = 0.26;                        // towards the viewer, so that terraces are seen
 inline constexpr double kLeverAzimuthRad = 0.42;  // the lever comes from behind, a little from the left
@@ -24,12 +26,13 @@ inline constexpr double kSpotReach = 0.8;  // of the half size, at the deflectio
 inline constexpr double kBeamRadius = 0.007;
 inline constexpr double kSpotRadius = 0.032;
 inline constexpr glm::dvec3 kWandGrip(0.66, -0.24, 1.00);
-inline constexpr double kShelfY = -0.85;
+inline constexpr double kShelfY = -0.85, kHighestShelfY = -0.45;
+inline constexpr double kShelfHeight = 0.10;  // with the swatches' names
 inline constexpr double kShelfZ = 0.62;
 inline constexpr double kSwatchSpacing = 0.42;
 inline constexpr std::size_t kFrontSwatches =
     5;  // as many as a row of the shelf holds; the others stand behind, raised
-inline constexpr double kBackY = -0.60;
+inline constexpr double kBackRise = 0.25;
 inline constexpr double kBackZ = 0.52;  // before the stage
 inline constexpr double kBackSpacing = 0.38;
 inline constexpr double kSwatchRadius = 0.16;
@@ -71,9 +74,15 @@ inline constexpr double kAnalogyLabelGap = 0.16;
 inline constexpr glm::dvec3 kAnalogyPlateLabel(0.0, -0.382, -0.07);  // in the sample's frame, on the plate's front
 inline constexpr float kHazeBegin = 3.5F, kHazeEnd = 14.0F;          // behind the wall, on the journey
 inline constexpr double kBannerHeight = 0.25;
+// of the wall below and above the contact point: the shelf is seen whole, and the banner stands over the panels
+inline constexpr double kRoomBelow = 1.20;
+inline constexpr double kRoomAbove = kPanelBottom + kPanelHeight + kBannerHeight + 2.0 * kPanelMargin;
 
 // The stroke of a cycle in units of Z_joc: from the deepest push below zero to the highest lift.
 inline constexpr double kStrokeOfZjoc = 0.30 + 1.40;
+
+// What of the room, in metres, a unit of the layout is on that wall.
+double layout_unit_m(const scene::Screen& wall);
 
 // Axes and origin as columns.
 glm::dmat4 frame_matrix(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& origin);

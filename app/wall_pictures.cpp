@@ -151,7 +151,7 @@ std::uint32_t affordable_samples(render::Context& context, glm::uvec2 eye_px) {
   return samples;
 }
 
-render::RendererOptions renderer_options(render::Context& context, const WallPlan& plan) {
+render::RendererOptions renderer_options(render::Context& context, const WallPlan& plan, double panel_millimetre_m) {
   const OutputPicture& first = plan.outputs.front();
   const glm::uvec2 eye_px = scene::eye_size(first.composition.mode, first.rect.size_px);
   constexpr std::uint32_t kLeastPanels = 64,
@@ -166,6 +166,7 @@ render::RendererOptions renderer_options(render::Context& context, const WallPla
   }
   options.samples = affordable_samples(context, largest);
   options.panel_texels_per_m = 2.0 * std::clamp(eye_px.x, kLeastPanels, kMostPanels) / first.screen.width_m();
+  options.panel_millimetre_m = panel_millimetre_m;
   return options;
 }
 

@@ -47,8 +47,8 @@ core::Result<std::array<scene::EyeView, 2>> eyes_before(const scene::Screen& scr
                                                         double ipd_m);
 
 // For the plan's first output, with panels as sharp as its pixels, and with as many samples as the device has the
-// memory for in the largest one; fewer are told to the log.
-render::RendererOptions renderer_options(render::Context& context, const WallPlan& plan);
+// memory for in the largest one; fewer are told to the log. `panel_millimetre_m` as in render::RendererOptions.
+render::RendererOptions renderer_options(render::Context& context, const WallPlan& plan, double panel_millimetre_m);
 
 // As many samples a pixel as the device has the memory for; fewer than usual are told to the log.
 std::uint32_t affordable_samples(render::Context& context, glm::uvec2 eye_px);

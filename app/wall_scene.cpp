@@ -37,18 +37,23 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
                                         const scene::Screen& screen, const glm::dvec3& viewer_m, const OwnModels& own) {
   WallScene w;
 
-  // the contact point: at eye height, in the middle, but never out of the wall's middle third
-  const double unit = screen.height_m() / kReferenceWallHeightM;
+  // the contact point: in the middle, at eye height as far as everything finds its place above and below it
+  const double unit = layout_unit_m(screen);
   const dvec3 right = glm::normalize(screen.lower_right - screen.lower_left);
   const dvec3 out = screen.normal();
   const dvec3 up = glm::cross(out, right);
   const double eye_height = glm::dot(viewer_m - screen.lower_left, up);
-  const double contact_height = std::clamp(eye_height, screen.height_m() / 3.0, screen.height_m() * 2.0 / 3.0);
+  const double contact_height = std::clamp(eye_height, kRoomBelow * unit, screen.height_m() - kRoomAbove * unit);
   const dvec3 contact = screen.lower_left + 0.5 * screen.width_m() * right + contact_height * up;
   w.room_from_layout_ = frame_matrix(unit * right, unit * up, unit * out, contact);
   w.wall_width_ = screen.width_m() / unit;
-  w.wall_bottom_ = -contact_height / unit;
-  w.wall_top_ = w.wall_bottom_ + kReferenceWallHeightM;
+  const double wall_bottom = -contact_height / unit;
+  w.wall_top_ = wall_bottom + screen.height_m() / unit;
+
+  // who looks down from above the wall sees what stands before it lower: then the shelf is higher
+  const double eye_y = (eye_height - contact_height) / unit, eye_z = glm::dot(viewer_m - screen.lower_left, out) / unit;
+  const double lowest_seen = eye_y + (wall_bottom + kPanelMargin - eye_y) * (eye_z - kShelfZ) / eye_z;
+  w.shelf_y_ = std::clamp(lowest_seen + kShelfHeight, kShelfY, kHighestShelfY);
 
   ModelBuilder build(assets_dir + "/models", w.scene_);
   w.layout_ = build.frame("layout", std::nullopt, w.room_from_layout_);
@@ -148,8 +153,8 @@ glm::dvec3 WallScene::swatch_place(std::size_t i) const {
   const auto across = [](std::size_t place, std::size_t count, double spacing) {
     return spacing * (static_cast<double>(place) - 0.5 * static_cast<double>(count - 1));
   };
-  if (i < front) return {across(i, front, kSwatchSpacing), kShelfY, kShelfZ};
-  return {across(i - front, looks_.size() - front, kBackSpacing), kBackY, kBackZ};
+  if (i < front) return {across(i, front, kSwatchSpacing), shelf_y_, kShelfZ};
+  return {across(i - front, looks_.size() - front, kBackSpacing), shelf_y_ + kBackRise, kBackZ};
 }
 
 std::vector<input::Target> WallScene::swatch_targets() const {

@@ -64,6 +64,9 @@ class WallScene {
   // Where the tip meets the sample, as long as nothing has been moved: in the wall's plane.
   glm::dvec3 contact_m() const { return glm::dvec3(room_from_layout_[3]); }
 
+  // What the panels draw as a millimetre, so that they look on every wall as on the paper's.
+  double panel_millimetre_m() const;
+
   // Outward normal of the sample in the room, and its x axis, to the right; unit.
   glm::dvec3 sample_normal() const;
   glm::dvec3 sample_right() const;
@@ -145,7 +148,7 @@ class WallScene {
       1.0};                // origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre
   double wall_width_ = 0;  // in layout units
   double wall_top_ = 0;
-  double wall_bottom_ = 0;
+  double shelf_y_ = 0;
 
   scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, stage_{};
   scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{}, wand_{}, ray_{}, apex_{};

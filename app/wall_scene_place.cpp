@@ -160,6 +160,8 @@ render::PanelPlacement WallScene::panel(double left, double bottom, double width
           .up_m = vector({0.0, height, 0.0})};
 }
 
+double WallScene::panel_millimetre_m() const { return 1e-3 * glm::length(dvec3(room_from_layout_[0])); }
+
 double WallScene::side_width() const { return 0.5 * wall_width_ - kPanelInnerEdge - kPanelMargin; }
 
 render::PanelPlacement WallScene::parameter_placement() const {

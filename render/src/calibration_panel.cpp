@@ -22,7 +22,7 @@ constexpr float kLeastIpdMm = 45.0F, kMostIpdMm = 80.0F;  // Dodgson 2004: nearl
 
 Color grey(float srgb) { return {glm::vec3(srgb), 1.0F}; }
 
-// Lines every `step` millimetres from the middle, both ways.
+// Lines every `step` from the middle, both ways.
 void paint_grid(Canvas& canvas, float step, float width, Color color) {
   const glm::vec2 size = canvas.size_mm(), middle = 0.5F * size;
   for (float x = 0.0F; x <= middle.x; x += step) {
@@ -50,9 +50,10 @@ void paint_circle(Canvas& canvas, glm::vec2 center, float radius, float width, C
 // Distances from the mark at its left end, at true scale.
 void paint_ruler(Canvas& canvas, glm::vec2 zero, float unit, double ipd_m) {
   const auto tick = [&](float mm, float height, Color color) {
-    canvas.line(zero + glm::vec2(mm, 0.0F), zero + glm::vec2(mm, -height * unit), 1.5F * unit, color);
+    const float x = mm * canvas.true_mm();
+    canvas.line(zero + glm::vec2(x, 0.0F), zero + glm::vec2(x, -height * unit), 1.5F * unit, color);
   };
-  canvas.line(zero, zero + glm::vec2(kMostIpdMm, 0.0F), 1.5F * unit, kWhite);
+  canvas.line(zero, zero + glm::vec2(kMostIpdMm * canvas.true_mm(), 0.0F), 1.5F * unit, kWhite);
   tick(0.0F, 60.0F, kWhite);
   for (float mm = kLeastIpdMm; mm <= kMostIpdMm; mm += 5.0F)
     tick(mm, std::fmod(mm, 10.0F) == 0.0F ? 50.0F : 30.0F, kWhite);
@@ -93,7 +94,9 @@ std::string_view written(fmt::memory_buffer& text, fmt::format_string<const Valu
 void paint(Canvas& canvas, const CalibrationPanel& panel) {
   const glm::vec2 size = canvas.size_mm(), middle = 0.5F * size;
   const float unit = size.y / kWallHeightMm;
-  const float step = size.x < 1000.0F ? 10.0F : 100.0F;
+  const glm::vec2 true_size_mm = size / canvas.true_mm();
+  const float step_mm = true_size_mm.x < 1000.0F ? 10.0F : 100.0F;
+  const float step = step_mm * canvas.true_mm();
   canvas.rectangle({0.0F, 0.0F}, size, kGround);
   paint_grid(canvas, step, 1.5F * unit, kFine);
   paint_grid(canvas, 10.0F * step, 3.0F * unit, kCoarse);
@@ -109,11 +112,11 @@ void paint(Canvas& canvas, const CalibrationPanel& panel) {
   };
   fmt::memory_buffer text;
   line(220.0F, TextStyle::Title,
-       written(text, "{}   {:.3f} m x {:.3f} m", panel.screen, size.x * 1e-3F, size.y * 1e-3F));
+       written(text, "{}   {:.3f} m x {:.3f} m", panel.screen, true_size_mm.x * 1e-3F, true_size_mm.y * 1e-3F));
   line(320.0F, TextStyle::Strong, panel.mode);
   line(390.0F, TextStyle::Body,
-       written(text, "a square is {:g} mm; the circle is round; L to the left eye, R to the right", step));
-  paint_ruler(canvas, {middle.x - 0.5F * kMostIpdMm, 1840.0F * unit}, unit, panel.ipd_m);
+       written(text, "a square is {:g} mm; the circle is round; L to the left eye, R to the right", step_mm));
+  paint_ruler(canvas, {middle.x - 0.5F * kMostIpdMm * canvas.true_mm(), 1840.0F * unit}, unit, panel.ipd_m);
   line(1860.0F, TextStyle::Body,
        written(text, "between the eyes: ticks from 45 to 80 mm, orange {:.1f} mm", panel.ipd_m * 1e3));
   paint_greys(canvas, {middle.x - 490.0F * unit, 1950.0F * unit}, unit);

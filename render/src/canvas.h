@@ -48,6 +48,9 @@ class Canvas {
 
   glm::vec2 size_mm() const { return size_mm_; }
 
+  // A millimetre of the room: all lengths here are in the panels'.
+  float true_mm() const { return fonts_.true_mm; }
+
   // The panel's plate with its rounded edge.
   void plate(Color edge = palette::kEdge, float edge_width_mm = 2.0F);
 

@@ -37,9 +37,10 @@ bool readable(const std::string& path) { return std::ifstream(path).good(); }
 
 float text_height_mm(TextStyle style) { return kStyles[static_cast<std::size_t>(style)].height_mm; }
 
-core::Result<PanelFonts> load_panel_fonts(double texels_per_m) {
+core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m) {
   PanelFonts result{.atlas = std::make_unique<ImFontAtlas>(),
-                    .texels_per_mm = static_cast<float>(texels_per_m / 1000.0)};
+                    .texels_per_mm = static_cast<float>(texels_per_m * millimetre_m),
+                    .true_mm = static_cast<float>(1e-3 / millimetre_m)};
   result.atlas->Flags |= ImFontAtlasFlags_NoMouseCursors;
   for (std::size_t style = 0; style < kTextStyles; ++style) {
     const auto& row = kStyles[style];

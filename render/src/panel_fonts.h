@@ -15,18 +15,19 @@ namespace afm::render {
 enum class TextStyle { Small, Body, Strong, Title, Guidance };
 inline constexpr std::size_t kTextStyles = 5;
 
-// Height of the em square, millimetres on the wall.
+// Height of the em square, in millimetres of the panels.
 float text_height_mm(TextStyle style);
 
 // The glyphs of all styles, drawn once at the resolution of the panels' textures.
 struct PanelFonts {
   std::unique_ptr<ImFontAtlas> atlas;
   std::array<ImFont*, kTextStyles> fonts{};
-  float texels_per_mm = 1.0F;
+  float texels_per_mm = 1.0F;  // of the panels
+  float true_mm = 1.0F;        // a millimetre of the room in millimetres of the panels
 };
 
 // Reads the system's fonts: Inter (fonts-inter), and DejaVu Sans (fonts-dejavu-core) for glyphs that Inter lacks or in
-// its place. Failed: neither is installed.
-core::Result<PanelFonts> load_panel_fonts(double texels_per_m);
+// its place. Both numbers as in RendererOptions. Failed: neither is installed.
+core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m);
 
 }  // namespace afm::render

@@ -73,6 +73,11 @@ glm::dvec2 size_m(const PanelPlacement& placement) {
   return {glm::length(placement.right_m), glm::length(placement.up_m)};
 }
 
+// In millimetres of the panels.
+glm::dvec2 size_mm(const PanelPlacement& placement, const PanelFonts& fonts) {
+  return size_m(placement) * 1000.0 * static_cast<double>(fonts.true_mm);
+}
+
 // The L stands in the left half of the calibration picture, the R in the right.
 PanelPlacement mark_placement(const PanelPlacement& whole, scene::Eye eye) {
   const double left = eye == scene::Eye::Left ? 0.14 : 0.66;
@@ -186,7 +191,7 @@ Panels::Texture Panels::create_texture(vk::Extent2D extent) const {
 // Gives the panel a texture of its placement's size; true if it is a new one.
 bool Panels::resize(Panel& panel) {
   const glm::dvec2 texels =
-      glm::clamp(glm::ceil(size_m(panel.placement) * 1000.0 * static_cast<double>(fonts_.texels_per_mm)),
+      glm::clamp(glm::ceil(size_mm(panel.placement, fonts_) * static_cast<double>(fonts_.texels_per_mm)),
                  glm::dvec2(1.0), glm::dvec2(kLargestTexture));
   const vk::Extent2D extent{static_cast<std::uint32_t>(texels.x), static_cast<std::uint32_t>(texels.y)};
   if (panel.texture.image.extent == extent) {
@@ -203,7 +208,7 @@ void Panels::paint_on(Panel& panel, const Content& content) {
   const vk::Extent2D extent = panel.texture.image.extent;
   ImGui::GetIO().DisplaySize = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
   ImGui::NewFrame();
-  Canvas canvas(*ImGui::GetBackgroundDrawList(), fonts_, memory_, glm::vec2(size_m(panel.placement) * 1000.0));
+  Canvas canvas(*ImGui::GetBackgroundDrawList(), fonts_, memory_, glm::vec2(size_mm(panel.placement, fonts_)));
   paint(canvas, content);
   ImGui::Render();
 

@@ -130,14 +130,14 @@ TEST_F(MouseWandTest, ARayHitsAPanelWhereItIsAndNothingBesideIt) {
     const glm::dvec3 eye(0.0, 1.6, 2.5);
     return input::Ray{.origin_m = eye, .direction = glm::normalize(point - eye)};
   };
-  const auto hit = hit_of(towards({0.1, 1.3, 0.0}), panel);
+  const auto hit = hit_of(towards({0.1, 1.3, 0.0}), panel, 1e-3);
   ASSERT_TRUE(hit.has_value());
   EXPECT_NEAR(hit->place_mm.x, 100.0, 1e-9);
   EXPECT_NEAR(hit->place_mm.y, 100.0, 1e-9);
-  EXPECT_FALSE(hit_of(towards({-0.01, 1.3, 0.0}), panel));
-  EXPECT_FALSE(hit_of(towards({0.1, 1.41, 0.0}), panel));
-  EXPECT_FALSE(hit_of(towards({0.1, 1.3, 5.0}), panel)) << "behind the eye";
-  EXPECT_FALSE(hit_of(towards({0.1, 1.3, 0.0}), render::kNoPlacement));
+  EXPECT_FALSE(hit_of(towards({-0.01, 1.3, 0.0}), panel, 1e-3));
+  EXPECT_FALSE(hit_of(towards({0.1, 1.41, 0.0}), panel, 1e-3));
+  EXPECT_FALSE(hit_of(towards({0.1, 1.3, 5.0}), panel, 1e-3)) << "behind the eye";
+  EXPECT_FALSE(hit_of(towards({0.1, 1.3, 0.0}), render::kNoPlacement, 1e-3));
 }
 
 }  // namespace

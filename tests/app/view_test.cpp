@@ -15,6 +15,7 @@
 #include "app/frame_builder.h"
 #include "app/live_parameters.h"
 #include "app/mouse_hand.h"
+#include "app/panel_hit.h"
 #include "app/parameter_panel.h"
 #include "app/stage_setup.h"
 #include "places.h"
@@ -73,7 +74,7 @@ class ViewTest : public ::testing::Test {
   // The middle of a target of gold's parameter panel.
   glm::dvec2 pixel_of(const render::ControlTarget& target) const {
     const render::PanelPlacement panel = stage_.wall_scene.parameter_placement();
-    const glm::dvec2 size(1000.0 * glm::length(panel.right_m), 1000.0 * glm::length(panel.up_m));
+    const glm::dvec2 size = size_mm(panel, stage_.wall_scene.panel_millimetre_m());
     const LiveParameters gold(felt_material(ContactSetup{stage_.materials.materials[1], {}, {}}).value());
     const auto box = render::control_box(parameter_panel(gold, "", ChangeState::AsLoaded), size, target);
     const glm::dvec2 share = 0.5 * (box.from_mm + box.to_mm) / size;
