@@ -134,6 +134,7 @@ TEST_F(MouseWandTest, ARayHitsAPanelWhereItIsAndNothingBesideIt) {
   ASSERT_TRUE(hit.has_value());
   EXPECT_NEAR(hit->place_mm.x, 100.0, 1e-9);
   EXPECT_NEAR(hit->place_mm.y, 100.0, 1e-9);
+  EXPECT_NEAR(hit_of(towards({0.1, 1.3, 0.0}), panel, 0.5e-3)->place_mm.x, 200.0, 1e-9) << "on a smaller wall";
   EXPECT_FALSE(hit_of(towards({-0.01, 1.3, 0.0}), panel, 1e-3));
   EXPECT_FALSE(hit_of(towards({0.1, 1.41, 0.0}), panel, 1e-3));
   EXPECT_FALSE(hit_of(towards({0.1, 1.3, 5.0}), panel, 1e-3)) << "behind the eye";
