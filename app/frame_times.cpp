@@ -25,12 +25,14 @@ void FrameTimes::hidden() { last_ns_ = -1; }
 
 std::string FrameTimes::text() const {
   if (times_ == 0) return {};
-  const double bin_ms = static_cast<double>(kBinNs) * 1e-6;
-  const Percentiles bins = percentiles(bins_, static_cast<std::uint32_t>((longest_ns_ + kBinNs - 1) / kBinNs));
+  // a bin tells its upper edge
+  const double longest_ms = static_cast<double>(longest_ns_) * 1e-6;
+  const auto ms = [&](double bins) { return std::min(bins * static_cast<double>(kBinNs) * 1e-6, longest_ms); };
+  const Percentiles bins = percentiles(bins_, static_cast<std::uint32_t>(longest_ns_ / kBinNs + 1));
   return fmt::format(
       "picture: {} frames, {:.1f} a second; from one to the next p50 {:.1f}, p99 {:.1f}, p99.9 {:.1f}, most {:.1f} ms",
-      frames_, 1e9 * static_cast<double>(times_) / static_cast<double>(total_ns_), bin_ms * bins.p50,
-      bin_ms * bins.p99, bin_ms * bins.p999, bin_ms * bins.max);
+      frames_, 1e9 * static_cast<double>(times_) / static_cast<double>(total_ns_), ms(bins.p50), ms(bins.p99),
+      ms(bins.p999), longest_ms);
 }
 
 }  // namespace afm::app

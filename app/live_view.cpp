@@ -12,6 +12,7 @@
 
 #include "app/interruption.h"
 #include "app/servo_rows.h"
+#include "app/wall_layout.h"
 #include "core/log.h"
 #include "haptics/device_probe.h"
 #include "render/device_failure.h"
@@ -20,11 +21,10 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kForceTakenNs = 500'000'000;    // until a choice has taken the force away
-constexpr double kHiddenPauseS = 0.05;                 // between two heartbeats of a window that nobody sees
-constexpr double kDrawnHandM = 0.085;                  // of the hand, shown as a third of the wall's height
-constexpr double kEyeStepM = 1e-3;                     // of the eyes' distance, a key press
-constexpr double kHandPerPicture = 3.0 * kDrawnHandM;  // so that the tip follows the cursor on the wall
+constexpr std::int64_t kForceTakenNs = 500'000'000;  // until a choice has taken the force away
+constexpr double kHiddenPauseS = 0.05;               // between two heartbeats of a window that nobody sees
+constexpr double kDrawnHandM = 0.085;                // of the hand, shown as the stroke that a sample's cycle fills
+constexpr double kEyeStepM = 1e-3;                   // of the eyes' distance, a key press
 
 MouseHand hand_over(const WallScene& wall_scene) {
   return MouseHand(wall_scene.sample_normal(), wall_scene.sample_right());
@@ -276,11 +276,11 @@ void LiveView::begin_again() {
   }
 }
 
-// A tile has its share of the wall's height.
+// So that the tip follows the cursor.
 double LiveView::hand_m_per_px(std::size_t window) const {
   const WallPicture shown = picture_.picture(window);
-  const double share = shown.screen.height_m() / stage_.screen.height_m();
-  return kHandPerPicture * share / shown.place.size_px.y;
+  const double stroke_m = kStrokeHeight * layout_unit_m(stage_.screen);
+  return kDrawnHandM / stroke_m * shown.screen.height_m() / shown.place.size_px.y;
 }
 
 void LiveView::move_hand(const ViewInput& input, std::int64_t now_ns) {

@@ -69,7 +69,8 @@ core::Result<void> draw(const Stage& stage, const std::vector<FeltMaterial>& fel
   }
   const auto plan = plan_wall(stage.wall, wish);
   if (!plan) return tl::unexpected(plan.error());
-  auto renderer = render::Renderer::create(*context, stage.wall_scene.scene(), renderer_options(*context, *plan, stage.wall_scene.panel_millimetre_m()));
+  const auto drawing = renderer_options(*context, *plan, stage.wall_scene.panel_millimetre_m());
+  auto renderer = render::Renderer::create(*context, stage.wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   const FrameBuilder frames(stage.wall_scene, felt, stage.eyes);
   const auto pictures = draw_wall(*renderer, *plan, stage.wall.viewers.front(), wish,

@@ -191,7 +191,10 @@ void ViewPicture::tell(const std::vector<render::SavedPicture>& saved) {
 void ViewPicture::show(render::FrameState& frame, std::int64_t now_ns, const std::function<void()>& while_waiting) {
   if (!calibrating_ && !shares_.front().flat) frame.labels.push_back(depth_label(depth_, stage_.screen));
   while_waiting();
-  if (!presenter_.begin(pictures_, while_waiting)) return;
+  if (!presenter_.begin(pictures_, while_waiting)) {
+    times_.hidden();
+    return;
+  }
   for (const Share& share : shares_) {
     frame.eyes = share.eyes;
     if (calibrating_) {

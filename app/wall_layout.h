@@ -9,8 +9,8 @@
 
 namespace afm::app {
 
-// The layout, in metres of the paper's wall: another wall shows it as large as it has room for. The origin is the contact
-// point; x right, y up, z out of the wall towards the viewer.
+// The layout, in metres of the paper's wall: another wall shows it as large as it has room for. The origin is the
+// contact point; x right, y up, z out of the wall towards the viewer.
 inline constexpr double kReferenceWallWidthM = 3.048, kReferenceWallHeightM = 2.286;
 inline constexpr double kStrokeHeight = kReferenceWallHeightM / 3.0;  // what the current material's stroke fills
 inline constexpr double kSampleTiltRad = 0.26;                        // towards the viewer, so that terraces are seen

@@ -43,8 +43,7 @@ struct DrawnScale {
 };
 
 // The scene that stands on the wall (design, section 5): which models, where, and how they move with the tip. Built
-// once; const from then on. Lengths of the layout are fractions of the wall's height, so that any wall shows the same
-// picture.
+// once; const from then on. A wall of any size shows the same picture.
 class WallScene {
  public:
   static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,

@@ -272,13 +272,12 @@ void Composer::record(const vk::raii::CommandBuffer& command, const Composition&
   const vk::Extent2D size =
       area.size_px == glm::uvec2(0) ? extent(composition.mode) : vk::Extent2D{area.size_px.x, area.size_px.y};
   if (target.image.extent != size || target.image.layers != count) {
-    target.image =
-        create_image(device_, "composed",
-                     {.format = kEyeFormat,
-                      .extent = size,
-                      .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc |
-                               vk::ImageUsageFlagBits::eTransferDst,
-                      .layers = count});
+    target.image = create_image(device_, "composed",
+                                {.format = kEyeFormat,
+                                 .extent = size,
+                                 .usage = vk::ImageUsageFlagBits::eColorAttachment |
+                                          vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
+                                 .layers = count});
     for (std::uint32_t i = 0; i < count; ++i) target.views[i] = create_view(device_, target.image, kColor, i, 1);
   }
   const std::array layers{*target.views[0], *target.views[1]};

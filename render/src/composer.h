@@ -70,8 +70,8 @@ class Composer {
   ComposePipeline create_pipeline_for(vk::Format format) const { return {device_, *layout_, format}; }
 
   // Draws the picture, or each of two into a layer of its own, scaled to fill its area and black around it: into what a
-  // window shows and into what is read alike. Where the picture is nothing but the eyes' images beside each other, these
-  // are copied: on a CPU device that takes a fifth of the time.
+  // window shows and into what is read alike. Where the picture is nothing but the eyes' images beside each other,
+  // these are copied: on a CPU device that takes a fifth of the time.
   void record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
               const ComposePlace& place, const ComposeInto& into) const;
 

@@ -180,11 +180,10 @@ void EyeTargets::begin_copies(const vk::raii::CommandBuffer& command) const {
 
 void EyeTargets::copy(const vk::raii::CommandBuffer& command, scene::Eye eye, vk::Image to, std::uint32_t to_layer,
                       vk::Offset2D place) const {
-  const vk::ImageCopy region{
-      .srcSubresource = {.aspectMask = kColor, .baseArrayLayer = layer(eye), .layerCount = 1},
-      .dstSubresource = {.aspectMask = kColor, .baseArrayLayer = to_layer, .layerCount = 1},
-      .dstOffset = {place.x, place.y, 0},
-      .extent = {extent_.width, extent_.height, 1}};
+  const vk::ImageCopy region{.srcSubresource = {.aspectMask = kColor, .baseArrayLayer = layer(eye), .layerCount = 1},
+                             .dstSubresource = {.aspectMask = kColor, .baseArrayLayer = to_layer, .layerCount = 1},
+                             .dstOffset = {place.x, place.y, 0},
+                             .extent = {extent_.width, extent_.height, 1}};
   command.copyImage(*color_.image.image, kCopiedFrom.layout, to, vk::ImageLayout::eTransferDstOptimal, region);
 }
 

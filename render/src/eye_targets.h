@@ -11,7 +11,8 @@
 
 namespace afm::render {
 
-// Holds sRGB values, see tone.glsl. In the order in which windows have their bytes, so that a picture can be copied there.
+// Holds sRGB values, see tone.glsl. In the order in which windows have their bytes, so that a picture can be copied
+// there.
 inline constexpr vk::Format kEyeFormat = vk::Format::eB8G8R8A8Unorm;
 inline constexpr vk::Format kEyeLinearFormat = vk::Format::eB8G8R8A8Srgb;  // sampled and filtered as linear light
 inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;

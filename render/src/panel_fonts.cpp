@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panel_fonts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -13,6 +14,10 @@ struct StyleRow {
   const char* inter;
   const char* dejavu;
 };
+
+// As sharp as 8192 pixels across the paper's wall need: glyphs of twice the size would find no room in a device's
+// image.
+constexpr float kMostTexelsPerMm = 5.4F;
 
 constexpr const char* kInterFolder = "/usr/share/fonts/opentype/inter/";
 constexpr const char* kDejavuFolder = "/usr/share/fonts/truetype/dejavu/";
@@ -39,12 +44,12 @@ float text_height_mm(TextStyle style) { return kStyles[static_cast<std::size_t>(
 
 core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m) {
   PanelFonts result{.atlas = std::make_unique<ImFontAtlas>(),
-                    .texels_per_mm = static_cast<float>(texels_per_m * millimetre_m),
+                    .texels_per_mm = std::min(static_cast<float>(texels_per_m * millimetre_m), kMostTexelsPerMm),
                     .true_mm = static_cast<float>(1e-3 / millimetre_m)};
   result.atlas->Flags |= ImFontAtlasFlags_NoMouseCursors;
   for (std::size_t style = 0; style < kTextStyles; ++style) {
     const auto& row = kStyles[style];
-    const float pixels = std::round(row.height_mm * result.texels_per_mm);
+    const float pixels = std::max(1.0F, std::round(row.height_mm * result.texels_per_mm));
     ImFontConfig config;
     config.OversampleH = 2;
     config.OversampleV = 1;

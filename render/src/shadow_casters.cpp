@@ -2,9 +2,8 @@
 #include "shadow_casters.h"
 
 #include <algorithm>
-#include <cmath>
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 
 #include "draw_box.h"
 #include "frame_blocks.h"

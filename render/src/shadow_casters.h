@@ -30,7 +30,8 @@ class ShadowCasters {
   std::span<const std::uint32_t> resting() const { return resting_; }
   std::span<const std::uint32_t> moving() const { return moving_; }
 
-  // Where the map is not that of what rests, before moving() is drawn onto it: the whole of it in the first step of two.
+  // Where the map is not that of what rests, before moving() is drawn onto it: the whole of it in the first step of
+  // two.
   const vk::Rect2D& stale() const { return stale_; }
 
  private:

@@ -25,10 +25,9 @@ constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
 constexpr vk::Extent2D kSize{kShadowMapSize, kShadowMapSize};
 
 DeviceImage create_map(const Device& device, const char* name, vk::ImageUsageFlags usage) {
-  return create_image(device, name,
-                      {.format = kDepthFormat,
-                       .extent = kSize,
-                       .usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | usage});
+  return create_image(
+      device, name,
+      {.format = kDepthFormat, .extent = kSize, .usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | usage});
 }
 
 void begin_drawing(const vk::raii::CommandBuffer& command, vk::ImageView view, vk::AttachmentLoadOp before) {

@@ -11,8 +11,8 @@
 
 #include "app/render_subjects.h"
 #include "app/stage_setup.h"
-#include "render/context.h"
 #include "places.h"
+#include "render/context.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
@@ -41,9 +41,9 @@ class ModelsOfAWall : public ::testing::Test {
  protected:
   // The paper's wall times `scale`, with the viewer and his eyes.
   render::Image left_eye_before(double scale) {
-    const std::string path =
-        folder_.write(fmt::format("{}.toml", scale),
-                      wall_text(3.048 * scale, 2.286 * scale, 0.4 * scale, 63.0 * scale, scale * glm::dvec3(0, 1.65, 2.5)));
+    const std::string path = folder_.write(
+        fmt::format("{}.toml", scale),
+        wall_text(3.048 * scale, 2.286 * scale, 0.4 * scale, 63.0 * scale, scale * glm::dvec3(0, 1.65, 2.5)));
     const auto stage = stage_on(path);
     EXPECT_TRUE(stage) << stage.error().message;
     auto subject = wall_subject(*stage, kEyeWidth).value();
@@ -122,8 +122,10 @@ TEST(EveryWall, HasRoomForAllThatMustBeRead) {
     expect_everything_in_its_place(fmt::format("{}/assets/walls/{}.toml", AFM_SOURCE_DIR, preset), preset);
   }
   const support::ScratchFolder folder;
-  const auto expect = [&](const char* what, double width_m, double height_m, double bottom_m, const glm::dvec3& head_m) {
-    expect_everything_in_its_place(folder.write("wall.toml", wall_text(width_m, height_m, bottom_m, 63.0, head_m)), what);
+  const auto expect = [&](const char* what, double width_m, double height_m, double bottom_m,
+                          const glm::dvec3& head_m) {
+    expect_everything_in_its_place(folder.write("wall.toml", wall_text(width_m, height_m, bottom_m, 63.0, head_m)),
+                                   what);
   };
   expect("upright", 1.2, 2.1, 0.1, {0.0, 1.65, 2.0});
   expect("square", 2.0, 2.0, 0.5, {0.3, 1.6, 2.5});
@@ -131,6 +133,20 @@ TEST(EveryWall, HasRoomForAllThatMustBeRead) {
   expect("four metres high", 5.3, 4.0, 0.0, {0.0, 1.65, 4.0});
   expect("seen from below", 3.0, 1.7, 2.0, {0.0, 1.4, 4.0});
   expect("on a table", 0.6, 0.34, 0.0, {0.0, 0.5, 0.6});
+}
+
+TEST(EveryWall, IsDrawnHoweverFewAndManyItsPixels) {
+  const support::ScratchFolder folder;
+  const auto stage = stage_on(folder.write("wall.toml", wall_text(7.0, 2.0, 0.5, 63.0, {0.0, 1.65, 4.0})));
+  auto context = render::Context::open(render::Validation::On).value();
+  for (const double texels_per_m : {1.0, 20.0, 1e5}) {
+    auto subject = wall_subject(*stage, 16).value();
+    subject.drawing.panel_texels_per_m = texels_per_m;
+    auto renderer = render::Renderer::create(context, subject.scene, subject.drawing);
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    renderer->render(subject.frames.front());
+    renderer->wait();
+  }
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ class ShadowTest : public VulkanTest {
       f.visible[test_.mica] = 0;
     });
     with("a mirrored caster", [&](auto& f) {
-      f.room_from_node[test_.beam] = glm::scale(f.room_from_node[test_.beam], glm::dvec3(1.0, -1.0, 1.0));
+      f.room_from_node[test_.lever] = glm::scale(f.room_from_node[test_.lever], glm::dvec3(1.0, -1.0, 1.0));
     });
     with("the light", [&](auto& f) { f.key_light.direction_to_light = {0.6F, 0.7F, 0.2F}; });
     with("what the light covers", [&](auto& f) { f.key_light.shadow_radius_m *= 0.5F; });
@@ -61,19 +61,25 @@ TEST_F(ShadowTest, IsRestoredWhereSomethingHasMovedAway) {
     frame.room_from_node[node] = glm::translate(glm::dmat4(1.0), by) * frame.room_from_node[node];
     expect_right(what);
   };
+  const auto bend = [&](float by, const std::string& what) {
+    frame.bends.front().end_deflection += by;
+    expect_right(what);
+  };
   for (const double x : {0.15, 0.15, 3.0, -3.3}) move(test_.gold, {x, 0.05, 0.0}, "one at " + std::to_string(x));
-  for (const double y : {0.1, -0.2}) move(test_.beam, {0.0, y, 0.0}, "two at " + std::to_string(y));
-  for (int i = 0; i < 3; ++i) {
-    for (const scene::NodeIndex node : {test_.gold, test_.mica, test_.beam}) move(node, {0.0, 0.02, 0.0}, "all");
-  }
-  // the first one rests for long enough to be one of those that do
-  for (int i = 0; i < 200; ++i) {
-    frame.room_from_node[test_.beam][3].y += i % 2 == 0 ? 0.01 : -0.01;
+  for (const double y : {0.1, -0.2}) move(test_.lever, {0.0, y, 0.0}, "another one beside it at " + std::to_string(y));
+  for (const float by : {0.1F, -0.2F}) bend(by, "bent by " + std::to_string(by));
+
+  // the first one rests for so long that it is one of those that do
+  for (int i = 0; i < 130; ++i) {
+    frame.bends.front().end_deflection += i % 2 == 0 ? 0.03F : -0.03F;
     renderer.render(frame);
   }
-  expect_right("after a rest");
-  move(test_.beam, {0.1, 0.0, 0.0}, "one beside those that rest");
+  bend(0.05F, "beside one that has come to rest");
   move(test_.gold, {0.1, 0.0, 0.0}, "one that has rested");
+  for (int i = 0; i < 3; ++i) {
+    for (const scene::NodeIndex node : {test_.gold, test_.mica, test_.lever})
+      move(node, {0.0, 0.02, 0.0}, "nearly all");
+  }
 }
 
 TEST_F(ShadowTest, IsNotDrawnAgainWhileNothingOfItMoves) {

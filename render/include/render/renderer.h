@@ -28,8 +28,7 @@ struct RendererOptions {
   // Resolution of the panels' textures. Text is sharpest at twice the eye image's pixels per metre of wall: then each
   // pixel's bilinear sample covers just the texels below it.
   double panel_texels_per_m = 640.0;
-  // What the panels, whose texts have their sizes for a wall of the paper's height, draw as a millimetre: less on a
-  // smaller one.
+  // What the panels, whose texts have their sizes for the paper's wall, draw as a millimetre: less on a smaller one.
   double panel_millimetre_m = 1e-3;
   bool time_passes = false;  // for pass_times()
 };
