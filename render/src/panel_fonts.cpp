@@ -15,9 +15,9 @@ struct StyleRow {
   const char* dejavu;
 };
 
-// As sharp as 8192 pixels across the paper's wall need: glyphs of twice the size would find no room in a device's
-// image.
+// As sharp as 8192 pixels across the paper's wall need.
 constexpr float kMostTexelsPerMm = 5.4F;
+constexpr float kCoarser = 0.75F;  // where the glyphs find no room in an image
 
 constexpr const char* kInterFolder = "/usr/share/fonts/opentype/inter/";
 constexpr const char* kDejavuFolder = "/usr/share/fonts/truetype/dejavu/";
@@ -38,14 +38,8 @@ constexpr std::array<ImWchar, 17> kGlyphRanges{0x0020, 0x00FF, 0x0391, 0x03C9, 0
 
 bool readable(const std::string& path) { return std::ifstream(path).good(); }
 
-}  // namespace
-
-float text_height_mm(TextStyle style) { return kStyles[static_cast<std::size_t>(style)].height_mm; }
-
-core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m) {
-  PanelFonts result{.atlas = std::make_unique<ImFontAtlas>(),
-                    .texels_per_mm = std::min(static_cast<float>(texels_per_m * millimetre_m), kMostTexelsPerMm),
-                    .true_mm = static_cast<float>(1e-3 / millimetre_m)};
+core::Result<PanelFonts> draw_glyphs(float texels_per_mm, float true_mm) {
+  PanelFonts result{.atlas = std::make_unique<ImFontAtlas>(), .texels_per_mm = texels_per_mm, .true_mm = true_mm};
   result.atlas->Flags |= ImFontAtlasFlags_NoMouseCursors;
   for (std::size_t style = 0; style < kTextStyles; ++style) {
     const auto& row = kStyles[style];
@@ -71,6 +65,21 @@ core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre
                          "cannot draw the panels' fonts: reinstall fonts-inter and fonts-dejavu-core");
   }
   return result;
+}
+
+}  // namespace
+
+float text_height_mm(TextStyle style) { return kStyles[static_cast<std::size_t>(style)].height_mm; }
+
+core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m, std::uint32_t largest_image) {
+  const auto true_mm = static_cast<float>(1e-3 / millimetre_m);
+  float texels_per_mm = std::min(static_cast<float>(texels_per_m * millimetre_m), kMostTexelsPerMm);
+  auto fonts = draw_glyphs(texels_per_mm, true_mm);
+  while (fonts && fonts->atlas->TexHeight > static_cast<int>(largest_image)) {
+    texels_per_mm *= kCoarser;
+    fonts = draw_glyphs(texels_per_mm, true_mm);
+  }
+  return fonts;
 }
 
 }  // namespace afm::render

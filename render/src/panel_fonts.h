@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include "core/result.h"
@@ -27,7 +28,8 @@ struct PanelFonts {
 };
 
 // Reads the system's fonts: Inter (fonts-inter), and DejaVu Sans (fonts-dejavu-core) for glyphs that Inter lacks or in
-// its place. Both numbers as in RendererOptions. Failed: neither is installed.
-core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m);
+// its place. Lengths as in RendererOptions; coarser where the glyphs would need an image of more than `largest_image`
+// texels each way. Failed: neither is installed.
+core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m, std::uint32_t largest_image);
 
 }  // namespace afm::render

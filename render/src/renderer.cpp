@@ -233,7 +233,7 @@ core::Result<Renderer> Renderer::create(Context& context, const scene::Scene& sc
                                      "ways: up to {} are drawn; make it smaller",
                                      looks, kMostLooks));
   }
-  auto fonts = load_panel_fonts(options.panel_texels_per_m, options.panel_millimetre_m);
+  auto fonts = load_panel_fonts(options.panel_texels_per_m, options.panel_millimetre_m, largest);
   if (!fonts) {
     return tl::unexpected(fonts.error());
   }

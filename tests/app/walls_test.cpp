@@ -12,8 +12,8 @@
 #include "app/render_subjects.h"
 #include "app/stage_setup.h"
 #include "places.h"
-#include "render/context.h"
 #include "support/scratch_folder.h"
+#include "support/vulkan_fixture.h"
 
 namespace afm::app {
 namespace {
@@ -37,7 +37,7 @@ std::string wall_text(double width_m, double height_m, double bottom_m, double i
 
 // ---- a wall and its models ----
 
-class ModelsOfAWall : public ::testing::Test {
+class ModelsOfAWall : public test::VulkanTest {
  protected:
   // The paper's wall times `scale`, with the viewer and his eyes.
   render::Image left_eye_before(double scale) {
@@ -49,13 +49,12 @@ class ModelsOfAWall : public ::testing::Test {
     auto subject = wall_subject(*stage, kEyeWidth).value();
     render::FrameState& frame = subject.frames[kFrame];
     frame.banner.scale.clear();  // a metre of another wall shows something else
-    auto renderer = render::Renderer::create(context_, subject.scene, subject.drawing).value();
+    auto renderer = make_renderer(subject.scene, subject.drawing);
     renderer.render(frame);
     return renderer.read_eye(scene::Eye::Left);
   }
 
   support::ScratchFolder folder_;
-  render::Context context_ = render::Context::open(render::Validation::On).value();
 };
 
 TEST_F(ModelsOfAWall, ShowWhatItShowsTextsToo) {
@@ -135,17 +134,17 @@ TEST(EveryWall, HasRoomForAllThatMustBeRead) {
   expect("on a table", 0.6, 0.34, 0.0, {0.0, 0.5, 0.6});
 }
 
-TEST(EveryWall, IsDrawnHoweverFewAndManyItsPixels) {
+using PixelsOfAWall = test::VulkanTest;
+
+TEST_F(PixelsOfAWall, MayBeFewAndMany) {
   const support::ScratchFolder folder;
   const auto stage = stage_on(folder.write("wall.toml", wall_text(7.0, 2.0, 0.5, 63.0, {0.0, 1.65, 4.0})));
-  auto context = render::Context::open(render::Validation::On).value();
   for (const double texels_per_m : {1.0, 20.0, 1e5}) {
     auto subject = wall_subject(*stage, 16).value();
     subject.drawing.panel_texels_per_m = texels_per_m;
-    auto renderer = render::Renderer::create(context, subject.scene, subject.drawing);
-    ASSERT_TRUE(renderer) << renderer.error().message;
-    renderer->render(subject.frames.front());
-    renderer->wait();
+    auto renderer = make_renderer(subject.scene, subject.drawing);
+    renderer.render(subject.frames.front());
+    renderer.wait();
   }
 }
 
