@@ -37,13 +37,16 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
                                         const scene::Screen& screen, const glm::dvec3& viewer_m, const OwnModels& own) {
   WallScene w;
 
-  // the contact point: in the middle, at eye height as far as everything finds its place above and below it
+  // the contact point: at eye height, in the middle, as far as everything finds its place above and below it, but never
+  // out of the wall's middle third
   const double unit = layout_unit_m(screen);
   const dvec3 right = glm::normalize(screen.lower_right - screen.lower_left);
   const dvec3 out = screen.normal();
   const dvec3 up = glm::cross(out, right);
   const double eye_height = glm::dot(viewer_m - screen.lower_left, up);
-  const double contact_height = std::clamp(eye_height, kRoomBelow * unit, screen.height_m() - kRoomAbove * unit);
+  const double third_m = screen.height_m() / 3.0;
+  const double contact_height = std::clamp(eye_height, std::max(kRoomBelow * unit, third_m),
+                                           std::min(screen.height_m() - kRoomAbove * unit, 2.0 * third_m));
   const dvec3 contact = screen.lower_left + 0.5 * screen.width_m() * right + contact_height * up;
   w.room_from_layout_ = frame_matrix(unit * right, unit * up, unit * out, contact);
   w.wall_width_ = screen.width_m() / unit;

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <string>
 #include <utility>
@@ -100,6 +101,11 @@ Rectangle seen(const render::PanelPlacement& panel, const scene::EyeView& eye) {
 void expect_everything_in_its_place(const std::string& wall_file, const std::string& what) {
   const auto stage = stage_on(wall_file);
   ASSERT_TRUE(stage) << what << ": " << stage.error().message;
+  const double height = glm::dot(stage->wall_scene.contact_m() - stage->screen.lower_left,
+                                 glm::normalize(stage->screen.upper_left - stage->screen.lower_left)) /
+                        stage->screen.height_m();
+  EXPECT_GE(height, 1.0 / 3.0) << what;
+  EXPECT_LE(height, 2.0 / 3.0 + 1e-12) << what;
   const render::FrameState frame = wall_subject(*stage, kEyeWidth).value().frames[kFrame];
   const auto place = [&](const render::PanelPlacement& panel) { return seen(panel, stage->eyes[0]); };
   std::vector<std::pair<std::string, Rectangle>> places{{"banner", place(frame.banner_placement)},
