@@ -17,7 +17,7 @@ void on_signal(int) { interruption.store(true, std::memory_order_relaxed); }
 }  // namespace
 
 void catch_interruptions() {
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = on_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);

@@ -6,14 +6,14 @@
 #include <system_error>
 
 #include "app/command.h"
-#include "app/exit_code.h"
 #include "app/interruption.h"
-#include "app/version.h"
+#include "core/exit_code.h"
 #include "core/log.h"
+#include "core/version.h"
 
 namespace {
 
-using afm::app::ExitCode;
+using afm::core::ExitCode;
 
 // Beside an installed program, share/touchafm; in a build, the source tree's assets.
 std::string find_assets(const std::filesystem::path& program) {
@@ -22,7 +22,7 @@ std::string find_assets(const std::filesystem::path& program) {
   return std::filesystem::is_directory(installed, ignored) ? installed.string() : AFM_ASSETS_DIR;
 }
 
-int fail(ExitCode code, const std::string& message) {
+int fail(afm::core::ExitCode code, const std::string& message) {
   afm::core::log_line("error: " + message);
   return static_cast<int>(code);
 }
@@ -43,7 +43,7 @@ int run(int count, char** arguments) {
       "TouchAFM: feel and see the approach-retract cycle of an atomic force microscope.\n"
       "Exit codes: 0 done, 1 the run failed, 2 wrong usage, 3 bad input file, 4 a needed device is missing.",
       "touchafm");
-  app.set_version_flag("--version", std::string("touchafm ") + afm::app::kVersion);
+  app.set_version_flag("--version", std::string("touchafm ") + afm::core::kVersion);
   app.require_subcommand(1);
   afm::app::add_demo_command(app, context);
   afm::app::add_view_command(app, context);
@@ -59,18 +59,19 @@ int run(int count, char** arguments) {
   afm::app::add_bench_command(app, context);
 
   if (names_unknown_command(app, count, arguments)) {
-    return fail(ExitCode::WrongUsage, "there is no command \"" + std::string(arguments[1]) + "\"; see touchafm --help");
+    return fail(afm::core::ExitCode::WrongUsage,
+                "there is no command \"" + std::string(arguments[1]) + "\"; see touchafm --help");
   }
   try {
     app.parse(count, arguments);
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& wrong) {
-    return fail(ExitCode::WrongUsage, std::string(wrong.what()) + "; see touchafm --help");
+    return fail(afm::core::ExitCode::WrongUsage, std::string(wrong.what()) + "; see touchafm --help");
   }
   const auto done = context.chosen();
-  if (!done) return fail(afm::app::exit_code(done.error().category), done.error().message);
-  return static_cast<int>(ExitCode::Done);
+  if (!done) return fail(afm::core::exit_code(done.error().category), done.error().message);
+  return static_cast<int>(afm::core::ExitCode::Done);
 }
 
 }  // namespace
@@ -81,6 +82,6 @@ int main(int count, char** arguments) {
     return run(count, arguments);
   } catch (const std::exception& error) {
     // Vulkan's own failures (a lost device, no memory) and the standard library's
-    return fail(ExitCode::RunFailed, error.what());
+    return fail(afm::core::ExitCode::RunFailed, error.what());
   }
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What every target shares: language level, warnings, sanitizers, ccache, and the two ways to declare a target.
+# What every target shares: language level, warnings, sanitizers, ccache, and how a folder becomes a library.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -46,15 +46,29 @@ set(AFM_PRECOMPILED_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <file
     <optional> <random> <span> <stdexcept> <string> <string_view> <thread> <utility> <vector>)
 set(AFM_PRECOMPILED_GLM <glm/geometric.hpp> <glm/gtc/matrix_transform.hpp> <glm/gtc/quaternion.hpp> <glm/mat4x4.hpp>)
 
-# afm_module(NAME HEADERS ... SOURCES ... PUBLIC ... PRIVATE ... PRECOMPILED ...)
-# A folder is a static library afm::NAME. Only NAME/include is exported, so that including a module that is not linked
-# fails; every public header is compiled alone by the target all_verify_interface_header_sets.
+# afm_module(NAME PUBLIC ... PRIVATE ... PRECOMPILED ...)
+# A folder is a static library afm::NAME of all that lies in its include/ and src/. Only include/ is exported, so that including a
+# module that is not linked fails; every public header is compiled alone by the target all_verify_interface_header_sets.
 function(afm_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 M "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE;PRECOMPILED")
-  add_library(afm_${name} STATIC ${M_SOURCES})
+  cmake_parse_arguments(PARSE_ARGV 1 M "" "" "PUBLIC;PRIVATE;PRECOMPILED")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/*.cpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS include/*.h)
+  add_library(afm_${name} STATIC ${sources})
   add_library(afm::${name} ALIAS afm_${name})
-  target_sources(afm_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${M_HEADERS})
+  target_sources(afm_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${headers})
+  target_include_directories(afm_${name} PRIVATE src)
   target_link_libraries(afm_${name} PUBLIC ${M_PUBLIC} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:afm_build_flags>)
   target_precompile_headers(afm_${name} PRIVATE ${AFM_PRECOMPILED_HEADERS} ${M_PRECOMPILED})
+  set_target_properties(afm_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+endfunction()
+
+# afm_header_module(NAME INTERFACE ...): the same without sources.
+function(afm_header_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 M "" "" "INTERFACE")
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS include/*.h)
+  add_library(afm_${name} INTERFACE)
+  add_library(afm::${name} ALIAS afm_${name})
+  target_sources(afm_${name} INTERFACE FILE_SET HEADERS BASE_DIRS include FILES ${headers})
+  target_link_libraries(afm_${name} INTERFACE ${M_INTERFACE})
   set_target_properties(afm_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()

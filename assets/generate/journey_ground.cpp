@@ -176,9 +176,7 @@ std::vector<Model> grounds() {
       .material = {.name = "mica", .base_color = {0.66, 0.63, 0.59}, .roughness = 0.24, .vertex_colors = true},
       .amplitude = 0.022,
       .pattern = terraces,
-      .tint = [](double n) {
-        return mix(V3{0.42, 0.48, 0.54}, V3{1.0, 0.96, 0.92}, n);
-      }};
+      .tint = [](double n) { return mix(V3{0.42, 0.48, 0.54}, V3{1.0, 0.96, 0.92}, n); }};
   const Look gold{.name = "gold",
                   .material = {.name = "gold",
                                .base_color = {1.0, 0.66, 0.23},

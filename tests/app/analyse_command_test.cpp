@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/analyse_command.h"
+#include "app/commands/analyse_command.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/curve_files/curve_file.h"
-#include "app/curve_report.h"
-#include "app/whole_file.h"
+#include "core/whole_file.h"
+#include "curves/curve_file.h"
+#include "curves/curve_report.h"
 #include "support/hertz_curve.h"
 #include "support/scratch_folder.h"
 
@@ -26,10 +26,10 @@ physics::Interaction mica(double spring_constant) {
           .mean_surface_energy = physics::SurfaceEnergy(2.228e-3)};
 }
 
-RecordedCurve mica_curve(double spring_constant) {
+curves::RecordedCurve mica_curve(double spring_constant) {
   const auto curve = physics::record_curve(physics::ApproachRetractModel(mica(spring_constant)),
                                            {physics::Length(40e-9), physics::Length(-5e-9), physics::Length(0.05e-9)});
-  return recorded_curve(curve, physics::Stiffness(spring_constant));
+  return curves::recorded_curve(curve, physics::Stiffness(spring_constant));
 }
 
 std::string error_of(const AnalyseOptions& options, core::ErrorCategory category) {
@@ -40,9 +40,9 @@ std::string error_of(const AnalyseOptions& options, core::ErrorCategory category
 }
 
 TEST(CurveReport, SaysEveryFigureWithItsUnit) {
-  const auto curve = analysed("mica.tab", mica_curve(0.1));
+  const auto curve = curves::analysed("mica.tab", mica_curve(0.1));
   ASSERT_TRUE(curve.has_value());
-  const std::string text = features_text(*curve, nullptr);
+  const std::string text = curves::features_text(*curve, nullptr);
   for (const char* expected :
        {"mica.tab: ", "100 mN/m", "snap-in at              2.398 nm", "pull-off at                14 nm", "-1.4 nN",
         "loop energy             9.511 aJ", "contact slope           100 mN/m"}) {
@@ -52,47 +52,47 @@ TEST(CurveReport, SaysEveryFigureWithItsUnit) {
 }
 
 TEST(CurveReport, IsInSiAsJson) {
-  const auto json = features_json(*analysed("mica", mica_curve(0.1)), nullptr);
+  const auto json = curves::features_json(*curves::analysed("mica", mica_curve(0.1)), nullptr);
   EXPECT_NEAR(json.at("snap_in_z_m").get<double>(), 2.39752e-9, 1e-13);
   EXPECT_NEAR(json.at("pull_off_force_N").get<double>(), -1.399894e-9, 1e-14);
   EXPECT_NEAR(json.at("loop_energy_J").get<double>(), 9.5111e-18, 1e-21);
   EXPECT_EQ(json.at("spring_constant_N_per_m").get<double>(), 0.1);
-  const auto hertz = features_json(*analysed("hertz", test::hertz_curve()), nullptr);
+  const auto hertz = curves::features_json(*curves::analysed("hertz", test::hertz_curve()), nullptr);
   EXPECT_TRUE(hertz.at("snap_in_z_m").is_null());
   EXPECT_TRUE(hertz.at("pull_off_force_N").is_null());
 }
 
 TEST(CurveReport, SetsTwoCurvesBesideEachOther) {
-  const auto soft = analysed("soft", mica_curve(0.1)), stiff = analysed("stiff", mica_curve(0.2));
-  const auto json = features_json(*soft, &*stiff);
+  const auto soft = curves::analysed("soft", mica_curve(0.1)), stiff = curves::analysed("stiff", mica_curve(0.2));
+  const auto json = curves::features_json(*soft, &*stiff);
   EXPECT_NEAR(json.at("difference").at("pull_off_z_m").get<double>(),
               json.at("pull_off_z_m").get<double>() - json.at("beside").at("pull_off_z_m").get<double>(), 1e-18);
   EXPECT_NEAR(json.at("difference").at("pull_off_force_N").get<double>(), 0.0, 1e-20);
   EXPECT_FALSE(json.at("difference").contains("contact_point_m"));  // an instrument's zero is nothing to compare
-  EXPECT_THAT(features_text(*soft, &*stiff), HasSubstr("stiff"));
-  EXPECT_EQ(features_plot(*soft, &*stiff).lines.size(), 4U);
+  EXPECT_THAT(curves::features_text(*soft, &*stiff), HasSubstr("stiff"));
+  EXPECT_EQ(curves::features_plot(*soft, &*stiff).lines.size(), 4U);
 }
 
 TEST(CurveReport, DrawsFromTheContactPointAndTheBaseline) {
-  RecordedCurve shifted = mica_curve(0.1);
+  curves::RecordedCurve shifted = mica_curve(0.1);
   shifted.metadata.software = "an instrument's";
   for (auto& point : shifted.points)
     point = {point.z + physics::Length(1e-6), point.force + physics::Force(5e-9), point.branch};
-  const auto lines = curve_lines(*analysed("shifted", shifted), "red");
+  const auto lines = curves::curve_lines(*curves::analysed("shifted", shifted), "red");
   EXPECT_NEAR(lines[0].points.front().x, 40.0, 1e-6);
   EXPECT_NEAR(lines[0].points.front().y, 0.0, 1e-6);
 }
 
 TEST(AnalyseCommand, WritesAPictureOfACurveBesideAnother) {
   const support::ScratchFolder folder;
-  ASSERT_TRUE(write_curve(folder.file("a.h5"), CurveFormat::Hdf5, mica_curve(0.1)).has_value());
-  ASSERT_TRUE(write_curve(folder.file("b.tab"), CurveFormat::Tab, mica_curve(0.2)).has_value());
+  ASSERT_TRUE(curves::write_curve(folder.file("a.h5"), curves::CurveFormat::Hdf5, mica_curve(0.1)).has_value());
+  ASSERT_TRUE(curves::write_curve(folder.file("b.tab"), curves::CurveFormat::Tab, mica_curve(0.2)).has_value());
   AnalyseOptions options;
   options.file = folder.file("a.h5");
   options.beside = folder.file("b.tab");
   options.out = folder.file("ab.svg");
   ASSERT_TRUE(analyse_curve_file(options).has_value());
-  const auto picture = read_file(options.out);
+  const auto picture = core::read_file(options.out);
   ASSERT_TRUE(picture.has_value());
   EXPECT_THAT(*picture, HasSubstr("pull-off -1.4 nN"));
   EXPECT_THAT(*picture, HasSubstr("b.tab, retract"));
@@ -104,7 +104,8 @@ TEST(AnalyseCommand, RefusesWrongOptionsAndFilesAndWritesNothing) {
   options.out = folder.file("a.svg");
   options.file = folder.file("missing.tab");
   EXPECT_THAT(error_of(options, core::ErrorCategory::BadInputFile), HasSubstr("there is no such file"));
-  options.file = folder.write("half.tab", curve_bytes(CurveFormat::Tab, mica_curve(0.1))->substr(0, 20000));
+  options.file =
+      folder.write("half.tab", curves::curve_bytes(curves::CurveFormat::Tab, mica_curve(0.1))->substr(0, 20000));
   EXPECT_THAT(error_of(options, core::ErrorCategory::BadInputFile), HasSubstr("cannot read the curve"));
   options.spring_constant = "0.1nm";
   EXPECT_THAT(error_of(options, core::ErrorCategory::WrongUsage), HasSubstr("--spring-constant: "));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/curve_command.h"
+#include "app/commands/curve_command.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "app/curve_output.h"
+#include "curves/curve_output.h"
 #include "places.h"
 
 namespace afm::app {
@@ -27,22 +27,22 @@ ContactOptions contact_of(const char* material, const char* model) {
   return options;
 }
 
-core::Result<CurveRun> run_of(const ContactOptions& contact, const PathOptions& path = {}) {
+core::Result<curves::CurveRun> run_of(const ContactOptions& contact, const curves::PathOptions& path = {}) {
   const auto setup = contact_setup(contact);
   if (!setup) return tl::unexpected(setup.error());
-  return run_curve(*setup, path);
+  return curves::run_curve(*setup, path);
 }
 
-nlohmann::ordered_json json_of(const ContactOptions& contact, const PathOptions& path = {}) {
+nlohmann::ordered_json json_of(const ContactOptions& contact, const curves::PathOptions& path = {}) {
   const auto run = run_of(contact, path);
   if (!run) {
     ADD_FAILURE() << run.error().message;
     return {};
   }
-  return curve_json(*run);
+  return curves::curve_json(*run);
 }
 
-std::string refusal(const ContactOptions& contact, const PathOptions& path = {}) {
+std::string refusal(const ContactOptions& contact, const curves::PathOptions& path = {}) {
   const auto run = run_of(contact, path);
   if (run) return "accepted";
   EXPECT_EQ(run.error().category, core::ErrorCategory::WrongUsage);
@@ -121,7 +121,7 @@ TEST(CurveCsv, HasAHeaderWithEveryParameterAndEqualRows) {
   contact.values["spring-constant"] = "0.2N/m";
   const auto run = run_of(contact, {.step = "1nm"});
   ASSERT_TRUE(run.has_value()) << run.error().message;
-  std::istringstream csv(curve_csv(*run));
+  std::istringstream csv(curves::curve_csv(*run));
   std::string header;
   std::size_t rows = 0;
   for (std::string line; std::getline(csv, line);) {
@@ -245,7 +245,7 @@ TEST(CurveCommand, ShowsTheDirectionRuleForComparison) {
 TEST(CurvePlot, MarksBothJumps) {
   const auto run = run_of(contact_of("mica", "dmt"));
   ASSERT_TRUE(run.has_value());
-  const SvgPlot plot = curve_plot(*run);
+  const curves::SvgPlot plot = curves::curve_plot(*run);
   ASSERT_EQ(plot.marks.size(), 2U);
   EXPECT_EQ(plot.marks[0].text, "snap-in: 2.398 nm, \u22120.2034 nN");
   EXPECT_NEAR(plot.marks[1].at.y, -1.4, 0.001);

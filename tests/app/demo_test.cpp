@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "app/session_file.h"
-#include "app/whole_file.h"
+#include "core/whole_file.h"
 #include "physics/contact.h"
 #include "places.h"
-#include "scene/material_library.h"
+#include "scene/samples/material_library.h"
+#include "servo/session_file.h"
 #include "support/read_png.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
@@ -36,7 +36,9 @@ class Demo : public ::testing::Test {
     delete folder_;
   }
 
-  static nlohmann::json summary() { return nlohmann::json::parse(read_file(folder_->file("summary.json")).value()); }
+  static nlohmann::json summary() {
+    return nlohmann::json::parse(core::read_file(folder_->file("summary.json")).value());
+  }
 
   static inline support::ScratchFolder* folder_ = nullptr;
   static inline support::ProgramResult* result_ = nullptr;
@@ -106,11 +108,11 @@ TEST_F(Demo, DrawsEveryPictureSideBySideAndNoneIsEmpty) {
 
 TEST_F(Demo, LeavesCurvesAndSessionsOfEveryMaterial) {
   for (const char* name : {"mica", "gold", "si3n4"}) {
-    const auto session = load_session(folder_->file(std::string("session-") + name + ".afms"));
+    const auto session = servo::load_session(folder_->file(std::string("session-") + name + ".afms"));
     ASSERT_TRUE(session.has_value()) << session.error().message;
     ASSERT_NE(session->find(scene::TipEventKind::JumpToContact), nullptr);
     ASSERT_NE(session->find(scene::TipEventKind::JumpOffContact), nullptr);
-    const std::string csv = read_file(folder_->file(std::string("curve-") + name + ".csv")).value();
+    const std::string csv = core::read_file(folder_->file(std::string("curve-") + name + ".csv")).value();
     EXPECT_THAT(csv, HasSubstr("# hamaker_J: "));
     EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
               session->samples.size() + session->events.size() + 15U);
@@ -118,7 +120,7 @@ TEST_F(Demo, LeavesCurvesAndSessionsOfEveryMaterial) {
 }
 
 TEST_F(Demo, TheSnapInReallyMovesTheHand) {
-  const RecordedSession session = load_session(folder_->file("session-mica.afms")).value();
+  const servo::RecordedSession session = servo::load_session(folder_->file("session-mica.afms")).value();
   const scene::TipEvent* in = session.find(scene::TipEventKind::JumpToContact);
   // the pull of 0.34 N bends the hand's grip down: within 60 ms it is pulled with more than half of the final force
   double pull = 0;
@@ -129,7 +131,7 @@ TEST_F(Demo, TheSnapInReallyMovesTheHand) {
 }
 
 TEST_F(Demo, TheReportStandsAlone) {
-  const std::string html = read_file(folder_->file("report.html")).value();
+  const std::string html = core::read_file(folder_->file("report.html")).value();
   EXPECT_THAT(html, HasSubstr("data:image/png;base64,iVBOR"));
   EXPECT_THAT(html, HasSubstr("<svg"));
   EXPECT_THAT(html, HasSubstr("circular"));
@@ -160,7 +162,7 @@ TEST(DemoOfAnotherLaw, FeelsTheSameSampleWithOtherNumbers) {
                                            " --material mica --model dmt --vary spring-constant=0.2N/m:0.4N/m:2"
                                            " --hand-speed 150mm/s --eye-width 160 --servo " AFM_SERVO_MODE);
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const nlohmann::json all = nlohmann::json::parse(read_file(folder.file("summary.json")).value());
+  const nlohmann::json all = nlohmann::json::parse(core::read_file(folder.file("summary.json")).value());
   ASSERT_EQ(all["materials"].size(), 1U);
   EXPECT_EQ(all["materials"]["mica"]["law"], "dmt");
   // a0 + F_ad/k on any lever that jumps
@@ -168,7 +170,8 @@ TEST(DemoOfAnotherLaw, FeelsTheSameSampleWithOtherNumbers) {
   ASSERT_EQ(all["variations"].size(), 2U);
   EXPECT_NEAR(all["variations"][0]["z_joc_m"].get<double>(), 0.3819e-9 + 1.399894e-9 / 0.2, 1e-12);
   EXPECT_NEAR(all["variations"][1]["z_joc_m"].get<double>(), 0.3819e-9 + 1.399894e-9 / 0.4, 1e-12);
-  EXPECT_EQ(load_session(folder.file("session-mica-vary-2.afms"))->parameters.interaction.spring_constant.si, 0.4);
+  EXPECT_EQ(servo::load_session(folder.file("session-mica-vary-2.afms"))->parameters.interaction.spring_constant.si,
+            0.4);
   EXPECT_TRUE(support::read_png(folder.file("vary-mica.png")).has_value());
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/session_file.h"
+#include "servo/session_file.h"
 #include "support/live_program.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
@@ -47,7 +47,7 @@ class DeviceFailureTest : public ::testing::Test {
     std::vector<std::filesystem::path> kept;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) kept.push_back(entry.path());
     ASSERT_EQ(kept.size(), 1U);
-    const auto session = load_session(kept.front().string());
+    const auto session = servo::load_session(kept.front().string());
     ASSERT_TRUE(session) << session.error().message;
     EXPECT_GT(session->samples.size(), 100U);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/frame_budget.h"
+#include "app/options/frame_budget.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/measurement.h"
+#include "app/demo/measurement.h"
+#include "core/percentiles.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,17 +12,17 @@
 namespace afm::app {
 namespace {
 
-FeltMaterial mica(physics::Law law = physics::Law::Paper) {
+curves::FeltMaterial mica(physics::Law law = physics::Law::Paper) {
   const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml");
-  ContactSetup setup{*library.value().find("mica"), {}, {}};
+  curves::ContactSetup setup{*library.value().find("mica"), {}, {}};
   setup.model.law = law;
-  return felt_material(setup).value();
+  return curves::felt_material(setup).value();
 }
 
 // A cycle of the law whose jump to contact pulls too hard by this part.
-RecordedSession cycle(double error, const FeltMaterial& material = mica()) {
+servo::RecordedSession cycle(double error, const curves::FeltMaterial& material = mica()) {
   const physics::CycleFigures& figures = material.figures();
-  RecordedSession session;
+  servo::RecordedSession session;
   session.material = "mica";
   session.samples.resize(1);
   scene::TipEvent in, out;
@@ -48,7 +49,7 @@ TEST(Measurement, SeesAnEventThatIsOff) {
 }
 
 TEST(Measurement, IsMadeAgainstTheFiguresOfTheLawThatWasFelt) {
-  const FeltMaterial dmt = mica(physics::Law::Dmt);
+  const curves::FeltMaterial dmt = mica(physics::Law::Dmt);
   const auto m = measure(cycle(0.0, dmt), dmt);
   ASSERT_TRUE(m.has_value());
   EXPECT_EQ(m->law, "dmt");
@@ -58,11 +59,11 @@ TEST(Measurement, IsMadeAgainstTheFiguresOfTheLawThatWasFelt) {
 }
 
 TEST(Measurement, OfALeverThatJumpsNowhereHasNothingToCompare) {
-  FeltMaterial stiff = mica(physics::Law::Dmt);
-  ContactSetup changed = stiff.setup;
+  curves::FeltMaterial stiff = mica(physics::Law::Dmt);
+  curves::ContactSetup changed = stiff.setup;
   changed.material.interaction.spring_constant.si = 40.0;
-  stiff = felt_material(stiff, changed).value();
-  RecordedSession session = cycle(0.0);
+  stiff = curves::felt_material(stiff, changed).value();
+  servo::RecordedSession session = cycle(0.0);
   session.events.clear();
   const auto m = measure(session, stiff);
   ASSERT_TRUE(m.has_value());
@@ -71,13 +72,13 @@ TEST(Measurement, OfALeverThatJumpsNowhereHasNothingToCompare) {
 }
 
 TEST(Measurement, DoesNotJudgeADynamicLever) {
-  FeltMaterial dynamic = mica(physics::Law::Dmt);
+  curves::FeltMaterial dynamic = mica(physics::Law::Dmt);
   dynamic.parameters.dynamic = 1;
   EXPECT_EQ(measure(cycle(0.3, dynamic), dynamic)->worst_error(), 0.0);
 }
 
 TEST(Measurement, FailsWithoutAJumpOffContact) {
-  RecordedSession session = cycle(0.0);
+  servo::RecordedSession session = cycle(0.0);
   session.events.pop_back();
   const auto m = measure(session, mica());
   ASSERT_FALSE(m.has_value());
@@ -87,7 +88,7 @@ TEST(Measurement, FailsWithoutAJumpOffContact) {
 TEST(Percentiles, OfAHundredValuesAreThoseValues) {
   std::vector<double> values;
   for (int i = 100; i >= 1; --i) values.push_back(i);
-  const Percentiles p = percentiles(values);
+  const core::Percentiles p = core::percentiles(values);
   EXPECT_EQ(p.p50, 50.0);
   EXPECT_EQ(p.p99, 99.0);
   EXPECT_EQ(p.p999, 100.0);
@@ -98,15 +99,15 @@ TEST(Percentiles, OfAHistogramAreTheBinsUpperEdges) {
   std::array<std::uint32_t, 101> bins{};
   for (std::size_t i = 0; i < 99; ++i) bins[i] = 1;
   bins[100] = 1;  // longer than all bins
-  const Percentiles p = percentiles(bins, 4321);
+  const core::Percentiles p = core::percentiles(bins, 4321);
   EXPECT_EQ(p.p50, 50.0);
   EXPECT_EQ(p.p99, 99.0);
   EXPECT_EQ(p.p999, 4321.0);
 }
 
 TEST(Percentiles, OfNothingAreZero) {
-  EXPECT_EQ(percentiles(std::vector<double>{}).max, 0.0);
-  EXPECT_EQ(percentiles(std::array<std::uint32_t, 3>{}, 0).p50, 0.0);
+  EXPECT_EQ(core::percentiles(std::vector<double>{}).max, 0.0);
+  EXPECT_EQ(core::percentiles(std::array<std::uint32_t, 3>{}, 0).p50, 0.0);
 }
 
 }  // namespace

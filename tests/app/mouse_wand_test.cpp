@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/mouse_wand.h"
+#include "app/live/mouse_wand.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
-#include "app/panel_hit.h"
+#include "exhibit/panel_hit.h"
 
 namespace afm::app {
 namespace {
@@ -130,15 +130,15 @@ TEST_F(MouseWandTest, ARayHitsAPanelWhereItIsAndNothingBesideIt) {
     const glm::dvec3 eye(0.0, 1.6, 2.5);
     return input::Ray{.origin_m = eye, .direction = glm::normalize(point - eye)};
   };
-  const auto hit = hit_of(towards({0.1, 1.3, 0.0}), panel, 1e-3);
+  const auto hit = exhibit::hit_of(towards({0.1, 1.3, 0.0}), panel, 1e-3);
   ASSERT_TRUE(hit.has_value());
   EXPECT_NEAR(hit->place_mm.x, 100.0, 1e-9);
   EXPECT_NEAR(hit->place_mm.y, 100.0, 1e-9);
-  EXPECT_NEAR(hit_of(towards({0.1, 1.3, 0.0}), panel, 0.5e-3)->place_mm.x, 200.0, 1e-9) << "on a smaller wall";
-  EXPECT_FALSE(hit_of(towards({-0.01, 1.3, 0.0}), panel, 1e-3));
-  EXPECT_FALSE(hit_of(towards({0.1, 1.41, 0.0}), panel, 1e-3));
-  EXPECT_FALSE(hit_of(towards({0.1, 1.3, 5.0}), panel, 1e-3)) << "behind the eye";
-  EXPECT_FALSE(hit_of(towards({0.1, 1.3, 0.0}), render::kNoPlacement, 1e-3));
+  EXPECT_NEAR(exhibit::hit_of(towards({0.1, 1.3, 0.0}), panel, 0.5e-3)->place_mm.x, 200.0, 1e-9) << "on a smaller wall";
+  EXPECT_FALSE(exhibit::hit_of(towards({-0.01, 1.3, 0.0}), panel, 1e-3));
+  EXPECT_FALSE(exhibit::hit_of(towards({0.1, 1.41, 0.0}), panel, 1e-3));
+  EXPECT_FALSE(exhibit::hit_of(towards({0.1, 1.3, 5.0}), panel, 1e-3)) << "behind the eye";
+  EXPECT_FALSE(exhibit::hit_of(towards({0.1, 1.3, 0.0}), render::kNoPlacement, 1e-3));
 }
 
 }  // namespace

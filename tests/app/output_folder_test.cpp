@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/output_folder.h"
+#include "app/commands/output_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "app/whole_file.h"
+#include "core/whole_file.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
@@ -26,7 +26,7 @@ TEST(OutputFolder, ShowsNothingUntilItIsCommitted) {
   ASSERT_TRUE(out->write("a.txt", "a").has_value());
   EXPECT_FALSE(fs::exists(path + "/a.txt"));
   ASSERT_TRUE(out->commit().has_value());
-  EXPECT_EQ(read_file(path + "/a.txt").value(), "a");
+  EXPECT_EQ(core::read_file(path + "/a.txt").value(), "a");
 }
 
 TEST(OutputFolder, LeavesNothingBehindWithoutACommit) {
@@ -49,8 +49,8 @@ TEST(OutputFolder, ReplacesItsOwnFilesAndKeepsTheOthers) {
     ASSERT_TRUE(out->write("a.txt", "new").has_value());
     ASSERT_TRUE(out->commit().has_value());
   }
-  EXPECT_EQ(read_file(scratch.file("a.txt")).value(), "new");
-  EXPECT_EQ(read_file(scratch.file("mine.txt")).value(), "mine");
+  EXPECT_EQ(core::read_file(scratch.file("a.txt")).value(), "new");
+  EXPECT_EQ(core::read_file(scratch.file("mine.txt")).value(), "mine");
   EXPECT_EQ(entries(scratch.path()), 2U);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/paper_command.h"
+#include "app/commands/paper_command.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "app/paper_tables.h"
+#include "curves/paper_tables.h"
 #include "places.h"
 
 namespace afm::app {
@@ -48,7 +48,7 @@ TEST_F(PaperCommand, WritesTablesAndFigures) {
 TEST_F(PaperCommand, NamesEveryErratumAndSaysThatAdhesionIsCircular) {
   ASSERT_TRUE(write_paper(options_).has_value());
   const std::string markdown = text_of("paper.md");
-  for (const Erratum& erratum : errata()) EXPECT_THAT(markdown, HasSubstr(std::string(erratum.name)));
+  for (const curves::Erratum& erratum : curves::errata()) EXPECT_THAT(markdown, HasSubstr(std::string(erratum.name)));
   EXPECT_THAT(markdown, HasSubstr("**circular**"));
 }
 
@@ -69,11 +69,11 @@ TEST_F(PaperCommand, PutsThePrintedAndTheExactNumberBesideEachOther) {
 TEST_F(PaperCommand, AgreesWithThePrintWhereNoErratumIsNamed) {
   const auto library = scene::load_materials(options_.materials_file).value().only(scene::kPaperMaterials);
   ASSERT_TRUE(library.has_value());
-  const auto tables = paper_tables(*library, {});
+  const auto tables = curves::paper_tables(*library, {});
   ASSERT_TRUE(tables.has_value());
   int clean = 0;
   for (const auto* table : {&tables->table1, &tables->table2}) {
-    for (const TableCell& cell : *table) {
+    for (const curves::TableCell& cell : *table) {
       // half of the last digit that three decimals or more have
       const bool agrees = std::abs(std::stod(cell.printed) - cell.exact) <= 0.0005;
       if (cell.erratum.empty()) {

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "app/servo_reaction.h"
-#include "app/servo_wake.h"
-#include "app/servo_work.h"
+#include "app/bench/servo_reaction.h"
+#include "app/bench/servo_wake.h"
+#include "app/bench/servo_work.h"
 #include "places.h"
 
 // That the benchmarks of the servo measure something; how much is for people to judge.

@@ -22,7 +22,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/session_file.h"
+#include "servo/session_file.h"
 #include "support/live_program.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
@@ -245,7 +245,7 @@ TEST_F(SoakTest, RandomHandsNeitherDisturbTheServoNorFillTheMemory) {
   EXPECT_THAT(program.said(), Not(HasSubstr("the servo ended unexpectedly")));
   EXPECT_THAT(servo_line(program.said()), HasSubstr("; 0 samples lost"));
   for (const auto& entry : std::filesystem::directory_iterator(folder_.file("sessions"))) {
-    EXPECT_TRUE(load_session(entry.path().string()).has_value()) << entry.path();
+    EXPECT_TRUE(servo::load_session(entry.path().string()).has_value()) << entry.path();
   }
 
   std::cout << actions << " actions in " << took.count() << " s:";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/view_outputs.h"
+#include "app/live/view_outputs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ class ViewOutputsTest : public ::testing::Test {
     right.rect = {{800, 0}, {800, 600}};
     right.picture_from_output = glm::dmat3(2.0);
   }
-  auto plan(const PictureWish& wish = {}, const WindowWish& window = {}) const {
+  auto plan(const exhibit::PictureWish& wish = {}, const WindowWish& window = {}) const {
     return plan_view(wall_, stage_, wish, window, monitors_);
   }
 

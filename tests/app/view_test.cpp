@@ -11,13 +11,13 @@
 #include <string>
 #include <thread>
 
-#include "app/felt_material.h"
-#include "app/frame_builder.h"
-#include "app/live_parameters.h"
-#include "app/mouse_hand.h"
-#include "app/panel_hit.h"
-#include "app/parameter_panel.h"
-#include "app/stage_setup.h"
+#include "app/live/mouse_hand.h"
+#include "curves/felt_material.h"
+#include "curves/live_parameters.h"
+#include "exhibit/frame_builder.h"
+#include "exhibit/panel_hit.h"
+#include "exhibit/parameter_panel.h"
+#include "exhibit/stage_setup.h"
 #include "places.h"
 #include "render/control_layout.h"
 #include "render/image_file.h"
@@ -66,7 +66,7 @@ class ViewTest : public ::testing::Test {
   glm::dvec2 pixel_of(const glm::dvec3& point_m) const {
     scene::Wall one_eyed = stage_.wall;
     one_eyed.viewers.front().ipd_m = 0.0;
-    const scene::EyeView eye = eyes_at_sweet_spot(one_eyed).value()[0];
+    const scene::EyeView eye = exhibit::eyes_at_sweet_spot(one_eyed).value()[0];
     const glm::dvec4 clip = eye.projection * eye.view * glm::dvec4(point_m, 1.0);
     return 0.5 * glm::dvec2(kWidth, kHeight) * (glm::dvec2(clip) / clip.w + 1.0);
   }
@@ -74,9 +74,11 @@ class ViewTest : public ::testing::Test {
   // The middle of a target of gold's parameter panel.
   glm::dvec2 pixel_of(const render::ControlTarget& target) const {
     const render::PanelPlacement panel = stage_.wall_scene.parameter_placement();
-    const glm::dvec2 size = size_mm(panel, stage_.wall_scene.panel_millimetre_m());
-    const LiveParameters gold(felt_material(ContactSetup{stage_.materials.materials[1], {}, {}}).value());
-    const auto box = render::control_box(parameter_panel(gold, "", ChangeState::AsLoaded), size, target);
+    const glm::dvec2 size = exhibit::size_mm(panel, stage_.wall_scene.panel_millimetre_m());
+    const curves::LiveParameters gold(
+        curves::felt_material(curves::ContactSetup{stage_.materials.materials[1], {}, {}}).value());
+    const auto box =
+        render::control_box(exhibit::parameter_panel(gold, "", exhibit::ChangeState::AsLoaded), size, target);
     const glm::dvec2 share = 0.5 * (box.from_mm + box.to_mm) / size;
     return pixel_of(panel.lower_left_m + share.x * panel.right_m + (1.0 - share.y) * panel.up_m);
   }
@@ -135,13 +137,13 @@ class ViewTest : public ::testing::Test {
     return 4.0 * static_cast<double>(differing) / static_cast<double>(a.rgba.size());
   }
 
-  static Stage stage_of_the_assets() {
-    StageFiles files;
+  static exhibit::Stage stage_of_the_assets() {
+    exhibit::StageFiles files;
     files.assets_dir = AFM_SOURCE_DIR "/assets";
-    return load_stage(files).value();
+    return exhibit::load_stage(files).value();
   }
 
-  const Stage stage_ = stage_of_the_assets();
+  const exhibit::Stage stage_ = stage_of_the_assets();
   support::VirtualDisplay display_{kWidth, kHeight};
 };
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/view_wand.h"
+#include "app/live/view_wand.h"
 #include "places.h"
 
 namespace afm::app {

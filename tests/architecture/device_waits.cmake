@@ -3,10 +3,10 @@
 # The program waits until the graphics device is idle when the size of something changes and at the end, never in a frame:
 # all such waits stand here, by file and number.
 set(allowed
-  "render/src/device.cpp 1"           # wait_idle(), for what destroys
-  "render/src/renderer.cpp 1"         # resize()
-  "render/src/window_surface.cpp 2")  # another size of the window, another surface
-file(GLOB sources RELATIVE ${ROOT} ${ROOT}/render/src/*.cpp ${ROOT}/render/src/*.h ${ROOT}/app/*.cpp)
+  "render/src/device/device.cpp 1"           # wait_idle(), for what destroys
+  "render/src/output/window_surface.cpp 2"  # another size of the window, another surface
+  "render/src/passes/renderer.cpp 1")       # resize()
+file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/render/src/*.cpp ${ROOT}/render/src/*.h ${ROOT}/exhibit/*.cpp ${ROOT}/app/*.cpp)
 set(found "")
 foreach(source ${sources})
   file(STRINGS ${ROOT}/${source} waits REGEX "waitIdle\\(")

@@ -89,7 +89,7 @@ class SharedChannel {
  public:
   SharedChannel()
       : memory_(::mmap(nullptr, sizeof(LatestValue<Block>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)),
-        channel_(new (memory_) LatestValue<Block>) {}
+        channel_(new(memory_) LatestValue<Block>) {}
   SharedChannel(const SharedChannel&) = delete;
   SharedChannel& operator=(const SharedChannel&) = delete;
   ~SharedChannel() { ::munmap(memory_, sizeof(LatestValue<Block>)); }

@@ -4,13 +4,13 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "app/curve_files/curve_file.h"
+#include "curves/curve_file.h"
 #include "physics/curve_analysis.h"
 
 // Whatever the bytes, and whichever format they claim: a curve that can be analysed and written, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(bytes), size);
-  const auto curve = afm::app::parse_curve(text, "fuzz");
+  const auto curve = afm::curves::parse_curve(text, "fuzz");
   if (!curve) return 0;
   for (const auto& point : curve->points) {
     if (!isfinite(point.z) || !isfinite(point.force)) std::abort();
@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   } catch (const std::invalid_argument&) {
     // too few points, or all at one height
   }
-  const auto written = afm::app::curve_bytes(afm::app::CurveFormat::Tab, *curve);
-  if (!written || !afm::app::parse_curve(*written, "again")) std::abort();
+  const auto written = afm::curves::curve_bytes(afm::curves::CurveFormat::Tab, *curve);
+  if (!written || !afm::curves::parse_curve(*written, "again")) std::abort();
   return 0;
 }

@@ -2,8 +2,8 @@
 #include <cstdlib>
 
 #include "fuzz/memory_file.h"
-#include "scene/gltf_loader.h"
-#include "scene/pose.h"
+#include "scene/gltf/gltf_loader.h"
+#include "scene/graph/pose.h"
 
 namespace afm {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/memory_file.h"
 #include "physics/contact.h"
-#include "scene/material_library.h"
+#include "scene/samples/material_library.h"
 
 // Whatever the bytes: materials that the closed forms accept, or an error. They throw on what is unphysical.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/memory_file.h"
 #include "physics/interaction.h"
-#include "scene/probe_library.h"
+#include "scene/samples/probe_library.h"
 
 // Whatever the bytes: probes that a sample accepts, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {

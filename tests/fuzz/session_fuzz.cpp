@@ -4,8 +4,8 @@
 #include <cstring>
 #include <vector>
 
-#include "app/session_file.h"
 #include "fuzz/memory_file.h"
+#include "servo/session_file.h"
 
 namespace {
 
@@ -25,7 +25,7 @@ std::vector<std::uint8_t> with_checksum(const std::uint8_t* bytes, std::size_t s
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const std::vector<std::uint8_t> whole = with_checksum(bytes, size);
   const afm::fuzz::MemoryFile file(whole.data(), whole.size());
-  const auto session = afm::app::load_session(file.path());
+  const auto session = afm::servo::load_session(file.path());
   if (!session) return 0;
   if (session->samples.empty()) std::abort();
   for (const afm::scene::TipSample& sample : session->samples) {

@@ -2,7 +2,7 @@
 #include <cstdlib>
 
 #include "fuzz/memory_file.h"
-#include "scene/wall.h"
+#include "scene/display/wall.h"
 
 // Whatever the bytes: a wall that both eyes of every viewer can be drawn for, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {

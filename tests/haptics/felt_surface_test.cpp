@@ -11,8 +11,8 @@
 #include <string>
 
 #include "places.h"
-#include "scene/gltf_loader.h"
-#include "scene/height_field.h"
+#include "scene/gltf/gltf_loader.h"
+#include "scene/graph/height_field.h"
 #include "support/rough_surface.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "haptics/force_rumble.h"
+#include "devices/force_rumble.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "haptics/gamepad_device.h"
+#include "devices/gamepad_device.h"
 
 #include <gmock/gmock.h>
 
@@ -10,8 +10,8 @@
 #include <thread>
 #include <utility>
 
+#include "devices/sdl_library.h"
 #include "haptics/safety.h"
-#include "sdl_library.h"
 #include "support/no_alloc.h"
 
 // Virtual joysticks of the real SDL2, and for force feedback, which those lack, its functions replaced by ours. SDL's

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "haptics/haply_device.h"
+#include "devices/haply_device.h"
 
 #include <gmock/gmock.h>
 

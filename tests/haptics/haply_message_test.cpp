@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "haptics/haply_message.h"
+#include "devices/haply_message.h"
 
 #include <gmock/gmock.h>
 

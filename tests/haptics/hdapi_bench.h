@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/clock.h"
-#include "haptics/hdapi_device.h"
+#include "devices/hdapi_device.h"
 #include "haptics/servo_loop.h"
 #include "mock_control.h"
-#include "scene/shared_segment.h"
+#include "scene/shared/shared_segment.h"
 #include "support/paper_model.h"
 
 namespace afm::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "haptics/hdapi_device.h"
+#include "devices/hdapi_device.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "haptics/hdapi_library.h"
+#include "devices/hdapi_library.h"
 
 #include <dlfcn.h>
 #include <gmock/gmock.h>

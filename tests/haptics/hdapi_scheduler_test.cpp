@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "core/clock.h"
-#include "haptics/hdapi_device.h"
+#include "devices/hdapi_device.h"
 #include "mock_control.h"
 
 // The mock's scheduler and the device's supervisor as threads of their own, in real time.

@@ -11,7 +11,7 @@
 
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
-#include "scene/shared_segment.h"
+#include "scene/shared/shared_segment.h"
 #include "support/paper_model.h"
 
 namespace afm::test {

@@ -119,12 +119,10 @@ TEST_F(Compose, HalfModesShowTheMeanLightOfTwoPixels) {
       const glm::dvec3 light = 0.5 * (linear_light(a) + linear_light(b));
       return std::array<int, 3>{srgb8(light.x), srgb8(light.y), srgb8(light.z)};
     };
-    expect_picture(renderer_->read_composed({StereoMode::SideBySideHalf, order}), 1, [&](unsigned x, unsigned y) {
-      return mean(2 * (x % 128), y, {1, 0}, x >= 128);
-    });
-    expect_picture(renderer_->read_composed({StereoMode::TopBottomHalf, order}), 1, [&](unsigned x, unsigned y) {
-      return mean(x, 2 * (y % 96), {0, 1}, y >= 96);
-    });
+    expect_picture(renderer_->read_composed({StereoMode::SideBySideHalf, order}), 1,
+                   [&](unsigned x, unsigned y) { return mean(2 * (x % 128), y, {1, 0}, x >= 128); });
+    expect_picture(renderer_->read_composed({StereoMode::TopBottomHalf, order}), 1,
+                   [&](unsigned x, unsigned y) { return mean(x, 2 * (y % 96), {0, 1}, y >= 96); });
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plot_scale.h"
+#include "panels/plot_scale.h"
 
 #include <gmock/gmock.h>
 

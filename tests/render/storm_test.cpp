@@ -3,7 +3,7 @@
 #include <array>
 #include <random>
 
-#include "scene/stereo_layout.h"
+#include "scene/display/stereo_layout.h"
 #include "support/pictures.h"
 #include "support/vulkan_fixture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/disparity.h"
+#include "scene/display/disparity.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 
 // A small valid model to spoil, and a folder to load it from.
 namespace afm::scene {

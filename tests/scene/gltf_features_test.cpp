@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gltf_document.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 
 namespace afm::scene {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gltf_document.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 
 namespace afm::scene {
 namespace {
@@ -69,9 +69,7 @@ const std::vector<HostileCase>& hostile_cases() {
       {"ViewWithoutBuffer", "/bufferViews/0/buffer is 3", [](json& d) { d["bufferViews"][0]["buffer"] = 3; }},
       {"BufferLongerThanTheFile", "says 4096 bytes", [](json& d) { d["buffers"][0]["byteLength"] = 4096; }},
       {"BuffersThatFillTheMemory", "says 104857600 bytes",
-       [](json& d) {
-         d["buffers"] = json(20, {{"byteLength", 100U << 20U}});
-       }},
+       [](json& d) { d["buffers"] = json(20, {{"byteLength", 100U << 20U}}); }},
       {"SparseCountTooLarge", "more sparse elements than elements",
        [](json& d) {
          d["accessors"][0]["sparse"] =
@@ -101,10 +99,7 @@ const std::vector<HostileCase>& hostile_cases() {
       {"HalfATriangle", "no whole number", [](json& d) { d["accessors"][1]["count"] = 5; }},
       {"UnknownMode", "mode is 7", [](json& d) { d["meshes"][0]["primitives"][0]["mode"] = 7; }},
       {"MaterialMissing", "material is 4", [](json& d) { d["meshes"][0]["primitives"][0]["material"] = 4; }},
-      {"PrimitiveThatIsNoObject", "not an object",
-       [](json& d) {
-         d["meshes"][0]["primitives"] = json::array({1, 2});
-       }},
+      {"PrimitiveThatIsNoObject", "not an object", [](json& d) { d["meshes"][0]["primitives"] = json::array({1, 2}); }},
       {"MeshMissing", "/nodes/1/mesh is 2", [](json& d) { d["nodes"][1]["mesh"] = 2; }},
       {"ChildMissing", "/nodes/0/children/0 is 8", [](json& d) { d["nodes"][0]["children"] = {8}; }},
       {"NodeThatIsItsOwnChild", "loop", [](json& d) { d["nodes"][0]["children"] = {0}; }},
@@ -113,34 +108,20 @@ const std::vector<HostileCase>& hostile_cases() {
          d["nodes"].push_back({{"children", {3}}});
          d["nodes"].push_back({{"children", {2}}});
        }},
-      {"NodeWithTwoParents", "more than one parent",
-       [](json& d) {
-         d["nodes"].push_back({{"children", {1}}});
-       }},
+      {"NodeWithTwoParents", "more than one parent", [](json& d) { d["nodes"].push_back({{"children", {1}}}); }},
       {"SceneMissing", "/scene is 5", [](json& d) { d["scene"] = 5; }},
       {"SceneWithMissingNode", "/scenes/0/nodes/0 is 9", [](json& d) { d["scenes"][0]["nodes"] = {9}; }},
-      {"SceneWithAChild", "not a root",
-       [](json& d) {
-         d["scenes"][0]["nodes"] = {0, 1};
-       }},
-      {"MatrixOfThree", "/nodes/0/matrix is a list of 3",
-       [](json& d) {
-         d["nodes"][0]["matrix"] = {1, 0, 0};
-       }},
+      {"SceneWithAChild", "not a root", [](json& d) { d["scenes"][0]["nodes"] = {0, 1}; }},
+      {"MatrixOfThree", "/nodes/0/matrix is a list of 3", [](json& d) { d["nodes"][0]["matrix"] = {1, 0, 0}; }},
       {"MatrixWithPerspective", "not affine",
        [](json& d) { d["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }},
-      {"ZeroQuaternion", "unit quaternion",
-       [](json& d) {
-         d["nodes"][0]["rotation"] = {0, 0, 0, 0};
-       }},
+      {"ZeroQuaternion", "unit quaternion", [](json& d) { d["nodes"][0]["rotation"] = {0, 0, 0, 0}; }},
       {"FactorOutOfRange", "metallicFactor is 7, not a number of 0 to 1",
        [](json& d) { d["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 7; }},
       {"EmissiveStrengthAsText", "emissiveStrength",
        [](json& d) { d["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = "x"; }},
       {"RequiredExtension", "requires 'KHR_materials_transmission', which",
-       [](json& d) {
-         d["extensionsRequired"] = {"KHR_materials_unlit", "KHR_materials_transmission"};
-       }},
+       [](json& d) { d["extensionsRequired"] = {"KHR_materials_unlit", "KHR_materials_transmission"}; }},
       {"ControlSequence", "'?[2J", [](json& d) { d["extensionsRequired"] = {"\x1B[2J\r\n"}; }},
       {"OldVersion", "version '1.0'", [](json& d) { d["asset"]["version"] = "1.0"; }},
       {"NoAsset", "has no 'asset'", [](json& d) { d.erase("asset"); }},
@@ -287,10 +268,7 @@ const std::vector<HostileCase>& rich_cases() {
       {"SkinMissing", "/nodes/1/skin is 3", [](json& d) { d["nodes"][1]["skin"] = 3; }},
       {"SkinWithoutJoints", "/skins/0/joints is a list of 0", [](json& d) { d["skins"][0]["joints"] = json::array(); }},
       {"SkinWithoutMesh", "a skin but no mesh", [](json& d) { d["nodes"][0]["skin"] = 0; }},
-      {"TooFewInverseBindMatrices", "for each joint",
-       [](json& d) {
-         d["skins"][0]["joints"] = {0, 1};
-       }},
+      {"TooFewInverseBindMatrices", "for each joint", [](json& d) { d["skins"][0]["joints"] = {0, 1}; }},
       {"InverseBindMatricesOfVectors", "for each joint", [](json& d) { d["skins"][0]["inverseBindMatrices"] = 2; }},
       {"WeightsWithoutJoints", "without joints",
        [](json& d) { d["meshes"][0]["primitives"][0]["attributes"].erase("JOINTS_0"); }},
@@ -314,22 +292,12 @@ const std::vector<HostileCase>& rich_cases() {
                             {"orthographic", {{"xmag", 1}, {"ymag", 0}, {"znear", 1}, {"zfar", 2}}}};
        }},
       {"CameraOfBothKinds", "orthographic beside a perspective",
-       [](json& d) {
-         d["cameras"][0]["orthographic"] = {{"xmag", 1}, {"ymag", 1}, {"znear", 1}, {"zfar", 2}};
-       }},
+       [](json& d) { d["cameras"][0]["orthographic"] = {{"xmag", 1}, {"ymag", 1}, {"znear", 1}, {"zfar", 2}}; }},
       {"TargetsOfUnequalCount", "TANGENT",
-       [](json& d) {
-         d["meshes"][0]["primitives"][0]["targets"] = {{{"TANGENT", 5}, {"POSITION", 0}}};
-       }},
+       [](json& d) { d["meshes"][0]["primitives"][0]["targets"] = {{{"TANGENT", 5}, {"POSITION", 0}}}; }},
       {"WeightsOfNoTarget", "as many weights as morph targets", [](json& d) { d["meshes"][0]["weights"] = {1}; }},
-      {"TextureMissing", "index is 0",
-       [](json& d) {
-         d["materials"][0]["normalTexture"] = {{"index", 0}};
-       }},
-      {"ImageMissing", "source is 2",
-       [](json& d) {
-         d["textures"] = json::array({{{"source", 2}}});
-       }},
+      {"TextureMissing", "index is 0", [](json& d) { d["materials"][0]["normalTexture"] = {{"index", 0}}; }},
+      {"ImageMissing", "source is 2", [](json& d) { d["textures"] = json::array({{{"source", 2}}}); }},
       {"UnknownAlphaMode", "alphaMode", [](json& d) { d["materials"][0]["alphaMode"] = "GLASS"; }},
       {"LightMissing", "light is 0", [](json& d) { d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0; }},
       {"VariantMissing", "variants/0 is 0",

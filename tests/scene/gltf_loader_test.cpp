@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 
 #include <gtest/gtest.h>
 

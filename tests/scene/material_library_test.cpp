@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/material_library.h"
+#include "scene/samples/material_library.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@
 
 #include "models.h"
 #include "places.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 
 namespace afm::scene {
 namespace {

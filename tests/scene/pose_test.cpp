@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/pose.h"
+#include "scene/graph/pose.h"
 
 #include <gtest/gtest.h>
 

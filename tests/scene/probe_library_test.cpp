@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/probe_library.h"
+#include "scene/samples/probe_library.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

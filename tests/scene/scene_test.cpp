@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/scene.h"
+#include "scene/graph/scene.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <random>
 #include <utility>
 
-#include "scene/shared_segment.h"
+#include "scene/shared/shared_segment.h"
 #include "support/paper_model.h"
 
 // A process that writes its blocks as fast as it can is killed at a random moment, over and over; the other one reads

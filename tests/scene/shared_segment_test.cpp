@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/shared_segment.h"
+#include "scene/shared/shared_segment.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

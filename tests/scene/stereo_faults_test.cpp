@@ -11,8 +11,8 @@
 #include <map>
 #include <random>
 
-#include "scene/stereo_layout.h"
-#include "scene/wall.h"
+#include "scene/display/stereo_layout.h"
+#include "scene/display/wall.h"
 #include "support/anaglyph.h"
 #include "support/stereo_cases.h"
 
@@ -293,9 +293,7 @@ TEST(StereoFaults, EveryWrongAnaglyphIsNoticed) {
             }),
             0)
       << "matrices on encoded values";
-  EXPECT_GT(wrong_colors([](const auto& left, const auto& right) {
-              return std::array{left[0], right[1], right[2]};
-            }),
+  EXPECT_GT(wrong_colors([](const auto& left, const auto& right) { return std::array{left[0], right[1], right[2]}; }),
             0)
       << "colour masks";
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/stereo_layout.h"
+#include "scene/display/stereo_layout.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

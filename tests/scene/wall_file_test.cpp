@@ -5,7 +5,7 @@
 #include <string>
 
 #include "places.h"
-#include "scene/wall.h"
+#include "scene/display/wall.h"
 #include "support/scratch_folder.h"
 
 namespace afm::scene {

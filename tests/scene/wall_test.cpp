@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/wall.h"
+#include "scene/display/wall.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 
-#include "scene/stereo_layout.h"
+#include "scene/display/stereo_layout.h"
 
 // What a pixel behind glasses of two colours must be, written from the research's rule without looking at the shader.
 namespace afm::test {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "app/curve_files/recorded_curve.h"
+#include "curves/recorded_curve.h"
 
 namespace afm::test {
 
@@ -30,8 +30,8 @@ inline double hertz_indentation_m(double z_m) {
 }
 
 // From 2 um above the gel to 1.5 um below and back, evenly spaced as an instrument's.
-inline app::RecordedCurve hertz_curve(std::size_t points_a_branch = 2000) {
-  app::RecordedCurve curve;
+inline curves::RecordedCurve hertz_curve(std::size_t points_a_branch = 2000) {
+  curves::RecordedCurve curve;
   for (const auto branch : {physics::Branch::Approach, physics::Branch::Retract}) {
     for (std::size_t i = 0; i < points_a_branch; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(points_a_branch - 1);
@@ -47,7 +47,7 @@ inline app::RecordedCurve hertz_curve(std::size_t points_a_branch = 2000) {
 
 // What a third party does with the file: the tip's position is height + F/k; modulus and contact point by least squares
 // over all of the approach. Linear in the modulus, the contact point by golden-section search.
-inline double fitted_modulus_pa(const app::RecordedCurve& curve) {
+inline double fitted_modulus_pa(const curves::RecordedCurve& curve) {
   const double k = curve.metadata.spring_constant->si;
   double modulus = 0.0;
   const auto misfit = [&](double contact_m) {

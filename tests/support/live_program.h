@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/whole_file.h"
+#include "core/whole_file.h"
 #include "support/scratch_folder.h"
 
 namespace afm::support {
@@ -42,7 +42,7 @@ class LiveProgram {
   }
 
   pid_t pid() const { return pid_; }
-  std::string said() const { return app::read_file(err()).value(); }
+  std::string said() const { return core::read_file(err()).value(); }
 
   // Waits until it says `text`, after what the last call waited for; false after `patience`, or if it has ended before.
   bool says(const std::string& text, std::chrono::seconds patience = std::chrono::minutes(1)) {

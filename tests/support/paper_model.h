@@ -5,7 +5,7 @@
 #include <limits>
 #include <string_view>
 
-#include "scene/shared_blocks.h"
+#include "scene/shared/shared_blocks.h"
 
 // The three materials of Liu & Peng, Table 1, on a sample whose +z points up, for tests that need no files.
 namespace afm::test {

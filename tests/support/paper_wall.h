@@ -5,10 +5,10 @@
 
 #include <string>
 
-#include "app/wall_scene.h"
+#include "exhibit/wall_scene.h"
 #include "places.h"
-#include "scene/material_library.h"
-#include "scene/wall.h"
+#include "scene/display/wall.h"
+#include "scene/samples/material_library.h"
 
 namespace afm::test {
 
@@ -19,8 +19,8 @@ class PaperWall : public ::testing::Test {
   const scene::MaterialLibrary materials_ =
       scene::load_materials(assets_ + "/materials.toml").value().only(scene::kPaperMaterials).value();
   const scene::Wall wall_ = scene::load_wall(assets_ + "/walls/powerwall.toml").value();
-  const app::WallScene scene_ =
-      app::WallScene::load(assets_, materials_, wall_.screens.front(), wall_.viewers.front().sweet_spot.position_m)
+  const exhibit::WallScene scene_ =
+      exhibit::WallScene::load(assets_, materials_, wall_.screens.front(), wall_.viewers.front().sweet_spot.position_m)
           .value();
 
   scene::NodeIndex node(const std::string& name) const { return scene_.scene().find_node(name).value(); }

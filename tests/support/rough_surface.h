@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-#include "scene/shared_blocks.h"
+#include "scene/shared/shared_blocks.h"
 #include "support/paper_model.h"
 
 // Surfaces of many shapes, for tests that need no files.

@@ -4,8 +4,8 @@
 #include <glm/mat4x4.hpp>
 
 #include "render/frame.h"
-#include "scene/scene.h"
-#include "scene/wall.h"
+#include "scene/display/wall.h"
+#include "scene/graph/scene.h"
 
 // A small scene made in code, so that the renderer's tests depend on no model file, and the wall that it stands on: the
 // paper's 3.048 m x 2.286 m, seen from 2.5 m before its centre, which is the room's origin.

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "app/whole_file.h"
+#include "core/whole_file.h"
 #include "render/frame.h"
 #include "support/scratch_folder.h"
 
@@ -53,7 +53,7 @@ class VirtualDisplay {
 
   // The whole screen, from the X window dump that Xvfb keeps it in.
   render::Image screenshot() const {
-    const std::string dump = app::read_file(folder_.file("Xvfb_screen0")).value();
+    const std::string dump = core::read_file(folder_.file("Xvfb_screen0")).value();
     const auto word = [&](std::size_t i) {
       std::uint32_t value = 0;
       for (std::size_t byte = 0; byte < 4; ++byte)

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "scene/shared_blocks.h"
+#include "scene/shared/shared_blocks.h"
 
 // What the servo knows of a haptic device. The device frame is right +x, up +y, towards the user +z, in metres; its
 // axes are parallel to the room's.

@@ -9,7 +9,6 @@
 #include "core/clock.h"
 #include "core/result.h"
 #include "haptics/device.h"
-#include "haptics/haply_device.h"
 
 // Which haptic device a person gets, and why.
 namespace afm::haptics {
@@ -26,10 +25,11 @@ enum class DeviceChoice {
 inline constexpr const char* kHdLibraryVariable = "TOUCHAFM_HD_LIBRARY";
 inline constexpr const char* kHdDeviceVariable = "TOUCHAFM_HD_DEVICE";
 inline constexpr const char* kHaplyPortVariable = "TOUCHAFM_HAPLY_PORT";
+inline constexpr std::uint16_t kHaplyServicePort = 10001;  // of the maker's service on this machine
 struct ProbeSettings {
   std::string hd_library;  // path or name of the vendor's library
   std::string hd_device;   // the device's name in the vendor's set-up
-  std::uint16_t haply_port = HaplyDevice::kServicePort;
+  std::uint16_t haply_port = kHaplyServicePort;
 };
 
 // One thing that was looked for and what came of it: lower case, no full stop.

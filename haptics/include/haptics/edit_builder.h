@@ -10,7 +10,7 @@
 
 #include "haptics/device.h"
 #include "haptics/encounter_exchange.h"
-#include "scene/shared_segment.h"
+#include "scene/shared/shared_segment.h"
 
 namespace afm::haptics {
 

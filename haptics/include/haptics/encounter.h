@@ -19,7 +19,7 @@
 #include "physics/dynamic_model.h"
 #include "physics/force_model.h"
 #include "physics/law_tables.h"
-#include "scene/shared_blocks.h"
+#include "scene/shared/shared_blocks.h"
 
 namespace afm::haptics {
 

@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "haptics/workspace_stop.h"
-#include "scene/shared_blocks.h"
+#include "scene/shared/shared_blocks.h"
 
 namespace afm::haptics {
 

@@ -11,7 +11,7 @@
 #include "haptics/output_stage.h"
 #include "haptics/safety_states.h"
 #include "haptics/thermal_budget.h"
-#include "scene/shared_blocks.h"
+#include "scene/shared/shared_blocks.h"
 
 namespace afm::haptics {
 

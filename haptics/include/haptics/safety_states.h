@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scene/shared_blocks.h"
+#include "scene/shared/shared_blocks.h"
 
 // The servo's states and what moves it from one to another, without the numbers behind it:
 //

@@ -7,7 +7,7 @@
 #include "core/result.h"
 #include "haptics/device.h"
 #include "physics/law_tables.h"
-#include "scene/shared_blocks.h"
+#include "scene/shared/shared_blocks.h"
 
 namespace afm::haptics {
 

@@ -16,7 +16,7 @@
 #include "haptics/realtime.h"
 #include "haptics/safety.h"
 #include "haptics/sample_axes.h"
-#include "scene/shared_segment.h"
+#include "scene/shared/shared_segment.h"
 
 namespace afm::haptics {
 

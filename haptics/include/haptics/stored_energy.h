@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "scene/shared_blocks.h"
+#include "scene/shared/shared_blocks.h"
 
 namespace afm::haptics {
 

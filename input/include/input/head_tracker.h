@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "scene/wall.h"
+#include "scene/display/wall.h"
 
 namespace afm::input {
 

@@ -4,7 +4,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
-#include "scene/stereo_layout.h"
+#include "scene/display/stereo_layout.h"
 
 namespace afm::render {
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
-#include "scene/wall.h"
+#include "scene/display/wall.h"
+#include "scene/graph/scene.h"
 
 // What a frame shows, as plain data: everything that the renderer needs beside the constant Scene. No Vulkan types.
 namespace afm::render {

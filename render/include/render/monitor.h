@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "scene/wall.h"
+#include "scene/display/wall.h"
 
 namespace afm::render {
 

@@ -10,8 +10,8 @@
 #include "render/composition.h"
 #include "render/context.h"
 #include "render/frame.h"
-#include "scene/scene.h"
-#include "scene/wall.h"
+#include "scene/display/wall.h"
+#include "scene/graph/scene.h"
 
 namespace afm::render {
 

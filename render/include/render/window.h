@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "scene/wall.h"
+#include "scene/display/wall.h"
 
 namespace afm::render {
 

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/bench/haptics_benchmarks.h"
+#include "core/percentiles.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "app/bench/servo_reaction.h"
+#include "app/bench/servo_wake.h"
+#include "app/bench/servo_work.h"
+#include "core/log.h"
+#include "core/version.h"
+#include "exhibit/frame_builder.h"
+#include "exhibit/stage_setup.h"
+#include "render/context.h"
+#include "render/renderer.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr double kDeathBar_ms = 30.0;
+constexpr double kHangBar_ms = 350.0;
+constexpr std::uint32_t kEyeWidth_px = 640;
+
+struct Options {
+  std::size_t ticks = 200'000;
+  double seconds = 10.0;
+  int rounds = 20;
+  bool json = false;
+};
+
+struct Figures {
+  std::vector<WorkFigure> work;
+  core::Percentiles death_ms, hang_ms;
+  ServoWake wake;
+  std::string renderer;  // what drew
+};
+
+// The servo beside the real renderer, which draws the wall with no window and no limit to its rate.
+core::Result<void> measure_beside_renderer(const CommandContext& context, const Options& options, Figures& figures) {
+  exhibit::StageFiles files;
+  files.assets_dir = context.assets_dir;
+  auto stage = exhibit::load_stage(files);
+  if (!stage) return tl::unexpected(stage.error());
+  auto vulkan = render::Context::open();
+  if (!vulkan) return tl::unexpected(vulkan.error());
+  const render::RendererOptions size = stage->renderer_options(kEyeWidth_px);
+  auto renderer = render::Renderer::create(*vulkan, stage->wall_scene.scene(), size);
+  if (!renderer) return tl::unexpected(renderer.error());
+  std::vector<curves::FeltMaterial> materials;
+  for (const scene::MaterialEntry& entry : stage->materials.materials) {
+    auto felt = curves::felt_material(curves::ContactSetup{entry, {}, {}});
+    if (!felt) return tl::unexpected(felt.error());
+    materials.push_back(std::move(*felt));
+  }
+  const exhibit::FrameBuilder frames(stage->wall_scene, materials, stage->eyes);
+  const render::FrameState frame = frames.build(exhibit::Moment{});
+  figures.renderer =
+      fmt::format("the wall, 2 x {} x {} pixels on {}", size.eye_width, size.eye_height, vulkan->device_name());
+  core::log_line(fmt::format("the servo runs for {} s beside {}", options.seconds, figures.renderer));
+  auto wake = measure_servo_wake(context.program_path, options.seconds, [&] { renderer->render(frame); });
+  renderer->wait();
+  if (!wake) return tl::unexpected(wake.error());
+  figures.wake = *wake;
+  return {};
+}
+
+core::Result<Figures> measure_all(const CommandContext& context, const Options& options) {
+  Figures figures;
+  auto work = measure_servo_work(options.ticks);
+  if (!work) return tl::unexpected(work.error());
+  figures.work = std::move(*work);
+  // before the renderer, whose threads a fork would lose
+  for (const auto fate : {RendererFate::Killed, RendererFate::Stopped}) {
+    auto lasted_ms = measure_reaction(context.program_path, fate, options.rounds);
+    if (!lasted_ms) return tl::unexpected(lasted_ms.error());
+    (fate == RendererFate::Killed ? figures.death_ms : figures.hang_ms) = core::percentiles(std::move(*lasted_ms));
+  }
+  if (auto measured = measure_beside_renderer(context, options, figures); !measured) {
+    return tl::unexpected(measured.error());
+  }
+  return figures;
+}
+
+const char* yes_or_no(bool met) { return met ? "yes" : "no"; }
+
+double share(std::uint64_t missed, std::uint64_t ticks) {
+  return static_cast<double>(missed) / static_cast<double>(std::max<std::uint64_t>(1, missed + ticks));
+}
+
+std::string table(const Figures& figures, const Options& options) {
+  std::string text = fmt::format("work of a tick, us, {} ticks flat out\n{:<22}{:>8}{:>8}{:>8}{:>9}   {:<24}{}\n",
+                                 options.ticks, "", "p50", "p99", "p99.9", "max", "bar", "met");
+  for (const WorkFigure& each : figures.work) {
+    const std::string bar = each.p50_bar_us > 0 ? fmt::format("p50 {}, p99 {}", each.p50_bar_us, each.p99_bar_us)
+                                                : fmt::format("p99 {}", each.p99_bar_us);
+    text += fmt::format("{:<22}{:>8.2f}{:>8.2f}{:>8.2f}{:>9.2f}   {:<24}{}\n", each.name, each.us.p50, each.us.p99,
+                        each.us.p999, each.us.max, bar, yes_or_no(each.met()));
+  }
+
+  const core::Percentiles servo = core::percentiles(figures.wake.servo.wake_us, figures.wake.servo.wake_max_us);
+  const core::Percentiles plain = core::percentiles(figures.wake.plain.late_us, figures.wake.plain.max_us);
+  text +=
+      fmt::format("\nwake-up at 1 kHz, us late, {} s beside {} ({} frames)\n{:<22}{:>8}{:>8}{:>8}{:>9}   {}\n",
+                  options.seconds, figures.renderer, figures.wake.frames, "", "p50", "p99", "p99.9", "max", "missed");
+  const auto row = [&](const char* name, const core::Percentiles& us, std::uint64_t missed, std::uint64_t ticks) {
+    text += fmt::format("{:<22}{:>8.0f}{:>8.0f}{:>8.0f}{:>9.0f}   {} of {} ({:.2f} %)\n", name, us.p50, us.p99, us.p999,
+                        us.max, missed, missed + ticks, 100.0 * share(missed, ticks));
+  };
+  row("servo", servo, figures.wake.servo.missed, figures.wake.servo.ticks);
+  row("plain loop", plain, figures.wake.plain.missed, figures.wake.plain.ticks);
+  text += fmt::format("{:<22}{:>8.2f}{:>8.2f}{:>8.2f}{:>9.2f}\n", "ratio", servo.p50 / plain.p50, servo.p99 / plain.p99,
+                      servo.p999 / plain.p999, servo.max / plain.max);
+
+  text += fmt::format("\nforce after the renderer's end, ms, {} rounds\n{:<22}{:>8}{:>8}{:>8}{:>9}   {:<24}{}\n",
+                      options.rounds, "", "p50", "", "", "max", "bar", "met");
+  for (const auto& [name, ms, bar] :
+       {std::tuple("killed", figures.death_ms, kDeathBar_ms), std::tuple("stopped", figures.hang_ms, kHangBar_ms)}) {
+    text += fmt::format("{:<22}{:>8.1f}{:>8}{:>8}{:>9.1f}   {:<24}{}\n", name, ms.p50, "", "", ms.max,
+                        fmt::format("max {:.0f}", bar), yes_or_no(ms.max <= bar));
+  }
+  return text;
+}
+
+nlohmann::ordered_json in_seconds(const core::Percentiles& values, double unit_s) {
+  return {{"p50_s", unit_s * values.p50},
+          {"p99_s", unit_s * values.p99},
+          {"p99.9_s", unit_s * values.p999},
+          {"max_s", unit_s * values.max}};
+}
+
+std::string json(const Figures& figures, const Options& options) {
+  constexpr double kMicrosecond = 1e-6, kMillisecond = 1e-3;
+  nlohmann::ordered_json root{{"version", core::kVersion}};
+  for (const WorkFigure& each : figures.work) {
+    nlohmann::ordered_json& work = root["work"][each.name];
+    work = in_seconds(each.us, kMicrosecond);
+    work["ticks"] = options.ticks;
+    work["bar_p99_s"] = kMicrosecond * each.p99_bar_us;
+    if (each.p50_bar_us > 0) work["bar_p50_s"] = kMicrosecond * each.p50_bar_us;
+    work["met"] = each.met();
+  }
+  nlohmann::ordered_json& servo = root["wake"]["servo"];
+  servo = in_seconds(core::percentiles(figures.wake.servo.wake_us, figures.wake.servo.wake_max_us), kMicrosecond);
+  servo["ticks"] = figures.wake.servo.ticks;
+  servo["missed"] = figures.wake.servo.missed;
+  servo["policy"] = figures.wake.servo.policy_fifo != 0 ? "SCHED_FIFO" : "SCHED_OTHER";
+  nlohmann::ordered_json& plain = root["wake"]["plain_loop"];
+  plain = in_seconds(core::percentiles(figures.wake.plain.late_us, figures.wake.plain.max_us), kMicrosecond);
+  plain["ticks"] = figures.wake.plain.ticks;
+  plain["missed"] = figures.wake.plain.missed;
+  root["wake"]["beside"] = {{"renderer", figures.renderer}, {"frames", figures.wake.frames}};
+  for (const auto& [name, ms, bar] :
+       {std::tuple("killed", figures.death_ms, kDeathBar_ms), std::tuple("stopped", figures.hang_ms, kHangBar_ms)}) {
+    nlohmann::ordered_json& release = root["release"][name];
+    release = in_seconds(ms, kMillisecond);
+    release["rounds"] = options.rounds;
+    release["bar_max_s"] = kMillisecond * bar;
+    release["met"] = ms.max <= bar;
+  }
+  return root.dump(2) + "\n";
+}
+
+}  // namespace
+
+void add_haptics_benchmarks(CLI::App& bench, CommandContext& context) {
+  CLI::App* command = bench.add_subcommand(
+      "haptics", "a tick of the servo with each law, its wake-ups beside the renderer, and its release of the hand");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--ticks", options->ticks, "ticks of each law, 1000 to 10000000")
+      ->check(CLI::Range(1000, 10'000'000))
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "how long the servo runs beside the renderer, s, 0.5 to 600")
+      ->check(CLI::Range(0.5, 600.0))
+      ->capture_default_str();
+  command->add_option("--rounds", options->rounds, "renderers that are killed, and stopped, 1 to 1000")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "print JSON, in seconds, instead of tables");
+  command->footer("example: touchafm bench haptics --seconds 60");
+  command->callback([options, &context] {
+    context.chosen = [options, &context]() -> core::Result<void> {
+      const auto figures = measure_all(context, *options);
+      if (!figures) return tl::unexpected(figures.error());
+      std::fputs((options->json ? json(*figures, *options) : table(*figures, *options)).c_str(), stdout);
+      return {};
+    };
+  });
+}
+
+}  // namespace afm::app

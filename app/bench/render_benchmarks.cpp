@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/bench/render_benchmarks.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/bench/render_subjects.h"
+#include "app/bench/render_timing.h"
+#include "app/commands/standard_output.h"
+#include "app/options/stage_options.h"
+#include "core/clock.h"
+#include "core/log.h"
+#include "core/version.h"
+#include "exhibit/stage_setup.h"
+#include "render/context.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::uint32_t kHills = 256;  // quads each way
+constexpr std::uint32_t kBoxes = 10;   // each way
+constexpr double kFrameBar_ms = 1000.0 / 15.0;
+constexpr double kFirstFrameBar_ms = 1000.0;
+
+struct Options {
+  exhibit::StageFiles files;
+  std::uint32_t eye_width = 960;
+  RenderTimingPlan plan;
+  std::vector<std::string> gltf;
+  bool first_frame_alone = false;
+  bool json = false;
+};
+
+struct FirstFrame {
+  double cold_ms = 0, warm_ms = 0;
+};
+
+core::Result<exhibit::Stage> load_wall(const Options& options) { return exhibit::load_stage(options.files); }
+
+// From before the device is opened to the end of the first stereo frame of the wall.
+core::Result<double> first_frame_ms(const Options& options) {
+  const core::MonotonicClock clock;
+  const auto stage = load_wall(options);
+  if (!stage) return tl::unexpected(stage.error());
+  const auto subject = wall_subject(*stage, options.eye_width);
+  if (!subject) return tl::unexpected(subject.error());
+  const std::int64_t start_ns = clock.now_ns();
+  auto context = render::Context::open();
+  if (!context) return tl::unexpected(context.error());
+  render::RendererOptions drawing = subject->drawing;
+  drawing.samples = options.plan.samples;
+  auto renderer = render::Renderer::create(*context, subject->scene, drawing);
+  if (!renderer) return tl::unexpected(renderer.error());
+  renderer->render(subject->frames.front());
+  renderer->wait();
+  return static_cast<double>(clock.now_ns() - start_ns) * 1e-6;
+}
+
+std::string in_quotes(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
+  return result + "'";
+}
+
+// By this program in a process of its own, whose driver finds an empty shader cache, and then the one that it has left.
+core::Result<FirstFrame> first_frames(const std::string& program, const Options& options) {
+  std::string folder = (std::filesystem::temp_directory_path() / "touchafm-shader-cache-XXXXXX").string();
+  if (mkdtemp(folder.data()) == nullptr) {
+    return core::failure(core::ErrorCategory::Failed, "cannot make the folder " + folder +
+                                                          " for a shader cache: set TMPDIR to one that can be written");
+  }
+  const std::string command = fmt::format(
+      "MESA_SHADER_CACHE_DIR={} {} bench render --first-frame-alone --eye-width {} --samples {} --assets {}",
+      in_quotes(folder), in_quotes(program), options.eye_width, options.plan.samples,
+      in_quotes(options.files.assets_dir));
+  const auto cold = printed_frame_ms(command);
+  const auto warm = cold ? printed_frame_ms(command) : cold;
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+  if (!warm) return tl::unexpected(warm.error());
+  return FirstFrame{.cold_ms = *cold, .warm_ms = *warm};
+}
+
+core::Result<std::vector<RenderSubject>> subjects_of(const Options& options) {
+  const auto stage = load_wall(options);
+  if (!stage) return tl::unexpected(stage.error());
+  std::vector<RenderSubject> subjects;
+  auto wall = wall_subject(*stage, options.eye_width);
+  if (!wall) return tl::unexpected(wall.error());
+  subjects.push_back(std::move(*wall));
+  const glm::uvec2 eye_px(options.eye_width, std::max(1U, options.eye_width * 9 / 16));
+  subjects.push_back(hills_subject(kHills, eye_px));
+  subjects.push_back(boxes_subject(kBoxes, eye_px));
+  for (const std::string& path : options.gltf) {
+    auto file = gltf_subject(path, eye_px);
+    if (!file) return tl::unexpected(file.error());
+    subjects.push_back(std::move(*file));
+  }
+  return subjects;
+}
+
+std::string table(const RenderFigures& result, const FirstFrame& first, const Options& options) {
+  std::string text = fmt::format(
+      "ms a frame, {} samples, {} rounds of {} frames on {}\n{:<34}{:>8}{:>8}{:>8}{:>8}{:>8}   "
+      "{:>8}{:>8}{:>8}{:>8}{:>8}\n",
+      options.plan.samples, options.plan.rounds, options.plan.frames, result.device, "", "p50", "p99", "max", "ratio",
+      "cpu", "panels", "shadow", "eyes", "compose", "read");
+  for (const RenderFigure& each : result.figures) {
+    text += fmt::format("{:<34}{:>8.1f}{:>8.1f}{:>8.1f}{:>8.2f}", each.subject + ", " + each.way, each.frame_ms.p50,
+                        each.frame_ms.p99, each.frame_ms.max, each.ratio);
+    if (each.processor_ms > 0.0) text += fmt::format("{:>8.1f}", each.processor_ms);
+    if (each.pass_ms) {
+      text +=
+          fmt::format("   {:>8.1f}{:>8.1f}{:>8.1f}{:>8.1f}{:>8.1f}", each.pass_ms->panels_ms, each.pass_ms->shadow_ms,
+                      each.pass_ms->eyes_ms, each.pass_ms->compose_ms, each.pass_ms->readback_ms);
+    }
+    text += "\n";
+  }
+  const double wall_ms = result.figures.front().frame_ms.p50;
+  text += fmt::format("\nthe wall: {:.1f} frames/s, bar {:.0f}: {}\n", 1000.0 / wall_ms, 1000.0 / kFrameBar_ms,
+                      wall_ms <= kFrameBar_ms ? "met" : "not met");
+  text += fmt::format(
+      "first frame: {:.0f} ms with an empty shader cache, {:.0f} ms with a full one, bar {:.0f} cold: {}\n",
+      first.cold_ms, first.warm_ms, kFirstFrameBar_ms, first.cold_ms <= kFirstFrameBar_ms ? "met" : "not met");
+  text += fmt::format("resident memory: {:.0f} MB at first, {:.0f} MB at the end\n", 1e-6 * result.memory_before_bytes,
+                      1e-6 * result.memory_after_bytes);
+  return text;
+}
+
+std::string json(const RenderFigures& result, const FirstFrame& first, const Options& options) {
+  constexpr double kMillisecond = 1e-3;
+  nlohmann::ordered_json root{{"version", core::kVersion},
+                              {"device", result.device},
+                              {"samples", options.plan.samples},
+                              {"rounds", options.plan.rounds},
+                              {"frames", options.plan.frames},
+                              {"bar_wall_frame_s", kMillisecond * kFrameBar_ms},
+                              {"first_frame_cold_s", kMillisecond * first.cold_ms},
+                              {"first_frame_warm_s", kMillisecond * first.warm_ms},
+                              {"bar_first_frame_cold_s", kMillisecond * kFirstFrameBar_ms},
+                              {"memory_first_bytes", result.memory_before_bytes},
+                              {"memory_end_bytes", result.memory_after_bytes}};
+  for (const RenderFigure& each : result.figures) {
+    nlohmann::ordered_json figure{{"subject", each.subject},
+                                  {"way", each.way},
+                                  {"p50_s", kMillisecond * each.frame_ms.p50},
+                                  {"p99_s", kMillisecond * each.frame_ms.p99},
+                                  {"max_s", kMillisecond * each.frame_ms.max},
+                                  {"ratio", each.ratio}};
+    if (each.processor_ms > 0.0) figure["processor_s"] = kMillisecond * each.processor_ms;
+    if (each.pass_ms) {
+      figure["passes"] = {{"panels_s", kMillisecond * each.pass_ms->panels_ms},
+                          {"shadow_s", kMillisecond * each.pass_ms->shadow_ms},
+                          {"eyes_s", kMillisecond * each.pass_ms->eyes_ms},
+                          {"compose_s", kMillisecond * each.pass_ms->compose_ms},
+                          {"readback_s", kMillisecond * each.pass_ms->readback_ms}};
+    }
+    root["figures"].push_back(std::move(figure));
+  }
+  return root.dump(2) + "\n";
+}
+
+core::Result<void> run(const Options& options, const std::string& program) {
+  if (options.first_frame_alone) {
+    const auto time_ms = first_frame_ms(options);
+    if (!time_ms) return tl::unexpected(time_ms.error());
+    return write_stdout(nlohmann::json{{"frame_ms", *time_ms}}.dump() + "\n");
+  }
+  const auto first = first_frames(program, options);
+  if (!first) return tl::unexpected(first.error());
+  const auto subjects = subjects_of(options);
+  if (!subjects) return tl::unexpected(subjects.error());
+  const auto figures = time_rendering(*subjects, options.plan, core::MonotonicClock());
+  if (!figures) return tl::unexpected(figures.error());
+  return write_stdout(options.json ? json(*figures, *first, options) : table(*figures, *first, options));
+}
+
+}  // namespace
+
+void add_render_benchmarks(CLI::App& bench, CommandContext& context) {
+  CLI::App* command = bench.add_subcommand("render", "a frame of the wall and of other scenes, and the first frame");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--rounds", options->plan.rounds, "how often everything is drawn in turn, 1 to 1000")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--frames", options->plan.frames, "frames of each way in a round, 1 to 10000")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  command->add_option("--eye-width", options->eye_width, "width of each eye's picture in pixels")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str()
+      ->type_name("PIXELS");
+  command->add_option("--samples", options->plan.samples, "samples a pixel: 1 or 4")
+      ->check(CLI::IsMember({1, 4}))
+      ->capture_default_str();
+  command->add_option("--gltf", options->gltf, "a glTF file to draw too; may be given again")->type_name("FILE");
+  command
+      ->add_option("--peer", options->plan.peers,
+                   "a shell command to run in each round, which prints a JSON object with frame_ms; may be given again")
+      ->type_name("COMMAND");
+  command->add_flag("--first-frame-alone", options->first_frame_alone,
+                    "print the ms to the first frame of the wall, as a peer does, and nothing else");
+  command->add_flag("--json", options->json, "print JSON, in seconds, instead of a table");
+  add_stage_options(*command, options->files, context);
+  command->footer("example: touchafm bench render --rounds 3 --gltf model.glb");
+  command->callback([options, &context] {
+    context.chosen = [options, program = context.program_path] { return run(*options, program); };
+  });
+}
+
+}  // namespace afm::app

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/bench/servo_reaction.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <thread>
+
+#include "app/bench/servo_work.h"
+#include "app/interruption.h"
+#include "core/clock.h"
+#include "core/log.h"
+#include "scene/shared/shared_segment.h"
+#include "servo/servo_process.h"
+
+namespace afm::app {
+
+namespace {
+
+using scene::TipState;
+
+constexpr double kHeld_n = 0.5;
+constexpr int kTriesPerRound = 5;
+constexpr auto kPatience = std::chrono::seconds(10);
+
+bool holds(scene::RendererSide& side) {
+  const auto state = side.tip_state();
+  return state && state->servo_state == scene::ServoState::Running && std::abs(state->hand_force_n[1]) > kHeld_n;
+}
+
+// Lets `act` be done over and over until the condition holds.
+bool until(const std::function<void()>& act, const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!condition()) {
+    if (interrupted() || std::chrono::steady_clock::now() > end) return false;
+    act();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+// The renderer: its person holds the tip on the sample once, and it goes on beating until it dies.
+[[noreturn]] void draw(const std::string& servo_program, scene::SharedSegment& segment) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  scene::RendererSide side = segment.renderer_side();
+  auto servo = servo::ServoProcess::spawn(servo_program, segment, side, {});
+  if (!servo) ::_exit(1);
+  const core::MonotonicClock clock;
+  const auto beat = [&] { side.store(scene::RendererHeartbeat{.time_ns = clock.now_ns()}); };
+  side.store(scene::Selection{.material = 0, .revision = 1});
+  struct Move {
+    double height_m, seconds;
+    bool pressed;
+  };
+  std::uint32_t revision = 0;
+  for (const Move& move : {Move{0.060, 0.3, false}, Move{0.060, 0.1, true}, Move{0.060, 0.5, false},
+                           Move{-0.010, 0.3, false}, Move{0.025, 0.3, false}}) {
+    side.store(scene::HandScript{.target_m = {0, move.height_m, 0},
+                                 .duration_s = move.seconds,
+                                 .revision = ++revision,
+                                 .turn_on_pressed = move.pressed ? 1U : 0U});
+    until(beat, [&] {
+      const auto state = side.tip_state();
+      return state && state->hand_revision == revision;
+    });
+  }
+  for (;;) until(beat, [] { return false; });
+}
+
+// Ends, or rather abandons, the renderer and returns how long the force lasted; empty if there was none to begin with.
+std::optional<double> one_round(const std::string& servo_program, RendererFate fate) {
+  auto segment = scene::SharedSegment::create(mica_alone(), 0);
+  if (!segment) return std::nullopt;
+  scene::RendererSide side = segment->renderer_side();
+  const pid_t renderer = ::fork();
+  if (renderer == 0) draw(servo_program, *segment);
+  const auto nothing = [] {};
+  std::optional<double> lasted_ms;
+  if (until(nothing, [&] { return holds(side); })) {
+    while (side.pop_sample()) {
+    }
+    const std::int64_t end_ns = core::MonotonicClock().now_ns();
+    ::kill(renderer, fate == RendererFate::Killed ? SIGKILL : SIGSTOP);
+    std::int64_t released_ns = 0;
+    until(nothing, [&] {
+      while (const auto sample = side.pop_sample()) {
+        if (released_ns == 0 && sample->time_ns >= end_ns && sample->hand_force_n == 0.0) released_ns = sample->time_ns;
+      }
+      return released_ns != 0;
+    });
+    const auto wanted = fate == RendererFate::Killed ? scene::FaultCode::RendererDied : scene::FaultCode::RendererHung;
+    const auto state = side.tip_state();
+    if (released_ns != 0 && state && state->fault == wanted) {
+      lasted_ms = 1e-6 * static_cast<double>(released_ns - end_ns);
+    }
+  }
+  ::kill(renderer, SIGKILL);
+  ::waitpid(renderer, nullptr, 0);
+  // its servo has become this process's child
+  ::waitpid(-1, nullptr, 0);
+  return lasted_ms;
+}
+
+}  // namespace
+
+core::Result<std::vector<double>> measure_reaction(const std::string& program, RendererFate fate, int rounds) {
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1UL, 0UL, 0UL, 0UL);
+  const std::string servo = std::filesystem::path(program).replace_filename("touchafm-servo").string();
+  const char* what = fate == RendererFate::Killed ? "killed" : "stopped";
+  std::vector<double> lasted_ms;
+  for (int tried = 0; static_cast<int>(lasted_ms.size()) < rounds; ++tried) {
+    if (interrupted()) return core::failure(core::ErrorCategory::Failed, "interrupted");
+    if (tried >= rounds * kTriesPerRound) {
+      return core::failure(core::ErrorCategory::Failed,
+                           "the servo does not hold the hand long enough to measure: close what else runs");
+    }
+    core::log_line(
+        fmt::format("a renderer is {} while the hand is held ({} of {})", what, lasted_ms.size() + 1, rounds));
+    if (const auto one = one_round(servo, fate)) lasted_ms.push_back(*one);
+  }
+  return lasted_ms;
+}
+
+}  // namespace afm::app

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/bench/servo_work.h"
+#include "core/percentiles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "app/interruption.h"
+#include "core/clock.h"
+#include "core/log.h"
+#include "haptics/servo_loop.h"
+#include "haptics/simulated_device.h"
+#include "physics/law.h"
+#include "scene/shared/shared_segment.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr double kDearestBar_us = 20.0;  // of the design
+// CHAI3D's custom effect on a field of 128 x 128, flat out on a machine of this class
+constexpr double kFieldP50_us = 0.8;
+constexpr double kFieldP99_us = 1.0;
+
+constexpr std::int64_t kPeriodNs = 1'000'000;
+constexpr std::size_t kWarmUpTicks = 3000;  // lift, Turn-On, and the ramp
+constexpr std::size_t kHalfCycle = 600;     // ticks
+constexpr double kTop_m = 0.060, kBottom_m = -0.015, kSideways_m = 0.03;
+
+struct Felt {
+  const char* name;
+  physics::Law law;
+  bool dynamic;
+  bool topography;
+  double p50_bar_us;
+  double p99_bar_us;
+};
+
+using physics::Law;
+constexpr std::array kFelt{Felt{"paper on a plane", Law::Paper, false, false, 0, kFieldP99_us},
+                           Felt{"paper on a surface", Law::Paper, false, true, kFieldP50_us, kFieldP99_us},
+                           Felt{"dmt", Law::Dmt, false, true, 0, kDearestBar_us},
+                           Felt{"jkr", Law::Jkr, false, true, 0, kDearestBar_us},
+                           Felt{"maugis", Law::MaugisDugdale, false, true, 0, kDearestBar_us},
+                           Felt{"lj", Law::LennardJones, false, true, 0, kDearestBar_us},
+                           Felt{"dynamic-dmt", Law::Dmt, true, true, 0, kDearestBar_us}};
+
+void set_name(scene::Name& name, std::string_view text) { std::copy(text.begin(), text.end(), name.begin()); }
+
+// Waves and steps, as steep as a cleaved face.
+scene::SharedHeightField rough_surface() {
+  scene::SharedHeightField field{
+      .columns = scene::kMaxHeightFieldSide, .rows = scene::kMaxHeightFieldSide, .spacing_m = 1e-9};
+  for (std::uint32_t row = 0; row < field.rows; ++row) {
+    for (std::uint32_t column = 0; column < field.columns; ++column) {
+      const double step_m = (column / 16) % 2 == 0 ? 0.0 : 0.5e-9;
+      field.height_m[row * field.columns + column] = static_cast<float>(step_m + 0.2e-9 * std::sin(0.3 * row));
+    }
+  }
+  return field;
+}
+
+scene::SharedModel model_of(const Felt& felt) {
+  scene::SharedModel model = mica_alone();
+  scene::SharedMaterial& mica = model.materials[0];
+  mica.law = felt.law;
+  mica.dynamic = felt.dynamic ? 1 : 0;
+  if (felt.topography) {
+    model.height_field_count = 1;
+    model.height_fields[0] = rough_surface();
+    mica.height_field = 0;
+  }
+  return model;
+}
+
+class Bench {
+ public:
+  Bench(scene::SharedSegment& segment, haptics::ServoLoop& loop) : side_(segment.renderer_side()), loop_(loop) {
+    side_.store(scene::Selection{.material = 0, .revision = 1});
+  }
+
+  // One tick, and how long it took.
+  double tick_us() {
+    direct();
+    side_.store(scene::RendererHeartbeat{.time_ns = now_ns_, .frame = tick_});
+    now_ns_ += kPeriodNs;
+    const std::int64_t before_ns = clock_.now_ns();
+    loop_.tick(now_ns_, 0);
+    const std::int64_t after_ns = clock_.now_ns();
+    while (side_.pop_sample()) {
+    }
+    while (side_.pop_event()) {
+    }
+    ++tick_;
+    return 1e-3 * static_cast<double>(after_ns - before_ns);
+  }
+
+  bool force_is_on() { return side_.tip_state()->servo_state == scene::ServoState::Running; }
+
+ private:
+  // The person: lifts, presses Turn-On, then goes down and up for ever, and to and fro.
+  void direct() {
+    if (tick_ == kWarmUpTicks / 2) aim(kTop_m, true);
+    if (tick_ == kWarmUpTicks / 2 + 100) aim(kTop_m, false);
+    if (tick_ < kWarmUpTicks || tick_ % kHalfCycle != 0) return;
+    down_ = !down_;
+    aim(down_ ? kBottom_m : kTop_m, false);
+  }
+
+  void aim(double height_m, bool pressed) {
+    const double sideways_m = revision_ % 2 == 0 ? kSideways_m : -kSideways_m;
+    side_.store(scene::HandScript{.target_m = {sideways_m, height_m, sideways_m},
+                                  .duration_s = 1e-9 * static_cast<double>(kHalfCycle * kPeriodNs),
+                                  .revision = ++revision_,
+                                  .turn_on_pressed = pressed ? 1U : 0U});
+  }
+
+  scene::RendererSide side_;
+  haptics::ServoLoop& loop_;
+  core::MonotonicClock clock_;
+  std::int64_t now_ns_ = kPeriodNs;
+  std::uint64_t tick_ = 0;
+  std::uint32_t revision_ = 0;
+  bool down_ = false;
+};
+
+core::Result<WorkFigure> measure(const Felt& felt, std::size_t ticks) {
+  auto segment = scene::SharedSegment::create(model_of(felt), 0);
+  if (!segment) return tl::unexpected(segment.error());
+  haptics::SimulatedDevice hand;
+  auto loop = haptics::ServoLoop::create(*segment, hand, {.rate_hz = 1e9 / static_cast<double>(kPeriodNs)});
+  if (!loop) return tl::unexpected(loop.error());
+  Bench bench(*segment, **loop);
+  for (std::size_t i = 0; i < kWarmUpTicks; ++i) bench.tick_us();
+  if (!bench.force_is_on()) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("cannot measure {}: the force did not come on", felt.name));
+  }
+  std::vector<double> us(ticks);
+  for (double& each : us) each = bench.tick_us();
+  if (interrupted()) return core::failure(core::ErrorCategory::Failed, "interrupted");
+  return WorkFigure{felt.name, core::percentiles(std::move(us)), felt.p50_bar_us, felt.p99_bar_us};
+}
+
+}  // namespace
+
+scene::SharedModel mica_alone() {
+  scene::SharedModel model;
+  model.node_count = 1;
+  set_name(model.nodes[0].name, "sample");
+  model.nodes[0].parent_from_node = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};  // +z is up
+  model.material_count = 1;
+  scene::SharedMaterial& mica = model.materials[0];
+  set_name(mica.name, "mica");
+  mica.interaction = {.tip_radius = physics::Length(50e-9),
+                      .spring_constant = physics::Stiffness(0.1),
+                      .sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity()),
+                      .hamaker = physics::Energy(24.5e-21),
+                      .mean_surface_energy = physics::SurfaceEnergy(2.228e-3),
+                      .reduced_modulus = physics::Pressure(51.5e9)};
+  mica.lever = {physics::Frequency(12e3), 2.5, physics::Temperature(298.0)};
+  return model;
+}
+
+core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks) {
+  std::vector<WorkFigure> figures;
+  for (const Felt& felt : kFelt) {
+    core::log_line(fmt::format("measuring a tick: {} ({} of {})", felt.name, figures.size() + 1, kFelt.size()));
+    auto figure = measure(felt, ticks);
+    if (!figure) return tl::unexpected(figure.error());
+    figures.push_back(std::move(*figure));
+  }
+  return figures;
+}
+
+}  // namespace afm::app

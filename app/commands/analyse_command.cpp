@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands/analyse_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/command.h"
+#include "core/whole_file.h"
+#include "curves/curve_file.h"
+#include "curves/curve_report.h"
+#include "physics/quantity_text.h"
+
+namespace afm::app {
+
+namespace {
+
+tl::unexpected<core::Error> wrong_usage(std::string message) {
+  return core::failure(core::ErrorCategory::WrongUsage, std::move(message));
+}
+
+core::Result<curves::CurveReading> reading_of(const AnalyseOptions& options) {
+  curves::CurveReading reading;
+  reading.index = options.index;
+  if (!options.spring_constant.empty()) {
+    const auto parsed = physics::parse_quantity(options.spring_constant, physics::kStiffnessUnits);
+    if (!parsed.value) return wrong_usage("--spring-constant: " + parsed.error);
+    if (parsed.value->si <= 0.0) {
+      return wrong_usage(fmt::format("--spring-constant: {} is not positive", options.spring_constant));
+    }
+    reading.spring_constant = *parsed.value;
+  }
+  if (!options.sensitivity.empty()) {
+    const std::string_view text = options.sensitivity;
+    constexpr std::string_view kPerVolt = "/V";
+    const auto parsed = physics::parse_quantity(text.substr(0, text.size() - std::min(text.size(), kPerVolt.size())),
+                                                physics::kLengthUnits);
+    if (!text.ends_with(kPerVolt) || !parsed.value || parsed.value->si <= 0.0) {
+      return wrong_usage(fmt::format("--sensitivity: \"{}\" is no deflection per volt, as 70nm/V is", text));
+    }
+    reading.sensitivity_m_per_v = parsed.value->si;
+  }
+  return reading;
+}
+
+core::Result<curves::AnalysedCurve> load_analysed(const std::string& file, const curves::CurveReading& reading) {
+  auto curve = curves::load_curve(file, reading);
+  if (!curve) return tl::unexpected(curve.error());
+  return curves::analysed(std::filesystem::path(file).filename().string(), std::move(*curve));
+}
+
+}  // namespace
+
+core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
+  const auto reading = reading_of(options);
+  if (!reading) return tl::unexpected(reading.error());
+  const auto measured = load_analysed(options.file, *reading);
+  if (!measured) return tl::unexpected(measured.error());
+  std::optional<curves::AnalysedCurve> beside;
+  if (!options.beside.empty()) {
+    auto other = load_analysed(options.beside, {});
+    if (!other) return tl::unexpected(other.error());
+    beside = std::move(*other);
+  }
+  const curves::AnalysedCurve* compared = beside ? &*beside : nullptr;
+  if (!options.out.empty()) {
+    if (const auto written = core::write_file(options.out, curves::svg(curves::features_plot(*measured, compared)));
+        !written)
+      return written;
+  }
+  const std::string text = options.json ? curves::features_json(*measured, compared).dump(2) + "\n"
+                                        : curves::features_text(*measured, compared);
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    return core::failure(core::ErrorCategory::Failed, "cannot write to stdout");
+  }
+  return {};
+}
+
+void add_analyse_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand("analyse", "what a measured or computed curve says, alone or beside another");
+  // shared: the parser writes into it while it lives, the chosen command reads it afterwards
+  const auto options = std::make_shared<AnalyseOptions>();
+  command
+      ->add_option("file", options->file,
+                   "TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--beside", options->beside, "another curve, measured or of `touchafm curve`, to compare with")
+      ->type_name("FILE");
+  command->add_option("--spring-constant", options->spring_constant,
+                      "of the lever, in place of the file's; forces scale with it: N/m, mN/m");
+  command->add_option("--sensitivity", options->sensitivity,
+                      "of the optical lever, in place of the file's: nm/V, um/V");
+  command->add_option("--curve", options->index, "which curve of an .h5, from 0")->capture_default_str();
+  command->add_flag("--json", options->json, "in SI, null for what was not found");
+  command->add_option("--out", options->out, "write a picture (SVG) of the curve here")->type_name("FILE");
+  command->footer(
+      "docs/curves.md defines each figure.\n"
+      "example: touchafm analyse gold.jpk-force --beside model.csv --out gold.svg");
+  command->callback([options, &context] { context.chosen = [options] { return analyse_curve_file(*options); }; });
+}
+
+}  // namespace afm::app

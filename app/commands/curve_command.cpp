@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands/curve_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/commands/standard_output.h"
+#include "app/interruption.h"
+#include "core/log.h"
+#include "core/whole_file.h"
+#include "curves/curve_file.h"
+#include "curves/curve_output.h"
+#include "curves/sweep.h"
+
+namespace afm::app {
+namespace {
+
+tl::unexpected<core::Error> wrong_usage(std::string message) {
+  return core::failure(core::ErrorCategory::WrongUsage, std::move(message));
+}
+
+constexpr const char* kFormats = "csv, json, svg, tab, h5, afm-workshop";
+
+core::Result<std::string> output_format(const CurveOptions& options) {
+  if (options.json && !options.format.empty() && options.format != "json") {
+    return wrong_usage(fmt::format("--json and --format {} contradict each other", options.format));
+  }
+  if (options.json) return "json";
+  if (!options.format.empty()) return options.format;
+  for (const char* ending : {"json", "svg", "tab", "h5"}) {
+    if (options.out.ends_with(fmt::format(".{}", ending))) return ending;
+  }
+  return "csv";
+}
+
+core::Result<void> write_text(const std::string& text, const std::string& path) {
+  return path.empty() ? write_stdout(text) : core::write_file(path, text);
+}
+
+// The measured curve as lines of its own, as it was recorded.
+core::Result<void> add_overlay(const std::string& file, curves::SvgPlot& plot) {
+  const auto measured = curves::load_curve(file);
+  if (!measured) return tl::unexpected(measured.error());
+  curves::SvgLine approach{"measured, approach", std::string(curves::distinct_color(1)), curves::LineStyle::Dashed, {}};
+  curves::SvgLine retract{"measured, retract", std::string(curves::distinct_color(1)), curves::LineStyle::Solid, {}};
+  for (const physics::CurvePoint& point : measured->points) {
+    curves::SvgLine& line = point.branch == physics::Branch::Approach ? approach : retract;
+    line.points.push_back({point.z.si * 1e9, point.force.si * 1e9});
+  }
+  plot.lines.push_back(std::move(approach));
+  plot.lines.push_back(std::move(retract));
+  return {};
+}
+
+core::Result<std::string> curve_text(const CurveOptions& options, const curves::CurveRun& run,
+                                     const std::string& format) {
+  if (format == "json") return curves::curve_json(run).dump(2) + "\n";
+  if (format == "csv") return curves::curve_csv(run);
+  if (format == "svg") {
+    curves::SvgPlot plot = curves::curve_plot(run);
+    if (!options.overlay.empty()) {
+      if (const auto added = add_overlay(options.overlay, plot); !added) return tl::unexpected(added.error());
+    }
+    return curves::svg(plot);
+  }
+  const auto file_format = curves::writable_format(format);
+  if (!file_format) return wrong_usage(fmt::format("unknown format \"{}\"; known are {}", format, kFormats));
+  return curves::curve_bytes(*file_format,
+                             curves::recorded_curve(run.curve, run.setup.material.interaction.spring_constant));
+}
+
+core::Result<void> write_curve(const CurveOptions& options, const curves::ContactSetup& setup,
+                               const std::string& format) {
+  if (!options.overlay.empty() && format != "svg") return wrong_usage("--overlay draws, so it needs --format svg");
+  if (format == "h5" && options.out.empty()) return wrong_usage("--format h5 is no text; give it a file with --out");
+  const auto run = curves::run_curve(setup, options.path);
+  if (!run) return tl::unexpected(run.error());
+  if (!run->curve.samples.empty() && run->curve.samples.back().phase == physics::Phase::Attached &&
+      run->figures.hysteretic) {
+    core::log_line(
+        "the sweep ends below jump-off-contact, with the tip still attached; raise --from to close the loop");
+  }
+  const auto text = curve_text(options, *run, format);
+  if (!text) return tl::unexpected(text.error());
+  return write_text(*text, options.out);
+}
+
+core::Result<void> write_sweep(const CurveOptions& options, const curves::ContactSetup& setup,
+                               const std::string& format) {
+  if (format != "csv" && format != "json") {
+    return wrong_usage(fmt::format("a sweep is a table: csv or json, not {}", format));
+  }
+  if (!options.overlay.empty()) return wrong_usage("--overlay is for one curve, not for a sweep");
+  if (options.sweeps.size() > 2) return wrong_usage("at most two numbers can be swept at once");
+  std::vector<curves::SweepAxis> axes;
+  for (const std::string& text : options.sweeps) {
+    const auto axis = curves::parse_sweep_axis(text, setup.model);
+    if (!axis) return wrong_usage("--sweep " + axis.error().message);
+    if (!axes.empty() && axes.front().parameter == axis->parameter) {
+      return wrong_usage(fmt::format("--sweep {}: it is swept twice", axis->parameter->option));
+    }
+    axes.push_back(*axis);
+  }
+  const auto rows = curves::run_sweep(setup, axes, options.path, interrupted);
+  if (!rows) return tl::unexpected(rows.error());
+  return write_text(
+      format == "json" ? curves::sweep_json(setup, axes, *rows).dump(1) + "\n" : curves::sweep_csv(setup, axes, *rows),
+      options.out);
+}
+
+// A number that is swept need not be given as well.
+ContactOptions with_swept_values(ContactOptions contact, const std::vector<std::string>& sweeps) {
+  for (const std::string& sweep : sweeps) {
+    const std::size_t equals = sweep.find('='), colon = sweep.find(':');
+    if (!contact.material.empty() || equals == std::string::npos || colon == std::string::npos || colon < equals)
+      continue;
+    std::string& value = contact.values[sweep.substr(0, equals)];
+    if (value.empty()) value = sweep.substr(equals + 1, colon - equals - 1);
+  }
+  return contact;
+}
+
+}  // namespace
+
+core::Result<void> write_curve_command(const CurveOptions& options) {
+  const auto format = output_format(options);
+  if (!format) return tl::unexpected(format.error());
+  const auto setup = contact_setup(with_swept_values(options.contact, options.sweeps));
+  if (!setup) return tl::unexpected(setup.error());
+  return options.sweeps.empty() ? write_curve(options, *setup, *format) : write_sweep(options, *setup, *format);
+}
+
+void add_curve_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand(
+      "curve", "one approach-retract cycle as CSV, as a file for other programs, or its events as JSON; or a sweep");
+  // shared: the parser writes into it while it lives, the chosen command reads it afterwards
+  const auto options = std::make_shared<CurveOptions>();
+  command->add_option("--material", options->contact.material,
+                      "mica, gold, si3n4, or another of \"touchafm material\"; without it every number that the model "
+                      "needs must be given");
+  add_contact_options(*command, options->contact, context);
+  command->add_option("--from", options->path.from,
+                      "where the cycle starts and ends, above Z_jtc: m, mm, um, nm, pm; default: a tenth above Z_joc");
+  command->add_option("--to", options->path.to, "where it turns, below --from: m, mm, um, nm, pm")
+      ->capture_default_str();
+  command->add_option("--step", options->path.step, "between samples: m, mm, um, nm, pm; at most 10 million samples")
+      ->capture_default_str();
+  command->add_option("--speed", options->path.speed,
+                      "of the base, for dynamic models: m/s, mm/s, um/s; default: 1um/s");
+  command
+      ->add_option("--sweep", options->sweeps,
+                   "key=from:to:count, the events of one cycle for every value of a number (its option without the "
+                   "dashes), :log behind it for equal ratios; twice for a grid; at most a million points")
+      ->allow_extra_args(false);
+  command->add_flag("--json", options->json, "the events instead of the samples, in SI");
+  command
+      ->add_option("--format", options->format,
+                   std::string("csv, json, svg, tab and h5 (afmformats), afm-workshop; default: by the ending of "
+                               "--out, else csv"))
+      ->check(CLI::IsMember({"csv", "json", "svg", "tab", "h5", "afm-workshop"}));
+  command->add_option("--overlay", options->overlay, "a measured curve to draw over the model, with --format svg")
+      ->type_name("FILE");
+  command->add_option("--out", options->out, "write here instead of to stdout")->type_name("FILE");
+  command->footer(
+      "Each number overrides the material's or the probe's.\n"
+      "example: touchafm curve --material mica --spring-constant 0.2N/m --from 20nm --to -5nm --out mica.csv\n"
+      "example: touchafm curve --material pdms-air --sweep spring-constant=0.01N/m:100N/m:50:log --out sweep.csv");
+  command->callback([options, &context] { context.chosen = [options] { return write_curve_command(*options); }; });
+}
+
+}  // namespace afm::app

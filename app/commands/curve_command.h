@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/options/contact_options.h"
+#include "core/result.h"
+#include "curves/curve_run.h"
+
+namespace afm::app {
+
+// What `touchafm curve` was asked for; an empty text is an option that was not given.
+struct CurveOptions {
+  ContactOptions contact;
+  curves::PathOptions path;
+  std::vector<std::string> sweeps;  // "key=from:to:count"
+  bool json = false;
+  std::string format;   // csv, json, svg, tab, h5, afm-workshop; empty: by the ending of `out`, else csv
+  std::string out;      // a file, or empty for stdout
+  std::string overlay;  // a measured curve, drawn over the model in an svg
+};
+
+// Computes the curve or the sweep and writes it; nothing is written if anything fails.
+core::Result<void> write_curve_command(const CurveOptions& options);
+
+}  // namespace afm::app

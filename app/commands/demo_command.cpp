@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "app/command.h"
+#include "app/commands/output_folder.h"
+#include "app/demo/curves_plot.h"
+#include "app/demo/demo_figures.h"
+#include "app/demo/demonstration.h"
+#include "app/demo/report.h"
+#include "app/demo/report_pictures.h"
+#include "app/options/frame_budget.h"
+#include "app/options/stage_options.h"
+#include "core/log.h"
+#include "curves/measured_material.h"
+#include "curves/sweep.h"
+#include "exhibit/shared_model.h"
+#include "exhibit/stage_setup.h"
+#include "haptics/scaling.h"
+#include "haptics/simulated_device.h"
+#include "physics/quantity_text.h"
+#include "render/context.h"
+#include "render/image_file.h"
+#include "scene/samples/probe_library.h"
+
+namespace afm::app {
+
+namespace {
+
+// Fig. 5 is drawn larger than the live wall.
+constexpr std::uint32_t kFigureEyeWidth = 1440;
+constexpr std::uint64_t kMostVariations = 9;
+constexpr double kCommonPushM = 0.012;                        // clear of the end of the workspace
+constexpr double kSlowestHand = 0.005, kFastestHand = 0.200;  // m/s
+
+struct DemoOptions {
+  std::string out;
+  exhibit::StageFiles files;
+  std::uint32_t eye_width = 960;
+  HandPath hand;
+  double frame_budget_ms = 0;
+  servo::ServoChoice servo;
+  curves::ModelName model;
+  scene::ScaleMode scale = scene::ScaleMode::Fit;
+  std::string probe;              // a lever and tip instead of the materials' own; empty: none
+  std::string measured;           // a curve file to be felt too; empty: none
+  std::vector<std::string> vary;  // "spring-constant=0.1N/m:0.4N/m:3"
+};
+
+// On the common scale the sample lies lower.
+HandPath on_scale(scene::ScaleMode scale, HandPath path) {
+  if (scale == scene::ScaleMode::Common) {
+    path.push_m = haptics::Scaling::common_zero_m(haptics::SimulatedDevice().spec()) - kCommonPushM;
+  }
+  return path;
+}
+
+void say(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+
+// The curve file as one more material of the stage, on the lever of the first built-in one where it knows no better.
+core::Result<std::optional<curves::MeasuredMaterial>> load_measured(const DemoOptions& options) {
+  if (options.measured.empty()) return std::nullopt;
+  const auto library = scene::load_materials(options.files.assets_dir + "/materials.toml");
+  if (!library) return tl::unexpected(library.error());
+  auto measured = curves::load_measured_material(options.measured, library->materials.front());
+  if (!measured) return tl::unexpected(measured.error());
+  return std::move(*measured);
+}
+
+// Each material with the probe under it, as it is asked to be felt.
+core::Result<curves::ContactSetup> setup_of(scene::MaterialEntry entry, const DemoOptions& options) {
+  if (!options.probe.empty()) {
+    const auto probes = scene::load_probes(options.files.assets_dir + "/probes.toml");
+    if (!probes) return tl::unexpected(probes.error());
+    const auto probe = probes->require(options.probe);
+    if (!probe) return tl::unexpected(probe.error());
+    entry = scene::with_probe(std::move(entry), **probe);
+  }
+  return curves::ContactSetup{std::move(entry), {}, options.model};
+}
+
+// The material once more for each value of each axis, titled with that value.
+core::Result<std::vector<curves::FeltMaterial>> variations_of(const curves::FeltMaterial& material,
+                                                              const DemoOptions& options) {
+  std::vector<curves::FeltMaterial> variations;
+  for (const std::string& text : options.vary) {
+    const auto axis = curves::parse_sweep_axis(text, options.model);
+    if (!axis) return core::failure(axis.error().category, "--vary " + axis.error().message);
+    if (axis->count > kMostVariations) {
+      return core::failure(core::ErrorCategory::WrongUsage,
+                           fmt::format("--vary: {} values are more than a hand has patience for; give 2 to {}",
+                                       axis->count, kMostVariations));
+    }
+    for (std::uint64_t i = 0; i < axis->count; ++i) {
+      const std::string value = curves::format_parameter(*axis->parameter, axis->value(i));
+      curves::ContactSetup changed = material.setup;
+      curves::override_parameter(changed, *axis->parameter, axis->value(i), value, "--vary on the command line");
+      auto varied = curves::felt_material(material, changed);
+      if (!varied) return tl::unexpected(varied.error());
+      varied->setup.material.title = fmt::format("{} {}", material.setup.material.title, value);
+      variations.push_back(std::move(*varied));
+    }
+  }
+  return variations;
+}
+
+core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optional<curves::MeasuredMaterial>& measured,
+                                 const DemoOptions& options) {
+  DemoPlan plan;
+  plan.scale = options.scale;
+  plan.frame_budget_ms = options.frame_budget_ms;
+  if (measured) plan.curves.push_back(measured->curve);
+  for (const scene::MaterialEntry& entry : stage.materials.materials) {
+    if (measured && entry.name == measured->entry.name) {
+      auto felt = curves::felt_material(entry, plan.curves, 0);
+      if (!felt) return tl::unexpected(felt.error());
+      felt->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
+      plan.materials.push_back(std::move(*felt));
+      plan.variations.emplace_back();
+      continue;
+    }
+    const auto setup = setup_of(entry, options);
+    if (!setup) return tl::unexpected(setup.error());
+    auto felt = curves::felt_material(*setup);
+    if (!felt) return tl::unexpected(felt.error());
+    felt->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
+    auto variations = variations_of(*felt, options);
+    if (!variations) return tl::unexpected(variations.error());
+    plan.materials.push_back(std::move(*felt));
+    plan.variations.push_back(std::move(*variations));
+  }
+  return plan;
+}
+
+void draw_picture(const std::string& file, const std::string& caption, const exhibit::Moment& moment,
+                  const exhibit::FrameBuilder& frames, render::Renderer& renderer, ReportPictures& pictures) {
+  say(fmt::format("  {}", file));
+  renderer.render(frames.build(moment));
+  pictures.add(file, caption);
+}
+
+core::Result<void> draw_journey(const exhibit::FrameBuilder& frames, render::Renderer& renderer, OutputFolder& out,
+                                std::vector<ReportPicture>& pictures) {
+  say("  journey.png");
+  const auto png = render::encode_png(journey_strip(frames, renderer));
+  if (!png) return tl::unexpected(png.error());
+  pictures.push_back(
+      {"The journey of scale: each picture shows a tenth of the one before.", std::string(png->begin(), png->end())});
+  return out.write("journey.png", pictures.back().png);
+}
+
+core::Result<void> draw_figures(render::Context& context, const exhibit::Stage& stage, const DemoPlan& plan,
+                                const DemoResult& result, OutputFolder& out, std::vector<ReportPicture>& pictures) {
+  auto renderer = render::Renderer::create(context, stage.wall_scene.scene(), stage.renderer_options(kFigureEyeWidth));
+  if (!renderer) return tl::unexpected(renderer.error());
+  const exhibit::FrameBuilder frames(stage.wall_scene, plan.materials, stage.eyes);
+  ReportPictures drawn(context, *renderer, out);
+  const FigurePlan figures(result.sessions, result.measurements, 0);
+  for (const Figure& figure : figures.figures()) {
+    draw_picture(figure.file, figure.caption, figure.moment, frames, *renderer, drawn);
+  }
+  for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+    if (plan.variations[i].empty()) continue;
+    const VariationFigure figure(result.sessions[i], result.measurements[i], plan.materials[i], result.variations, i);
+    const exhibit::FrameBuilder varied(stage.wall_scene, figure.materials(), stage.eyes);
+    const scene::MaterialEntry& entry = plan.materials[i].setup.material;
+    draw_picture("vary-" + entry.name + ".png", entry.title + ", felt with other numbers.", figure.moment(), varied,
+                 *renderer, drawn);
+  }
+  auto written = drawn.finish();
+  if (!written) return tl::unexpected(written.error());
+  std::move(written->begin(), written->end(), std::back_inserter(pictures));
+  return draw_journey(frames, *renderer, out, pictures);
+}
+
+core::Result<void> write_session(const servo::RecordedSession& session, const std::string& name, OutputFolder& out) {
+  if (auto saved = servo::save_session(session, out.staged("session-" + name + ".afms")); !saved) return saved;
+  return out.write("curve-" + name + ".csv", session_csv(session));
+}
+
+core::Result<void> write_results(const DemoResult& result, const std::vector<ReportPicture>& pictures,
+                                 OutputFolder& out) {
+  std::vector<LabelledSession> plotted;
+  for (std::size_t i = 0; i < result.sessions.size(); ++i) {
+    const servo::RecordedSession& session = result.sessions[i];
+    if (auto saved = write_session(session, session.material, out); !saved) return saved;
+    plotted.push_back({result.measurements[i].title, &session});
+    int number = 0;
+    for (const FeltVariation& variation : result.variations) {
+      if (variation.material != i) continue;
+      const std::string name = fmt::format("{}-vary-{}", session.material, ++number);
+      if (auto saved = write_session(variation.session, name, out); !saved) return saved;
+      plotted.push_back({variation.measurement.title, &variation.session});
+    }
+  }
+  if (auto saved = out.write("summary.json", summary_json(result).dump(2) + "\n"); !saved) return saved;
+  if (auto saved = out.write("report.html", report_html(result, pictures, curves_svg(plotted))); !saved) return saved;
+  return out.commit();
+}
+
+core::Result<void> measure_all(const DemoPlan& plan, DemoResult& result) {
+  for (std::size_t i = 0; i < result.sessions.size(); ++i) {
+    auto measured = measure(result.sessions[i], plan.materials[i]);
+    if (!measured) return tl::unexpected(measured.error());
+    result.measurements.push_back(std::move(*measured));
+  }
+  for (FeltVariation& variation : result.variations) {
+    auto measured = measure(variation.session, variation.felt);
+    if (!measured) return tl::unexpected(measured.error());
+    variation.measurement = std::move(*measured);
+  }
+  return {};
+}
+
+core::Result<void> check_accuracy(const Measurement& m) {
+  if (m.worst_error() <= kEventErrorBound) return {};
+  return core::failure(
+      core::ErrorCategory::Failed,
+      fmt::format("{}: an event is off by {:.3g} % from the equations, more than {} %; see summary.json", m.title,
+                  100.0 * m.worst_error(), 100.0 * kEventErrorBound));
+}
+
+core::Result<void> check_accuracy(const DemoResult& result) {
+  for (const Measurement& m : result.measurements) {
+    if (auto accurate = check_accuracy(m); !accurate) return accurate;
+  }
+  for (const FeltVariation& variation : result.variations) {
+    if (auto accurate = check_accuracy(variation.measurement); !accurate) return accurate;
+  }
+  return {};
+}
+
+core::Result<void> run_demo(const DemoOptions& options, const std::string& program) {
+  const core::MonotonicClock clock;
+  const std::int64_t start_ns = clock.now_ns();
+
+  const auto curve = load_measured(options);
+  if (!curve) return tl::unexpected(curve.error());
+  exhibit::StageFiles files = options.files;
+  if (*curve) files.added.push_back((*curve)->entry);
+  auto stage = exhibit::load_stage(files);
+  if (!stage) return tl::unexpected(stage.error());
+  const auto plan = plan_demo(*stage, *curve, options);
+  if (!plan) return tl::unexpected(plan.error());
+  auto out = OutputFolder::open(options.out);
+  if (!out) return tl::unexpected(out.error());
+  auto context = render::Context::open();
+  if (!context) return tl::unexpected(context.error());
+  render::RendererOptions renderer_options = stage->renderer_options(options.eye_width);
+  renderer_options.time_passes = options.frame_budget_ms > 0;
+  auto renderer = render::Renderer::create(*context, stage->wall_scene.scene(), renderer_options);
+  if (!renderer) return tl::unexpected(renderer.error());
+
+  DemoResult result;
+  result.vulkan_device = context->device_name();
+  result.haptic_device = "simulated hand";
+  result.eye_width = renderer_options.eye_width;
+  result.eye_height = renderer_options.eye_height;
+  result.hand_speed_m_per_s = options.hand.speed_m_per_s;
+  say(fmt::format("drawing 2 x {} x {} pixels on {}", result.eye_width, result.eye_height, result.vulkan_device));
+
+  std::vector<ReportPicture> pictures;
+  {
+    const auto model = exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(),
+                                             plan->materials, stage->wall_scene.height_fields(), plan->curves);
+    if (!model) return tl::unexpected(model.error());
+    auto servo = servo::ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
+    if (!servo) return tl::unexpected(servo.error());
+    ReportPictures live_pictures(*context, *renderer, *out);
+    Demonstration live(*stage, *plan, *renderer, **servo, clock, on_scale(options.scale, options.hand), [&] {
+      live_pictures.add("choosing.png", "The wand's ray chooses the sample: a frame of the live run.");
+    });
+    if (auto ran = live.run(result, say); !ran) return ran;
+    renderer->wait();
+    auto written = live_pictures.finish();
+    if (!written) return tl::unexpected(written.error());
+    pictures = std::move(*written);
+  }
+
+  if (auto measured = measure_all(*plan, result); !measured) return measured;
+  say("drawing the figures");
+  if (auto drawn = draw_figures(*context, *stage, *plan, result, *out, pictures); !drawn) return drawn;
+  result.seconds = static_cast<double>(clock.now_ns() - start_ns) * 1e-9;
+  if (auto written = write_results(result, pictures, *out); !written) return written;
+  if (auto accurate = check_accuracy(result); !accurate) return accurate;
+
+  std::printf("open %s/report.html\n", options.out.c_str());
+  return {};
+}
+
+}  // namespace
+
+void add_demo_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand(
+      "demo", "the main job: feel and draw one full cycle on every sample, with no hardware and no display");
+  command->footer(
+      "Leaves in DIR: report.html (open it), fig5a.png to fig5e.png (side-by-side stereo), summary.json, and for "
+      "every\n"
+      "material curve-NAME.csv and session-NAME.afms.\n\nexample: touchafm demo --out out\n"
+      "         touchafm demo --out fast --hand-speed 200mm/s --eye-width 1440\n"
+      "         touchafm demo --out lever --material mica --model dmt --vary spring-constant=0.1N/m:0.4N/m:3");
+  auto options = std::make_shared<DemoOptions>();
+  command->add_option("--out", options->out, "folder for the results; made if it does not exist")
+      ->required()
+      ->type_name("DIR");
+  add_stage_options(*command, options->files, context);
+  command
+      ->add_option("--eye-width", options->eye_width,
+                   "width of each eye's live picture in pixels; the height follows the wall")
+      ->check(CLI::Range(64, 8192))
+      ->capture_default_str()
+      ->type_name("PIXELS");
+  add_frame_budget(*command, options->frame_budget_ms);
+  auto speed = std::make_shared<std::string>("30mm/s");
+  command->add_option("--hand-speed", *speed, "mean speed of the simulated hand, 5mm/s to 200mm/s")
+      ->capture_default_str()
+      ->type_name("SPEED");
+  command
+      ->add_option("--material", options->files.shown,
+                   "a sample of the material files, by name; give it once for each; default: the paper's three")
+      ->type_name("NAME");
+  auto model = std::make_shared<std::string>("paper");
+  command
+      ->add_option("--model", *model,
+                   "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- "
+                   "before one that can move a mass")
+      ->capture_default_str()
+      ->type_name("NAME");
+  command
+      ->add_option_function<std::string>(
+          "--probe",
+          [options](const std::string& text) {
+            (exhibit::is_model_file(text) ? options->files.probe : options->probe) = text;
+          },
+          "a lever and tip of assets/probes.toml instead of the materials' own; or a glTF model of your own "
+          "cantilever, "
+          ".glb or .gltf, which changes the picture alone")
+      ->type_name("NAME|FILE");
+  add_own_sample_option(*command, options->files);
+  command
+      ->add_option("--vary", options->vary,
+                   "feel every sample once more at each of n values of one parameter, changed while the servo runs: "
+                   "spring-constant=0.1N/m:0.4N/m:3")
+      ->type_name("KEY=FROM:TO:N");
+  command
+      ->add_option("--measured", options->measured,
+                   "a recorded curve to be felt too (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
+      ->type_name("FILE");
+  static const std::map<std::string, scene::ScaleMode> kScales{{"common", scene::ScaleMode::Common},
+                                                               {"fit", scene::ScaleMode::Fit},
+                                                               {"compressed", scene::ScaleMode::Compressed}};
+  command
+      ->add_option("--scale", options->scale,
+                   "how nm and nN become mm and N in the hand: common, one scale for all samples; fit, one for each; "
+                   "compressed, fit with weak forces raised; default: fit")
+      ->transform(CLI::CheckedTransformer(kScales))
+      ->type_name("MODE");
+  auto servo = std::make_shared<std::string>("process");
+  command->add_option("--servo", *servo, "how the servo runs: process, or thread for debuggers and sanitizers")
+      ->check(CLI::IsMember({"process", "thread"}))
+      ->capture_default_str();
+  command->callback([options, speed, model, servo, &context] {
+    context.chosen = [options, speed, model, servo, &context]() -> core::Result<void> {
+      const auto parsed = physics::parse_quantity(*speed, physics::kVelocityUnits);
+      if (!parsed.value) return core::failure(core::ErrorCategory::WrongUsage, "--hand-speed: " + parsed.error);
+      if (parsed.value->si < kSlowestHand || parsed.value->si > kFastestHand) {
+        return core::failure(core::ErrorCategory::WrongUsage,
+                             fmt::format("--hand-speed: {} is outside 5mm/s to 200mm/s, the speeds of a hand", *speed));
+      }
+      options->hand.speed_m_per_s = parsed.value->si;
+      const auto name = curves::ModelName::parse(*model);
+      if (!name || name->direction_rule) {
+        return core::failure(core::ErrorCategory::WrongUsage,
+                             fmt::format("unknown model \"{}\" to feel; known are {} (paper-rule is for curves alone)",
+                                         *model, curves::known_models()));
+      }
+      options->model = *name;
+      options->servo.mode = *servo == "thread" ? servo::ServoMode::Thread : servo::ServoMode::Process;
+      return run_demo(*options, context.program_path);
+    };
+  });
+}
+
+}  // namespace afm::app

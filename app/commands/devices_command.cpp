@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "core/clock.h"
+#include "input/dtrack_source.h"
+#include "input/hid_source.h"
+#include "input/wand_file.h"
+#include "render/context.h"
+#include "render/monitor.h"
+#include "servo/haptic_choice.h"
+
+namespace afm::app {
+
+namespace {
+
+struct Row {
+  const char* kind;
+  std::string device;
+  bool usable = false;
+  std::string detail;  // what it is, or why it cannot be used
+};
+
+// A tracker sends at least 60 frames a second.
+constexpr std::int64_t kListenNs = 300'000'000;
+
+void look_for_hid_wands(const std::vector<input::HidMapping>& mappings, std::vector<Row>& rows) {
+  const auto found = input::find_hid_wands(mappings);
+  if (!found) {
+    rows.push_back({"wand", "any", false, found.error().message});
+    return;
+  }
+  for (const input::HidFinding& finding : *found) {
+    rows.push_back({finding.is_wand ? "wand" : "hid", finding.name, finding.usable, finding.said});
+  }
+  if (found->empty()) rows.push_back({"wand", "HID", false, "no HID device is plugged in, or this system shows none"});
+}
+
+Row listen_for_tracker(const input::DtrackSettings& settings) {
+  const std::string name = fmt::format("dtrack {}:{}", settings.address, settings.port);
+  const core::MonotonicClock clock;
+  const auto source = input::DtrackSource::open(settings, clock);
+  if (!source) return {"tracker", name, false, source.error().message};
+  const std::int64_t end_ns = clock.now_ns() + kListenNs;
+  while (clock.now_ns() < end_ns) (*source)->poll();
+  const input::DtrackNews news = (*source)->news();
+  if (news.good_packets + news.bad_packets == 0) {
+    return {"tracker", name, false,
+            "nothing came in 0.3 s: start the measurement, and send its output to this address"};
+  }
+  const std::string damaged = fmt::format("{} packets that are no frames in 0.3 s", news.bad_packets);
+  if (news.good_packets == 0) return {"tracker", name, false, damaged};
+  return {"tracker", name, true,
+          fmt::format("{} frames, {} bodies, {} Flysticks; {}", news.good_packets, news.frame.body_count,
+                      news.frame.flystick_count, damaged)};
+}
+
+void look_for_monitors(std::vector<Row>& rows) {
+  const auto monitors = render::list_monitors();
+  if (!monitors) {
+    rows.push_back({"monitor", "any", false, monitors.error().message});
+    return;
+  }
+  for (std::size_t i = 0; i < monitors->size(); ++i) {
+    const render::Monitor& monitor = monitors->at(i);
+    const scene::PixelRect& rect = monitor.rect;
+    rows.push_back({"monitor", monitor.name, true,
+                    fmt::format("number {}, {} x {} pixels at {}, {}, {}", i + 1, rect.size_px.x, rect.size_px.y,
+                                rect.offset_px.x, rect.offset_px.y,
+                                monitor.rate_hz > 0 ? fmt::format("{:g} Hz", monitor.rate_hz) : "rate unknown")});
+  }
+  if (monitors->empty()) rows.push_back({"monitor", "any", false, "the display has no monitor that is switched on"});
+}
+
+// Where wands and trackers are looked for.
+struct WandPlaces {
+  std::vector<input::HidMapping> mappings;
+  input::DtrackSettings tracker;
+};
+
+core::Result<WandPlaces> wand_places(const std::string& assets_dir, const std::string& wand_file) {
+  WandPlaces places;
+  auto mappings = input::load_mappings(assets_dir + "/wands");
+  if (!mappings) return tl::unexpected(mappings.error());
+  places.mappings = std::move(*mappings);
+  if (wand_file.empty()) return places;
+  const auto file = input::load_wand_file(wand_file);
+  if (!file) return tl::unexpected(file.error());
+  if (file->device) places.mappings.insert(places.mappings.begin(), *file->device);
+  if (file->dtrack) places.tracker = *file->dtrack;
+  return places;
+}
+
+std::vector<Row> look_for_devices(const WandPlaces& places) {
+  std::vector<Row> rows;
+  if (const auto devices = render::list_devices()) {
+    for (const render::DeviceDescription& d : *devices) {
+      rows.push_back({"vulkan", d.name, d.usable, d.usable ? d.kind + ", " + d.driver : d.reason});
+    }
+  } else {
+    rows.push_back({"vulkan", "any", false, devices.error().message});
+  }
+  look_for_monitors(rows);
+  for (const haptics::ProbeLine& line : haptics::probe_devices(servo::probe_settings())) {
+    rows.push_back({"haptic", line.subject, line.usable, line.said});
+  }
+  look_for_hid_wands(places.mappings, rows);
+  rows.push_back(listen_for_tracker(places.tracker));
+  rows.push_back({"wand", "simulated wand", true, "needs no device"});
+  return rows;
+}
+
+core::Result<void> list(const std::string& assets_dir, const std::string& wand_file, bool json) {
+  const auto places = wand_places(assets_dir, wand_file);
+  if (!places) return tl::unexpected(places.error());
+  const std::vector<Row> rows = look_for_devices(*places);
+  if (json) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Row& r : rows) {
+      list.push_back({{"kind", r.kind}, {"device", r.device}, {"usable", r.usable}, {"detail", r.detail}});
+    }
+    std::puts(list.dump().c_str());
+    return {};
+  }
+  std::size_t width = 0;
+  for (const Row& r : rows) width = std::max(width, r.device.size());
+  for (const Row& r : rows) {
+    fmt::print("{:<7} {:<{}}  {:<10}  {}\n", r.kind, r.device, width, r.usable ? "usable" : "not usable", r.detail);
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_devices_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand(
+      "devices", "list the Vulkan devices, monitors, haptic devices, wands and trackers: what was tried, and why not");
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "print the list as JSON");
+  const auto wand_file = std::make_shared<std::string>();
+  command->add_option("--wand-file", *wand_file, "a device, or a tracker's address, of your own")->type_name("FILE");
+  command->footer(
+      fmt::format("example: touchafm devices\n{}=FILE names the library of a PHANTOM's or Touch's driver, "
+                  "{}=NAME the device in its set-up.",
+                  haptics::kHdLibraryVariable, haptics::kHdDeviceVariable));
+  command->callback([&context, json, wand_file] {
+    context.chosen = [&context, json, wand_file] { return list(context.assets_dir, *wand_file, *json); };
+  });
+}
+
+}  // namespace afm::app

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands/diagnosis.h"
+#include "core/percentiles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace afm::app {
+
+namespace {
+
+// What a machine in a lab reaches when it is set up well: none of a minute's ticks missed, one in a thousand later than
+// this.
+constexpr double kGoodLatenessUs = 200.0;
+
+constexpr const char* kLogInAgain = ", then log in again";
+
+std::string join_group(const char* groups) {
+  return fmt::format("sudo usermod -aG {} \"$(id -un)\"{}", groups, kLogInAgain);
+}
+
+Finding priority(const MachineFacts& facts) {
+  const int granted = facts.jitter.grant.priority;
+  if (granted > 0) return {"real-time priority", Verdict::Good, fmt::format("SCHED_FIFO {} granted", granted), {}};
+  return {"real-time priority", Verdict::Limited,
+          fmt::format("SCHED_FIFO {} refused: the limit is {}", haptics::kServoPriority, facts.priority_limit),
+          haptics::limit_mend("rtprio", "80")};
+}
+
+Finding locked_memory(const MachineFacts& facts) {
+  const std::string limit = facts.locked_memory_limit_bytes
+                                ? fmt::format("limit {} KiB", *facts.locked_memory_limit_bytes / 1024)
+                                : std::string("unlimited");
+  if (facts.pages_can_be_locked) return {"locked memory", Verdict::Good, "pages can be locked, " + limit, {}};
+  return {"locked memory", Verdict::Limited, "pages cannot be locked, " + limit,
+          haptics::limit_mend("memlock", "unlimited")};
+}
+
+Finding wake_up(const MachineFacts& facts) {
+  const WakeJitter& jitter = facts.jitter;
+  const core::Percentiles late = core::percentiles(jitter.late_us, jitter.max_us);
+  const bool good = late.p999 <= kGoodLatenessUs && jitter.missed == 0;
+  return {"wake-up at 1 kHz", good ? Verdict::Good : Verdict::Limited,
+          fmt::format("late by p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, max {:.0f} \u00b5s; {} of {} ticks missed",
+                      late.p50, late.p99, late.p999, late.max, jitter.missed, jitter.ticks + jitter.missed),
+          good ? std::string()
+               : "close what else runs; on Debian a real-time kernel: sudo apt install linux-image-rt-amd64"};
+}
+
+Finding graphics(const MachineFacts& facts) {
+  const auto usable = [](const render::DeviceDescription& d) { return d.usable; };
+  const auto gpu = [](const render::DeviceDescription& d) { return d.usable && d.kind != "CPU"; };
+  const auto& all = facts.graphics;
+  if (const auto best = std::find_if(all.begin(), all.end(), gpu); best != all.end()) {
+    return {"graphics", Verdict::Good, fmt::format("{}, {}", best->name, best->driver), {}};
+  }
+  const auto closed = std::find_if(facts.render_nodes.begin(), facts.render_nodes.end(),
+                                   [](const DeviceNode& node) { return !node.accessible; });
+  const std::string mend =
+      closed != facts.render_nodes.end()
+          ? join_group("render,video")
+          : "install the GPU's Vulkan driver: sudo apt install mesa-vulkan-drivers for Intel and AMD";
+  if (const auto cpu = std::find_if(all.begin(), all.end(), usable); cpu != all.end()) {
+    return {"graphics", Verdict::Limited, fmt::format("no GPU: {} draws on the processor", cpu->name), mend};
+  }
+  return {"graphics", Verdict::Missing,
+          all.empty() ? facts.graphics_refusal : fmt::format("{}: {}", all.front().name, all.front().reason), mend};
+}
+
+Finding display(const MachineFacts& facts) {
+  if (!facts.display.empty()) return {"display", Verdict::Good, facts.display, {}};
+  return {"display", Verdict::Missing, "none: demo and render work, a window does not",
+          "log in to a desktop, or export DISPLAY=:0"};
+}
+
+Finding hid(const MachineFacts& facts) {
+  const auto open =
+      std::count_if(facts.hid_nodes.begin(), facts.hid_nodes.end(), [](const auto& n) { return n.accessible; });
+  const std::string found = facts.hid_nodes.empty()
+                                ? "no HID device is plugged in"
+                                : fmt::format("{} of {} HID devices can be opened", open, facts.hid_nodes.size());
+  if (open == static_cast<std::ptrdiff_t>(facts.hid_nodes.size())) return {"wands (HID)", Verdict::Good, found, {}};
+  return {"wands (HID)", Verdict::Missing, found,
+          "echo 'KERNEL==\"hidraw*\", TAG+=\"uaccess\"' | sudo tee /etc/udev/rules.d/70-touchafm.rules && sudo udevadm "
+          "control --reload && sudo udevadm trigger"};
+}
+
+Finding haptic_port(const MachineFacts& facts) {
+  const auto closed = std::find_if(facts.serial_nodes.begin(), facts.serial_nodes.end(),
+                                   [](const DeviceNode& node) { return !node.accessible; });
+  if (closed != facts.serial_nodes.end()) {
+    return {"haptic port (USB)", Verdict::Missing, closed->path + " cannot be opened", join_group("dialout")};
+  }
+  return {"haptic port (USB)",
+          Verdict::Good,
+          facts.serial_nodes.empty() ? "no /dev/ttyACM*" : facts.serial_nodes.front().path + " can be opened",
+          {}};
+}
+
+Finding haptic_device(const MachineFacts& facts) {
+  for (const haptics::ProbeLine& line : facts.haptics) {
+    if (line.subject != haptics::kHdapiDevice) continue;
+    if (line.usable) return {"haptic device", Verdict::Good, line.said, {}};
+    return {"haptic device", Verdict::Limited, line.said, "switch it on and run its maker's set-up program"};
+  }
+  return {
+      "haptic device", Verdict::Limited, "no driver is installed: the simulated hand stands in",
+      fmt::format("install the driver of the PHANTOM or Touch, or export {}=/path/to/libHD.so; touchafm devices says "
+                  "what was tried",
+                  haptics::kHdLibraryVariable)};
+}
+
+Finding servo_program(const MachineFacts& facts) {
+  if (facts.servo_program_runs) return {"servo program", Verdict::Good, facts.servo_program, {}};
+  return {"servo program", Verdict::Missing, facts.servo_program + " is not there",
+          "build the target touchafm-servo and keep it beside touchafm"};
+}
+
+}  // namespace
+
+std::vector<Finding> diagnose(const MachineFacts& facts) {
+  return {{"kernel", Verdict::Good, facts.kernel, {}},
+          priority(facts),
+          locked_memory(facts),
+          wake_up(facts),
+          servo_program(facts),
+          graphics(facts),
+          display(facts),
+          haptic_device(facts),
+          haptic_port(facts),
+          hid(facts)};
+}
+
+const char* word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Good:
+      return "good";
+    case Verdict::Limited:
+      return "limited";
+    case Verdict::Missing:
+      break;
+  }
+  return "missing";
+}
+
+}  // namespace afm::app

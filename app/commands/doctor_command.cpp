@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <span>
+
+#include "app/bench/servo_wake.h"
+#include "app/command.h"
+#include "app/commands/diagnosis.h"
+#include "core/log.h"
+#include "core/percentiles.h"
+#include "servo/servo_link.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr double kDefaultSeconds = 2.0;
+constexpr double kShortest = 0.1;
+constexpr double kLongest = 600.0;
+
+// What a lab asks of its machine: of the servo itself, over a minute.
+constexpr double kLabSeconds = 60.0;
+constexpr double kLabLateness_us = 200.0;  // for 99.9 % of the ticks
+
+struct DoctorOptions {
+  double seconds = kDefaultSeconds;
+  bool lab = false;
+  bool json = false;
+};
+
+// Rows of the printed histogram, microseconds; the last one is open.
+constexpr std::array<std::uint32_t, 8> kUpperEdgesUs{10, 20, 50, 100, 200, 500, 1000, scene::kHistogramBins - 1};
+
+std::string histogram(const char* what, std::span<const std::uint32_t> late_us, std::uint64_t all) {
+  constexpr double kBarLength = 40.0;
+  std::string text = fmt::format("\n{}, late by    ticks\n", what);
+  std::uint32_t from_us = 0;
+  for (const std::uint32_t to_us : kUpperEdgesUs) {
+    const bool last = to_us == kUpperEdgesUs.back();
+    const auto begin = late_us.begin() + from_us;
+    const auto end = last ? late_us.end() : late_us.begin() + to_us;
+    const std::uint64_t ticks = std::accumulate(begin, end, std::uint64_t{0});
+    const double share = static_cast<double>(ticks) / static_cast<double>(std::max<std::uint64_t>(1, all));
+    // a bar for every row that is not empty
+    const auto bar = static_cast<std::size_t>(ticks == 0 ? 0.0 : std::max(1.0, kBarLength * share));
+    const std::string range = last ? fmt::format("{} and more", from_us) : fmt::format("{} to {}", from_us, to_us);
+    text += fmt::format("{:>13} \u00b5s {:>9}  {}\n", range, ticks, std::string(bar, '#'));
+    from_us = to_us;
+  }
+  return text;
+}
+
+std::string plain(const MachineFacts& facts, const std::vector<Finding>& findings) {
+  std::string text;
+  for (const Finding& f : findings) text += fmt::format("{:<19} {:<8} {}\n", f.check, word(f.verdict), f.found);
+  text += histogram("a plain loop", facts.jitter.late_us, facts.jitter.ticks);
+  std::string mend;
+  for (const Finding& f : findings) {
+    if (f.verdict != Verdict::Good) mend += fmt::format("  {}: {}\n", f.check, f.mend);
+  }
+  return text + (mend.empty() ? "\nnothing to mend\n" : "\nto mend\n" + mend);
+}
+
+std::string json(const MachineFacts& facts, const std::vector<Finding>& findings) {
+  nlohmann::json checks = nlohmann::json::array();
+  for (const Finding& f : findings) {
+    checks.push_back({{"check", f.check}, {"verdict", word(f.verdict)}, {"found", f.found}, {"mend", f.mend}});
+  }
+  const WakeJitter& jitter = facts.jitter;
+  const core::Percentiles late = core::percentiles(jitter.late_us, jitter.max_us);
+  const nlohmann::json root{
+      {"checks", checks},
+      {"wake",
+       {{"rate_hz", servo::kServoRateHz},
+        {"policy", jitter.grant.priority > 0 ? "SCHED_FIFO" : "SCHED_OTHER"},
+        {"ticks", jitter.ticks},
+        {"missed", jitter.missed},
+        {"late_us", {{"p50", late.p50}, {"p99", late.p99}, {"p99.9", late.p999}, {"max", late.max}}},
+        {"histogram_us", jitter.late_us}}}};
+  return root.dump() + "\n";
+}
+
+// The real servo, with the simulated hand.
+core::Result<void> examine_servo(const std::string& program, bool as_json) {
+  core::log_line(fmt::format("the servo runs for {} s", kLabSeconds));
+  const auto wake = measure_servo_wake(program, kLabSeconds);
+  if (!wake) return tl::unexpected(wake.error());
+  const scene::ServoTiming& servo = wake->servo;
+  const core::Percentiles late = core::percentiles(servo.wake_us, servo.wake_max_us);
+  const bool met = late.p999 < kLabLateness_us && servo.missed == 0;
+  if (as_json) {
+    const nlohmann::json root{
+        {"servo",
+         {{"rate_hz", servo.rate_hz},
+          {"policy", servo.policy_fifo != 0 ? "SCHED_FIFO" : "SCHED_OTHER"},
+          {"ticks", servo.ticks},
+          {"missed", servo.missed},
+          {"late_us", {{"p50", late.p50}, {"p99", late.p99}, {"p99.9", late.p999}, {"max", late.max}}},
+          {"histogram_us", servo.wake_us},
+          {"met", met}}}};
+    std::fputs((root.dump() + "\n").c_str(), stdout);
+  } else {
+    std::fputs(
+        (histogram("the servo", servo.wake_us, servo.ticks) +
+         fmt::format("\nlate by p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, max {:.0f} \u00b5s; {} of {} ticks missed\n",
+                     late.p50, late.p99, late.p999, late.max, servo.missed, servo.ticks + servo.missed))
+            .c_str(),
+        stdout);
+  }
+  if (met) return {};
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("this machine is not fit for a lab: p99.9 is {:.0f} us of at most {:.0f}, and {} "
+                                   "ticks were missed; docs/host-tuning.md says what helps",
+                                   late.p999, kLabLateness_us, servo.missed));
+}
+
+core::Result<void> examine(const std::string& program, const DoctorOptions& options) {
+  if (!(options.seconds >= kShortest && options.seconds <= kLongest)) {
+    return core::failure(core::ErrorCategory::WrongUsage, fmt::format("cannot measure for {} s: --seconds is {} to {}",
+                                                                      options.seconds, kShortest, kLongest));
+  }
+  if (options.lab) return examine_servo(program, options.json);
+  const core::MonotonicClock clock;
+  const MachineFacts facts = look_at_machine(clock, program, options.seconds);
+  const std::vector<Finding> findings = diagnose(facts);
+  std::fputs((options.json ? json(facts, findings) : plain(facts, findings)).c_str(), stdout);
+  return {};
+}
+
+}  // namespace
+
+void add_doctor_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand(
+      "doctor", "say whether this machine can run TouchAFM well, and the line that mends what it cannot");
+  const auto options = std::make_shared<DoctorOptions>();
+  command->add_option("--seconds", options->seconds, "how long to measure the jitter of a 1 kHz loop, s, 0.1 to 600")
+      ->capture_default_str();
+  command->add_flag("--lab", options->lab,
+                    "run the servo itself for 60 s; ends with 1 if it missed a tick or one in 1000 came 200 us late");
+  command->add_flag("--json", options->json,
+                    "print the findings and the histogram as JSON, SI with the unit in the key");
+  command->footer(
+      "example: touchafm doctor --seconds 10\nIt needs no rights and changes nothing; ends with 0 whatever it finds, "
+      "but for --lab.");
+  command->callback([&context, options] {
+    context.chosen = [&context, options] { return examine(context.program_path, *options); };
+  });
+}
+
+}  // namespace afm::app

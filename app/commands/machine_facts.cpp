@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands/machine_facts.h"
+
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+
+#include "servo/haptic_choice.h"
+#include "servo/servo_link.h"
+
+namespace afm::app {
+
+namespace {
+
+std::string kernel() {
+  utsname name{};
+  if (::uname(&name) != 0) return "unknown";
+  const std::string_view version = name.version;
+  std::string text = name.release;
+  for (const char* kind : {"PREEMPT_RT", "PREEMPT_DYNAMIC", "PREEMPT"}) {
+    if (version.find(kind) == std::string_view::npos) continue;
+    return text + ", " + kind;
+  }
+  return text + ", not preemptible";
+}
+
+std::uint64_t limit(__rlimit_resource resource) {
+  rlimit value{};
+  return ::getrlimit(resource, &value) == 0 ? value.rlim_cur : 0;
+}
+
+bool lock_pages() {
+  const bool locked = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+  ::munlockall();
+  return locked;
+}
+
+std::vector<DeviceNode> nodes(const std::string& folder, std::string_view prefix) {
+  std::vector<DeviceNode> found;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    if (!entry.path().filename().string().starts_with(prefix)) continue;
+    const std::string path = entry.path().string();
+    found.push_back({path, ::access(path.c_str(), R_OK | W_OK) == 0});
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
+  return found;
+}
+
+std::string display() {
+  for (const char* name : {"WAYLAND_DISPLAY", "DISPLAY"}) {
+    const char* value = std::getenv(name);
+    if (value != nullptr && *value != '\0') return std::string(name) + "=" + value;
+  }
+  return {};
+}
+
+}  // namespace
+
+MachineFacts look_at_machine(const core::Clock& clock, const std::string& program, double jitter_seconds) {
+  MachineFacts facts;
+  facts.kernel = kernel();
+  facts.priority_limit = limit(RLIMIT_RTPRIO);
+  if (const std::uint64_t bytes = limit(RLIMIT_MEMLOCK); bytes != RLIM_INFINITY)
+    facts.locked_memory_limit_bytes = bytes;
+  facts.pages_can_be_locked = lock_pages();
+  facts.jitter = measure_wake_jitter(clock, servo::kServoRateHz, jitter_seconds);
+
+  if (const auto graphics = render::list_devices()) {
+    facts.graphics = *graphics;
+  } else {
+    facts.graphics_refusal = graphics.error().message;
+  }
+  facts.display = display();
+  facts.render_nodes = nodes("/dev/dri", "renderD");
+  facts.hid_nodes = nodes("/dev", "hidraw");
+  facts.serial_nodes = nodes("/dev", "ttyACM");
+  facts.haptics = haptics::probe_devices(servo::probe_settings());
+
+  facts.servo_program = std::filesystem::path(program).replace_filename("touchafm-servo").string();
+  facts.servo_program_runs = ::access(facts.servo_program.c_str(), X_OK) == 0;
+  return facts;
+}
+
+}  // namespace afm::app

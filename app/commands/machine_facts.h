@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/bench/wake_jitter.h"
+#include "haptics/device_probe.h"
+#include "render/context.h"
+
+namespace afm::app {
+
+// A file of /dev that a device stands behind.
+struct DeviceNode {
+  std::string path;
+  bool accessible = false;  // for reading and writing, by this user
+};
+
+// What is so on this machine, without a judgement.
+struct MachineFacts {
+  std::string kernel;  // release, and how far it can be preempted
+  std::uint64_t priority_limit = 0;
+  std::optional<std::uint64_t> locked_memory_limit_bytes;  // empty: unlimited
+  bool pages_can_be_locked = false;
+  WakeJitter jitter;
+  std::vector<render::DeviceDescription> graphics;
+  std::string graphics_refusal;  // why there are none
+  std::string display;           // empty: none
+  std::vector<DeviceNode> render_nodes;
+  std::vector<DeviceNode> hid_nodes;
+  std::vector<DeviceNode> serial_nodes;
+  std::vector<haptics::ProbeLine> haptics;
+  std::string servo_program;
+  bool servo_program_runs = false;  // is there and may be executed
+};
+
+// Looks at everything; takes `jitter_seconds` and some more. `program` is the running touchafm.
+MachineFacts look_at_machine(const core::Clock& clock, const std::string& program, double jitter_seconds);
+
+}  // namespace afm::app

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands/paper_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "app/command.h"
+#include "app/commands/output_folder.h"
+#include "core/log.h"
+#include "curves/paper_report.h"
+#include "curves/paper_tables.h"
+
+namespace afm::app {
+
+core::Result<void> write_paper(const PaperOptions& options) {
+  const auto library = scene::load_materials(options.materials_file);
+  if (!library) return tl::unexpected(library.error());
+  const auto samples = library->only(scene::kPaperMaterials);
+  if (!samples) {
+    return core::failure(core::ErrorCategory::BadInputFile,
+                         fmt::format("material file {} lacks a sample of the paper: {}", options.materials_file,
+                                     samples.error().message));
+  }
+  const bool of_a_demo = !options.summary_file.empty();
+  const core::Result<curves::MeasuredEvents> measured =
+      of_a_demo ? curves::load_measured_events(options.summary_file)
+                : core::Result<curves::MeasuredEvents>(curves::measured_events(*samples));
+  if (!measured) return tl::unexpected(measured.error());
+  const auto tables = curves::paper_tables(*samples, *measured);
+  if (!tables) return tl::unexpected(tables.error());
+  const char* run = of_a_demo ? "of the demo" : "of the model, which looks every 0.1 nm";
+
+  const std::array<std::pair<const char*, std::string>, 6> files{
+      {{"paper.md", curves::paper_markdown(*tables, *samples, run)},
+       {"paper.json", curves::paper_json(*tables, *samples)},
+       {"table1.csv", curves::table1_csv(*tables)},
+       {"table2.csv", curves::table2_csv(*tables)},
+       {"fig2.svg", curves::figure2_svg(samples->materials.front())},
+       {"fig5e.svg", curves::figure5e_svg(*samples)}}};
+  auto folder = OutputFolder::open(options.out);
+  if (!folder) return tl::unexpected(folder.error());
+  for (const auto& [name, bytes] : files) {
+    if (const auto written = folder->write(name, bytes); !written) return written;
+  }
+  return folder->commit();
+}
+
+void add_paper_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command =
+      app.add_subcommand("paper", "the paper's Tables 1 and 2, Fig. 2 and Fig. 5(e), ours beside its own");
+  // shared: the parser writes into it while it lives, the chosen command reads it afterwards
+  const auto options = std::make_shared<PaperOptions>();
+  command->add_option("--out", options->out, "folder for paper.md, paper.json, the tables and the figures")->required();
+  command->add_option("--summary", options->summary_file,
+                      "summary.json of a demo, whose measurements then stand in the tables");
+  command->add_option("--materials", options->materials_file, "material file (TOML); default: the built-in one");
+  command->footer("example: touchafm paper --out paper --summary out/summary.json");
+  command->callback([options, &context] {
+    if (options->materials_file.empty()) options->materials_file = context.assets_dir + "/materials.toml";
+    context.chosen = [options]() -> core::Result<void> {
+      auto done = write_paper(*options);
+      if (done) core::log_line(fmt::format("open {}/paper.md", options->out));
+      return done;
+    };
+  });
+}
+
+}  // namespace afm::app

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/command.h"
+#include "app/demo/demonstration.h"
+#include "app/options/stage_options.h"
+#include "exhibit/frame_builder.h"
+#include "exhibit/model_view.h"
+#include "exhibit/stage_setup.h"
+#include "render/context.h"
+#include "servo/session_file.h"
+
+namespace afm::app {
+
+namespace {
+
+struct RenderOptions {
+  std::string session;
+  std::optional<double> journey_orders;  // instead of a session
+  std::string material = "mica";         // of the journey
+  bool analogy = false;
+  exhibit::ModelChoice model;  // instead of both
+  bool describe = false;
+  bool json = false;
+  std::string out;
+  double at_s = 0;
+  std::string size;  // empty: as the wall's outputs say, or from the eyes' width
+  exhibit::PictureWish wish;
+  exhibit::StageFiles files;
+};
+
+// The wall as it was, as far as the session tells: the paper's three stand together, another material alone.
+exhibit::StageFiles files_for(const servo::RecordedSession& session, exhibit::StageFiles files) {
+  const auto& paper = scene::kPaperMaterials;
+  const bool shown_anyway =
+      !files.materials.empty() || std::find(paper.begin(), paper.end(), session.material) != paper.end();
+  if (session.curve) {
+    scene::MaterialEntry entry;
+    entry.name = session.material;
+    entry.title = "Measured curve";
+    entry.note = "a recorded curve";
+    entry.look = paper.front();
+    entry.interaction = session.parameters.interaction;
+    files.added.push_back(entry);
+  } else if (!shown_anyway) {
+    files.shown = {session.material};
+  }
+  return files;
+}
+
+core::Result<void> draw(const exhibit::Stage& stage, const std::vector<curves::FeltMaterial>& felt,
+                        const exhibit::Moment& moment, const RenderOptions& options) {
+  auto context = render::Context::open();
+  if (!context) return tl::unexpected(context.error());
+  exhibit::PictureWish wish = options.wish;
+  if (!options.size.empty()) {
+    const auto size = exhibit::parse_picture_size("--size", options.size, context->largest_picture_px());
+    if (!size) return tl::unexpected(size.error());
+    wish.size_px = *size;
+  }
+  const auto plan = exhibit::plan_wall(stage.wall, wish);
+  if (!plan) return tl::unexpected(plan.error());
+  const auto drawing = exhibit::renderer_options(*context, *plan, stage.wall_scene.panel_millimetre_m());
+  auto renderer = render::Renderer::create(*context, stage.wall_scene.scene(), drawing);
+  if (!renderer) return tl::unexpected(renderer.error());
+  const exhibit::FrameBuilder frames(stage.wall_scene, felt, stage.eyes);
+  const auto pictures =
+      exhibit::draw_wall(*renderer, *plan, stage.wall.viewers.front(), wish,
+                         [&](const exhibit::OutputPicture&, const std::array<scene::EyeView, 2>& eyes) {
+                           render::FrameState frame = frames.build(moment);
+                           frame.eyes = eyes;
+                           return frame;
+                         });
+  if (!pictures) return tl::unexpected(pictures.error());
+  return exhibit::write_wall(*pictures, options.out);
+}
+
+core::Result<void> run_journey(const RenderOptions& options) {
+  // the option's range lets what is no number pass
+  if (!std::isfinite(*options.journey_orders)) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("--journey: {:g} is no place of the journey; give 0 to {:g}",
+                                     *options.journey_orders, exhibit::kJourneyOrders));
+  }
+  exhibit::StageFiles files = options.files;
+  files.shown = {options.material};
+  auto stage = exhibit::load_stage(files);
+  if (!stage) return tl::unexpected(stage.error());
+  auto felt = curves::felt_material(curves::ContactSetup{stage->materials.materials.front(), {}, {}});
+  if (!felt) return tl::unexpected(felt.error());
+  exhibit::Moment moment;
+  moment.material = 0;
+  moment.journey_orders = options.journey_orders;
+  moment.realtime = true;  // nothing moves
+  return draw(*stage, {*felt}, moment, options);
+}
+
+core::Result<void> run_model(const RenderOptions& options) {
+  if (options.describe) {
+    return exhibit::describe_model(
+        options.model.file, options.json ? exhibit::DescriptionForm::Json : exhibit::DescriptionForm::Lines, std::cout);
+  }
+  auto context = render::Context::open();
+  if (!context) return tl::unexpected(context.error());
+  const scene::StereoMode mode = options.wish.mode.value_or(scene::StereoMode::Mono);
+  exhibit::ModelChoice choice = options.model;
+  if (options.wish.ipd_m) choice.eyes_apart_m = *options.wish.ipd_m;
+  if (mode == scene::StereoMode::Mono) choice.eyes_apart_m = 0.0;
+  render::ReadArea area;
+  if (!options.size.empty()) {
+    const auto size = exhibit::parse_picture_size("--size", options.size, context->largest_picture_px());
+    if (!size) return tl::unexpected(size.error());
+    area.size_px = *size;
+    choice.size_px = scene::eye_size(mode, *size);
+  }
+  const auto view = exhibit::open_model(choice);
+  if (!view) return tl::unexpected(view.error());
+  auto renderer = render::Renderer::create(*context, view->scene,
+                                           {.eye_width = choice.size_px.x,
+                                            .eye_height = choice.size_px.y,
+                                            .samples = exhibit::affordable_samples(*context, choice.size_px)});
+  if (!renderer) return tl::unexpected(renderer.error());
+  renderer->render(view->frame);
+  const render::Composition composition{.mode = mode, .order = options.wish.order};
+  std::vector<render::Image> pictures;
+  if (scene::has_two_pictures(mode)) {
+    for (render::Image& picture : renderer->read_pair(composition, area)) pictures.push_back(std::move(picture));
+  } else {
+    pictures.push_back(renderer->read_composed(composition, area));
+  }
+  return exhibit::write_wall(pictures, options.out);
+}
+
+core::Result<void> run_render(const RenderOptions& options) {
+  if (options.journey_orders) return run_journey(options);
+  auto session = servo::load_session(options.session);
+  if (!session) return tl::unexpected(session.error());
+  auto stage = exhibit::load_stage(files_for(*session, options.files));
+  if (!stage) return tl::unexpected(stage.error());
+  const auto& materials = stage->materials.materials;
+  const auto found =
+      std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == session->material; });
+  if (found == materials.end()) {
+    return core::failure(
+        core::ErrorCategory::BadInputFile,
+        fmt::format("session file {}: its material \"{}\" is not in the material file; give that file with --materials",
+                    options.session, session->material));
+  }
+  std::vector<scene::SharedMeasuredCurve> recorded;
+  if (session->curve) recorded.push_back(*session->curve);
+  std::vector<curves::FeltMaterial> felt;
+  for (const scene::MaterialEntry& entry : materials) {
+    auto one = entry.name == session->material ? curves::felt_material(entry, session->parameters, recorded)
+                                               : curves::felt_material(curves::ContactSetup{entry, {}, {}});
+    if (!one) return tl::unexpected(one.error());
+    felt.push_back(std::move(*one));
+  }
+  const double length_s = session->seconds_since_start(session->samples.back().time_ns);
+  if (!(options.at_s >= 0.0 && options.at_s <= length_s)) {
+    return core::failure(
+        core::ErrorCategory::WrongUsage,
+        fmt::format("--at: {:g} s is outside the session, which lasts {:.3f} s", options.at_s, length_s));
+  }
+
+  const auto material = static_cast<std::size_t>(found - materials.begin());
+  const std::int64_t time_ns = session->samples.front().time_ns + static_cast<std::int64_t>(options.at_s * 1e9);
+  std::vector<exhibit::CycleCurve> curves(materials.size());
+  curves[material] = exhibit::curve_until(*session, time_ns);
+  exhibit::Moment moment = exhibit::moment_of(*session, material, time_ns, curves);
+  moment.guidance = fmt::format("{} at {:.2f} s", found->title, options.at_s);
+  moment.analogy = options.analogy;
+  return draw(*stage, felt, moment, options);
+}
+
+// What is said of a model.
+void add_model_options(CLI::App& command, CLI::Option* gltf, RenderOptions& options) {
+  exhibit::ModelChoice& model = options.model;
+  command.add_option("--camera", model.camera, "a camera of the model by its name, or auto, which sees all of it")
+      ->needs(gltf)
+      ->capture_default_str()
+      ->type_name("NAME");
+  command.add_option("--variant", model.variant, "a variant of the model's materials (KHR_materials_variants)")
+      ->needs(gltf)
+      ->type_name("NAME");
+  CLI::Option* describe = command
+                              .add_flag("--describe", options.describe,
+                                        "list what the model holds, what is ignored and why, and draw nothing")
+                              ->needs(gltf);
+  command.add_flag("--json", options.json, "the list as JSON")->needs(describe);
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand(
+      "render",
+      "draw a moment of a recorded session, a place of the journey of scale, or a glTF model, without a window");
+  command->footer(
+      "example: touchafm render --session out/session-gold.afms --at 5.2 --out gold.png\n"
+      "         touchafm render --journey 4.5 --material mica --out lever.png\n"
+      "         touchafm render --gltf my_probe.glb --stereo anaglyph-red-cyan --out probe.png");
+  auto options = std::make_shared<RenderOptions>();
+  auto* what = command->add_option_group("what is drawn");
+  auto* session =
+      what->add_option("--session", options->session, "session file that the demo has written")->type_name("FILE");
+  auto* journey = what->add_option("--journey", options->journey_orders,
+                                   "a place of the journey of scale, without a session: a metre of the paper's wall "
+                                   "shows 10^-S metres, from the bench (0) to the atoms (9)")
+                      ->check(CLI::Range(0.0, exhibit::kJourneyOrders))
+                      ->type_name("S");
+  auto* gltf =
+      what->add_option("--gltf", options->model.file, "glTF 2.0 model, .glb or .gltf, drawn alone")->type_name("FILE");
+  what->require_option(1);
+  add_model_options(*command, gltf, *options);
+  command->add_option("--material", options->material, "sample of the journey")
+      ->needs(journey)
+      ->capture_default_str()
+      ->type_name("NAME");
+  command->add_flag("--analogy", options->analogy, "draw Millet's magnet on a spring instead of the instrument")
+      ->needs(session);
+  command->add_option("--out", options->out, "picture to write")->type_name("FILE.png");
+  auto* at = command
+                 ->add_option("--at", options->at_s,
+                              "time from the start of the session, or of the model's animations, in seconds; "
+                              "default: the session's start, the model at rest")
+                 ->type_name("SECONDS");
+  add_stereo_options(*command, options->wish, "the outputs of the wall file, else side-by-side; of a model mono");
+  CLI::Option* size = command
+                          ->add_option("--size", options->size,
+                                       "size of the whole picture in pixels; default: as the wall's outputs say, or "
+                                       "from --eye-width; of a model 960x720 an eye")
+                          ->type_name("WIDTHxHEIGHT");
+  command
+      ->add_option("--eye-width", options->wish.eye_width,
+                   "width of each eye's picture in pixels; the height follows the wall")
+      ->check(CLI::Range(64, 8192))
+      ->excludes(size)
+      ->capture_default_str()
+      ->type_name("PIXELS");
+  add_stage_options(*command, options->files, context);
+  add_own_model_options(*command, options->files);
+  command->callback([options, gltf, at, &context] {
+    if (!options->describe && options->out.empty()) throw CLI::RequiredError("--out");
+    if (gltf->empty()) {
+      context.chosen = [options] { return run_render(*options); };
+      return;
+    }
+    if (!at->empty()) options->model.at_s = options->at_s;
+    context.chosen = [options] { return run_model(*options); };
+  });
+}
+
+}  // namespace afm::app

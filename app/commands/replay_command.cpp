@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/command.h"
+#include "servo/replay.h"
+#include "servo/session_file.h"
+
+namespace afm::app {
+
+namespace {
+
+struct ReplayOptions {
+  std::string session;
+  bool json = false;
+};
+
+nlohmann::json json_of(const std::optional<servo::Difference>& first) {
+  if (!first) return nullptr;
+  return {{"index", first->index},
+          {"quantity", first->quantity},
+          {"recorded", first->recorded},
+          {"replayed", first->replayed}};
+}
+
+const char* name_of(scene::TipEventKind kind) {
+  return kind == scene::TipEventKind::JumpToContact ? "jump-to-contact" : "jump-off-contact";
+}
+
+std::string json(const servo::RecordedSession& session, const servo::Replay& replayed) {
+  nlohmann::json events = nlohmann::json::array();
+  for (const scene::TipEvent& event : session.events) {
+    events.push_back({{"kind", name_of(event.kind)},
+                      {"time_s", session.seconds_since_start(event.time_ns)},
+                      {"z_m", event.z_m},
+                      {"force_before_N", event.force_before_n},
+                      {"force_after_N", event.force_after_n}});
+  }
+  return nlohmann::json{
+             {"material", session.material},
+             {"rate_Hz", session.rate_hz},
+             {"device", session.device.name.data()},
+             {"seconds", session.seconds_since_start(session.samples.back().time_ns)},
+             {"ticks", replayed.ticks},
+             {"events", events},
+             {"identical", replayed.identical()},
+             {"different_ticks", replayed.different_ticks},
+             {"first_difference", json_of(replayed.first)},
+             {"first_different_event", json_of(replayed.first_event)},
+             {"largest_difference", {{"tip_N", replayed.largest_tip_n}, {"hand_N", replayed.largest_hand_n}}}}
+             .dump() +
+         "\n";
+}
+
+std::string plain(const servo::RecordedSession& session, const servo::Replay& replayed) {
+  const auto felt = std::count_if(session.samples.begin(), session.samples.end(), [](const scene::TipSample& s) {
+    return s.servo_state == scene::ServoState::Running;
+  });
+  std::string text = fmt::format("{}, felt with {} at {:g} Hz: {:.3f} s, {} ticks, force on in {} of them, {} events\n",
+                                 session.material, session.device.name.data(), session.rate_hz,
+                                 session.seconds_since_start(session.samples.back().time_ns), replayed.ticks, felt,
+                                 session.events.size());
+  for (const scene::TipEvent& event : session.events) {
+    text += fmt::format("  {:<16} at {:8.3f} s   Z = {:9.4f} nm   force {:9.5f} nN, then {:9.5f} nN\n",
+                        name_of(event.kind), session.seconds_since_start(event.time_ns), event.z_m * 1e9,
+                        event.force_before_n * 1e9, event.force_after_n * 1e9);
+  }
+  text += fmt::format("largest difference: {:.3g} nN on the tip, {:.3g} N on the hand\n", replayed.largest_tip_n * 1e9,
+                      replayed.largest_hand_n);
+  if (replayed.identical()) text += "every force of the tip and of the hand is the same, bit for bit\n";
+  return text;
+}
+
+std::string difference_text(const servo::RecordedSession& session, const servo::Replay& replayed) {
+  if (replayed.first) {
+    const servo::Difference& first = *replayed.first;
+    return fmt::format("{} of {} ticks differ, first that at {:.3f} s: {} was {:g}, and is {:g} now",
+                       replayed.different_ticks, replayed.ticks,
+                       session.seconds_since_start(session.samples[first.index].time_ns), first.quantity,
+                       first.recorded, first.replayed);
+  }
+  const servo::Difference& first = *replayed.first_event;
+  return fmt::format("the events differ, first in number {}: {} was {:g}, and is {:g} now", first.index, first.quantity,
+                     first.recorded, first.replayed);
+}
+
+core::Result<void> run_replay(const ReplayOptions& options) {
+  const auto session = servo::load_session(options.session);
+  if (!session) return tl::unexpected(session.error());
+  const auto replayed = servo::replay(*session);
+  if (!replayed) return tl::unexpected(replayed.error());
+  std::fputs((options.json ? json(*session, *replayed) : plain(*session, *replayed)).c_str(), stdout);
+  if (replayed->identical()) return {};
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("the replay of {} is not the same: {}; it may come from another build of TouchAFM",
+                                   options.session, difference_text(*session, *replayed)));
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand(
+      "replay",
+      "run a recorded hand through the servo again and compare every force with the recorded one, bit for bit");
+  const auto options = std::make_shared<ReplayOptions>();
+  command->add_option("session", options->session, "session file that demo or view --record has written")
+      ->required()
+      ->type_name("SESSION");
+  command->add_flag("--json", options->json, "print the comparison as JSON, SI with the unit in the key");
+  command->footer(
+      "example: touchafm replay out/session-gold.afms\n"
+      "Ends with 0 if all is the same, with 1 if not. touchafm view --haptics replay:FILE shows it on the wall.");
+  command->callback([&context, options] { context.chosen = [options] { return run_replay(*options); }; });
+}
+
+}  // namespace afm::app

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands/standard_output.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace afm::app {
+
+core::Result<void> write_stdout(std::string_view text) {
+  errno = 0;
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0) {
+    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot write to stdout: {}", std::strerror(errno)));
+  }
+  return {};
+}
+
+}  // namespace afm::app

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/command.h"
+#include "app/live/live_view.h"
+#include "app/live/view_display.h"
+#include "app/live/view_wand.h"
+#include "app/options/frame_budget.h"
+#include "app/options/stage_options.h"
+#include "core/log.h"
+#include "curves/felt_material.h"
+#include "exhibit/shared_model.h"
+#include "exhibit/stage_setup.h"
+#include "render/context.h"
+#include "servo/haptic_choice.h"
+#include "servo/session_file.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::uint32_t kSmallestWindow = 64, kLargestWindow = 16384;
+constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // a second; the servo lets go after 250 ms of silence
+
+constexpr double kLingerS = 10.0;
+
+struct ViewOptions {
+  exhibit::StageFiles files;
+  DisplayWish display;
+  ViewSettings settings;
+  double frame_rate = 0;  // 0: the display's
+  servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = kLingerS}};
+  std::int64_t spin_us = 0;
+  WandOptions wand;
+};
+
+std::optional<std::uint32_t> whole_number(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+core::Result<void> parse_size(const std::string& text, WindowWish& window) {
+  if (text.empty()) return {};
+  const std::size_t cross = text.find('x');
+  const auto width = whole_number(text.substr(0, cross));
+  const auto height = cross == std::string::npos ? std::nullopt : whole_number(text.substr(cross + 1));
+  const auto legal = [](const std::optional<std::uint32_t>& pixels) {
+    return pixels && *pixels >= kSmallestWindow && *pixels <= kLargestWindow;
+  };
+  if (!legal(width) || !legal(height)) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("--size: \"{}\" is not WIDTHxHEIGHT in pixels of {} to {} each, such as 1280x960",
+                                     text, kSmallestWindow, kLargestWindow));
+  }
+  window.size_px = {*width, *height};
+  return {};
+}
+
+core::Result<void> check_validation(render::Context& context) {
+  const auto messages = context.take_validation_messages();
+  for (const std::string& message : messages) core::log_line(message);
+  if (messages.empty()) return {};
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("the Vulkan validation layer gave {} messages; they stand above", messages.size()));
+}
+
+// Who moves the hand, and on what a recorded one goes.
+core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& device, ViewSettings& settings) {
+  const auto choice = servo::parse_haptic_choice(device);
+  if (!choice) return tl::unexpected(choice.error());
+  if (device == "sim") settings.hand = HandSource::Simulated;
+  if (choice->device == haptics::DeviceChoice::Hdapi || choice->device == haptics::DeviceChoice::Gamepad) {
+    settings.hand = HandSource::Device;
+  }
+  if (choice->replay_file.empty()) return {};
+  settings.hand = HandSource::Device;
+  const auto session = servo::load_session(choice->replay_file);
+  if (!session) return tl::unexpected(session.error());
+  const auto& materials = stage.materials.materials;
+  const auto found =
+      std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == session->material; });
+  if (found == materials.end()) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("the session {} was felt on {}, which is not shown: add --material {}",
+                                     choice->replay_file, session->material, session->material));
+  }
+  settings.scale = session->samples.front().scale_mode;
+  settings.first_material = static_cast<std::size_t>(found - materials.begin());
+  return {};
+}
+
+core::Result<void> run_view(const ViewOptions& options, const std::string& program) {
+  const core::MonotonicClock clock;
+  auto stage = exhibit::load_stage(options.files);
+  if (!stage) return tl::unexpected(stage.error());
+  std::vector<curves::FeltMaterial> materials;
+  for (const scene::MaterialEntry& entry : stage->materials.materials) {
+    auto felt = curves::felt_material(curves::ContactSetup{entry, {}, {}});
+    if (!felt) return tl::unexpected(felt.error());
+    felt->parameters.height_field = stage->wall_scene.height_field(materials.size());
+    materials.push_back(std::move(*felt));
+  }
+  ViewSettings settings = options.settings;
+  const auto wand_choice = parse_wand_choice(options.wand);
+  if (!wand_choice) return tl::unexpected(wand_choice.error());
+  if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
+  auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
+  if (!wand) return tl::unexpected(wand.error());
+  const auto model = exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
+                                           stage->wall_scene.height_fields());
+  if (!model) return tl::unexpected(model.error());
+
+  auto display = ViewDisplay::open(*stage, options.display);
+  if (!display) return tl::unexpected(display.error());
+  ViewWindows& windows = (*display)->windows();
+  settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : windows.at(0).refresh_hz();
+  servo::ServoChoice servo = options.servo;
+  servo.settings.spin_ns = 1000 * options.spin_us;
+  if (servo.mode == servo::ServoMode::Thread) servo.settings.linger_s = 0;  // it ends with this program
+  const auto start_servo = [&] {
+    return servo::ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), servo, program);
+  };
+  LiveView live(*stage, materials, windows, (*display)->picture(), start_servo, **wand, clock, settings);
+  if (auto ran = live.run(); !ran) return ran;
+  return check_validation((*display)->context());
+}
+
+void add_picture_options(CLI::App& command, ViewOptions& options) {
+  add_stereo_options(command, options.display.picture, "the outputs of the wall file, else mono");
+  command.add_flag("--fullscreen", options.display.window.full_screen,
+                   "one window that fills the monitor it opens on; F11 does it while it runs");
+  command
+      .add_option("--monitor", options.display.window.monitor,
+                  "one window that fills this monitor, by its name or number in touchafm devices")
+      ->type_name("NAME");
+  command
+      .add_option("--eye-width", options.display.eye_width,
+                  "width of each eye's picture in pixels, then scaled to the window; default: the window's pixels")
+      ->check(CLI::Range(64, 8192))
+      ->type_name("PIXELS");
+  add_frame_budget(command, options.display.frame_budget_ms);
+  command
+      .add_option("--pictures", options.display.saved_folder,
+                  "an existing folder for the pictures that F12 saves, touchafm-001.png and on; default: this one")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("DIR");
+  command
+      .add_option("--frame-rate", options.frame_rate, "most frames a second, 10 to 1000; default: the display's rate")
+      ->check(CLI::Range(kSlowestFrames, kFastestFrames))
+      ->type_name("RATE");
+}
+
+void add_wand_options(CLI::App& command, ViewOptions& options) {
+  command
+      .add_option("--wand", options.wand.source,
+                  "who points beside the mouse: auto or hid for whatever wand is plugged in, now or later, dtrack or "
+                  "dtrack:ADDRESS:PORT for a tracker's Flystick, sim for a simulated one, or mouse for none; default: "
+                  "auto")
+      ->type_name("SOURCE");
+  command
+      .add_option("--wand-file", options.wand.file,
+                  "where the hand and the tracker are, or how an HID device is read; see docs/adding-a-wand.md")
+      ->type_name("FILE");
+  command
+      .add_option("--head", options.wand.head,
+                  "whose head the picture is drawn for: dtrack:BODY or dtrack:BODY@ADDRESS:PORT of a tracker; default: "
+                  "the wand file's, else the wall's sweet spot")
+      ->type_name("SOURCE");
+}
+
+void add_servo_options(CLI::App& command, ViewOptions& options) {
+  command
+      .add_option(
+          "--haptics", options.servo.haptic_device,
+          "whose hand feels: mouse, sim for a simulated person, hdapi, haply, gamepad, replay:FILE for a recorded one, "
+          "or auto for the best device there is, else the mouse; default: mouse")
+      ->type_name("DEVICE");
+  command.add_option("--record", options.settings.record_folder, "keep what is felt in DIR, a session for each sample")
+      ->type_name("DIR");
+  static const std::map<std::string, scene::ScaleMode> kScales{{"common", scene::ScaleMode::Common},
+                                                               {"fit", scene::ScaleMode::Fit},
+                                                               {"compressed", scene::ScaleMode::Compressed}};
+  command
+      .add_option("--scale", options.settings.scale,
+                  "how nm and nN become mm and N in the hand: common, fit or compressed; M does it while it runs; "
+                  "default: fit")
+      ->transform(CLI::CheckedTransformer(kScales))
+      ->type_name("MODE");
+  command.add_flag("--dead-man", options.servo.settings.dead_man, "force only as long as Turn-On is held");
+  command.add_option("--servo-rate", options.servo.settings.rate_hz, "of the servo, 100 Hz to 10 kHz")
+      ->check(CLI::Range(100.0, 10'000.0))
+      ->capture_default_str()
+      ->type_name("HZ");
+  command
+      .add_option(
+          "--spin", options.spin_us,
+          "how long the servo stays awake before each tick to be more punctual, at most half a period; default: 0")
+      ->check(CLI::Range(0, 5000))
+      ->type_name("MICROSECONDS");
+  command
+      .add_option("--linger", options.servo.settings.linger_s,
+                  "how long the servo keeps its device for another touchafm view if this one dies, 0 to 600")
+      ->check(CLI::Range(0.0, 600.0))
+      ->capture_default_str()
+      ->type_name("SECONDS");
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand("view", "the live window: choose a sample and feel it, with a mouse alone");
+  command->footer(
+      "F1 in the window shows its keys and buttons.\n\nexample: touchafm view\n"
+      "         touchafm view --stereo side-by-side --fullscreen --material mica --material pdms-air");
+  auto options = std::make_shared<ViewOptions>();
+  add_stage_options(*command, options->files, context);
+  add_own_model_options(*command, options->files);
+  command
+      ->add_option("--material", options->files.shown,
+                   "a material to show, up to nine; default: mica, gold and silicon nitride of the paper")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("NAME");
+  add_picture_options(*command, *options);
+  auto size = std::make_shared<std::string>();
+  command
+      ->add_option(
+          "--size", *size,
+          "one window of that size in pixels; default: a window for each output of the wall file in its place, "
+          "else one of 1280x960")
+      ->type_name("WxH");
+  static const std::map<std::string, servo::ServoMode> kServos{{"process", servo::ServoMode::Process},
+                                                               {"thread", servo::ServoMode::Thread}};
+  command
+      ->add_option("--servo", options->servo.mode,
+                   "how the servo runs: process, or thread for debuggers and sanitizers; default: process")
+      ->transform(CLI::CheckedTransformer(kServos))
+      ->type_name("HOW");
+  add_wand_options(*command, *options);
+  add_servo_options(*command, *options);
+  command->add_flag("--validate", options->display.validate,
+                    "check every Vulkan call; any message ends in exit code 1");
+  command->callback([options, size, &context] {
+    context.chosen = [options, size, &context]() -> core::Result<void> {
+      if (auto parsed = parse_size(*size, options->display.window); !parsed) return parsed;
+      return run_view(*options, context.program_path);
+    };
+  });
+}
+
+}  // namespace afm::app

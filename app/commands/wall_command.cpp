@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/command.h"
+#include "app/options/stage_options.h"
+#include "exhibit/calibration.h"
+#include "exhibit/stage_setup.h"
+#include "exhibit/wall_layout.h"
+#include "render/context.h"
+#include "scene/display/disparity.h"
+
+namespace afm::app {
+
+namespace {
+
+struct WallOptions {
+  std::string file;
+  std::string head;  // empty: the viewer's sweet spot
+  bool json = false;
+  bool test_pattern = false;
+  std::string out;
+  std::string size;
+  exhibit::PictureWish wish;
+};
+
+core::Result<scene::HeadPose> parse_head(std::string_view text) {
+  const auto wrong = [&] {
+    return core::failure(
+        core::ErrorCategory::WrongUsage,
+        fmt::format("--head: \"{}\" is not x,y,z in metres, with or without a unit quaternion ,qx,qy,qz,qw", text));
+  };
+  std::vector<double> v;
+  for (std::string_view rest = text;;) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view field = rest.substr(0, comma);
+    double value = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) return wrong();
+    v.push_back(value);
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+  if (v.size() != 3 && v.size() != 7) return wrong();
+  scene::HeadPose head{.position_m = {v[0], v[1], v[2]}};
+  if (v.size() == 7) {
+    const glm::dquat orientation(v[6], v[3], v[4], v[5]);
+    if (std::abs(glm::length(orientation) - 1.0) > 1e-3) return wrong();
+    head.room_from_head = glm::normalize(orientation);
+  }
+  return head;
+}
+
+nlohmann::json row_major(const glm::dmat4& m) {
+  nlohmann::json values = nlohmann::json::array();
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) values.push_back(m[column][row]);
+  }
+  return values;
+}
+
+core::Result<nlohmann::json> frusta(const scene::Wall& wall, const scene::HeadPose& head, double ipd_m) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const scene::Screen& screen : wall.screens) {
+    const auto views = exhibit::eyes_before(screen, head, ipd_m);
+    if (!views) return tl::unexpected(views.error());
+    for (std::size_t i = 0; i < views->size(); ++i) {
+      const scene::EyeView& view = views->at(i);
+      const glm::dvec3& position = view.eye_position_m;
+      all.push_back({{"screen", screen.name},
+                     {"eye", i == 0 ? "left" : "right"},
+                     {"eye_position_m", {position.x, position.y, position.z}},
+                     {"projection", row_major(view.projection)},
+                     {"view", row_major(view.view)}});
+    }
+  }
+  return all;
+}
+
+void explain_screen(const scene::Screen& screen, const scene::HeadPose& head, double ipd_m) {
+  const double distance = glm::dot(head.position_m - screen.lower_left, screen.normal());
+  std::printf("screen %s: %.3f m x %.3f m, the head is %.3f m in front of it\n", screen.name.c_str(), screen.width_m(),
+              screen.height_m(), distance);
+  const scene::ComfortZone zone = scene::comfort_zone(distance, ipd_m, scene::kComfortableDisparityRad);
+  const std::string farthest =
+      std::isfinite(zone.farthest_m) ? fmt::format("{:.2f} m", zone.farthest_m) : std::string("any distance");
+  std::printf("  comfortable to look at from %.2f m to %s before the eyes\n", zone.nearest_m, farthest.c_str());
+}
+
+// Pixels that are not square on the screen make circles oval, but for the modes whose display stretches them back.
+void explain_output(const scene::Wall& wall, const scene::Output& output) {
+  const scene::Screen& screen = wall.screens[output.screen];
+  const glm::uvec2 size = output.rect.size_px;
+  const std::string where = output.monitor.empty() ? fmt::format("{} x {} pixels at {}, {}", size.x, size.y,
+                                                                 output.rect.offset_px.x, output.rect.offset_px.y)
+                                                   : fmt::format("all of monitor {}", output.monitor);
+  std::printf("output %s: screen %s, %s%s%s, %s%s\n", output.name.c_str(), screen.name.c_str(),
+              std::string(scene::name_of(output.mode)).c_str(),
+              !output.eye                       ? ""
+              : *output.eye == scene::Eye::Left ? ", left eye"
+                                                : ", right eye",
+              output.order == scene::EyeOrder::Swapped ? ", eyes swapped" : "", where.c_str(),
+              output.picture_from_output == glm::dmat3(1.0) ? "" : ", with a keystone");
+  if (size == glm::uvec2(0) || scene::frame_packing(output.mode)) return;
+  const glm::dvec2 eye(scene::eye_size(output.mode, size));
+  const double oval = (screen.width_m() / eye.x) / (screen.height_m() / eye.y);
+  if (std::abs(oval - 1.0) > 0.01) {
+    std::printf("  note: its pixels are %.3f times as wide as high; check the corners or the rectangle\n", oval);
+  }
+}
+
+// A scene of one point that is never shown: the pattern stands alone.
+scene::Scene nothing() {
+  scene::Scene scene;
+  scene.materials.push_back({});
+  scene::Primitive point;
+  point.vertices.resize(3);
+  point.indices = {0, 1, 2};
+  scene.meshes.push_back({.name = "nothing", .primitives = {point}});
+  scene.nodes.push_back({.name = "nothing", .parent = {}, .mesh = 0});
+  return scene;
+}
+
+core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions& options) {
+  auto context = render::Context::open();
+  if (!context) return tl::unexpected(context.error());
+  exhibit::PictureWish wish = options.wish;
+  if (!options.size.empty()) {
+    const auto size = exhibit::parse_picture_size("--size", options.size, context->largest_picture_px());
+    if (!size) return tl::unexpected(size.error());
+    wish.size_px = *size;
+  }
+  const auto plan = exhibit::plan_wall(wall, wish);
+  if (!plan) return tl::unexpected(plan.error());
+  const scene::Scene scene = nothing();
+  const double millimetre_m = 1e-3 * exhibit::layout_unit_m(plan->outputs.front().screen);
+  auto renderer = render::Renderer::create(*context, scene, exhibit::renderer_options(*context, *plan, millimetre_m));
+  if (!renderer) return tl::unexpected(renderer.error());
+  const scene::Viewer& viewer = wall.viewers.front();
+  const double ipd_m = wish.ipd_m.value_or(viewer.ipd_m);
+  const auto pictures =
+      exhibit::draw_wall(*renderer, *plan, viewer, wish,
+                         [&](const exhibit::OutputPicture& output, const std::array<scene::EyeView, 2>& eyes) {
+                           render::FrameState frame;
+                           frame.eyes = eyes;
+                           frame.room_from_node.assign(scene.nodes.size(), glm::dmat4(1.0));
+                           exhibit::show_calibration(output.screen, output.mode, ipd_m, frame);
+                           return frame;
+                         });
+  if (!pictures) return tl::unexpected(pictures.error());
+  return exhibit::write_wall(*pictures, options.out);
+}
+
+core::Result<void> run_wall(const WallOptions& options) {
+  if (options.test_pattern == options.out.empty()) {
+    return core::failure(core::ErrorCategory::WrongUsage, "--test-pattern and --out FILE.png belong together");
+  }
+  const auto wall = scene::load_wall(options.file);
+  if (!wall) return tl::unexpected(wall.error());
+  if (options.test_pattern) return draw_test_pattern(*wall, options);
+  const scene::Viewer& viewer = wall->viewers.front();
+  const double ipd_m = options.wish.ipd_m.value_or(viewer.ipd_m);
+  scene::HeadPose head = viewer.sweet_spot;
+  if (!options.head.empty()) {
+    const auto parsed = parse_head(options.head);
+    if (!parsed) return tl::unexpected(parsed.error());
+    head = *parsed;
+  }
+  const auto seen = frusta(*wall, head, ipd_m);
+  if (!seen) return tl::unexpected(seen.error());
+  if (options.json) {
+    std::printf("%s\n", seen->dump(2).c_str());
+    return {};
+  }
+  for (const scene::Screen& screen : wall->screens) explain_screen(screen, head, ipd_m);
+  for (const scene::Output& output : wall->outputs) explain_output(*wall, output);
+  std::printf("viewer %s: %.1f mm between the eyes, head %s\nthe wall file is in order\n", viewer.name.c_str(),
+              ipd_m * 1e3, viewer.head == "none" ? "not tracked" : viewer.head.c_str());
+  return {};
+}
+
+}  // namespace
+
+void add_wall_command(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand("wall", "check a wall file and print what each eye sees of it");
+  command->footer("example: touchafm wall assets/walls/powerwall.toml --json --head 0.2,1.7,2.1");
+  auto options = std::make_shared<WallOptions>();
+  command->add_option("file", options->file, "wall file (TOML), or a ParaView configuration (.pvx)")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--head", options->head,
+                   "head position in metres, and orientation as a unit quaternion; default: the sweet spot")
+      ->type_name("X,Y,Z[,QX,QY,QZ,QW]");
+  command->add_flag(
+      "--json", options->json,
+      "print each eye's projection and view, row-major, reversed infinite depth, y down, near plane 0.1 m");
+  command->add_flag("--test-pattern", options->test_pattern,
+                    "draw the picture for setting up: grid, cross, circle, ruler, L and R; with --out");
+  command->add_option("--out", options->out, "where the test pattern is written")->type_name("FILE.png");
+  command->add_option("--size", options->size, "size of the whole test pattern in pixels")->type_name("WIDTHxHEIGHT");
+  add_stereo_options(*command, options->wish, "the outputs of the wall file, else side-by-side");
+  command->callback([options, &context] { context.chosen = [options] { return run_wall(*options); }; });
+}
+
+}  // namespace afm::app

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/demo/demo_figures.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/demo/demonstration.h"
+#include "core/check.h"
+#include "exhibit/film_strip.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::int64_t kAfterJumpInNs = 5'000'000;
+constexpr std::uint32_t kFilmColumns = 5, kFilmReduction = 4;
+constexpr std::int64_t kAfterJumpOffNs = 400'000'000;
+
+exhibit::Felt felt_of(const Measurement& m) {
+  const CycleEvents& events = m.measured;
+  return {m.title, m.law, m.hysteretic, events.f_attr_n, events.f_ad_n, events.z_jtc_m, events.z_joc_m};
+}
+
+// The times of the first and the last sample in contact.
+std::pair<std::int64_t, std::int64_t> contact_of(const servo::RecordedSession& session) {
+  const auto attached = [](const scene::TipSample& sample) { return sample.phase == scene::ContactPhase::Attached; };
+  const auto first = std::find_if(session.samples.begin(), session.samples.end(), attached);
+  const auto last = std::find_if(session.samples.rbegin(), session.samples.rend(), attached);
+  AFM_CHECK(first != session.samples.end());
+  return {first->time_ns, last->time_ns};
+}
+
+}  // namespace
+
+FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
+                       const std::vector<Measurement>& measurements, std::size_t shown_material) {
+  const servo::RecordedSession& shown = sessions.at(shown_material);
+  const auto [in_ns, off_ns] = contact_of(shown);
+  const auto deepest = std::min_element(shown.samples.begin(), shown.samples.end(),
+                                        [](const auto& a, const auto& b) { return a.z_m < b.z_m; });
+
+  struct Plan {
+    const char* file;
+    const char* caption;
+    const char* guidance;
+    std::int64_t time_ns;
+  };
+  const std::vector<Plan> plans{
+      {"fig5a.png", "(a) Sudden attraction: the tip has jumped to contact and pulls the lever down.",
+       "The tip has snapped onto the surface", in_ns + kAfterJumpInNs},
+      {"fig5b.png", "(b) Pressed: the cantilever bends away from the sample.", "Pressed: the beam bends",
+       deepest->time_ns},
+      {"fig5c.png", "(c) Sudden adhesion: the last moment before the tip lets go.",
+       "Adhesion holds the tip: keep pulling", off_ns},
+      {"fig5d.png", "(d) Free: no force after the jump off contact.", "Released: no force any more",
+       off_ns + kAfterJumpOffNs}};
+
+  // reserved, because the moments point into it
+  curves_.reserve(plans.size() + 1);
+  for (const Plan& plan : plans) {
+    curves_.emplace_back(sessions.size());
+    curves_.back()[shown_material] = exhibit::curve_until(shown, plan.time_ns);
+    exhibit::Moment moment = exhibit::moment_of(shown, shown_material, plan.time_ns, curves_.back());
+    moment.guidance = plan.guidance;
+    figures_.push_back({plan.file, plan.caption, moment});
+  }
+
+  curves_.emplace_back();
+  for (const servo::RecordedSession& session : sessions)
+    curves_.back().push_back(exhibit::curve_until(session, session.samples.back().time_ns));
+  exhibit::Moment finale = exhibit::moment_of(shown, shown_material, plans.back().time_ns, curves_.back());
+  finale.compare_all = true;
+  for (const Measurement& m : measurements) {
+    finale.felt.push_back(felt_of(m));
+  }
+  finale.guidance = "All samples together";
+  figures_.push_back({"fig5e.png", "(e) The force-displacement curves of all samples.", finale});
+}
+
+VariationFigure::VariationFigure(const servo::RecordedSession& base, const Measurement& measurement,
+                                 const curves::FeltMaterial& felt, std::span<const FeltVariation> variations,
+                                 std::size_t material) {
+  std::vector<exhibit::Felt> all;
+  const auto add = [&](const servo::RecordedSession& session, const Measurement& m,
+                       const curves::FeltMaterial& was_felt) {
+    materials_.push_back(was_felt);
+    curves_.push_back(exhibit::curve_until(session, session.samples.back().time_ns));
+    all.push_back(felt_of(m));
+  };
+  add(base, measurement, felt);
+  for (const FeltVariation& variation : variations) {
+    if (variation.material == material) add(variation.session, variation.measurement, variation.felt);
+  }
+  moment_ = exhibit::moment_of(base, material, base.samples.back().time_ns, curves_);
+  moment_.felt = std::move(all);
+  moment_.compare_all = true;
+  moment_.guidance = "The same sample, felt with other numbers";
+}
+
+render::Image journey_strip(const exhibit::FrameBuilder& frames, render::Renderer& renderer) {
+  std::vector<render::Image> stills;
+  for (double orders = 0.0; orders <= exhibit::kJourneyOrders; orders += 1.0) {
+    exhibit::Moment moment;
+    moment.material = 0;
+    moment.journey_orders = orders;
+    moment.realtime = true;  // nothing moves
+    renderer.render(frames.build(moment));
+    stills.push_back(renderer.read_eye(scene::Eye::Left));
+  }
+  return exhibit::film_strip(stills, kFilmColumns, kFilmReduction);
+}
+
+}  // namespace afm::app

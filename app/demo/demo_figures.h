@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/demo/measurement.h"
+#include "app/demo/report.h"
+#include "core/result.h"
+#include "exhibit/frame_builder.h"
+#include "render/renderer.h"
+#include "servo/session_file.h"
+
+namespace afm::app {
+
+struct Figure {
+  std::string file;     // "fig5a.png"
+  std::string caption;  // what is seen
+  exhibit::Moment moment;
+};
+
+// The pictures (a) to (e) of the paper's Fig. 5, as moments of recorded sessions: the pull just after the jump to
+// contact, the deepest push, the last moment before the jump off contact, the tip free again, and all curves together.
+// `curves` receives one curve per material for each moment and must outlive the figures.
+class FigurePlan {
+ public:
+  FigurePlan(const std::vector<servo::RecordedSession>& sessions, const std::vector<Measurement>& measurements,
+             std::size_t shown_material);
+
+  const std::vector<Figure>& figures() const { return figures_; }
+
+ private:
+  std::vector<std::vector<exhibit::CycleCurve>> curves_;  // one set per figure
+  std::vector<Figure> figures_;
+};
+
+// A material and those variations that are its, together in the same picture as (e). `materials()` is what its
+// FrameBuilder draws from.
+class VariationFigure {
+ public:
+  VariationFigure(const servo::RecordedSession& base, const Measurement& measurement, const curves::FeltMaterial& felt,
+                  std::span<const FeltVariation> variations, std::size_t material);
+  VariationFigure(const VariationFigure&) = delete;
+  VariationFigure& operator=(const VariationFigure&) = delete;
+
+  const std::vector<curves::FeltMaterial>& materials() const { return materials_; }
+  const exhibit::Moment& moment() const { return moment_; }
+
+ private:
+  std::vector<curves::FeltMaterial> materials_;
+  std::vector<exhibit::CycleCurve> curves_;
+  exhibit::Moment moment_;
+};
+
+// Ten places of the journey of scale on the first material, one for each order of magnitude, as a film strip.
+render::Image journey_strip(const exhibit::FrameBuilder& frames, render::Renderer& renderer);
+
+}  // namespace afm::app

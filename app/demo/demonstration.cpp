@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/demo/demonstration.h"
+#include "core/percentiles.h"
+#include "servo/fault_reason.h"
+#include "servo/frame_beat.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <thread>
+#include <utility>
+
+#include "app/interruption.h"
+#include "core/log.h"
+#include "exhibit/servo_rows.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr double kPatienceSeconds = 20.0;  // beyond the time that the step itself takes
+constexpr int kMostRestarts = 5;
+
+}  // namespace
+
+Demonstration::Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, render::Renderer& renderer,
+                             servo::ServoLink& servo, const core::Clock& clock, const HandPath& path,
+                             std::function<void()> chosen)
+    : wall_scene_(stage.wall_scene),
+      guidance_(stage.guidance),
+      plan_(plan),
+      materials_(plan.materials),
+      frames_(wall_scene_, materials_, stage.eyes),
+      renderer_(renderer),
+      servo_(servo),
+      clock_(clock),
+      path_(path),
+      chosen_(std::move(chosen)),
+      person_(wall_scene_.wand_grip_m(), wall_scene_.sample_normal(), path),
+      targets_(wall_scene_.swatch_targets()),
+      between_eyes_m_(0.5 * (stage.eyes[0].eye_position_m + stage.eyes[1].eye_position_m)),
+      curves_(materials_.size()) {
+  if (plan.frame_budget_ms > 0) budget_.emplace(plan.frame_budget_ms, renderer.detail().samples);
+}
+
+core::Result<void> Demonstration::run(DemoResult& result, const Progress& progress) {
+  for (std::size_t i = 0; i < materials_.size(); ++i) {
+    progress(fmt::format("{} of {}: {}", i + 1, materials_.size(), materials_[i].setup.material.title));
+    person_.begin(targets_[i].center_m, static_cast<std::int32_t>(i), clock_.now_ns());
+    auto session = feel(i, result, progress);
+    if (!session) return tl::unexpected(session.error());
+    result.sessions.push_back(std::move(*session));
+    for (const curves::FeltMaterial& variation : plan_.variations[i]) {
+      session = feel_variation(i, variation, result, progress);
+      if (!session) return tl::unexpected(session.error());
+      result.variations.push_back({i, variation, std::move(*session), {}});
+    }
+  }
+  result.servo = servo_.timing();
+  result.lost_samples = servo_.lost_samples();
+  return {};
+}
+
+core::Result<servo::RecordedSession> Demonstration::feel_variation(std::size_t material,
+                                                                   const curves::FeltMaterial& variation,
+                                                                   DemoResult& result, const Progress& progress) {
+  progress(fmt::format("  {}", variation.setup.material.title));
+  const std::uint32_t revision = servo_.change(material, variation.parameters);
+  const std::int64_t start_ns = clock_.now_ns();
+  while (servo_.tip().edit_revision != revision) {
+    if (auto stepped = step(result); !stepped) return tl::unexpected(stepped.error());
+    const double waited_s = static_cast<double>(clock_.now_ns() - start_ns) * 1e-9;
+    if (servo_.tip().edit_refused == revision || waited_s > kPatienceSeconds) {
+      return core::failure(core::ErrorCategory::Failed,
+                           fmt::format("{}: the servo did not take these parameters", variation.setup.material.title));
+    }
+  }
+  materials_[material] = variation;
+  person_.begin_again(clock_.now_ns());
+  return feel(material, result, progress);
+}
+
+core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, DemoResult& result,
+                                                         const Progress& progress) {
+  const std::string title = materials_[material].setup.material.title;
+  const double stroke_seconds = (path_.lift_m - path_.push_m) / path_.speed_m_per_s;
+
+  std::size_t events_told = 0;
+  int restarts = 0;
+  while (person_.step() != SimulatedPerson::Step::Done) {
+    if (auto stepped = step(result); !stepped) return tl::unexpected(stepped.error());
+    if (person_.restarts() != restarts) {
+      restarts = person_.restarts();
+      if (restarts > kMostRestarts) {
+        return core::failure(
+            core::ErrorCategory::Failed,
+            fmt::format("{}: the servo released the hand {} times ({}); run again, with less load on the machine",
+                        title, restarts, servo::reason(servo_.tip().fault)));
+      }
+      progress(fmt::format("  the servo released the hand: {}; lifting again", servo::reason(servo_.tip().fault)));
+      recorder_.begin_again();
+      forget_cycle(material);
+      events_told = 0;
+    }
+    const std::vector<scene::TipEvent>& events = recorder_.session().events;
+    for (; events_told < events.size() && events[events_told].material == static_cast<std::int32_t>(material);
+         ++events_told) {
+      const scene::TipEvent& e = events[events_told];
+      const bool in = e.kind == scene::TipEventKind::JumpToContact;
+      progress(fmt::format("  {:<17} Z = {:8.4f} nm   pull {:8.5f} nN", in ? "jump to contact" : "jump off contact",
+                           e.z_m * 1e9, -(in ? e.force_after_n : e.force_before_n) * 1e9));
+    }
+    if (auto patient = keep_patience(title, stroke_seconds, result); !patient) return tl::unexpected(patient.error());
+  }
+  servo::RecordedSession session = recorder_.session();
+  session.material = materials_[material].setup.material.name;
+  return session;
+}
+
+core::Result<void> Demonstration::keep_patience(const std::string& title, double step_seconds,
+                                                const DemoResult& result) const {
+  if (interrupted())
+    return core::failure(core::ErrorCategory::Failed, "interrupted: the hand was released, nothing was written");
+  if (person_.seconds_in_step(clock_.now_ns()) <= kPatienceSeconds + step_seconds) return {};
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("{}: waited {:.0f} s for {}, in vain ({}; a frame took {:.0f} ms); run again, with "
+                                   "less load on the machine or a smaller --eye-width",
+                                   title, kPatienceSeconds + step_seconds, person_.waiting_for(),
+                                   servo::reason(servo_.tip().fault), core::percentiles(result.frame_ms).p50));
+}
+
+void Demonstration::wait_for_renderer() {
+  const servo::FrameBeat beat(servo_, clock_);
+  while (!renderer_.ready()) {
+    beat();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+core::Result<void> Demonstration::step(DemoResult& result) {
+  const std::int64_t start_ns = clock_.now_ns();
+  wait_for_renderer();
+  const std::int64_t now_ns = clock_.now_ns();
+  if (auto taken = take_news(now_ns); !taken) return taken;
+
+  person_.update(now_ns, servo_.tip());
+  servo_.script(person_.hand());
+
+  // the wand's ray and button choose, as they would in a visitor's hand
+  const input::WandState wand = person_.wand(now_ns);
+  const input::Selector::Result pointing = selector_.update(wand, between_eyes_m_, targets_);
+  if (pointing.chosen) servo_.choose(static_cast<std::int32_t>(*pointing.chosen), plan_.scale);
+
+  const exhibit::Moment now = moment(wand, pointing);
+  scene::SceneTransforms transforms;
+  wall_scene_.place({.material = now.material, .tip = now.tip, .hovered = now.hovered, .wand = now.wand}, transforms);
+  servo_.place(transforms);
+
+  renderer_.render(frames_.build(now));
+  if (budget_) budget_->follow(renderer_);
+  if (pointing.chosen && chosen_) std::exchange(chosen_, nullptr)();
+  result.frame_ms.push_back(static_cast<double>(clock_.now_ns() - start_ns) * 1e-6);
+  return {};
+}
+
+core::Result<void> Demonstration::take_news(std::int64_t now_ns) {
+  auto news = servo_.poll(now_ns);
+  if (!news) return tl::unexpected(news.error());
+
+  stream_.take(
+      *news,
+      [&](const scene::TipSample& sample) {
+        const auto material = static_cast<std::size_t>(sample.material);
+        if (recorder_.add(sample, servo_)) forget_cycle(material);
+        curves_[material].add(sample);
+        deepest_z_m_ = std::min(deepest_z_m_, sample.z_m);
+      },
+      [&](const scene::TipEvent& event) {
+        curves_[static_cast<std::size_t>(event.material)].add(event);
+        recorder_.add(event);
+      });
+  return {};
+}
+
+void Demonstration::forget_cycle(std::size_t material) {
+  curves_[material] = {};
+  deepest_z_m_ = std::numeric_limits<double>::infinity();
+}
+
+exhibit::Moment Demonstration::moment(const input::WandState& wand, const input::Selector::Result& pointing) const {
+  exhibit::Moment now = exhibit::moment_of(servo_.tip(), exhibit::is_retracting(servo_.tip().z_m, deepest_z_m_));
+  now.hovered = pointing.hovered;
+  now.wand = wand;
+  now.guidance = guidance_.text(hint());
+  now.curves = curves_;
+  now.servo = exhibit::servo_rows(servo_.tip(), servo_.timing(), servo_.device());
+  if (budget_) now.servo.push_back(budget_->row());
+  now.cue = exhibit::jump_cue(recorder_.session().events, servo_.tip().time_ns);
+  return now;
+}
+
+exhibit::Hint Demonstration::hint() const {
+  using Step = SimulatedPerson::Step;
+  switch (person_.step()) {
+    case Step::PointAtSwatch:
+    case Step::PressSelect:
+      return exhibit::Hint::ChooseSample;
+    case Step::Lift:
+      return exhibit::Hint::Lift;
+    case Step::PressTurnOn:
+      return exhibit::Hint::TurnOn;
+    case Step::MoveDown:
+      return exhibit::Hint::MoveDown;
+    case Step::MoveUp:
+      return exhibit::Hint::MoveUp;
+    case Step::Rest:
+    case Step::Done:
+      break;
+  }
+  return exhibit::Hint::LetGo;
+}
+
+}  // namespace afm::app

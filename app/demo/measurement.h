@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "curves/felt_material.h"
+#include "scene/shared/shared_blocks.h"
+#include "servo/session_file.h"
+
+namespace afm::app {
+
+// The four numbers of the paper's Table 2 and Fig. 5, magnitudes in SI.
+struct CycleEvents {
+  double f_attr_n = 0;
+  double f_ad_n = 0;
+  double z_jtc_m = 0;
+  double z_joc_m = 0;
+};
+
+// What a recorded cycle gave, beside what the law and the experiments say.
+struct Measurement {
+  std::string material;
+  std::string title;
+  std::string law;              // "dmt"
+  bool hysteretic = true;       // false: so stiff a lever jumps nowhere, and there is nothing to compare
+  bool judged = true;           // false: inertia and noise move the jumps of a dynamic lever; no error is made of that
+  CycleEvents measured;         // from the events: where the path crossed the folds inside a tick
+  CycleEvents calculation;      // the folds of the law, solved when its tables were built
+  double fold_n = 0;            // attraction of the calculation just before the jump to contact
+  double loop_energy_j = 0;     // of the calculation
+  double sampled_f_attr_n = 0;  // from the ticks alone: the first one in contact, the strongest pull of the retract
+  double sampled_f_ad_n = 0;
+  std::optional<double> experiment_f_attr_n;
+  std::optional<double> experiment_f_ad_n;
+
+  // Relative; that of a jump to contact at Z = 0 (JKR) relative to Z_joc.
+  CycleEvents error_vs_calculation() const;
+  std::optional<double> experiment_error_f_attr() const;
+  std::optional<double> experiment_error_f_ad() const;
+  double worst_error() const;  // the largest relative error against the calculation; 0 where nothing is judged
+};
+
+// The accuracy that a run must reach (design, section 6).
+inline constexpr double kEventErrorBound = 1e-3;
+
+// Fails if the cycle of a law with hysteresis has no jump to contact or no jump off contact. `material` is what the
+// session was felt with.
+core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::FeltMaterial& material);
+
+}  // namespace afm::app

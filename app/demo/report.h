@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/demo/measurement.h"
+#include "render/frame.h"
+#include "scene/shared/shared_blocks.h"
+#include "servo/session_file.h"
+
+namespace afm::app {
+
+// One cycle on a sample whose parameters were changed while the servo ran.
+struct FeltVariation {
+  std::size_t material = 0;  // of which material it is a variation
+  curves::FeltMaterial felt;
+  servo::RecordedSession session;
+  Measurement measurement;
+};
+
+// All that a run of the demo has found out.
+struct DemoResult {
+  std::vector<servo::RecordedSession> sessions;  // one per material, in the file's order
+  std::vector<Measurement> measurements;
+  std::vector<FeltVariation> variations;
+  scene::ServoTiming servo;
+  std::uint64_t lost_samples = 0;
+  std::vector<double> frame_ms;
+  double seconds = 0;
+  std::string vulkan_device;
+  std::string haptic_device;
+  std::uint32_t eye_width = 0, eye_height = 0;
+  double hand_speed_m_per_s = 0;
+};
+
+// summary.json of the design, section 5: SI, magnitudes, relative errors.
+nlohmann::json summary_json(const DemoResult& result);
+
+struct ReportPicture {
+  std::string caption;
+  std::string png;  // the bytes of the file
+};
+
+// One HTML file that opens anywhere: pictures and plots are inside it.
+std::string report_html(const DemoResult& result, const std::vector<ReportPicture>& pictures,
+                        const std::string& curves_svg);
+
+// Every sample of a session as CSV with a # header that holds every parameter and event.
+std::string session_csv(const servo::RecordedSession& session);
+
+}  // namespace afm::app

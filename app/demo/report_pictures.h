@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/commands/output_folder.h"
+#include "app/demo/report.h"
+#include "core/result.h"
+#include "render/picture_saver.h"
+
+namespace afm::app {
+
+// Pictures of frames for a report, as PNG files of its folder too; written while the next frames are drawn. The thread
+// of the renderer.
+class ReportPictures {
+ public:
+  // All must outlive it.
+  ReportPictures(render::Context& context, render::Renderer& renderer, const OutputFolder& out);
+
+  // Keeps the renderer's newest frame, side by side. Waits only where PictureSaver::kMostPictures are on their way.
+  void add(const std::string& file, const std::string& caption);
+
+  // All of them, in order; Failed if one could not be written.
+  core::Result<std::vector<ReportPicture>> finish();
+
+ private:
+  void take(std::vector<render::SavedPicture> saved);
+
+  render::PictureSaver saver_;
+  const OutputFolder& out_;
+  std::vector<ReportPicture> pictures_;
+  std::vector<std::string> paths_;
+  std::vector<core::Error> errors_;
+};
+
+}  // namespace afm::app

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live/live_view.h"
+#include "servo/frame_beat.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "app/interruption.h"
+#include "core/log.h"
+#include "exhibit/servo_rows.h"
+#include "exhibit/wall_layout.h"
+#include "haptics/device_probe.h"
+#include "render/device_failure.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::int64_t kForceTakenNs = 500'000'000;  // until a choice has taken the force away
+constexpr double kHiddenPauseS = 0.05;               // between two heartbeats of a window that nobody sees
+constexpr double kDrawnHandM = 0.085;                // of the hand, shown as the stroke that a sample's cycle fills
+constexpr double kEyeStepM = 1e-3;                   // of the eyes' distance, a key press
+
+MouseHand hand_over(const exhibit::WallScene& wall_scene) {
+  return MouseHand(wall_scene.sample_normal(), wall_scene.sample_right());
+}
+
+}  // namespace
+
+LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::FeltMaterial>& materials,
+                   ViewWindows& windows, ViewPicture& picture, ViewServo::Starter start_servo, ViewWand& view_wand,
+                   const core::Clock& clock, const ViewSettings& settings)
+    : stage_(stage),
+      windows_(windows),
+      clock_(clock),
+      settings_(settings),
+      felt_(materials),
+      frames_(stage.wall_scene, felt_, stage.eyes),
+      swatches_(stage.wall_scene.swatch_targets()),
+      picture_(picture),
+      panels_(stage.wall_scene, materials),
+      servo_(
+          std::move(start_servo),
+          [this](servo::ServoLink& servo, std::optional<std::size_t> felt_before) { begin_with(servo, felt_before); },
+          stage.materials.materials.size(), settings.record_folder),
+      wand_(stage.screen, stage.wall_scene.wand_grip_m()),
+      view_wand_(view_wand),
+      head_(stage.wall.viewers.front().sweet_spot),
+      hand_(hand_over(stage.wall_scene)),
+      person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), HandPath{}) {}
+
+void LiveView::begin_with(servo::ServoLink& servo, std::optional<std::size_t> felt_before) {
+  hand_ = hand_over(stage_.wall_scene);
+  panels_.edits().resend(servo);
+  if (const auto material = felt_before ? felt_before : settings_.first_material) choose(*material);
+}
+
+core::Result<void> LiveView::run() {
+  if (auto started = servo_.start(); !started) return started;
+  hand_moved_ns_ = clock_.now_ns();
+  std::optional<core::Error> lost;
+  try {
+    while (!leaving_ && !interrupted()) turn(clock_.now_ns());
+  } catch (const render::DeviceFailure& failure) {
+    lost = core::Error{core::ErrorCategory::Failed, failure.what()};
+  }
+  head_.log_latency();
+  servo_.finish();  // the hand is released, and what was felt is kept, while the last picture still stands
+  if (lost) return tl::unexpected(*lost);
+  picture_.finish();
+  if (servo_.error()) return tl::unexpected(*servo_.error());
+  return {};
+}
+
+void LiveView::turn(std::int64_t now_ns) {
+  const ViewInput input = windows_.poll();
+  leaving_ = input.close_requested;
+  for (const ViewEvent& event : input.events) handle(event, now_ns);
+  if (std::exchange(cursor_px_, input.cursor_px) != input.cursor_px && !hand_.dragging()) cursor_moved_ns_ = now_ns;
+  move_hand(input, now_ns);
+  servo_.take_news(now_ns);
+  follow_wand(now_ns);
+  if (windows_.hidden()) {
+    picture_.rest();
+    windows_.at(0).wait(kHiddenPauseS);
+    return;
+  }
+  picture_.fit(now_ns);
+  follow_head(now_ns);
+  draw(input, now_ns);
+  pace(now_ns);
+}
+
+void LiveView::handle(const ViewEvent& input, std::int64_t now_ns) {
+  using Kind = render::WindowEvent::Kind;
+  const render::WindowEvent& event = input.event;
+  render::WindowEvent on_desktop = event;
+  on_desktop.cursor_px = windows_.on_desktop(input.window, event.cursor_px);
+  hand_.take(on_desktop, hand_m_per_px(input.window), now_ns);
+  if (event.kind == Kind::ButtonDown && event.button == render::MouseButton::Left) {
+    press(pointed_at(input.window, event.cursor_px));
+  }
+  if (event.kind != Kind::KeyDown) return;
+  if (const auto number = digit(event.key); number && *number < swatches_.size()) choose(*number);
+  if (const auto action = action_of(event.key)) act(*action);
+}
+
+void LiveView::act(ViewAction action) {
+  switch (action) {
+    case ViewAction::Leave:
+      leaving_ = true;
+      break;
+    case ViewAction::ShowKeys:
+      panels_.toggle_keys();
+      break;
+    case ViewAction::ShowParameters:
+      panels_.toggle_parameters();
+      break;
+    case ViewAction::FullScreen:
+      windows_.toggle_full_screen();
+      break;
+    case ViewAction::SavePicture:
+      picture_.save();
+      break;
+    case ViewAction::NextScale:
+      next_scale();
+      break;
+    case ViewAction::HidePanels:
+      panels_.toggle_all();
+      break;
+    case ViewAction::BeginAgain:
+      begin_again();
+      break;
+    case ViewAction::Home:
+      view_wand_.home();
+      to_wall_ = glm::dmat4(1.0);
+      break;
+    case ViewAction::SwapEyes:
+      picture_.swap_eyes();
+      break;
+    case ViewAction::Journey:
+      travel_.turn_round(clock_.now_ns());
+      core::log_line("the journey of scale was turned round");
+      take_force_away(clock_.now_ns());
+      break;
+    case ViewAction::Analogy:
+      analogy_ = !analogy_;
+      core::log_line(analogy_ ? "shown: Millet's analogy" : "shown: the instrument");
+      break;
+    case ViewAction::NextStereo:
+      picture_.change_mode(ViewPicture::Step::Next);
+      break;
+    case ViewAction::PreviousStereo:
+      picture_.change_mode(ViewPicture::Step::Previous);
+      break;
+    case ViewAction::NarrowEyes:
+      picture_.widen_eyes(-kEyeStepM);
+      break;
+    case ViewAction::WidenEyes:
+      picture_.widen_eyes(kEyeStepM);
+      break;
+    case ViewAction::ShowCalibration:
+      picture_.toggle_calibration();
+      break;
+    case ViewAction::BringToWall:
+      bring_to_wall();
+      break;
+  }
+}
+
+// The contact comes into the wall's plane, where both eyes see it in one place.
+void LiveView::bring_to_wall() {
+  if (servo_.link().tip().phase == scene::ContactPhase::Attached) {
+    core::log_line("the scene stays while the tip touches it");
+    return;
+  }
+  const glm::dvec3 contact(to_wall_ * view_wand_.navigation() * glm::dvec4(stage_.wall_scene.contact_m(), 1.0));
+  const glm::dvec3 normal = stage_.screen.normal();
+  const double before_wall_m = glm::dot(contact - stage_.screen.lower_left, normal);
+  to_wall_ = glm::translate(glm::dmat4(1.0), -before_wall_m * normal) * to_wall_;
+  core::log_line(fmt::format("brought to the wall by {:.3f} m", -before_wall_m));
+}
+
+Pointed LiveView::pointed_at(std::size_t window, const glm::dvec2& cursor_px) {
+  const input::Ray ray = wand_.ray(picture_.picture(window), cursor_px);
+  return panels_.pointed_at(ray, wand_.wall_point(ray), servo_.material());
+}
+
+// Whichever of wand and mouse was used last.
+bool LiveView::wand_points() const { return view_wand_.points() && view_wand_.used_ns() >= cursor_moved_ns_; }
+
+// With the wand's ray; what it has snapped to stands for what it would hit.
+Pointed LiveView::wand_pointed_at() {
+  const input::Ray ray = input::ray_of(view_wand_.state());
+  Pointed pointed = panels_.pointed_at(ray, wand_.wall_point(ray), servo_.material());
+  if (pointed.control || pointed.tab) return pointed;
+  pointed.swatch = view_wand_.hovered();
+  if (pointed.swatch) pointed.point_m = swatches_[*pointed.swatch].center_m;
+  return pointed;
+}
+
+void LiveView::follow_head(std::int64_t now_ns) {
+  const auto seen = view_wand_.head();
+  const auto pose = seen ? std::optional(seen->pose) : std::nullopt;
+  if (const auto head = head_.update(pose, seen ? seen->time_ns : 0, now_ns)) picture_.look_from(*head);
+}
+
+// The sample's new place is where the hand finds it.
+void LiveView::follow_wand(std::int64_t now_ns) {
+  const WallPicture shown = picture_.picture(0);
+  view_wand_.update(now_ns, servo_.link().tip(), 0.5 * (shown.eyes[0].eye_position_m + shown.eyes[1].eye_position_m));
+  if (view_wand_.select_pressed()) press(wand_pointed_at());
+  const glm::dmat3 turned(view_wand_.navigation());
+  const glm::dvec3 normal = glm::normalize(turned * stage_.wall_scene.sample_normal());
+  hand_.turn(normal, glm::normalize(turned * stage_.wall_scene.sample_right()));
+  person_.turn(normal);
+}
+
+void LiveView::press(const Pointed& pointed) {
+  if (pointed.swatch) choose(*pointed.swatch);
+  if (const auto material = servo_.material()) {
+    panels_.press(pointed, *material, servo_.running() ? &servo_.link() : nullptr);
+  }
+}
+
+void LiveView::choose(std::size_t material) {
+  if (!servo_.running()) return;
+  servo_.link().choose(static_cast<std::int32_t>(material), settings_.scale);
+  if (settings_.hand == HandSource::Simulated) {
+    person_.begin(swatches_[material].center_m, static_cast<std::int32_t>(material), clock_.now_ns());
+  }
+  core::log_line("chosen: " + stage_.materials.materials[material].title);
+}
+
+// Felt once the tip is off the sample, as another material is.
+void LiveView::next_scale() {
+  using scene::ScaleMode;
+  const ScaleMode now = settings_.scale;
+  settings_.scale = now == ScaleMode::Fit          ? ScaleMode::Compressed
+                    : now == ScaleMode::Compressed ? ScaleMode::Common
+                                                   : ScaleMode::Fit;
+  core::log_line(std::string("scale ") + exhibit::text_of(settings_.scale));
+  if (const auto current = servo_.material(); current && servo_.running()) {
+    servo_.link().choose(static_cast<std::int32_t>(*current), settings_.scale);
+  }
+}
+
+// The picture's scale is not the hand's while it travels: the material is chosen anew, which needs a lift and Turn-On.
+void LiveView::take_force_away(std::int64_t now_ns) {
+  force_taken_ns_ = now_ns;
+  if (const auto current = servo_.material(); current && servo_.running()) {
+    servo_.link().choose(static_cast<std::int32_t>(*current), settings_.scale);
+  }
+}
+
+void LiveView::travel(std::int64_t now_ns) {
+  travel_.update(now_ns);
+  const scene::ServoState state = servo_.link().tip().servo_state;
+  const bool force = state == scene::ServoState::Arming || state == scene::ServoState::Running;
+  if (travel_.away() && force && now_ns - force_taken_ns_ > kForceTakenNs) take_force_away(now_ns);
+}
+
+// Everything as after the start: also the way to go on after the servo has died.
+void LiveView::begin_again() {
+  servo_.forget_cycles();
+  hand_.lift();
+  if (servo_.running()) {
+    panels_.edits().reset(servo_.link());
+  } else if (auto started = servo_.start(); !started) {
+    core::log_line(started.error().message);
+  }
+}
+
+// So that the tip follows the cursor.
+double LiveView::hand_m_per_px(std::size_t window) const {
+  const WallPicture shown = picture_.picture(window);
+  const double stroke_m = exhibit::kStrokeHeight * exhibit::layout_unit_m(stage_.screen);
+  return kDrawnHandM / stroke_m * shown.screen.height_m() / shown.place.size_px.y;
+}
+
+void LiveView::move_hand(const ViewInput& input, std::int64_t now_ns) {
+  const double frame_s = static_cast<double>(now_ns - std::exchange(hand_moved_ns_, now_ns)) * 1e-9;
+  if (!servo_.running() || hand() == HandSource::Device) return;
+  servo::ServoLink& servo = servo_.link();
+  if (hand() == HandSource::Mouse) {
+    hand_.update(windows_.on_desktop(input.window, input.cursor_px), hand_m_per_px(input.window), frame_s, now_ns);
+    servo.script(hand_.script());
+    return;
+  }
+  const std::int32_t material = servo.tip().material;
+  if (person_.step() == SimulatedPerson::Step::Done && material >= 0) {
+    person_.begin(swatches_[static_cast<std::size_t>(material)].center_m, material, now_ns);
+  }
+  person_.update(now_ns, servo.tip());
+  servo.script(person_.hand());
+}
+
+// The mouse moves nothing but the simulated hand, which stands in where no device was found.
+HandSource LiveView::hand() const {
+  const std::string_view device = servo_.link().device().name.data();
+  const bool another = !device.empty() && device != haptics::kSimulatedHand;
+  return settings_.hand == HandSource::Mouse && another ? HandSource::Device : settings_.hand;
+}
+
+exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
+  const servo::ServoLink& servo = servo_.link();
+  const exhibit::FeltCycles& cycles = servo_.cycles();
+  const bool touched = servo.tip().phase == scene::ContactPhase::Attached || cycles.cycles() > 0;
+  exhibit::Moment now = exhibit::moment_of(servo.tip(), touched && cycles.ascending());
+  now.curves = cycles.curves();
+  now.hovered = pointed.swatch;
+  now.wand = wand_points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
+  now.navigation = to_wall_ * view_wand_.navigation();
+  // the pull of the sample jerks the hand down on its way up, which is no new approach
+  const bool upwards = cycles.ascending() || (cycles.pressed() && servo.tip().z_m > 0.0);
+  now.guidance = stage_.guidance.line(servo.tip(), upwards, cycles.cycles());
+  now.cue = exhibit::jump_cue(servo_.events(), servo.tip().time_ns);
+  now.analogy = analogy_;
+  now.journey_orders = travel_.orders();
+  now.veil = travel_.veil();
+  now.servo = exhibit::servo_rows(servo.tip(), servo.timing(), servo.device());
+  if (auto row = picture_.detail_row()) now.servo.push_back(std::move(*row));
+  if (!servo_.running()) {
+    now.servo_state = scene::ServoState::Fault;
+    now.guidance = stage_.guidance.text(exhibit::Hint::ServoEnded);
+  }
+  return now;
+}
+
+// What the servo has taken is what the wall shows.
+void LiveView::follow_edits() {
+  const auto current = servo_.material();
+  if (!current) return;
+  const exhibit::ChangeState state = panels_.edits().state(*current, servo_.link().tip());
+  const curves::FeltMaterial& edited = panels_.edits().of(*current).felt();
+  const bool taken = state == exhibit::ChangeState::Felt || state == exhibit::ChangeState::AsLoaded;
+  if (!taken || felt_[*current].tables == edited.tables) return;
+  felt_[*current] = edited;
+  core::log_line("the changed parameters are felt from now on");
+}
+
+void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
+  const servo::FrameBeat beat(servo_.link(), clock_);
+  follow_edits();
+  travel(now_ns);
+  const Pointed pointed = wand_points() ? wand_pointed_at() : pointed_at(input.window, input.cursor_px);
+  const exhibit::Moment now = moment(pointed, now_ns);
+
+  scene::SceneTransforms transforms;
+  stage_.wall_scene.place(exhibit::pose_of(now), transforms);
+  servo_.link().place(transforms);
+
+  if (now.guidance != guidance_) core::log_line(now.guidance);
+  guidance_ = now.guidance;
+
+  render::FrameState frame = frames_.build(now);
+  const auto material = travel_.orders() ? std::nullopt : servo_.material();
+  panels_.add_to(frame, pointed, material, material ? stage_.materials.materials[*material].title : "",
+                 servo_.link().tip(), hand());
+  picture_.show(frame, now_ns, beat);
+  head_.presented(clock_.now_ns());
+}
+
+void LiveView::pace(std::int64_t frame_start_ns) const {
+  const auto frame_ns = static_cast<std::int64_t>(1e9 / settings_.most_frames_per_s);
+  const std::int64_t left_ns = frame_start_ns + frame_ns - clock_.now_ns();
+  if (left_ns > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(left_ns));
+}
+
+}  // namespace afm::app

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/live/mouse_hand.h"
+#include "app/live/mouse_wand.h"
+#include "app/live/simulated_person.h"
+#include "app/live/view_head.h"
+#include "app/live/view_keys.h"
+#include "app/live/view_panels.h"
+#include "app/live/view_picture.h"
+#include "app/live/view_servo.h"
+#include "app/live/view_wand.h"
+#include "app/live/view_windows.h"
+#include "core/clock.h"
+#include "exhibit/frame_builder.h"
+#include "exhibit/journey.h"
+#include "exhibit/stage_setup.h"
+
+namespace afm::app {
+
+struct ViewSettings {
+  HandSource hand = HandSource::Mouse;
+  double most_frames_per_s = 60.0;
+  scene::ScaleMode scale = scene::ScaleMode::Fit;  // M goes on to the next
+  std::optional<std::size_t> first_material;       // chosen whenever a servo has been started
+  std::string record_folder;                       // for the sessions of what is felt; empty: none is kept
+};
+
+// The live window: a person's mouse points, chooses and moves the hand of the servo; every frame shows the newest state
+// of the tip. The main thread alone.
+class LiveView {
+ public:
+  // All but the settings must outlive it.
+  LiveView(const exhibit::Stage& stage, const std::vector<curves::FeltMaterial>& materials, ViewWindows& windows,
+           ViewPicture& picture, ViewServo::Starter start_servo, ViewWand& view_wand, const core::Clock& clock,
+           const ViewSettings& settings);
+
+  // Until a window is closed, Escape, SIGINT or SIGTERM. Fails when the servo cannot be started, at the end if it has
+  // died and was not started again, and at once, with the servo ended in order, if the graphics device or the display
+  // is lost.
+  core::Result<void> run();
+
+ private:
+  void begin_with(servo::ServoLink& servo, std::optional<std::size_t> felt_before);
+  void turn(std::int64_t now_ns);
+  void handle(const ViewEvent& input, std::int64_t now_ns);
+  void act(ViewAction action);
+  void press(const Pointed& pointed);
+  void follow_wand(std::int64_t now_ns);
+  void follow_head(std::int64_t now_ns);
+  void choose(std::size_t material);
+  void next_scale();
+  void take_force_away(std::int64_t now_ns);
+  void travel(std::int64_t now_ns);
+  void begin_again();
+  void bring_to_wall();
+
+  double hand_m_per_px(std::size_t window) const;
+  HandSource hand() const;
+  void move_hand(const ViewInput& input, std::int64_t now_ns);
+  void follow_edits();
+  Pointed pointed_at(std::size_t window, const glm::dvec2& cursor_px);
+  bool wand_points() const;
+  Pointed wand_pointed_at();
+  exhibit::Moment moment(const Pointed& pointed, std::int64_t now_ns) const;
+  void draw(const ViewInput& input, std::int64_t now_ns);
+  void pace(std::int64_t frame_start_ns) const;
+
+  const exhibit::Stage& stage_;
+  ViewWindows& windows_;
+  const core::Clock& clock_;
+  ViewSettings settings_;
+  std::vector<curves::FeltMaterial> felt_;  // as the servo feels them
+  exhibit::FrameBuilder frames_;
+  std::vector<input::Target> swatches_;
+  ViewPicture& picture_;
+  ViewPanels panels_;
+  ViewServo servo_;
+  MouseWand wand_;
+  ViewWand& view_wand_;  // in its place, if there is one
+  ViewHead head_;
+  MouseHand hand_;
+  SimulatedPerson person_;  // moves the hand with HandSource::Simulated
+  std::string guidance_;    // as it was told last
+  std::int64_t hand_moved_ns_ = 0;
+  glm::dvec2 cursor_px_{0.0};
+  std::int64_t cursor_moved_ns_ = 0;
+  exhibit::JourneyTravel travel_;
+  std::int64_t force_taken_ns_ = 0;  // by the journey, last
+  bool analogy_ = false;
+  glm::dmat4 to_wall_{1.0};  // brings the scene to the wall, after the wand's navigation
+  bool leaving_ = false;
+};
+
+}  // namespace afm::app

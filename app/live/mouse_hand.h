@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "render/window.h"
+#include "scene/shared/shared_blocks.h"
+
+namespace afm::app {
+
+// A mouse in the place of a haptic device. What it moves is the aim of the servo's simulated hand, along the sample's
+// normal and sideways over it: the hand itself hangs on that aim by its grip, so that the tip snaps in, sticks and
+// flies off by itself while the mouse goes on evenly (pseudo-haptics). Places are the hand's, from the contact point,
+// metres.
+//
+// Held right button or space bar: the aim follows the cursor. Wheel: steps up and down. T or middle button: Turn-On.
+class MouseHand {
+ public:
+  static constexpr double kLowestM = -0.030;
+  static constexpr double kHighestM = 0.070;
+  static constexpr double kRestM = 0.060;    // where the simulated hand begins
+  static constexpr double kWidestM = 0.070;  // to either side: as far as a sample reaches on the scale that fits it
+
+  // The sample's outward normal and its x axis, to the right, in the device's frame; unit.
+  MouseHand(const glm::dvec3& normal, const glm::dvec3& right) : normal_(normal), right_(right) {}
+
+  // `m_per_px`: how far the aim goes when the cursor moves by a pixel.
+  void take(const render::WindowEvent& event, double m_per_px, std::int64_t now_ns);
+
+  // Once a frame. The aim moves to where it is wanted, no faster than a hand that the servo trusts, in a path that
+  // lasts until the next frame: `frame_s`.
+  void update(const glm::dvec2& cursor_px, double m_per_px, double frame_s, std::int64_t now_ns);
+
+  // Off the sample, and back over the contact point.
+  void lift() { wanted_m_ = {0.0, kHighestM}; }
+
+  // The sample has been turned: its axes are others now, as in the constructor.
+  void turn(const glm::dvec3& normal, const glm::dvec3& right);
+
+  bool dragging() const { return grips_ > 0; }
+  double wanted_m() const { return wanted_m_.y; }
+  double aim_m() const { return aim_m_.y; }
+  double aim_across_m() const { return aim_m_.x; }
+  const scene::HandScript& script() const { return script_; }
+
+ private:
+  void drag_to(const glm::dvec2& cursor_px, double m_per_px);
+
+  glm::dvec3 normal_;
+  glm::dvec3 right_;
+  glm::dvec2 wanted_m_{0.0, kRestM};  // to the right, and up along the normal
+  glm::dvec2 aim_m_{0.0, kRestM};
+  int grips_ = 0;  // of right button and space bar, how many are held
+  glm::dvec2 grip_px_{0.0};
+  bool turned_ = false;
+  bool turn_on_held_ = false;
+  std::int64_t turn_on_until_ns_ = 0;
+  scene::HandScript script_;
+};
+
+}  // namespace afm::app

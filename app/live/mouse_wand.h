@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "input/wand.h"
+#include "render/composition.h"
+#include "render/presenter.h"
+#include "scene/display/wall.h"
+
+namespace afm::app {
+
+// How a window shows the wall.
+struct WallPicture {
+  render::PicturePlace place;  // of the composed picture in the window
+  render::Composition composition;
+  std::array<scene::EyeView, 2> eyes;  // left and right picture
+  scene::Screen screen;                // that the picture fills
+};
+
+// The mouse as a wand. What it points at is what lies behind the cursor for the eye whose picture the cursor is on, or
+// for the middle of the eyes where both share the picture; the wand that is drawn rests at its grip and is turned
+// towards that. Const; room frame, metres.
+class MouseWand {
+ public:
+  // `stage` is the plane of wall_point().
+  MouseWand(const scene::Screen& stage, const glm::dvec3& grip_m) : stage_(stage), grip_m_(grip_m) {}
+
+  // From the eye through the cursor, which counts in pixels of the window; beyond the picture's border it is continued.
+  input::Ray ray(const WallPicture& picture, const glm::dvec2& cursor_px) const;
+
+  // The wand as it is drawn, turned towards `target_m`.
+  input::WandState towards(const glm::dvec3& target_m, std::int64_t now_ns) const;
+
+  // Where the ray meets the wall's plane.
+  glm::dvec3 wall_point(const input::Ray& ray) const;
+
+ private:
+  scene::Screen stage_;
+  glm::dvec3 grip_m_;
+};
+
+}  // namespace afm::app

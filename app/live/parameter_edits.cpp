@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live/parameter_edits.h"
+
+namespace afm::app {
+
+curves::LiveParameters& ParameterEdits::parameters(std::size_t material) {
+  Edit& edit = edits_[material];
+  if (!edit.parameters) edit.parameters.emplace(loaded_[material]);
+  return *edit.parameters;
+}
+
+const curves::LiveParameters& ParameterEdits::of(std::size_t material) { return parameters(material); }
+
+bool ParameterEdits::changed(std::size_t material) const {
+  const Edit& edit = edits_[material];
+  return edit.parameters && edit.parameters->changed();
+}
+
+void ParameterEdits::apply(const render::ControlTarget& target, std::size_t material, servo::ServoLink& servo) {
+  using Kind = render::ControlTarget::Kind;
+  curves::LiveParameters& now = parameters(material);
+  bool changed = false;
+  if (target.kind != Kind::Button) {
+    changed = now.step(static_cast<curves::LiveParameters::Row>(target.index), target.kind == Kind::More ? 1 : -1);
+  } else if (static_cast<exhibit::PanelButton>(target.index) == exhibit::PanelButton::Reset) {
+    changed = now.reset();
+  }
+  if (changed) edits_[material].revision = servo.change(material, now.felt().parameters);
+}
+
+void ParameterEdits::reset(servo::ServoLink& servo) {
+  for (std::size_t i = 0; i < edits_.size(); ++i) {
+    if (edits_[i].parameters && edits_[i].parameters->reset()) {
+      edits_[i].revision = servo.change(i, edits_[i].parameters->felt().parameters);
+    }
+  }
+}
+
+void ParameterEdits::resend(servo::ServoLink& servo) {
+  for (std::size_t i = 0; i < edits_.size(); ++i) {
+    edits_[i].revision = changed(i) ? servo.change(i, edits_[i].parameters->felt().parameters) : 0;
+  }
+}
+
+exhibit::ChangeState ParameterEdits::state(std::size_t material, const scene::TipState& tip) const {
+  const Edit& edit = edits_[material];
+  const bool under_tip = tip.material == static_cast<std::int32_t>(material);
+  const bool taken = under_tip ? tip.edit_revision == edit.revision : edit.revision == 0;
+  if (edit.revision != 0 && tip.edit_refused == edit.revision) return exhibit::ChangeState::Refused;
+  if (!taken) return exhibit::ChangeState::Waiting;
+  return changed(material) ? exhibit::ChangeState::Felt : exhibit::ChangeState::AsLoaded;
+}
+
+}  // namespace afm::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "curves/live_parameters.h"
+#include "exhibit/parameter_panel.h"
+#include "render/frame.h"
+#include "servo/servo_link.h"
+
+namespace afm::app {
+
+// The parameters of every material as a person has changed them, and what the servo has made of the changes.
+class ParameterEdits {
+ public:
+  // As the servo was started with.
+  explicit ParameterEdits(std::vector<curves::FeltMaterial> loaded)
+      : loaded_(std::move(loaded)), edits_(loaded_.size()) {}
+
+  // What the target of the panel stands for, except Close: changes the parameters and tells the servo.
+  void apply(const render::ControlTarget& target, std::size_t material, servo::ServoLink& servo);
+
+  // Back to what was loaded, of every material.
+  void reset(servo::ServoLink& servo);
+
+  // Tells a servo that has been started again what has been changed.
+  void resend(servo::ServoLink& servo);
+
+  // Of a material that has been asked for before; made from what was loaded if it has not.
+  const curves::LiveParameters& of(std::size_t material);
+
+  bool changed(std::size_t material) const;
+  exhibit::ChangeState state(std::size_t material, const scene::TipState& tip) const;
+
+ private:
+  struct Edit {
+    std::optional<curves::LiveParameters> parameters;
+    std::uint32_t revision = 0;  // of the newest edit that the servo was told, 0: none
+  };
+  curves::LiveParameters& parameters(std::size_t material);
+
+  std::vector<curves::FeltMaterial> loaded_;
+  std::vector<Edit> edits_;
+};
+
+}  // namespace afm::app

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/live/view_outputs.h"
+#include "app/live/view_picture.h"
+#include "app/live/view_windows.h"
+#include "core/result.h"
+#include "render/context.h"
+
+namespace afm::app {
+
+// What a user asks of the live view's windows and of what is drawn into them.
+struct DisplayWish {
+  exhibit::PictureWish picture;
+  WindowWish window;
+  std::uint32_t eye_width = 0;     // 0: the windows'
+  double frame_budget_ms = 0;      // 0: none
+  std::string saved_folder = ".";  // for the pictures that are saved
+  bool validate = false;           // every Vulkan call
+};
+
+// The windows of the live view with all that draws into them. The main thread alone.
+class ViewDisplay {
+ public:
+  // `stage` must outlive it. Fails as plan_view, ViewWindows and Context do, or where the display has not what the
+  // stereo mode needs.
+  static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayWish& wish);
+  ViewDisplay(const ViewDisplay&) = delete;
+  ViewDisplay& operator=(const ViewDisplay&) = delete;
+
+  ViewWindows& windows() { return *windows_; }
+  ViewPicture& picture() { return *picture_; }
+  render::Context& context() { return *context_; }
+
+ private:
+  ViewDisplay() = default;
+  render::RendererOptions drawing(const exhibit::Stage& stage, const DisplayWish& wish) const;
+
+  std::vector<ViewOutput> outputs_;
+  std::optional<ViewWindows> windows_;
+  std::optional<render::Context> context_;
+  std::optional<render::Renderer> renderer_;
+  std::optional<render::Presenter> presenter_;
+  std::optional<ViewPicture> picture_;
+};
+
+}  // namespace afm::app

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live/view_head.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/log.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::size_t kToldAfter = 3600;  // frames: about a minute
+constexpr double kSmoothing = 0.05;
+constexpr double kLongestLatencyS = 0.25;  // a longer one says that the window stood still
+
+}  // namespace
+
+std::optional<scene::HeadPose> ViewHead::update(const std::optional<scene::HeadPose>& pose, std::int64_t pose_ns,
+                                                std::int64_t now_ns) {
+  if (pose) {
+    tracker_.add(*pose, pose_ns);
+    tracked_ = true;
+    cause_ns_ = pose_ns;
+  }
+  if (!tracked_) return std::nullopt;
+  return tracker_.head(now_ns, latency_s_);
+}
+
+void ViewHead::presented(std::int64_t now_ns) {
+  if (cause_ns_ == counted_ns_) return;
+  counted_ns_ = cause_ns_;
+  const double latency_s = static_cast<double>(now_ns - cause_ns_) * 1e-9;
+  latencies_ms_.push_back(latency_s * 1e3);
+  if (latency_s < kLongestLatencyS) latency_s_ += kSmoothing * (latency_s - latency_s_);
+  if (latencies_ms_.size() >= kToldAfter) log_latency();
+}
+
+void ViewHead::log_latency() {
+  if (latencies_ms_.empty()) return;
+  std::sort(latencies_ms_.begin(), latencies_ms_.end());
+  const auto share = [&](double p) {
+    return latencies_ms_[static_cast<std::size_t>(p * static_cast<double>(latencies_ms_.size() - 1))];
+  };
+  core::log_line(fmt::format("head: from packet to present p50 {:.1f} ms, p99 {:.1f} ms, most {:.1f} ms in {} frames",
+                             share(0.5), share(0.99), latencies_ms_.back(), latencies_ms_.size()));
+  latencies_ms_.clear();
+}
+
+}  // namespace afm::app

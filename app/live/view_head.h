@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "input/head_tracker.h"
+#include "scene/display/wall.h"
+
+namespace afm::app {
+
+// The viewer's head in the live window: where the tracker says, predicted over the latency that was measured from a
+// packet to the picture that it moved. The main thread alone.
+class ViewHead {
+ public:
+  explicit ViewHead(const scene::HeadPose& sweet_spot) : tracker_(sweet_spot) {}
+
+  // Once a frame, with the newest pose and when it came, if there is one. Empty as long as no head has been tracked.
+  std::optional<scene::HeadPose> update(const std::optional<scene::HeadPose>& pose, std::int64_t pose_ns,
+                                        std::int64_t now_ns);
+
+  // The frame of the last update() has been presented. The log tells the latencies once a minute.
+  void presented(std::int64_t now_ns);
+
+  // Tells the latencies since they were told last.
+  void log_latency();
+
+ private:
+  input::HeadTracker tracker_;
+  bool tracked_ = false;
+  std::int64_t cause_ns_ = 0;    // when the pose of this frame came
+  std::int64_t counted_ns_ = 0;  // of the pose that was counted last
+  double latency_s_ = 0.03;      // smoothed; at first a guess of two frames
+  std::vector<double> latencies_ms_;
+};
+
+}  // namespace afm::app

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live/view_panels.h"
+
+#include <fmt/format.h>
+
+#include "core/log.h"
+#include "exhibit/panel_hit.h"
+#include "render/control_layout.h"
+
+namespace afm::app {
+
+namespace {
+
+void log_parameters(const curves::LiveParameters& parameters) {
+  std::string line = "parameters:";
+  for (std::size_t i = 0; i < curves::LiveParameters::kRows; ++i) {
+    const auto row = static_cast<curves::LiveParameters::Row>(i);
+    line += fmt::format("{} {}", i == 0 ? "" : ",", parameters.value(row));
+  }
+  core::log_line(line);
+}
+
+}  // namespace
+
+ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::FeltMaterial>& materials)
+    : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials) {}
+
+Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m,
+                               std::optional<std::size_t> material) {
+  Pointed pointed{.control = {}, .tab = false, .swatch = {}, .point_m = wall_point_m};
+  const render::PanelPlacement panel = wall_scene_.parameter_placement();
+  const double millimetre_m = wall_scene_.panel_millimetre_m();
+  if (const auto hit =
+          material && parameters_shown_ && !hidden_ ? exhibit::hit_of(ray, panel, millimetre_m) : std::nullopt) {
+    pointed.control =
+        render::control_at(exhibit::parameter_panel(edits_.of(*material), "", exhibit::ChangeState::AsLoaded),
+                           exhibit::size_mm(panel, millimetre_m), hit->place_mm);
+    return pointed;
+  }
+  if (!parameters_shown_ && material && exhibit::hit_of(ray, wall_scene_.parameter_tab_placement(), millimetre_m)) {
+    pointed.tab = true;
+    return pointed;
+  }
+  pointed.swatch = input::pick(ray, input::kPickConeRad, swatches_);
+  if (pointed.swatch) pointed.point_m = swatches_[*pointed.swatch].center_m;
+  return pointed;
+}
+
+void ViewPanels::press(const Pointed& pointed, std::size_t material, servo::ServoLink* servo) {
+  if (pointed.tab) parameters_shown_ = true;
+  if (!pointed.control || servo == nullptr) return;
+  const bool button = pointed.control->kind == render::ControlTarget::Kind::Button;
+  if (button && static_cast<exhibit::PanelButton>(pointed.control->index) == exhibit::PanelButton::Close) {
+    parameters_shown_ = false;
+    return;
+  }
+  edits_.apply(*pointed.control, material, *servo);
+  log_parameters(edits_.of(material));
+}
+
+void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material,
+                                const std::string& material_title, const scene::TipState& tip) {
+  const curves::LiveParameters& parameters = edits_.of(material);
+  if (parameters_shown_) {
+    frame.control_panel = exhibit::parameter_panel(parameters, material_title, edits_.state(material, tip));
+    frame.control_panel.pointed = pointed.control;
+    frame.control_placement = wall_scene_.parameter_placement();
+    frame.data_placement = render::kNoPlacement;
+  } else {
+    frame.labels.push_back({.text = "Change the parameters (F2)",
+                            .highlighted = pointed.tab,
+                            .placement = wall_scene_.parameter_tab_placement()});
+  }
+  if (parameters_shown_ || parameters.changed()) exhibit::add_prediction(parameters, frame.force_panel);
+}
+
+void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
+                        const std::string& material_title, const scene::TipState& tip, HandSource hand) {
+  if (material) add_parameters(frame, pointed, *material, material_title, tip);
+  if (hidden_) {
+    frame.force_placement = frame.data_placement = frame.control_placement = render::kNoPlacement;
+  }
+  if (keys_shown_) {
+    frame.data_panel = key_list(hand);
+    frame.data_placement = wall_scene_.parameter_placement();
+    frame.control_placement = render::kNoPlacement;
+  }
+}
+
+}  // namespace afm::app

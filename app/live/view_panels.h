@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "app/live/parameter_edits.h"
+#include "app/live/view_keys.h"
+#include "exhibit/wall_scene.h"
+#include "input/wand.h"
+#include "render/frame.h"
+
+namespace afm::app {
+
+// What a ray points at: a target of the open parameter panel, the tab that opens it, or a swatch.
+struct Pointed {
+  std::optional<render::ControlTarget> control;
+  bool tab = false;
+  std::optional<std::size_t> swatch;
+  glm::dvec3 point_m{0.0};  // in the room
+};
+
+// Which of the live window's panels are shown, and the parameters that are changed on one of them. One thread.
+class ViewPanels {
+ public:
+  // `wall_scene` must outlive it; `materials` as the servo was started with.
+  ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::FeltMaterial>& materials);
+
+  void toggle_keys() { keys_shown_ = !keys_shown_; }
+  void toggle_parameters() { parameters_shown_ = !parameters_shown_; }
+  void toggle_all() { hidden_ = !hidden_; }
+
+  // `wall_point_m` is where the ray meets the wall's plane. `material` is the one under the tip.
+  Pointed pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m, std::optional<std::size_t> material);
+
+  // A press on a panel or its tab; a change goes to the servo, if there is one.
+  void press(const Pointed& pointed, std::size_t material, servo::ServoLink* servo);
+
+  ParameterEdits& edits() { return edits_; }
+
+  // Adds the panels of this moment to a frame: the parameters or the tab that opens them, the curve that follows from
+  // what was changed, the keys; takes away what is hidden.
+  void add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
+              const std::string& material_title, const scene::TipState& tip, HandSource hand);
+
+ private:
+  void add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material,
+                      const std::string& material_title, const scene::TipState& tip);
+
+  const exhibit::WallScene& wall_scene_;
+  std::vector<input::Target> swatches_;
+  ParameterEdits edits_;
+  bool hidden_ = false;
+  bool keys_shown_ = false;
+  bool parameters_shown_ = false;
+};
+
+}  // namespace afm::app

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/live/frame_times.h"
+#include "app/live/mouse_wand.h"
+#include "app/live/view_outputs.h"
+#include "app/live/view_windows.h"
+#include "app/options/frame_budget.h"
+#include "exhibit/depth_report.h"
+#include "exhibit/stage_setup.h"
+#include "render/depth_meter.h"
+#include "render/picture_saver.h"
+#include "render/presenter.h"
+#include "render/renderer.h"
+
+namespace afm::app {
+
+struct PictureSettings {
+  double ipd_m = 0.063;
+  glm::uvec2 eye_px{0};            // as the renderer was made
+  bool fixed_eye_size = false;     // else the eyes get as many pixels as the windows have for them
+  double frame_budget_ms = 0;      // frames are drawn coarser to stay within it; 0: as they are
+  std::string saved_folder = ".";  // for the pictures that are saved
+};
+
+// How the live windows show the wall: for which eyes, in which layout, how large. The main thread alone.
+class ViewPicture {
+ public:
+  // All but the settings must outlive it. `outputs` has one entry a window.
+  ViewPicture(const exhibit::Stage& stage, const std::vector<ViewOutput>& outputs, render::Context& context,
+              const ViewWindows& windows, render::Renderer& renderer, render::Presenter& presenter,
+              const PictureSettings& settings);
+
+  // Once a frame: the eye images get the pixels that the windows have for them, once those have stopped changing.
+  void fit(std::int64_t now_ns);
+
+  // The eyes of a head somewhere before the wall; behind a screen, its picture stays as it was.
+  void look_from(const scene::HeadPose& head);
+
+  void swap_eyes();
+
+  // The next mode that these windows can show, or the one before.
+  enum class Step { Next, Previous };
+  void change_mode(Step step);
+
+  // Of the viewer's eyes, within what people have.
+  void widen_eyes(double by_m);
+
+  // The picture for setting up the screens, instead of the scene.
+  void toggle_calibration();
+
+  // Saves the next frame of the first window as a PNG file of its own, beside the drawing.
+  void save();
+
+  // Nobody sees the windows; to be said instead of show().
+  void rest() { times_.hidden(); }
+
+  // Waits for the last saved pictures, and tells the log of them and how long frames took.
+  void finish();
+
+  // What the next frame is drawn for in a window, and where it will lie there.
+  WallPicture picture(std::size_t window) const;
+
+  // How finely frames are drawn to stay within the budget; nothing without one.
+  std::optional<render::DataRow> detail_row() const;
+
+  // Draws and shows a frame in all windows, with the depth meter in it; calls `while_waiting` often.
+  void show(render::FrameState& frame, std::int64_t now_ns, const std::function<void()>& while_waiting);
+
+ private:
+  // What is drawn once, and shown in one window or more: a screen for two eyes, or for the middle of both.
+  struct Share {
+    scene::Screen screen;
+    bool flat = false;
+    std::array<scene::EyeView, 2> eyes;  // left and right, or twice the middle
+    std::vector<std::size_t> windows;
+  };
+
+  scene::StereoMode mode() const { return other_mode_.value_or(outputs_.front().mode); }
+  bool can_show(scene::StereoMode mode) const;
+  void share_out();
+  void measure_depth(std::int64_t now_ns);
+  void save_newest();
+  static void tell(const std::vector<render::SavedPicture>& saved);
+
+  const exhibit::Stage& stage_;
+  const std::vector<ViewOutput>& outputs_;
+  const ViewWindows& windows_;
+  render::Renderer& renderer_;
+  render::Presenter& presenter_;
+  PictureSettings settings_;
+  std::optional<scene::StereoMode> other_mode_;  // than the outputs' own
+  scene::EyeOrder other_order_ = scene::EyeOrder::Straight;
+  std::vector<Share> shares_;
+  std::vector<render::WindowPicture> pictures_;  // one a window
+  scene::HeadPose head_;                         // the eyes are drawn for
+  glm::uvec2 eye_size_px_;                       // as the renderer draws
+  glm::uvec2 wanted_eye_px_{0};
+  std::int64_t windows_steady_since_ns_ = 0;
+  std::optional<FrameBudget> budget_;
+  render::PictureSaver saver_;
+  std::size_t to_save_ = 0;       // pictures that were asked for
+  std::size_t saved_number_ = 0;  // of the newest file
+  render::DepthMeter depth_meter_;
+  exhibit::DepthReport depth_;
+  FrameTimes times_;
+  std::int64_t depth_measured_ns_ = 0;
+  std::int64_t depth_logged_ns_ = 0;
+  bool calibrating_ = false;
+};
+
+// The eye images that the windows have room for, as large as the largest of them needs, in another mode than the
+// outputs' own if there is one; 0 x 0 as long as nobody sees any.
+glm::uvec2 eye_size_for_all(const exhibit::Stage& stage, const std::vector<ViewOutput>& outputs,
+                            std::optional<scene::StereoMode> other_mode, const ViewWindows& windows);
+
+}  // namespace afm::app

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/result.h"
+#include "exhibit/stage_setup.h"
+#include "input/dtrack_source.h"
+#include "input/navigation.h"
+#include "input/selection.h"
+#include "input/simulated_wand.h"
+#include "input/wand_file.h"
+#include "input/wand_source.h"
+
+namespace afm::app {
+
+// What --wand, --wand-file and --head say.
+struct WandOptions {
+  std::string source = "auto";  // auto, hid, dtrack[:ADDRESS:PORT], sim or mouse
+  std::string file{};           // empty: none
+  std::string head{};           // dtrack:BODY[@ADDRESS:PORT], or empty: the wand file's, if it names one
+};
+
+// A choice of words that was checked.
+struct WandChoice {
+  enum class Source { Auto, Hid, Dtrack, Simulated, Mouse };
+  Source source = Source::Auto;
+  input::WandFile file;                    // with the mapping, the hand and the tracker of the file
+  std::optional<std::uint32_t> head_body;  // of the tracker
+};
+
+core::Result<WandChoice> parse_wand_choice(const WandOptions& options);
+
+// The wand in a person's hand in the live window: which it is, what it points at, and where it has moved the scene. The
+// main thread alone; the devices are read on a thread of their own.
+class ViewWand {
+ public:
+  // The stage and the clock must outlive it. `assets_dir` holds the folder wands. Without a usable HID library, with
+  // Source::Auto, there is the mouse alone, and a line in the log that says so.
+  static core::Result<std::unique_ptr<ViewWand>> open(const WandChoice& choice, const exhibit::Stage& stage,
+                                                      const std::string& assets_dir, const core::Clock& clock);
+
+  // Once a frame. `eye_m` is between the eyes.
+  void update(std::int64_t now_ns, const scene::TipState& tip, const glm::dvec3& eye_m);
+
+  // Whether there is a wand that points, and when it was last turned or pressed: it takes turns with the mouse.
+  bool points() const { return wand_.connected && wand_.orientation_valid; }
+  std::int64_t used_ns() const { return used_ns_; }
+  const input::WandState& state() const { return wand_; }
+
+  // What the ray has snapped to, and whether the select button went down in this frame.
+  std::optional<std::size_t> hovered() const { return pointing_.hovered; }
+  bool select_pressed() const { return select_pressed_; }
+
+  glm::dmat4 navigation() const { return navigation_.room_from_scene(); }
+  void home() { navigation_.home(); }
+
+  // The tracked head in the room and when that came in; empty without a tracker, or as long as it has not said a word.
+  struct Head {
+    scene::HeadPose pose;
+    std::int64_t time_ns = 0;
+  };
+  std::optional<Head> head() const;
+
+ private:
+  ViewWand(const exhibit::Stage& stage, const glm::dvec3& grip_m);
+
+  core::Result<void> open_hid(const WandChoice& choice, const std::string& assets_dir, const input::HandPlace& place,
+                              const core::Clock& clock);
+  core::Result<void> open_dtrack(const WandChoice& choice, const core::Clock& clock);
+  void aim_simulated(std::int64_t now_ns);
+
+  std::vector<input::Target> swatches_;
+  input::Selector selector_;
+  input::Selector::Result pointing_;
+  input::Navigation navigation_;
+  input::WandState wand_;
+  bool select_pressed_ = false;
+  bool was_locked_ = false;
+  bool was_moved_ = false;
+  std::int64_t updated_ns_ = 0;
+  std::int64_t used_ns_ = 0;
+  glm::dvec3 used_direction_{0.0};  // of the ray, then
+
+  input::DtrackSettings tracker_;
+  std::optional<std::uint32_t> head_body_;
+  const input::DtrackSource* dtrack_ = nullptr;  // owned by a thread below
+  std::unique_ptr<input::WandThread> wand_thread_;
+  std::unique_ptr<input::WandThread> head_thread_;  // of a tracker that has the head alone
+  std::optional<input::SimulatedWand> simulated_;
+  std::size_t simulated_target_ = 0;
+  std::int64_t simulated_next_ns_ = 0;
+};
+
+}  // namespace afm::app

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live/view_windows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/log.h"
+
+namespace afm::app {
+
+core::Result<ViewWindows> ViewWindows::open(const std::vector<ViewOutput>& outputs) {
+  ViewWindows windows;
+  for (const ViewOutput& output : outputs) {
+    auto window = render::Window::open(output.window);
+    if (!window) {
+      const std::string who = output.name.empty() ? "" : fmt::format("output \"{}\": ", output.name);
+      return core::failure(window.error().category, who + window.error().message);
+    }
+    windows.windows_.push_back(std::make_unique<render::Window>(std::move(*window)));
+    windows.rects_.push_back(output.window.rect);
+  }
+  windows.cursors_.resize(outputs.size());
+  windows.origins_.resize(outputs.size());
+  return windows;
+}
+
+ViewInput ViewWindows::poll() {
+  ViewInput all;
+  for (std::size_t i = 0; i < windows_.size(); ++i) {
+    render::WindowInput input = windows_[i]->poll();
+    origins_[i] = input.origin_px;
+    if (std::exchange(cursors_[i], input.cursor_px) != input.cursor_px || !input.events.empty()) window_ = i;
+    for (render::WindowEvent& event : input.events) all.events.push_back({i, event});
+    all.close_requested = all.close_requested || input.close_requested;
+    if (input.monitor_news != render::WindowInput::MonitorNews::None) tell(i, input);
+  }
+  all.window = window_;
+  all.cursor_px = cursors_[window_];
+  return all;
+}
+
+void ViewWindows::tell(std::size_t window, const render::WindowInput& news) const {
+  std::string which = news.monitor;
+  if (const auto& rect = rects_[window]) {
+    which = fmt::format("under the {} x {} pixels at {}, {}", rect->size_px.x, rect->size_px.y, rect->offset_px.x,
+                        rect->offset_px.y);
+  }
+  const bool lost = news.monitor_news == render::WindowInput::MonitorNews::Lost;
+  core::log_line(
+      fmt::format("monitor {} is {}", which,
+                  lost ? "lost; its window goes on as a small one until it is back" : "back, and filled again"));
+}
+
+std::vector<render::Window*> ViewWindows::all() const {
+  std::vector<render::Window*> all;
+  for (const auto& window : windows_) all.push_back(window.get());
+  return all;
+}
+
+bool ViewWindows::hidden() const {
+  return std::all_of(windows_.begin(), windows_.end(), [](const auto& window) { return window->size_px().x == 0; });
+}
+
+void ViewWindows::toggle_full_screen() {
+  for (std::size_t i = 0; i < windows_.size(); ++i) {
+    if (!rects_[i]) windows_[i]->set_full_screen(!windows_[i]->full_screen());
+  }
+  if (std::all_of(rects_.begin(), rects_.end(), [](const auto& rect) { return rect.has_value(); })) {
+    core::log_line("the windows stay where the wall file places them");
+  }
+}
+
+glm::dvec2 ViewWindows::on_desktop(std::size_t window, const glm::dvec2& cursor_px) const {
+  return origins_[window] + cursor_px;
+}
+
+}  // namespace afm::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/live/view_outputs.h"
+#include "render/window.h"
+
+namespace afm::app {
+
+struct ViewEvent {
+  std::size_t window = 0;
+  render::WindowEvent event;
+};
+
+// What a person has done in all windows since the last time.
+struct ViewInput {
+  std::vector<ViewEvent> events;
+  std::size_t window = 0;  // that the cursor was in last
+  glm::dvec2 cursor_px{0.0};
+  bool close_requested = false;
+};
+
+// The windows of the live view, which take a person's input alike. The main thread alone.
+class ViewWindows {
+ public:
+  // Fails as render::Window::open does, naming the output.
+  static core::Result<ViewWindows> open(const std::vector<ViewOutput>& outputs);
+
+  // Without waiting; the log tells of monitors that are lost and come back.
+  ViewInput poll();
+
+  std::size_t count() const { return windows_.size(); }
+  render::Window& at(std::size_t window) const { return *windows_[window]; }
+  std::vector<render::Window*> all() const;
+  bool hidden() const;  // nobody sees any of them
+
+  // Of all that the wall file does not place by a rectangle.
+  void toggle_full_screen();
+
+  // Where a place in a window lies on the desktop, so that a drag may lead from one window into another.
+  glm::dvec2 on_desktop(std::size_t window, const glm::dvec2& cursor_px) const;
+
+ private:
+  void tell(std::size_t window, const render::WindowInput& news) const;
+
+  std::vector<std::unique_ptr<render::Window>> windows_;
+  std::vector<std::optional<scene::PixelRect>> rects_;  // of those that have their place by one
+  std::vector<glm::dvec2> cursors_;                     // in each of them
+  std::vector<glm::dvec2> origins_;                     // on the desktop
+  std::size_t window_ = 0;
+};
+
+}  // namespace afm::app

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace afm::core {
+
+extern const char* const kVersion;  // of the project() in CMakeLists.txt
+
+}  // namespace afm::core

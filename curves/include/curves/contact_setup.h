@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "physics/adhesion_map.h"
+#include "physics/law.h"
+#include "physics/quantity_text.h"
+#include "scene/samples/material_library.h"
+
+namespace afm::curves {
+
+// A name that --model takes: auto, paper, paper-rule, hao, hertz, dmt, jkr, maugis, lj, and dynamic- before one that
+// can move a mass.
+struct ModelName {
+  std::string text;
+  bool automatic = false;       // the law that suits the contact
+  bool direction_rule = false;  // the paper's flow chart
+  bool dynamic = false;         // with the lever's mass, damping and heat
+  physics::Law law = physics::Law::Paper;
+
+  static std::optional<ModelName> parse(std::string_view text);
+};
+
+// "auto, paper, paper-rule, ...", for help and messages.
+std::string known_models();
+
+// One tip, lever, sample and medium, and how its curve is to be computed.
+struct ContactSetup {
+  scene::MaterialEntry material;  // with probe and overrides in its numbers, and their sources
+  physics::LawOptions law_options;
+  ModelName model;
+
+  // Whether W is known; without it the contact has no place on the adhesion map.
+  bool has_work_of_adhesion() const;
+
+  // The place on the map. Throws as physics::validate() does.
+  std::optional<physics::LawChoice> place() const;
+
+  // The law of `model`, or the one that suits the place. Throws as physics::validate() does.
+  physics::Law law() const;
+
+  // "dmt", "dynamic-dmt", "paper-rule": what was computed in the end.
+  std::string used_model() const;
+};
+
+// One number that a person may give, sweep and read in results: as --option on the command line, under json_key in SI.
+struct ContactParameter {
+  std::string_view option;                        // "tip-radius"
+  std::string_view json_key;                      // "tip_radius_m"
+  std::span<const std::string_view> source_keys;  // in material files; the first is that of the number itself
+  std::string_view help;
+  std::string_view sort;                 // "a length"
+  std::span<const physics::Unit> units;  // empty for a plain number
+  physics::Infinity infinity;
+  std::optional<double> (*get)(const ContactSetup& setup);  // SI; none where it is not set
+  void (*set)(ContactSetup& setup, double si);
+};
+
+std::span<const ContactParameter> contact_parameters();
+
+// Null if there is none.
+const ContactParameter* find_contact_parameter(std::string_view option);
+
+// Whether the number changes anything that is printed for this model.
+bool acts(const ContactParameter& parameter, const ModelName& model);
+
+// Reads one value, in SI. WrongUsage names the option.
+core::Result<double> parse_parameter(const ContactParameter& parameter, const std::string& text);
+
+// As people read it: "50 nm".
+std::string format_parameter(const ContactParameter& parameter, double si);
+
+// Sets the number and puts `source` in the place of where it came from.
+void override_parameter(ContactSetup& setup, const ContactParameter& parameter, double si, const std::string& written,
+                        const std::string& source);
+
+}  // namespace afm::curves

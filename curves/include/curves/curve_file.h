@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "curves/recorded_curve.h"
+
+// Reading and writing of force-distance curves; docs/curves.md says what each format holds.
+namespace afm::curves {
+
+enum class CurveFormat {
+  TouchAfmCsv,     // what `touchafm curve` prints
+  Tab,             // afmformats, text
+  Hdf5,            // afmformats, HDF5
+  AfmWorkshop,     // AFM Workshop's .csv; Gwyddion reads it too
+  JpkForce,        // JPK's .jpk-force; read only
+  IgorBinaryWave,  // Asylum Research's .ibw; read only
+};
+
+// "tab", "h5", "afm-workshop", as command lines name the formats that write_curve() writes.
+std::optional<CurveFormat> writable_format(std::string_view name);
+
+// How a recording becomes forces and which of several is meant. A given calibration replaces the file's: forces scale
+// with the spring constant and the sensitivity that they were made with.
+struct CurveReading {
+  std::optional<physics::Stiffness> spring_constant;
+  std::optional<double> sensitivity_m_per_v;
+  std::size_t index = 0;  // of the curve, in an .h5 that holds several
+};
+
+// Knows the format by its content. BadInputFile, in one line that names the file, for whatever is not wholly
+// understood: truncated, altered, larger than 256 MiB, of another kind, without a calibration that it needs. Takes at
+// most 1 GiB.
+core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReading& reading = {});
+
+// The same for the bytes of a file called `name`.
+core::Result<RecordedCurve> parse_curve(std::string_view bytes, const std::string& name,
+                                        const CurveReading& reading = {});
+
+// The whole file. AFM Workshop's format wants evenly spaced heights and as many of them up as down: there a curve that
+// has not is interpolated. Errors are Failed, for a format that is only read WrongUsage.
+core::Result<std::string> curve_bytes(CurveFormat format, const RecordedCurve& curve);
+
+// Whole or not at all.
+core::Result<void> write_curve(const std::string& path, CurveFormat format, const RecordedCurve& curve);
+
+}  // namespace afm::curves

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "curves/felt_material.h"
+#include "physics/force_curve.h"
+
+namespace afm::curves {
+
+// How far the wall shows a cycle above and below the undeformed surface, in units of the height at which the hand's
+// stroke ends.
+inline constexpr double kReachAbove = 1.42, kReachBelow = 0.42;
+double cycle_reach_m(const FeltMaterial& material);
+
+// A quantity of physics/quantity_text.h as people set it: "31.8 mJ/m²" for "31.8 mJ/m2".
+std::string typographic(std::string text);
+
+// What a person can change of a material while it is felt, and what follows from it. Always a choice that has a force
+// curve: a step that would leave the laws' ranges changes nothing and says why.
+class LiveParameters {
+ public:
+  enum class Row { TipRadius, SpringConstant, Hamaker, WorkOfAdhesion, ReducedModulus, Law };
+  static constexpr std::size_t kRows = 6;
+
+  // `loaded` is what the servo began with; its law is no recorded curve.
+  explicit LiveParameters(const FeltMaterial& loaded);
+
+  // One step down (-1) or up (+1): a factor of the fourth root of two, or the next law. Whether anything changed.
+  bool step(Row row, int direction);
+
+  // Back to what was loaded. Whether anything changed.
+  bool reset();
+
+  // As it would be felt now; its parameters are what the servo is to get.
+  const FeltMaterial& felt() const { return now_; }
+
+  std::string name(Row row) const;
+  std::string value(Row row) const;  // with its unit
+  bool changed(Row row) const { return steps_[index(row)] != 0; }
+  bool changed() const { return steps_ != Steps{}; }
+
+  const physics::ForceCurve& curve() const { return curve_; }  // predicted, one cycle
+  const std::string& refusal() const { return refusal_; }      // why the last step changed nothing, or empty
+
+ private:
+  // How far each row is from what was loaded; of the law, places in the list of laws.
+  using Steps = std::array<int, kRows>;
+
+  static std::size_t index(Row row) { return static_cast<std::size_t>(row); }
+  std::optional<physics::Law> law_after(int steps) const;  // none: the adhesion map's
+  bool take(const Steps& steps);
+
+  FeltMaterial loaded_;
+  FeltMaterial now_;
+  Steps steps_{};
+  physics::ForceCurve curve_;
+  std::string refusal_;
+};
+
+}  // namespace afm::curves

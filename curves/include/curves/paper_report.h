@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "curves/paper_tables.h"
+#include "scene/samples/material_library.h"
+
+namespace afm::curves {
+
+// The tables for people: printed, exact and measured in the run beside each other, what contact mechanics says of the
+// same samples, the figures, the errata. `run` says which run measured: "of the demo".
+std::string paper_markdown(const PaperTables& tables, const scene::MaterialLibrary& library, std::string_view run);
+
+// The same for machines: SI, magnitudes.
+std::string paper_json(const PaperTables& tables, const scene::MaterialLibrary& library);
+
+// A line per number, in the table's unit.
+std::string table1_csv(const PaperTables& tables);
+std::string table2_csv(const PaperTables& tables);
+
+// The cycle of one material with the paper's letters A to F.
+std::string figure2_svg(const scene::MaterialEntry& material);
+
+// The cycles of the library's materials in one plot.
+std::string figure5e_svg(const scene::MaterialLibrary& library);
+
+}  // namespace afm::curves

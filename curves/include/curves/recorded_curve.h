@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "physics/curve_analysis.h"
+#include "physics/units.h"
+
+namespace afm::curves {
+
+// What a file says about how its curve was made; an empty text or optional is what it does not say.
+struct CurveMetadata {
+  std::optional<physics::Stiffness> spring_constant;
+  std::optional<double> sensitivity_m_per_v;  // of the optical lever: deflection per volt ("InvOLS")
+  std::optional<physics::Velocity> approach_speed;
+  std::optional<physics::Velocity> retract_speed;
+  std::optional<physics::Force> setpoint;
+  std::string instrument;
+  std::string software;
+  std::string software_version;
+  std::string date;      // YYYY-MM-DD
+  std::string time;      // HH:MM:SS, local to the instrument
+  std::string curve_id;  // whatever tells this curve from others
+};
+
+// One approach-retract cycle as any file or model gave it, in one convention: SI, force positive away from the sample,
+// height of the lever's base falling while the tip approaches (afmformats' "height (measured)"), all of the approach
+// before all of the retract, every number finite, at most kMostCurvePoints.
+struct RecordedCurve {
+  std::vector<physics::CurvePoint> points;
+  std::vector<double> time_s;  // of each point since the first, or empty if unknown
+  CurveMetadata metadata;
+};
+
+inline constexpr std::size_t kMostCurvePoints = 4'000'000;
+
+// The software of curves that were computed, not measured.
+inline constexpr const char* kComputedBy = "TouchAFM";
+
+// A model's curve with the lever that it was made for.
+RecordedCurve recorded_curve(const physics::ForceCurve& curve, physics::Stiffness spring_constant);
+
+}  // namespace afm::curves

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace afm::curves {
+
+struct SvgPoint {
+  double x = 0;
+  double y = 0;
+};
+
+enum class LineStyle { Solid, Dashed };
+
+struct SvgLine {
+  std::string label;  // in the legend; empty for none
+  std::string color;  // as CSS writes it
+  LineStyle style = LineStyle::Solid;
+  std::vector<SvgPoint> points;  // one that is not finite breaks the line
+};
+
+// A dot on the plot with a text beside it, or a text alone.
+struct SvgMark {
+  SvgPoint at;
+  std::string text;  // empty for the dot alone
+  std::string color;
+  enum class Side { Left, Right, Above, Below, Centre } side = Side::Right;  // Centre: the text in the place of the dot
+};
+
+enum class AxisScale { Linear, Logarithmic };
+
+struct SvgPlot {
+  std::string title;
+  std::string x_label;  // with its unit
+  std::string y_label;  // with its unit
+  std::vector<SvgLine> lines;
+  std::vector<SvgMark> marks;
+  AxisScale x_scale = AxisScale::Linear;  // on a logarithmic axis what is not positive breaks the line
+  AxisScale y_scale = AxisScale::Linear;
+  int width = 960;
+  int height = 600;
+};
+
+// Colours that people with any colour vision can tell apart (Okabe & Ito 2008), dark enough for a white ground;
+// repeats.
+std::string_view distinct_color(std::size_t index);
+
+// The points needed to draw the line within `tolerance` of where all of them would (Ramer 1972, Douglas & Peucker
+// 1973); the first, the last and the extremes of both coordinates always stay.
+std::vector<SvgPoint> simplified(std::span<const SvgPoint> points, double tolerance);
+
+// One <svg> element with its own size, axes at round numbers or powers of ten, and both zero lines. It may stand in
+// HTML or, since it names its namespace, in a file of its own. Lines are thinned to a tenth of a pixel. An empty plot
+// has axes from 0 to 1.
+std::string svg(const SvgPlot& plot);
+
+// Several plots below each other in one such element.
+std::string svg(std::span<const SvgPlot> column);
+
+}  // namespace afm::curves

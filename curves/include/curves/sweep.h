@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "curves/contact_setup.h"
+#include "curves/curve_run.h"
+
+namespace afm::curves {
+
+// One number that takes `count` values from `from` to `to`, both included.
+struct SweepAxis {
+  const ContactParameter* parameter = nullptr;
+  double from = 0.0;  // SI
+  double to = 0.0;    // SI
+  std::uint64_t count = 0;
+  bool logarithmic = false;
+
+  double value(std::uint64_t index) const;
+};
+
+// What a sweep may hold; more is taken for a slip.
+inline constexpr std::uint64_t kLargestParameterSweep = 1'000'000;
+
+// Reads "spring-constant=0.01N/m:1N/m:50", with ":log" behind it for equal ratios. WrongUsage quotes the text and says
+// what is wrong; the caller knows its option.
+core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelName& model);
+
+// What one cycle at one point of a sweep comes to; forces signed. Without hysteresis the jumps are null.
+struct SweepRow {
+  std::array<double, 2> at{};  // SI, by axis
+  std::string model;
+  std::string regime;  // empty, with NaN for the two below, where the contact has no place on the map
+  double tabor = 0.0;
+  double maugis = 0.0;
+  double snap_in_z_m = 0.0;  // NaN without a jump to contact, and so the next two
+  double snap_in_force_before_n = 0.0;
+  double snap_in_force_after_n = 0.0;
+  double pull_off_z_m = 0.0;  // NaN without a jump off contact, and so the next
+  double pull_off_force_n = 0.0;
+  double loop_energy_j = 0.0;
+  double critical_stiffness_n_per_m = 0.0;  // infinite where hysteresis never vanishes
+  std::string refusal;                      // why these values have no such curve; then nothing else is known
+};
+
+// Every point of one axis or of the grid of two, the last axis running fastest, over all cores. The rows are in the
+// grid's order whatever the threads did. Dynamic models record a curve at each point, with the path's step and speed;
+// the others need none. Tells progress on stderr when it takes longer than a second. Fails when `stopped`, which any
+// thread calls, says so, and when not one point has a curve.
+core::Result<std::vector<SweepRow>> run_sweep(
+    const ContactSetup& setup, const std::vector<SweepAxis>& axes, const PathOptions& path,
+    const std::function<bool()>& stopped = [] { return false; });
+
+// CSV in SI: a # header with every number that is not swept, then one line a point.
+std::string sweep_csv(const ContactSetup& setup, const std::vector<SweepAxis>& axes, const std::vector<SweepRow>& rows);
+nlohmann::ordered_json sweep_json(const ContactSetup& setup, const std::vector<SweepAxis>& axes,
+                                  const std::vector<SweepRow>& rows);
+
+}  // namespace afm::curves

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves/contact_setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace afm::curves {
+namespace {
+
+using physics::Law;
+
+constexpr std::string_view kDynamicPrefix = "dynamic-";
+constexpr std::array kStaticLaws{Law::Paper, Law::Hao,           Law::Hertz,       Law::Dmt,
+                                 Law::Jkr,   Law::MaugisDugdale, Law::LennardJones};
+
+bool can_be_dynamic(Law law) { return law != Law::Paper && law != Law::Hao; }
+
+// The forces that a law is made of.
+bool has_van_der_waals(Law law) {
+  return law == Law::Paper || law == Law::Hao || law == Law::Dmt || law == Law::MaugisDugdale;
+}
+
+constexpr std::array<physics::Unit, 1> kPercent{physics::Unit{"%", 1e2, true}};
+
+constexpr std::array<std::string_view, 1> kTipRadius{"tip_radius"};
+constexpr std::array<std::string_view, 1> kSpringConstant{"spring_constant"};
+constexpr std::array<std::string_view, 1> kSampleStiffness{"sample_stiffness"};
+constexpr std::array<std::string_view, 1> kHamaker{"hamaker"};
+constexpr std::array<std::string_view, 2> kWorkOfAdhesion{"work_of_adhesion", "mean_surface_energy"};
+constexpr std::array<std::string_view, 5> kReducedModulus{"reduced_modulus", "tip_modulus", "tip_poisson_ratio",
+                                                          "sample_modulus", "sample_poisson_ratio"};
+constexpr std::array<std::string_view, 1> kAtomicDistance{"atomic_distance"};
+constexpr std::array<std::string_view, 1> kRetardation{"retardation"};
+constexpr std::array<std::string_view, 1> kHumidity{"humidity"};
+constexpr std::array<std::string_view, 1> kResonance{"resonance"};
+constexpr std::array<std::string_view, 1> kQualityFactor{"quality_factor"};
+constexpr std::array<std::string_view, 1> kTemperature{"temperature"};
+
+using Number = std::optional<double>;
+
+// A row whose number has units.
+template <class Q>
+ContactParameter row(std::string_view option, std::string_view json_key, std::span<const std::string_view> keys,
+                     std::string_view help, const physics::UnitList<Q>& units, Number (*get)(const ContactSetup&),
+                     void (*set)(ContactSetup&, double), physics::Infinity infinity = physics::Infinity::Refused) {
+  return {option, json_key, keys, help, units.sort, units.units, infinity, get, set};
+}
+
+std::array<ContactParameter, 12> make_parameters() {
+  using namespace physics;
+  using Setup = ContactSetup;
+  return {row(
+              "tip-radius", "tip_radius_m", kTipRadius, "R, 0.1nm to 1mm: m, mm, um, nm, pm", kLengthUnits,
+              [](const Setup& s) { return Number(s.material.interaction.tip_radius.si); },
+              [](Setup& s, double si) { s.material.interaction.tip_radius = Length(si); }),
+          row(
+              "spring-constant", "spring_constant_N_per_m", kSpringConstant, "k_c, 1e-6N/m to 1e6N/m: N/m, mN/m",
+              kStiffnessUnits, [](const Setup& s) { return Number(s.material.interaction.spring_constant.si); },
+              [](Setup& s, double si) { s.material.interaction.spring_constant = Stiffness(si); }),
+          row(
+              "sample-stiffness", "sample_stiffness_N_per_m", kSampleStiffness,
+              "k_s of an elastic support, 1e-6N/m to \"inf N/m\": N/m, mN/m", kStiffnessUnits,
+              [](const Setup& s) { return Number(s.material.interaction.sample_stiffness.si); },
+              [](Setup& s, double si) { s.material.interaction.sample_stiffness = Stiffness(si); }, Infinity::Allowed),
+          row(
+              "hamaker", "hamaker_J", kHamaker, "A_H, 1e-24J to 1e-16J: J, aJ, zJ", kEnergyUnits,
+              [](const Setup& s) { return Number(s.material.interaction.hamaker.si); },
+              [](Setup& s, double si) { s.material.interaction.hamaker = Energy(si); }),
+          row(
+              "work-of-adhesion", "work_of_adhesion_J_per_m2", kWorkOfAdhesion,
+              "W = 2 sqrt(gamma_s gamma_t), 2e-9J/m2 to 200J/m2: J/m2, mJ/m2", kSurfaceEnergyUnits,
+              [](const Setup& s) {
+                return s.has_work_of_adhesion() ? Number(2.0 * s.material.interaction.mean_surface_energy.si)
+                                                : Number();
+              },
+              // (3.3)
+              [](Setup& s, double si) { s.material.interaction.mean_surface_energy = SurfaceEnergy(0.5 * si); }),
+          row(
+              "reduced-modulus", "reduced_modulus_Pa", kReducedModulus, "E*, 1Pa to 10TPa: TPa, GPa, MPa, kPa, Pa",
+              kPressureUnits, [](const Setup& s) { return Number(s.material.interaction.reduced_modulus.si); },
+              [](Setup& s, double si) {
+                s.material.interaction.reduced_modulus = Pressure(si);
+                s.material.tip_elasticity.reset();
+                s.material.sample_elasticity.reset();
+              }),
+          row(
+              "atomic-distance", "atomic_distance_m", kAtomicDistance, "z0, 0.05nm to 5nm: m, mm, um, nm, pm",
+              kLengthUnits, [](const Setup& s) { return Number(s.material.interaction.atomic_distance.si); },
+              [](Setup& s, double si) { s.material.interaction.atomic_distance = Length(si); }),
+          row(
+              "retardation", "retardation_wavelength_m", kRetardation,
+              "wavelength of retardation of the van der Waals force, about 100nm; default: not retarded", kLengthUnits,
+              [](const Setup& s) {
+                const auto& wavelength = s.law_options.retardation_wavelength;
+                return wavelength ? Number(wavelength->si) : Number();
+              },
+              [](Setup& s, double si) { s.law_options.retardation_wavelength = Length(si); }),
+          {"humidity", "relative_humidity", kHumidity,
+           "relative humidity of the air, which condenses a bridge of water: 1% to 99%; default: none", "a humidity",
+           kPercent, Infinity::Refused,
+           [](const Setup& s) {
+             const auto& meniscus = s.law_options.meniscus;
+             return meniscus ? Number(meniscus->relative_humidity) : Number();
+           },
+           [](Setup& s, double si) {
+             if (!s.law_options.meniscus) s.law_options.meniscus.emplace();
+             s.law_options.meniscus->relative_humidity = si;
+           }},
+          row(
+              "resonance", "resonance_Hz", kResonance, "f0 of the lever in the medium, 1Hz to 100MHz: MHz, kHz, Hz",
+              kFrequencyUnits, [](const Setup& s) { return Number(s.material.lever.resonance.si); },
+              [](Setup& s, double si) { s.material.lever.resonance = Frequency(si); }),
+          {"quality-factor",
+           "quality_factor",
+           kQualityFactor,
+           "Q of the lever in the medium, 0.01 to 1e7: a plain number",
+           "a quality factor",
+           {},
+           Infinity::Refused,
+           [](const Setup& s) { return Number(s.material.lever.quality_factor); },
+           [](Setup& s, double si) { s.material.lever.quality_factor = si; }},
+          row(
+              "temperature", "temperature_K", kTemperature, "0K (no thermal noise) to 2000K: K", kTemperatureUnits,
+              [](const Setup& s) { return Number(s.material.lever.temperature.si); },
+              [](Setup& s, double si) { s.material.lever.temperature = Temperature(si); })};
+}
+
+}  // namespace
+
+std::optional<ModelName> ModelName::parse(std::string_view text) {
+  ModelName name;
+  name.text = text;
+  if (text == "auto") {
+    name.automatic = true;
+    return name;
+  }
+  if (text == "paper-rule") {
+    name.direction_rule = true;
+    return name;
+  }
+  name.dynamic = text.starts_with(kDynamicPrefix);
+  if (name.dynamic) text.remove_prefix(kDynamicPrefix.size());
+  const auto law = physics::law_of(text);
+  if (!law || *law == Law::Measured || (name.dynamic && !can_be_dynamic(*law))) return std::nullopt;
+  name.law = *law;
+  return name;
+}
+
+std::string known_models() {
+  std::string text = "auto, paper, paper-rule";
+  for (const Law law : kStaticLaws) {
+    if (law != Law::Paper) text += fmt::format(", {}", physics::name_of(law));
+  }
+  for (const Law law : kStaticLaws) {
+    if (can_be_dynamic(law)) text += fmt::format(", {}{}", kDynamicPrefix, physics::name_of(law));
+  }
+  return text;
+}
+
+bool ContactSetup::has_work_of_adhesion() const {
+  return scene::find_source(material.sources, "work_of_adhesion") != nullptr ||
+         scene::find_source(material.sources, "mean_surface_energy") != nullptr;
+}
+
+std::optional<physics::LawChoice> ContactSetup::place() const {
+  if (!has_work_of_adhesion()) return std::nullopt;
+  return physics::choose_law(material.interaction);
+}
+
+physics::Law ContactSetup::law() const {
+  return model.automatic ? physics::choose_law(material.interaction).law : model.law;
+}
+
+std::string ContactSetup::used_model() const {
+  if (model.direction_rule) return "paper-rule";
+  return fmt::format("{}{}", model.dynamic ? kDynamicPrefix : "", physics::name_of(law()));
+}
+
+std::span<const ContactParameter> contact_parameters() {
+  static const auto parameters = make_parameters();
+  return parameters;
+}
+
+const ContactParameter* find_contact_parameter(std::string_view option) {
+  const auto parameters = contact_parameters();
+  const auto at = std::find_if(parameters.begin(), parameters.end(),
+                               [&](const ContactParameter& parameter) { return parameter.option == option; });
+  return at == parameters.end() ? nullptr : &*at;
+}
+
+bool acts(const ContactParameter& parameter, const ModelName& model) {
+  const std::string_view option = parameter.option;
+  const bool any_contact_law = model.automatic;
+  if (option == "resonance" || option == "quality-factor" || option == "temperature") return model.dynamic;
+  if (option == "hamaker") return any_contact_law || has_van_der_waals(model.law);
+  const bool closed_form = !any_contact_law && model.law == Law::Paper;
+  if (option == "retardation") return any_contact_law || (has_van_der_waals(model.law) && !closed_form);
+  if (option == "humidity") return !closed_form;
+  // the others give the force or the place on the adhesion map
+  return true;
+}
+
+core::Result<double> parse_parameter(const ContactParameter& parameter, const std::string& text) {
+  const auto wrong = [&](const std::string& why) {
+    return core::failure(core::ErrorCategory::WrongUsage, fmt::format("--{}: {}", parameter.option, why));
+  };
+  if (parameter.units.empty()) {
+    double number = 0.0;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) {
+      return wrong(fmt::format("cannot read \"{}\" as {}; write a plain number", text.substr(0, 40), parameter.sort));
+    }
+    return number;
+  }
+  const auto parsed = physics::parse_si(text, parameter.sort, parameter.units, parameter.infinity);
+  if (const auto* error = std::get_if<std::string>(&parsed)) return wrong(*error);
+  return std::get<double>(parsed);
+}
+
+std::string format_parameter(const ContactParameter& parameter, double si) {
+  return parameter.units.empty() ? fmt::format("{:.6g}", si) : physics::format_si(si, parameter.units, 6);
+}
+
+void override_parameter(ContactSetup& setup, const ContactParameter& parameter, double si, const std::string& written,
+                        const std::string& source) {
+  parameter.set(setup, si);
+  auto& sources = setup.material.sources;
+  const auto replaced = [&](const scene::SourcedValue& s) {
+    return std::find(parameter.source_keys.begin(), parameter.source_keys.end(), s.key) != parameter.source_keys.end();
+  };
+  const auto first = std::find_if(sources.begin(), sources.end(), replaced) - sources.begin();
+  std::erase_if(sources, replaced);
+  sources.insert(sources.begin() + first, {std::string(parameter.source_keys.front()), written, source, false});
+}
+
+}  // namespace afm::curves

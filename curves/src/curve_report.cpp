@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves/curve_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "physics/quantity_text.h"
+
+namespace afm::curves {
+
+namespace {
+
+using physics::CurveFeatures;
+using json = nlohmann::ordered_json;
+
+constexpr double kPerNano = 1e9;
+
+// One line of the report and one key of the JSON.
+struct Figure {
+  const char* key;    // with the unit
+  const char* title;  // for people
+  std::optional<double> (*si)(const CurveFeatures& features);
+  std::string (*text)(double si);
+};
+
+template <auto& Units, class Q>
+std::string text_of(double si) {
+  return physics::format_quantity(Q(si), Units, 4);
+}
+
+constexpr auto kLengthText = &text_of<physics::kLengthUnits, physics::Length>;
+constexpr auto kForceText = &text_of<physics::kForceUnits, physics::Force>;
+constexpr auto kStiffnessText = &text_of<physics::kStiffnessUnits, physics::Stiffness>;
+constexpr auto kEnergyText = &text_of<physics::kEnergyUnits, physics::Energy>;
+
+double zero_of(const CurveFeatures& features) { return features.contact_point.value_or(physics::Length()).si; }
+
+// In the order in which they are printed.
+const Figure kFigures[] = {
+    {"baseline_level_N", "baseline", [](const CurveFeatures& f) { return std::optional(f.baseline.level.si); },
+     kForceText},
+    {"baseline_tilt_N_per_m", "  its tilt", [](const CurveFeatures& f) { return std::optional(f.baseline.tilt.si); },
+     kStiffnessText},
+    {"baseline_noise_N", "  its noise", [](const CurveFeatures& f) { return std::optional(f.baseline.noise.si); },
+     kForceText},
+    {"contact_point_m", "contact point",
+     [](const CurveFeatures& f) { return f.contact_point ? std::optional(f.contact_point->si) : std::nullopt; },
+     kLengthText},
+    {"snap_in_z_m", "snap-in at",
+     [](const CurveFeatures& f) { return f.snap_in ? std::optional(f.snap_in->z.si - zero_of(f)) : std::nullopt; },
+     kLengthText},
+    {"snap_in_force_before_N", "  from",
+     [](const CurveFeatures& f) { return f.snap_in ? std::optional(f.snap_in->force_before.si) : std::nullopt; },
+     kForceText},
+    {"snap_in_force_after_N", "  to",
+     [](const CurveFeatures& f) { return f.snap_in ? std::optional(f.snap_in->force_after.si) : std::nullopt; },
+     kForceText},
+    {"pull_off_z_m", "pull-off at",
+     [](const CurveFeatures& f) { return f.pull_off ? std::optional(f.pull_off->z.si - zero_of(f)) : std::nullopt; },
+     kLengthText},
+    {"pull_off_force_N", "  force",
+     [](const CurveFeatures& f) { return f.pull_off ? std::optional(f.pull_off->force.si) : std::nullopt; },
+     kForceText},
+    {"greatest_push_N", "greatest push", [](const CurveFeatures& f) { return std::optional(f.greatest_push.si); },
+     kForceText},
+    {"contact_slope_N_per_m", "contact slope",
+     [](const CurveFeatures& f) { return f.contact_slope ? std::optional(f.contact_slope->si) : std::nullopt; },
+     kStiffnessText},
+    {"loop_energy_J", "loop energy", [](const CurveFeatures& f) { return std::optional(f.loop_energy.si); },
+     kEnergyText},
+    {"adhesion_energy_J", "adhesion energy", [](const CurveFeatures& f) { return std::optional(f.adhesion_energy.si); },
+     kEnergyText},
+};
+
+std::optional<double> difference(const std::optional<double>& measured, const std::optional<double>& other) {
+  if (!measured || !other) return std::nullopt;
+  return *measured - *other;
+}
+
+// Where an instrument's height and detector have their zeros is no property of the contact.
+bool is_comparable(const Figure& figure) {
+  return std::string_view(figure.key) != "contact_point_m" && !std::string_view(figure.key).starts_with("baseline");
+}
+
+std::string described(const RecordedCurve& curve) {
+  const CurveMetadata& from = curve.metadata;
+  const auto approach = std::count_if(curve.points.begin(), curve.points.end(),
+                                      [](const auto& point) { return point.branch == physics::Branch::Approach; });
+  std::string text =
+      fmt::format("{} points down, {} up", approach, static_cast<std::ptrdiff_t>(curve.points.size()) - approach);
+  if (from.spring_constant) text += ", " + kStiffnessText(from.spring_constant->si);
+  for (const std::string* part : {&from.curve_id, &from.instrument, &from.date}) {
+    if (!part->empty()) text += ", " + *part;
+  }
+  return text;
+}
+
+}  // namespace
+
+core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve) {
+  try {
+    const bool computed = curve.metadata.software == kComputedBy;
+    CurveFeatures features =
+        physics::analyse(curve.points, computed ? physics::ForceZero::True : physics::ForceZero::Instrument);
+    return AnalysedCurve{std::move(name), std::move(curve), features};
+  } catch (const std::invalid_argument& error) {
+    return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot analyse {}: {}", name, error.what()));
+  }
+}
+
+std::string features_text(const AnalysedCurve& measured, const AnalysedCurve* other) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "{}: {}\n", measured.name, described(measured.curve));
+  if (other != nullptr) fmt::format_to(out, "{:<16}{:>16}{:>16}{:>16}\n", "", "measured", other->name, "difference");
+  for (const Figure& figure : kFigures) {
+    const auto cell = [&](const std::optional<double>& si) {
+      return si ? figure.text(*si + 0.0) : std::string("none");
+    };
+    const auto value = figure.si(measured.features);
+    fmt::format_to(out, "{:<16}{:>16}", figure.title, cell(value));
+    if (other != nullptr && is_comparable(figure)) {
+      const auto expected = figure.si(other->features);
+      fmt::format_to(out, "{:>16}{:>16}", cell(expected), cell(difference(value, expected)));
+    }
+    text.push_back('\n');
+  }
+  fmt::format_to(out,
+                 "places are from the contact point; forces are above the baseline, positive away from the sample\n");
+  return fmt::to_string(text);
+}
+
+json features_json(const AnalysedCurve& measured, const AnalysedCurve* other) {
+  const auto value_or_null = [](const std::optional<double>& si) { return si ? json(*si + 0.0) : json(); };
+  const CurveMetadata& from = measured.curve.metadata;
+  json result{{"curve", measured.name},
+              {"points", measured.curve.points.size()},
+              {"spring_constant_N_per_m", from.spring_constant ? json(from.spring_constant->si) : json()}};
+  for (const Figure& figure : kFigures) result[figure.key] = value_or_null(figure.si(measured.features));
+  if (other == nullptr) return result;
+  result["beside"]["name"] = other->name;
+  for (const Figure& figure : kFigures) {
+    if (!is_comparable(figure)) continue;
+    const auto expected = figure.si(other->features);
+    result["beside"][figure.key] = value_or_null(expected);
+    result["difference"][figure.key] = value_or_null(difference(figure.si(measured.features), expected));
+  }
+  return result;
+}
+
+std::vector<SvgLine> curve_lines(const AnalysedCurve& curve, const std::string& color) {
+  SvgLine approach{curve.name + ", approach", color, LineStyle::Dashed, {}};
+  SvgLine retract{curve.name + ", retract", color, LineStyle::Solid, {}};
+  const double zero = zero_of(curve.features);
+  for (const physics::CurvePoint& point : curve.curve.points) {
+    SvgLine& line = point.branch == physics::Branch::Approach ? approach : retract;
+    line.points.push_back(
+        {(point.z.si - zero) * kPerNano, (point.force - curve.features.baseline.at(point.z)).si * kPerNano});
+  }
+  return {std::move(approach), std::move(retract)};
+}
+
+SvgPlot features_plot(const AnalysedCurve& measured, const AnalysedCurve* other) {
+  SvgPlot plot;
+  plot.title = other == nullptr ? measured.name : fmt::format("{} and {}", measured.name, other->name);
+  plot.x_label = "Z from the contact point (nm)";
+  plot.y_label = "force on the tip (nN)";
+  plot.lines = curve_lines(measured, std::string(distinct_color(0)));
+  if (other != nullptr) {
+    for (SvgLine& line : curve_lines(*other, std::string(distinct_color(1)))) plot.lines.push_back(std::move(line));
+  }
+  const CurveFeatures& found = measured.features;
+  const auto mark = [&](physics::Length z, physics::Force force, const char* what) {
+    plot.marks.push_back({{(z.si - zero_of(found)) * kPerNano, force.si * kPerNano},
+                          fmt::format("{} {}", what, kForceText(force.si)),
+                          std::string(distinct_color(0)),
+                          SvgMark::Side::Right});
+  };
+  if (found.snap_in) mark(found.snap_in->z, found.snap_in->force_after, "snap-in");
+  if (found.pull_off) mark(found.pull_off->z, found.pull_off->force, "pull-off");
+  return plot;
+}
+
+}  // namespace afm::curves

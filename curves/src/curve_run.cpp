@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves/curve_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "physics/curve_analysis.h"
+#include "physics/direction_rule.h"
+#include "physics/dynamic_curve.h"
+#include "physics/dynamic_model.h"
+#include "physics/force_model.h"
+#include "physics/law_tables.h"
+#include "physics/quantity_text.h"
+
+namespace afm::curves {
+namespace {
+
+tl::unexpected<core::Error> wrong_usage(std::string message) {
+  return core::failure(core::ErrorCategory::WrongUsage, std::move(message));
+}
+
+template <class Q>
+core::Result<Q> parse_option(const char* option, const std::string& text, const physics::UnitList<Q>& units) {
+  const auto parsed = physics::parse_quantity(text, units);
+  if (!parsed.value) return wrong_usage(fmt::format("{}: {}", option, parsed.error));
+  return *parsed.value;
+}
+
+physics::Length default_start(const physics::CycleFigures& figures) {
+  const double above = std::max(1.1 * figures.z_joc.si, figures.z_jtc.si + 5e-9);
+  return physics::Length(std::ceil(above * 1e9) / 1e9);
+}
+
+core::Result<physics::SweepPlan> sweep_plan(const PathOptions& path, const physics::CycleFigures& figures) {
+  physics::SweepPlan plan;
+  plan.from = default_start(figures);
+  if (!path.from.empty()) {
+    const auto from = parse_option("--from", path.from, physics::kLengthUnits);
+    if (!from) return tl::unexpected(from.error());
+    plan.from = *from;
+  }
+  const auto to = parse_option("--to", path.to, physics::kLengthUnits);
+  if (!to) return tl::unexpected(to.error());
+  const auto step = parse_option("--step", path.step, physics::kLengthUnits);
+  if (!step) return tl::unexpected(step.error());
+  plan.to = *to;
+  plan.step = *step;
+  return plan;
+}
+
+core::Result<physics::Velocity> ramp_speed(const PathOptions& path) {
+  if (path.speed.empty()) return physics::Velocity(1e-6);
+  const auto speed = parse_option("--speed", path.speed, physics::kVelocityUnits);
+  if (speed && !(speed->si > 0.0)) return wrong_usage(fmt::format("--speed: {} is not positive", path.speed));
+  return speed;
+}
+
+core::Result<void> sweep_static(const PathOptions& path, CurveRun& run) {
+  if (!path.speed.empty()) {
+    return wrong_usage(fmt::format("--speed does not act on the model {}; leave it out", run.setup.model.text));
+  }
+  const physics::ApproachRetractModel model(
+      physics::build_law_tables(run.setup.law(), run.setup.material.interaction, run.setup.law_options));
+  run.figures = model.figures();
+  const auto plan = sweep_plan(path, run.figures);
+  if (!plan) return tl::unexpected(plan.error());
+  run.plan = *plan;
+  run.curve = run.setup.model.direction_rule
+                  ? physics::record_curve(physics::DirectionRuleModel(run.setup.material.interaction), run.plan)
+                  : physics::record_curve(model, run.plan);
+  return {};
+}
+
+core::Result<void> sweep_dynamic(const PathOptions& path, CurveRun& run) {
+  const auto speed = ramp_speed(path);
+  if (!speed) return tl::unexpected(speed.error());
+  constexpr physics::Time kServoTick(1e-3);
+  const physics::DynamicModel model(run.setup.law(), run.setup.material.interaction, run.setup.material.lever,
+                                    kServoTick, run.setup.law_options);
+  run.figures = model.figures();
+  run.motion = {*speed, model.slow_motion()};
+  const auto plan = sweep_plan(path, run.figures);
+  if (!plan) return tl::unexpected(plan.error());
+  run.plan = *plan;
+  run.curve = physics::record_curve(model, run.plan, *speed);
+  return {};
+}
+
+}  // namespace
+
+core::Result<CurveRun> run_curve(const ContactSetup& setup, const PathOptions& path) {
+  CurveRun run{setup, {}, {}, {}, {}, {}, {}};
+  try {
+    physics::validate(setup.material.interaction);
+    run.place = setup.place();
+    run.model = setup.used_model();
+    const auto done = setup.model.dynamic ? sweep_dynamic(path, run) : sweep_static(path, run);
+    if (!done) return tl::unexpected(done.error());
+  } catch (const std::invalid_argument& error) {
+    return wrong_usage(error.what());
+  }
+  return run;
+}
+
+const physics::ModelEvent* find_event(const physics::ForceCurve& curve, physics::EventKind kind) {
+  const auto at = std::find_if(curve.events.begin(), curve.events.end(),
+                               [&](const physics::ModelEvent& event) { return event.kind == kind; });
+  return at == curve.events.end() ? nullptr : &*at;
+}
+
+std::optional<physics::Energy> loop_energy(const CurveRun& run) {
+  if (run.curve.samples.empty() || run.curve.samples.back().phase == physics::Phase::Attached) return std::nullopt;
+  // what the direction rule or a moving tip does stands in the samples alone, the law's own area needs none
+  if (run.setup.model.direction_rule || run.setup.model.dynamic)
+    return physics::summarise(run.curve.samples).loop_energy;
+  const bool jumped = find_event(run.curve, physics::EventKind::JumpToContact) != nullptr;
+  return jumped ? run.figures.loop_energy : physics::Energy();
+}
+
+}  // namespace afm::curves

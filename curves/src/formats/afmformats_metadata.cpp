@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/afmformats_metadata.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "curves/curve_fault.h"
+
+namespace afm::curves {
+
+namespace {
+
+void read_text(const nlohmann::json& from, const char* key, std::string& text) {
+  const auto found = from.find(key);
+  if (found == from.end()) return;
+  if (!found->is_string()) throw CurveFault(fmt::format("its metadata \"{}\" is not a text", key));
+  text = found->get<std::string>();
+}
+
+template <class Q>
+void read_number(const nlohmann::json& from, const char* key, std::optional<Q>& value) {
+  const auto found = from.find(key);
+  if (found == from.end()) return;
+  if (!found->is_number()) throw CurveFault(fmt::format("its metadata \"{}\" is not a number", key));
+  const double si = found->get<double>();
+  if (!std::isfinite(si)) throw CurveFault(fmt::format("its metadata \"{}\" is not finite", key));
+  value = Q(si);
+}
+
+}  // namespace
+
+nlohmann::ordered_json afmformats_metadata(const RecordedCurve& curve) {
+  const CurveMetadata& from = curve.metadata;
+  nlohmann::ordered_json to{{"imaging mode", "force-distance"}, {"point count", curve.points.size()}};
+  const auto put_text = [&](const char* key, const std::string& text) {
+    if (!text.empty()) to[key] = text;
+  };
+  if (from.spring_constant) to["spring constant"] = from.spring_constant->si;
+  if (from.sensitivity_m_per_v) to["sensitivity"] = *from.sensitivity_m_per_v;
+  if (from.approach_speed) to["speed approach"] = from.approach_speed->si;
+  if (from.retract_speed) to["speed retract"] = from.retract_speed->si;
+  if (from.setpoint) to["setpoint"] = from.setpoint->si;
+  const auto [low, high] = std::minmax_element(curve.points.begin(), curve.points.end(),
+                                               [](const auto& a, const auto& b) { return a.z < b.z; });
+  if (!curve.points.empty()) to["z range"] = (high->z - low->z).si;
+  put_text("instrument", from.instrument);
+  put_text("software", from.software);
+  put_text("software version", from.software_version);
+  put_text("date", from.date);
+  put_text("time", from.time);
+  put_text("curve id", from.curve_id);
+  return to;
+}
+
+void read_afmformats_metadata(const nlohmann::json& from, CurveMetadata& metadata) {
+  if (!from.is_object()) throw CurveFault("its metadata is not a JSON object");
+  std::string mode = "force-distance";
+  read_text(from, "imaging mode", mode);
+  if (mode != "force-distance") {
+    throw CurveFault(fmt::format("its imaging mode is \"{}\"; only force-distance curves are read", mode));
+  }
+  read_number(from, "spring constant", metadata.spring_constant);
+  read_number(from, "sensitivity", metadata.sensitivity_m_per_v);
+  read_number(from, "speed approach", metadata.approach_speed);
+  read_number(from, "speed retract", metadata.retract_speed);
+  read_number(from, "setpoint", metadata.setpoint);
+  read_text(from, "instrument", metadata.instrument);
+  read_text(from, "software", metadata.software);
+  read_text(from, "software version", metadata.software_version);
+  read_text(from, "date", metadata.date);
+  read_text(from, "time", metadata.time);
+  read_text(from, "curve id", metadata.curve_id);
+}
+
+}  // namespace afm::curves

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves/curve_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/whole_file.h"
+#include "curves/curve_fault.h"
+#include "formats/hdf5_file.h"
+#include "formats/igor_file.h"
+#include "formats/jpk_file.h"
+#include "formats/tab_file.h"
+#include "formats/touchafm_csv_file.h"
+#include "formats/workshop_file.h"
+
+namespace afm::curves {
+
+namespace {
+
+constexpr std::uintmax_t kLargestCurveBytes = std::uintmax_t{256} << 20U;
+
+CurveFormat format_of(std::string_view bytes) {
+  constexpr std::size_t kLongestHeading = 65536;
+  const std::string_view heading = bytes.substr(0, kLongestHeading);
+  if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return CurveFormat::Hdf5;
+  if (bytes.starts_with("PK\x03\x04")) return CurveFormat::JpkForce;
+  if (bytes.starts_with("# TouchAFM force-displacement curve")) return CurveFormat::TouchAfmCsv;
+  if (bytes.starts_with("#") && heading.find("# BEGIN METADATA") != std::string_view::npos) return CurveFormat::Tab;
+  if (heading.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos) return CurveFormat::AfmWorkshop;
+  if (looks_like_igor(bytes)) return CurveFormat::IgorBinaryWave;
+  throw CurveFault(
+      "it is no curve file of a known kind; known are TouchAFM .csv, afmformats .tab and .h5, AFM Workshop .csv, JPK "
+      ".jpk-force and Igor .ibw");
+}
+
+// Forces that the file gives in newtons scale with a calibration that replaces the one they were made with.
+void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
+  CurveMetadata& made = curve.metadata;
+  double factor = 1.0;
+  if (reading.spring_constant && made.spring_constant) factor *= *reading.spring_constant / *made.spring_constant;
+  if (reading.sensitivity_m_per_v && made.sensitivity_m_per_v) {
+    factor *= *reading.sensitivity_m_per_v / *made.sensitivity_m_per_v;
+  }
+  for (physics::CurvePoint& point : curve.points) point.force = factor * point.force;
+  if (reading.spring_constant) made.spring_constant = reading.spring_constant;
+  if (reading.sensitivity_m_per_v) made.sensitivity_m_per_v = reading.sensitivity_m_per_v;
+}
+
+RecordedCurve read(std::string_view bytes, const CurveReading& reading) {
+  const CurveFormat format = format_of(bytes);
+  if (reading.index != 0 && format != CurveFormat::Hdf5) throw CurveFault("it holds one curve alone");
+  switch (format) {
+    case CurveFormat::Hdf5:
+      return read_hdf5(bytes, reading.index);
+    case CurveFormat::JpkForce:
+      return read_jpk(bytes, reading);
+    case CurveFormat::TouchAfmCsv:
+      return read_touchafm_csv(bytes);
+    case CurveFormat::Tab:
+      return read_tab(bytes);
+    case CurveFormat::AfmWorkshop:
+      return read_workshop(bytes, reading);
+    case CurveFormat::IgorBinaryWave:
+      break;
+  }
+  return read_igor(bytes);
+}
+
+// What every curve is, wherever it came from.
+void check(RecordedCurve& curve) {
+  constexpr double kHighest_m = 1.0, kStrongest_n = 1.0, kStiffest_n_per_m = 1e6;
+  if (curve.points.size() < physics::kFewestApproachPoints) {
+    throw CurveFault(fmt::format("it has only {} points", curve.points.size()));
+  }
+  for (const physics::CurvePoint& point : curve.points) {
+    if (!(std::abs(point.z.si) <= kHighest_m) || !(std::abs(point.force.si) <= kStrongest_n)) {
+      throw CurveFault(
+          fmt::format("a point at {} m with {} N is no force microscope's; is it in SI?", point.z.si, point.force.si));
+    }
+  }
+  if (const auto k = curve.metadata.spring_constant; k && !(k->si > 0.0 && k->si <= kStiffest_n_per_m)) {
+    throw CurveFault(fmt::format("its spring constant of {} N/m is no lever's", k->si));
+  }
+  const auto is_approach = [](const auto& point) { return point.branch == physics::Branch::Approach; };
+  if (!std::is_partitioned(curve.points.begin(), curve.points.end(), is_approach)) {
+    throw CurveFault("it does not approach once and retract once");
+  }
+  if (!is_approach(curve.points.front())) throw CurveFault("it has no approach");
+}
+
+}  // namespace
+
+std::optional<CurveFormat> writable_format(std::string_view name) {
+  if (name == "tab") return CurveFormat::Tab;
+  if (name == "h5") return CurveFormat::Hdf5;
+  if (name == "afm-workshop") return CurveFormat::AfmWorkshop;
+  return std::nullopt;
+}
+
+core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReading& reading) {
+  std::error_code missing;
+  if (const auto size = std::filesystem::file_size(path, missing); !missing && size > kLargestCurveBytes) {
+    return core::failure(core::ErrorCategory::BadInputFile,
+                         fmt::format("cannot read {}: it is larger than {} MiB", path, kLargestCurveBytes >> 20U));
+  }
+  const auto bytes = core::read_file(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return parse_curve(*bytes, path, reading);
+}
+
+core::Result<RecordedCurve> parse_curve(std::string_view bytes, const std::string& name, const CurveReading& reading) {
+  const auto bad = [&](const char* why) {
+    return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot read the curve {}: {}", name, why));
+  };
+  try {
+    RecordedCurve curve = read(bytes, reading);
+    recalibrate(reading, curve);
+    check(curve);
+    return curve;
+  } catch (const CurveFault& fault) {
+    return bad(fault.what());
+  } catch (const nlohmann::json::exception&) {
+    return bad("its metadata is no valid JSON");
+  } catch (const std::bad_alloc&) {
+    return bad("there is too little memory for it");
+  }
+}
+
+core::Result<std::string> curve_bytes(CurveFormat format, const RecordedCurve& curve) {
+  try {
+    switch (format) {
+      case CurveFormat::Tab:
+        return tab_bytes(curve);
+      case CurveFormat::Hdf5:
+        return hdf5_bytes(curve);
+      case CurveFormat::AfmWorkshop:
+        return workshop_bytes(curve);
+      case CurveFormat::TouchAfmCsv:
+      case CurveFormat::JpkForce:
+      case CurveFormat::IgorBinaryWave:
+        break;
+    }
+  } catch (const std::runtime_error& error) {
+    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot write the curve: {}", error.what()));
+  }
+  return core::failure(core::ErrorCategory::WrongUsage, "curves are written as tab, h5 or afm-workshop alone");
+}
+
+core::Result<void> write_curve(const std::string& path, CurveFormat format, const RecordedCurve& curve) {
+  const auto bytes = curve_bytes(format, curve);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return core::write_file(path, *bytes);
+}
+
+}  // namespace afm::curves

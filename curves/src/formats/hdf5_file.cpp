@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/hdf5_file.h"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "core/version.h"
+#include "curves/curve_fault.h"
+#include "formats/afmformats_metadata.h"
+#include "formats/confined_child.h"
+#include "formats/tab_file.h"
+
+namespace afm::curves {
+
+namespace {
+
+// Owns an HDF5 identifier, whichever kind; all kinds are reference-counted alike.
+class Handle {
+ public:
+  explicit Handle(hid_t id) : id_(id) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)) {}
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
+
+  hid_t get() const { return id_; }
+  bool is_open() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+};
+
+Handle must(hid_t id, const char* what) {
+  if (id < 0) throw std::runtime_error(fmt::format("HDF5 cannot {}", what));
+  return Handle(id);
+}
+
+void must_do(herr_t status, const char* what) {
+  if (status < 0) throw std::runtime_error(fmt::format("HDF5 cannot {}", what));
+}
+
+// A file that lives in memory alone.
+Handle access_to_memory() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // its error stack goes to nobody
+  H5PLset_loading_state(0);                     // and it loads no filters from plug-ins
+  Handle access = must(H5Pcreate(H5P_FILE_ACCESS), "prepare a file");
+  must_do(H5Pset_fapl_core(access.get(), std::size_t{1} << 20U, 0), "keep a file in memory");
+  return access;
+}
+
+// Of variable length: h5py gives texts of fixed length as bytes, which afmformats does not know again.
+void put_attribute(hid_t at, const std::string& name, const std::string& text) {
+  const Handle type = must(H5Tcopy(H5T_C_S1), "make a type"), space = must(H5Screate(H5S_SCALAR), "make a space");
+  must_do(H5Tset_size(type.get(), H5T_VARIABLE), "size a text");
+  must_do(H5Tset_cset(type.get(), H5T_CSET_UTF8), "encode a text");
+  const Handle attribute =
+      must(H5Acreate2(at, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), "make an attribute");
+  const char* characters = text.c_str();
+  must_do(H5Awrite(attribute.get(), type.get(), static_cast<const void*>(&characters)), "write an attribute");
+}
+
+void put_attribute(hid_t at, const std::string& name, double number) {
+  const Handle space = must(H5Screate(H5S_SCALAR), "make a space");
+  const Handle attribute =
+      must(H5Acreate2(at, name.c_str(), H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT), "make an attribute");
+  must_do(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &number), "write an attribute");
+}
+
+template <class T>
+void put_column(hid_t group, const char* name, const char* unit, hid_t file_type, hid_t memory_type,
+                const std::vector<T>& values) {
+  const hsize_t count = values.size();
+  const Handle space = must(H5Screate_simple(1, &count, nullptr), "make a space");
+  const Handle column =
+      must(H5Dcreate2(group, name, file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "make a data set");
+  must_do(H5Dwrite(column.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "write a data set");
+  put_attribute(column.get(), "unit", std::string(unit));
+}
+
+void put_curve(hid_t group, const RecordedCurve& curve) {
+  const nlohmann::ordered_json metadata = afmformats_metadata(curve);
+  for (const auto& [key, value] : metadata.items()) {
+    if (value.is_string()) {
+      put_attribute(group, key, value.get<std::string>());
+    } else {
+      put_attribute(group, key, value.get<double>());
+    }
+  }
+  std::vector<double> force, height;
+  std::vector<unsigned char> segment;
+  for (const physics::CurvePoint& point : curve.points) {
+    force.push_back(point.force.si);
+    height.push_back(point.z.si);
+    segment.push_back(point.branch == physics::Branch::Approach ? 0 : 1);
+  }
+  put_column(group, "force", "N", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, force);
+  put_column(group, "height (measured)", "m", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, height);
+  put_column(group, "segment", "", H5T_STD_U8LE, H5T_NATIVE_UCHAR, segment);
+  if (!curve.time_s.empty()) put_column(group, "time", "s", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, curve.time_s);
+}
+
+std::string text_of(hid_t attribute, hid_t type) {
+  constexpr std::size_t kLongestText = 65536;
+  const Handle memory = must(H5Tcopy(H5T_C_S1), "make a type");
+  H5Tset_cset(memory.get(), H5Tget_cset(type));
+  if (H5Tis_variable_str(type) > 0) {
+    char* text = nullptr;
+    H5Tset_size(memory.get(), H5T_VARIABLE);
+    if (H5Aread(attribute, memory.get(), static_cast<void*>(&text)) < 0 || text == nullptr) return {};
+    std::string copy(text);
+    H5free_memory(text);
+    return copy;
+  }
+  const std::size_t size = H5Tget_size(type);
+  if (size > kLongestText) throw CurveFault("one of its attributes is too long");
+  std::string text(size + 1, '\0');
+  H5Tset_size(memory.get(), text.size());
+  if (H5Aread(attribute, memory.get(), text.data()) < 0) return {};
+  return text.substr(0, text.find('\0'));
+}
+
+// The attributes that afmformats may have written, as its JSON.
+nlohmann::json metadata_of(hid_t group) {
+  constexpr std::array kKeys{"imaging mode", "spring constant", "sensitivity", "speed approach",   "speed retract",
+                             "setpoint",     "instrument",      "software",    "software version", "date",
+                             "time",         "curve id"};
+  nlohmann::json metadata = nlohmann::json::object();
+  for (const char* key : kKeys) {
+    if (H5Aexists(group, key) <= 0) continue;
+    const Handle attribute = must(H5Aopen(group, key, H5P_DEFAULT), "open an attribute");
+    const Handle type = must(H5Aget_type(attribute.get()), "read a type");
+    const Handle space = must(H5Aget_space(attribute.get()), "read a space");
+    if (H5Sget_simple_extent_npoints(space.get()) != 1) continue;
+    if (H5Tget_class(type.get()) == H5T_STRING) {
+      metadata[key] = text_of(attribute.get(), type.get());
+    } else if (double number = 0; H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &number) >= 0) {
+      metadata[key] = number;
+    }
+  }
+  return metadata;
+}
+
+bool has(hid_t group, const char* name) { return H5Lexists(group, name, H5P_DEFAULT) > 0; }
+
+std::vector<double> column_of(hid_t group, const char* name) {
+  const Handle column(H5Dopen2(group, name, H5P_DEFAULT));
+  if (!column.is_open()) throw CurveFault(fmt::format("it has no readable column \"{}\"", name));
+  const Handle space = must(H5Dget_space(column.get()), "read a space");
+  hsize_t count = 0;
+  if (H5Sget_simple_extent_ndims(space.get()) != 1 || H5Sget_simple_extent_dims(space.get(), &count, nullptr) != 1) {
+    throw CurveFault(fmt::format("its column \"{}\" is not a list of numbers", name));
+  }
+  if (count > kMostCurvePoints) throw CurveFault("it has more points than a curve may have");
+  std::vector<double> values(count);
+  if (H5Dread(column.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    throw CurveFault(fmt::format("its column \"{}\" is damaged or of no numbers", name));
+  }
+  return values;
+}
+
+RecordedCurve read_here(std::string_view bytes, std::size_t index) {
+  const Handle access = access_to_memory();
+  // HDF5 copies the image that it is given
+  must_do(H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()), "take the file");
+  const Handle file(H5Fopen("curve", H5F_ACC_RDONLY, access.get()));
+  if (!file.is_open()) throw CurveFault("it is damaged or cut short");
+  const std::string name = std::to_string(index);
+  if (!has(file.get(), name.c_str())) throw CurveFault(fmt::format("it has no curve \"{}\"", name));
+  const Handle group(H5Gopen2(file.get(), name.c_str(), H5P_DEFAULT));
+  if (!group.is_open()) throw CurveFault(fmt::format("its curve \"{}\" is damaged", name));
+
+  RecordedCurve curve;
+  read_afmformats_metadata(metadata_of(group.get()), curve.metadata);
+  const std::vector<double> force = column_of(group.get(), "force"), segment = column_of(group.get(), "segment");
+  const std::vector<double> height =
+      column_of(group.get(), has(group.get(), "height (measured)") ? "height (measured)" : "height (piezo)");
+  if (has(group.get(), "time")) curve.time_s = column_of(group.get(), "time");
+  if (height.size() != force.size() || segment.size() != force.size() ||
+      (!curve.time_s.empty() && curve.time_s.size() != force.size())) {
+    throw CurveFault("its columns differ in length");
+  }
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    if (segment[i] != 0.0 && segment[i] != 1.0) {
+      throw CurveFault(fmt::format("segment is {}; known are 0 (approach) and 1 (retract)", segment[i]));
+    }
+    curve.points.push_back({physics::Length(height[i]), physics::Force(force[i]),
+                            segment[i] == 0.0 ? physics::Branch::Approach : physics::Branch::Retract});
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::string hdf5_bytes(const RecordedCurve& curve) {
+  const Handle access = access_to_memory();
+  const Handle file = must(H5Fcreate("curve", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), "make a file");
+  put_attribute(file.get(), "software", std::string("TouchAFM"));
+  put_attribute(file.get(), "software version", std::string(core::kVersion));
+  {
+    const Handle group = must(H5Gcreate2(file.get(), "0", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "make a group");
+    put_curve(group.get(), curve);
+  }
+  must_do(H5Fflush(file.get(), H5F_SCOPE_LOCAL), "finish a file");
+  const ssize_t size = H5Fget_file_image(file.get(), nullptr, 0);
+  must_do(size < 0 ? -1 : 0, "measure a file");
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  must_do(H5Fget_file_image(file.get(), bytes.data(), bytes.size()) < 0 ? -1 : 0, "read a file back");
+  return bytes;
+}
+
+RecordedCurve read_hdf5(std::string_view bytes, std::size_t index) {
+  // the child hands the curve over in the format that holds the same and has a reader of our own
+  return read_tab(in_confined_child([&] { return tab_bytes(read_here(bytes, index)); },
+                                    "it is damaged: the HDF5 library could not survive it"));
+}
+
+}  // namespace afm::curves

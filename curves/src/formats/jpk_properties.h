@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace afm::curves {
+
+// The key=value lines of JPK's .properties files (Java's, without line continuation, which JPK does not write).
+class JpkProperties {
+ public:
+  // Adds to what is there; what is said again is said last.
+  void add(std::string_view text);
+
+  // Newer files keep what segments share in one place: for "channel.height.lcd-info.*=2" all that `shared` has beneath
+  // "lcd-info.2." appears beneath "channel.height.".
+  void take_shared(const JpkProperties& shared);
+
+  std::optional<std::string> text(std::string_view key) const;
+
+  // Throws CurveFault if it is there and no finite number.
+  std::optional<double> number(std::string_view key) const;
+
+ private:
+  std::map<std::string, std::string, std::less<>> values_;
+};
+
+}  // namespace afm::curves

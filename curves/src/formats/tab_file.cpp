@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/tab_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "core/version.h"
+#include "curves/curve_fault.h"
+#include "formats/afmformats_metadata.h"
+#include "formats/text_table.h"
+
+namespace afm::curves {
+
+namespace {
+
+// The # lines at the top: the metadata and the column names, which stand in the last of them.
+struct Heading {
+  std::string metadata;
+  std::string_view columns;
+  bool has_metadata = false;
+};
+
+Heading read_heading(Lines& lines, std::string_view& first_row) {
+  Heading heading;
+  bool inside = false;
+  for (std::string_view line; lines.next(line);) {
+    if (line.starts_with("# BEGIN METADATA")) {
+      inside = true;
+    } else if (line.starts_with("# END METADATA")) {
+      inside = false;
+      heading.has_metadata = true;
+    } else if (inside && line.starts_with('#')) {
+      heading.metadata.append(line.substr(1)).push_back('\n');
+    } else if (line.starts_with('#')) {
+      if (!trimmed(line.substr(1)).empty()) heading.columns = trimmed(line.substr(1));
+    } else if (!trimmed(line).empty()) {
+      first_row = line;
+      break;
+    }
+  }
+  if (!heading.has_metadata) throw CurveFault("it has no block between BEGIN METADATA and END METADATA");
+  return heading;
+}
+
+physics::Branch branch_in(std::string_view field, const Lines& lines) {
+  field = trimmed(field);
+  if (field == "0" || field == "False") return physics::Branch::Approach;
+  if (field == "1" || field == "True") return physics::Branch::Retract;
+  throw CurveFault(fmt::format("line {}: segment is \"{}\"; known are 0 (approach) and 1 (retract)", lines.number(),
+                               field.substr(0, 40)));
+}
+
+void check_count(const nlohmann::json& metadata, std::size_t points, std::string_view bytes) {
+  const auto count = metadata.find("point count");
+  if (count == metadata.end() || !count->is_number()) return;
+  const double expected = count->get<double>();
+  // a last line without its end may have lost digits
+  if (static_cast<double>(points) < expected || !bytes.ends_with('\n')) {
+    throw CurveFault(fmt::format("it is cut short: {} of {} points are whole", points, expected));
+  }
+}
+
+}  // namespace
+
+std::string tab_bytes(const RecordedCurve& curve) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "# TouchAFM {}\n#\n# BEGIN METADATA\n", core::kVersion);
+  const std::string metadata = afmformats_metadata(curve).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string_view line;
+  for (Lines lines(metadata); lines.next(line);) fmt::format_to(out, "# {}\n", line);
+  const bool timed = !curve.time_s.empty();
+  fmt::format_to(out, "# END METADATA\n#\n# force\theight (measured)\tsegment{}\n", timed ? "\ttime" : "");
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const physics::CurvePoint& point = curve.points[i];
+    // adding zero turns -0 into 0
+    fmt::format_to(out, "{}\t{}\t{}", point.force.si + 0.0, point.z.si + 0.0,
+                   point.branch == physics::Branch::Approach ? 0 : 1);
+    if (timed) fmt::format_to(out, "\t{}", curve.time_s[i]);
+    text.push_back('\n');
+  }
+  return fmt::to_string(text);
+}
+
+RecordedCurve read_tab(std::string_view bytes) {
+  Lines lines(bytes);
+  std::string_view line;
+  const Heading heading = read_heading(lines, line);
+  const nlohmann::json metadata = nlohmann::json::parse(heading.metadata);
+  RecordedCurve curve;
+  read_afmformats_metadata(metadata, curve.metadata);
+
+  std::vector<std::string_view> names, fields;
+  split(heading.columns, '\t', names);
+  const bool measured = std::find(names.begin(), names.end(), "height (measured)") != names.end();
+  const std::size_t height = column_in(names, measured ? "height (measured)" : "height (piezo)");
+  const std::size_t force = column_in(names, "force"), segment = column_in(names, "segment");
+  const std::size_t time = static_cast<std::size_t>(std::find(names.begin(), names.end(), "time") - names.begin());
+  // afmformats 0.13 wrote its first row behind the heading, which then has more columns than the rows
+  const std::size_t last_used = std::max({height, force, segment, time < names.size() ? time : 0});
+  for (bool more = !line.empty(); more; more = lines.next(line)) {
+    if (trimmed(line).empty() || line.starts_with('#')) continue;
+    split(line, '\t', fields);
+    if (fields.size() <= last_used || fields.size() > names.size()) {
+      throw CurveFault(
+          fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), names.size()));
+    }
+    if (curve.points.size() == kMostCurvePoints) throw CurveFault("it has more points than a curve may have");
+    curve.points.push_back({physics::Length(number_in(fields[height], "height", lines)),
+                            physics::Force(number_in(fields[force], "force", lines)),
+                            branch_in(fields[segment], lines)});
+    if (time < fields.size()) curve.time_s.push_back(number_in(fields[time], "time", lines));
+  }
+  check_count(metadata, curve.points.size(), bytes);
+  return curve;
+}
+
+}  // namespace afm::curves

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "curves/recorded_curve.h"
+
+namespace afm::curves {
+
+// afmformats' .tab: a # header with JSON between BEGIN METADATA and END METADATA, a # line of column names, rows
+// separated by tabs. afmformats refuses a file with a metadata key that it does not know, so that only those of its
+// list are written. Reading throws CurveFault.
+std::string tab_bytes(const RecordedCurve& curve);
+RecordedCurve read_tab(std::string_view bytes);
+
+}  // namespace afm::curves

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/text_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "curves/curve_fault.h"
+
+namespace afm::curves {
+
+bool Lines::next(std::string_view& line) {
+  if (rest_.empty()) return false;
+  const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+  line = rest_.substr(0, end);
+  rest_.remove_prefix(rest_.substr(end).starts_with("\r\n") ? end + 2 : std::min(end + 1, rest_.size()));
+  ++number_;
+  return true;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+void split(std::string_view text, char separator, std::vector<std::string_view>& parts) {
+  parts.clear();
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return;
+    text.remove_prefix(end + 1);
+  }
+}
+
+double number_in(std::string_view field, std::string_view column, const Lines& lines) {
+  field = trimmed(field);
+  double value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
+    throw CurveFault(
+        fmt::format("line {}: {} is \"{}\", not a finite number", lines.number(), column, field.substr(0, 40)));
+  }
+  return value;
+}
+
+std::size_t column_in(const std::vector<std::string_view>& heading, std::string_view name) {
+  const auto found = std::find(heading.begin(), heading.end(), name);
+  if (found == heading.end()) throw CurveFault(fmt::format("it has no column \"{}\"", name));
+  return static_cast<std::size_t>(found - heading.begin());
+}
+
+}  // namespace afm::curves

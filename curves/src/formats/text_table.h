@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace afm::curves {
+
+// The lines of a text, one after the other, without their LF, CRLF or CR.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {}
+
+  bool next(std::string_view& line);
+  std::size_t number() const { return number_; }  // of the line given last, from 1
+
+ private:
+  std::string_view rest_;
+  std::size_t number_ = 0;
+};
+
+std::string_view trimmed(std::string_view text);
+
+// The parts between the separators; of an empty text, one empty part. Reuses `parts`.
+void split(std::string_view text, char separator, std::vector<std::string_view>& parts);
+
+// A finite decimal number that fills the whole field, blanks aside. Throws CurveFault, which says where.
+double number_in(std::string_view field, std::string_view column, const Lines& lines);
+
+// The place of a column in the table's heading. Throws CurveFault if there is none.
+std::size_t column_in(const std::vector<std::string_view>& heading, std::string_view name);
+
+}  // namespace afm::curves

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/touchafm_csv_file.h"
+
+#include <fmt/format.h>
+
+#include "curves/curve_fault.h"
+#include "formats/text_table.h"
+
+namespace afm::curves {
+
+namespace {
+
+void read_comment(std::string_view line, const Lines& lines, CurveMetadata& metadata) {
+  constexpr std::string_view kSpringConstant = "# spring_constant_N_per_m: ", kMaterial = "# material: ";
+  if (line.starts_with(kSpringConstant)) {
+    metadata.spring_constant =
+        physics::Stiffness(number_in(line.substr(kSpringConstant.size()), "spring_constant_N_per_m", lines));
+  } else if (line.starts_with(kMaterial)) {
+    metadata.curve_id = line.substr(kMaterial.size());
+  }
+}
+
+}  // namespace
+
+RecordedCurve read_touchafm_csv(std::string_view bytes) {
+  RecordedCurve curve;
+  curve.metadata.instrument = curve.metadata.software = kComputedBy;
+  Lines lines(bytes);
+  std::string_view line;
+  bool more = lines.next(line);
+  for (; more && line.starts_with('#'); more = lines.next(line)) read_comment(line, lines, curve.metadata);
+
+  std::vector<std::string_view> names, fields;
+  split(line, ',', names);
+  const std::size_t z = column_in(names, "z_m"), force = column_in(names, "force_N"),
+                    branch = column_in(names, "branch");
+  while (lines.next(line)) {
+    split(line, ',', fields);
+    if (fields.size() != names.size()) {
+      throw CurveFault(
+          fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), names.size()));
+    }
+    if (fields[branch] != "approach" && fields[branch] != "retract") {
+      throw CurveFault(fmt::format("line {}: branch is \"{}\", neither approach nor retract", lines.number(),
+                                   fields[branch].substr(0, 40)));
+    }
+    if (curve.points.size() == kMostCurvePoints) throw CurveFault("it has more points than a curve may have");
+    curve.points.push_back({physics::Length(number_in(fields[z], "z_m", lines)),
+                            physics::Force(number_in(fields[force], "force_N", lines)),
+                            fields[branch] == "approach" ? physics::Branch::Approach : physics::Branch::Retract});
+  }
+  // a whole cycle comes back up, and its last line is ended
+  if (curve.points.empty() || curve.points.back().branch != physics::Branch::Retract || !bytes.ends_with('\n')) {
+    throw CurveFault("it is cut short");
+  }
+  return curve;
+}
+
+}  // namespace afm::curves

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "curves/recorded_curve.h"
+
+namespace afm::curves {
+
+// What `touchafm curve` prints: "# key: value" lines, a line of column names with units, rows separated by commas.
+// Needs the columns z_m, force_N and branch. Throws CurveFault.
+RecordedCurve read_touchafm_csv(std::string_view bytes);
+
+}  // namespace afm::curves

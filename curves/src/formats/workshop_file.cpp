@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/workshop_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+
+#include "curves/curve_fault.h"
+#include "formats/text_table.h"
+
+namespace afm::curves {
+
+namespace {
+
+constexpr double kPerNano = 1e9;
+
+constexpr std::array<std::string_view, 12> kMonths{"January",   "February", "March",    "April",
+                                                   "May",       "June",     "July",     "August",
+                                                   "September", "October",  "November", "December"};
+constexpr std::array<std::string_view, 7> kWeekdays{"Sunday",   "Monday", "Tuesday", "Wednesday",
+                                                    "Thursday", "Friday", "Saturday"};
+
+std::optional<int> whole_number(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// "Friday, February 14, 2020" or "15 January 2021" as 2020-02-14; any other date as it is.
+std::string iso_date(std::string_view text) {
+  std::vector<std::string_view> words;
+  split(trimmed(text), ' ', words);
+  if (words.size() == 4) words.erase(words.begin());
+  std::optional<int> day, year;
+  std::size_t month = kMonths.size();
+  for (std::string_view word : words) {
+    while (word.ends_with(',')) word.remove_suffix(1);
+    const auto named = std::find(kMonths.begin(), kMonths.end(), word);
+    if (named != kMonths.end()) {
+      month = static_cast<std::size_t>(named - kMonths.begin());
+    } else {
+      (day ? year : day) = whole_number(word);
+    }
+  }
+  if (words.size() != 3 || !day || !year || month == kMonths.size()) return std::string(trimmed(text));
+  return fmt::format("{:04}-{:02}-{:02}", *year, month + 1, *day);
+}
+
+// "2020-02-14" as "Friday, February 14, 2020"; empty for what is no such date.
+std::string long_date(std::string_view iso) {
+  std::vector<std::string_view> parts;
+  split(iso, '-', parts);
+  if (parts.size() != 3) return {};
+  const auto year = whole_number(parts[0]), month = whole_number(parts[1]), day = whole_number(parts[2]);
+  if (!year || !month || !day || *month < 1 || *day < 1) return {};
+  const std::chrono::year_month_day date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
+                                         std::chrono::day(static_cast<unsigned>(*day))};
+  if (!date.ok()) return {};
+  const std::chrono::weekday weekday{std::chrono::sys_days(date)};
+  return fmt::format("{}, {} {}, {}", kWeekdays[weekday.c_encoding()], kMonths[static_cast<std::size_t>(*month - 1)],
+                     *day, *year);
+}
+
+struct Header {
+  CurveMetadata metadata;
+  std::vector<std::string_view> columns;
+};
+
+Header read_header(Lines& lines) {
+  Header header;
+  header.metadata.instrument = header.metadata.software = "AFM Workshop";
+  for (std::string_view line; lines.next(line);) {
+    const auto value_of = [&](std::string_view key) {
+      return line.starts_with(key) ? trimmed(line.substr(key.size())) : std::string_view();
+    };
+    // "1" stands for a calibration that nobody has made (afmformats reads it so too)
+    const auto calibration = [&](std::string_view key) -> std::optional<double> {
+      const std::string_view text = value_of(key);
+      if (text.empty()) return std::nullopt;
+      const double value = number_in(text, key, lines);
+      return value == 1.0 ? std::nullopt : std::optional(value);
+    };
+    if (const auto date = value_of("Date:"); !date.empty()) header.metadata.date = iso_date(date);
+    if (const auto time = value_of("Time:"); !time.empty()) header.metadata.time = time;
+    if (const auto version = value_of("Software Version:"); !version.empty())
+      header.metadata.software_version = version;
+    if (const auto gain = calibration("Light Lever Gain, mV/nm:")) header.metadata.sensitivity_m_per_v = 1e-6 / *gain;
+    if (const auto k = calibration("Force Constant, nN/nm:")) header.metadata.spring_constant = physics::Stiffness(*k);
+    if (std::count(line.begin(), line.end(), ',') >= 3) {
+      split(line, ',', header.columns);
+      return header;
+    }
+  }
+  throw CurveFault("it has no line of column names");
+}
+
+// One of the two branches of the table.
+struct Columns {
+  std::size_t height;
+  std::size_t signal;
+  double newton_per_signal;
+};
+
+Columns columns_of(const Header& header, std::string_view branch) {
+  const auto has = [&](const std::string& name) {
+    return std::find(header.columns.begin(), header.columns.end(), name) != header.columns.end();
+  };
+  const std::size_t height = column_in(header.columns, fmt::format("{} Z-Sense(nm)", branch));
+  const std::string force = fmt::format("{} Force(nN)", branch), volts = fmt::format("{} T-B(V)", branch);
+  if (has(force)) return {height, column_in(header.columns, force), 1.0 / kPerNano};
+  const std::size_t signal = column_in(header.columns, volts);
+  const CurveMetadata& made = header.metadata;
+  if (!made.sensitivity_m_per_v || !made.spring_constant) {
+    throw CurveFault("its deflection is in volts; give --sensitivity and --spring-constant");
+  }
+  return {height, signal, *made.sensitivity_m_per_v * made.spring_constant->si};
+}
+
+// Heights that Gwyddion may take as evenly spaced, to the digits that AFM Workshop writes.
+bool evenly_spaced(std::span<const physics::CurvePoint> branch) {
+  const double step = (branch.back().z - branch.front().z).si / static_cast<double>(branch.size() - 1);
+  for (std::size_t i = 0; i < branch.size(); ++i) {
+    const double place = branch.front().z.si + static_cast<double>(i) * step;
+    if (std::abs(branch[i].z.si - place) > 1e-3 * std::abs(step)) return false;
+  }
+  return true;
+}
+
+// The branch at `count` evenly spaced heights from its first to its last point, by straight lines between the points.
+std::vector<physics::CurvePoint> resampled(std::span<const physics::CurvePoint> branch, std::size_t count) {
+  std::vector<physics::CurvePoint> rising(branch.begin(), branch.end());
+  if (rising.front().z > rising.back().z) std::reverse(rising.begin(), rising.end());
+  std::stable_sort(rising.begin(), rising.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
+  std::vector<physics::CurvePoint> result;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+    const physics::Length z = branch.front().z + share * (branch.back().z - branch.front().z);
+    const auto above =
+        std::lower_bound(rising.begin(), rising.end(), z, [](const auto& point, auto at) { return point.z < at; });
+    physics::Force force = above == rising.end() ? rising.back().force : above->force;
+    if (above != rising.begin() && above != rising.end() && above->z > z) {
+      const physics::CurvePoint& below = *(above - 1);
+      force = below.force + (z - below.z) / (above->z - below.z) * (above->force - below.force);
+    }
+    result.push_back({z, force, branch.front().branch});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string workshop_bytes(const RecordedCurve& curve) {
+  const auto turn = std::find_if(curve.points.begin(), curve.points.end(),
+                                 [](const auto& point) { return point.branch == physics::Branch::Retract; });
+  std::vector<physics::CurvePoint> approach(curve.points.begin(), turn), retract(turn, curve.points.end());
+  if (approach.size() < 2 || retract.size() < 2) throw CurveFault("it needs an approach and a retract");
+  if (approach.size() != retract.size() || !evenly_spaced(approach) || !evenly_spaced(retract)) {
+    const std::size_t count = std::max(approach.size(), retract.size());
+    approach = resampled(approach, count);
+    retract = resampled(retract, count);
+  }
+
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "Force-Distance Curve\r\nFile Format:\t3\r\n\r\n");
+  if (const std::string date = long_date(curve.metadata.date); !date.empty())
+    fmt::format_to(out, "Date:\t{}\r\n", date);
+  if (!curve.metadata.time.empty()) fmt::format_to(out, "Time:\t{}\r\n", curve.metadata.time);
+  fmt::format_to(out, "Mode:\tSingle\r\nPoint:\t0\r\nX, um:\t0.000000\r\nY, um:\t0.000000\r\n");
+  if (curve.metadata.spring_constant) {
+    fmt::format_to(out, "Force Constant, nN/nm:\t{}\r\n", curve.metadata.spring_constant->si);
+  }
+  fmt::format_to(out, "\r\nExtend Z-Sense(nm),Extend Force(nN),Retract Z-Sense(nm),Retract Force(nN)\r\n");
+  for (std::size_t i = 0; i < approach.size(); ++i) {
+    fmt::format_to(out, "{},{},{},{}\r\n", -kPerNano * approach[i].z.si + 0.0, kPerNano * approach[i].force.si + 0.0,
+                   -kPerNano * retract[i].z.si + 0.0, kPerNano * retract[i].force.si + 0.0);
+  }
+  return fmt::to_string(text);
+}
+
+RecordedCurve read_workshop(std::string_view bytes, const CurveReading& reading) {
+  Lines lines(bytes);
+  Header header = read_header(lines);
+  if (!header.metadata.sensitivity_m_per_v) header.metadata.sensitivity_m_per_v = reading.sensitivity_m_per_v;
+  if (!header.metadata.spring_constant) header.metadata.spring_constant = reading.spring_constant;
+  const Columns extend = columns_of(header, "Extend"), pull = columns_of(header, "Retract");
+
+  RecordedCurve curve{{}, {}, header.metadata};
+  std::vector<physics::CurvePoint> retract;
+  std::vector<std::string_view> fields;
+  for (std::string_view line; lines.next(line);) {
+    if (trimmed(line).empty()) continue;
+    split(line, ',', fields);
+    if (fields.size() != header.columns.size()) {
+      throw CurveFault(
+          fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), header.columns.size()));
+    }
+    if (2 * retract.size() >= kMostCurvePoints) throw CurveFault("it has more points than a curve may have");
+    const auto point = [&](const Columns& columns, physics::Branch branch) {
+      return physics::CurvePoint{
+          physics::Length(-number_in(fields[columns.height], "Z-Sense", lines) / kPerNano),
+          physics::Force(number_in(fields[columns.signal], "force", lines) * columns.newton_per_signal), branch};
+    };
+    curve.points.push_back(point(extend, physics::Branch::Approach));
+    retract.push_back(point(pull, physics::Branch::Retract));
+  }
+  curve.points.insert(curve.points.end(), retract.begin(), retract.end());
+  return curve;
+}
+
+}  // namespace afm::curves

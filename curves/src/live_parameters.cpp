@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves/live_parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "physics/adhesion_map.h"
+#include "physics/force_model.h"
+#include "physics/quantity_text.h"
+
+namespace afm::curves {
+
+namespace {
+
+using physics::Law;
+
+constexpr double kOctavesOfStep = 0.25;
+constexpr physics::Pressure kStiffestModulus{1e12};  // where a step down from "rigid" begins
+constexpr int kDigits = 3;
+constexpr double kPointsOfCycle = 400.0;
+
+// In the order in which the panel goes through them; none stands for the adhesion map's choice.
+constexpr std::array<std::optional<Law>, 8> kLaws{std::nullopt,       Law::Paper, Law::Hao,          Law::Dmt,
+                                                  Law::MaugisDugdale, Law::Jkr,   Law::LennardJones, Law::Hertz};
+
+// One cycle as far as the force panel shows.
+physics::ForceCurve predict(const FeltMaterial& material) {
+  const double reach = cycle_reach_m(material);
+  const physics::Length from(kReachAbove * reach), to(-kReachBelow * reach);
+  return physics::record_curve(physics::ApproachRetractModel(material.tables),
+                               {.from = from, .to = to, .step = (from - to) / kPointsOfCycle});
+}
+
+}  // namespace
+
+double cycle_reach_m(const FeltMaterial& material) { return material.scaling.release_z_m(); }
+
+LiveParameters::LiveParameters(const FeltMaterial& loaded) : loaded_(loaded), now_(loaded), curve_(predict(loaded)) {}
+
+std::optional<Law> LiveParameters::law_after(int steps) const {
+  const std::optional<Law> first = loaded_.setup.model.automatic ? std::nullopt : std::optional(loaded_.parameters.law);
+  const auto place = std::find(kLaws.begin(), kLaws.end(), first) - kLaws.begin();
+  return kLaws[static_cast<std::size_t>(place + steps) % kLaws.size()];
+}
+
+bool LiveParameters::take(const Steps& steps) {
+  const auto scaled = [&](Row row, auto quantity) {
+    quantity.si *= std::exp2(kOctavesOfStep * steps[index(row)]);
+    return quantity;
+  };
+  scene::SharedMaterial parameters = loaded_.parameters;
+  physics::Interaction& in = parameters.interaction;
+  in.tip_radius = scaled(Row::TipRadius, in.tip_radius);
+  in.spring_constant = scaled(Row::SpringConstant, in.spring_constant);
+  in.hamaker = scaled(Row::Hamaker, in.hamaker);
+  in.mean_surface_energy = scaled(Row::WorkOfAdhesion, in.mean_surface_energy);
+  const bool softened = std::isinf(in.reduced_modulus.si) && steps[index(Row::ReducedModulus)] < 0;
+  in.reduced_modulus = scaled(Row::ReducedModulus, softened ? kStiffestModulus : in.reduced_modulus);
+  try {
+    parameters.law = law_after(steps[index(Row::Law)]).value_or(physics::choose_law(in).law);
+    auto felt = felt_material(loaded_.setup.material, parameters, {});
+    if (!felt) {
+      refusal_ = felt.error().message;
+      return false;
+    }
+    curve_ = predict(*felt);
+    felt->setup = loaded_.setup;
+    now_ = std::move(*felt);
+  } catch (const std::invalid_argument& why) {
+    refusal_ = why.what();
+    return false;
+  }
+  steps_ = steps;
+  refusal_.clear();
+  return true;
+}
+
+bool LiveParameters::step(Row row, int direction) {
+  Steps next = steps_;
+  int& steps = next[index(row)];
+  if (row != Row::Law) {
+    steps += direction;
+    const bool stiffer_than_rigid = std::isinf(loaded_.parameters.interaction.reduced_modulus.si) && steps > 0;
+    return !(row == Row::ReducedModulus && stiffer_than_rigid) && take(next);
+  }
+  // the next law that these parameters have
+  const auto count = static_cast<int>(kLaws.size());
+  for (int tries = 1; tries < count; ++tries) {
+    steps = (steps + direction + count) % count;
+    if (take(next)) return true;
+  }
+  return false;
+}
+
+bool LiveParameters::reset() { return changed() && take({}); }
+
+std::string LiveParameters::name(Row row) const {
+  switch (row) {
+    case Row::TipRadius:
+      return "Tip radius R";
+    case Row::SpringConstant:
+      return "Spring constant k";
+    case Row::Hamaker:
+      return "Hamaker constant A";
+    case Row::WorkOfAdhesion:
+      return "Work of adhesion W";
+    case Row::ReducedModulus:
+      return "Reduced modulus E*";
+    case Row::Law:
+      break;
+  }
+  return "Law of force";
+}
+
+std::string typographic(std::string text) {
+  if (text.ends_with("m2")) text.replace(text.size() - 1, 1, "\u00b2");
+  if (const std::size_t micro = text.find(" u"); micro != std::string::npos) text.replace(micro + 1, 1, "\u00b5");
+  return text;
+}
+
+std::string LiveParameters::value(Row row) const {
+  const physics::Interaction& in = now_.parameters.interaction;
+  switch (row) {
+    case Row::TipRadius:
+      return typographic(format_quantity(in.tip_radius, physics::kLengthUnits, kDigits));
+    case Row::SpringConstant:
+      return format_quantity(in.spring_constant, physics::kStiffnessUnits, kDigits);
+    case Row::Hamaker:
+      return format_quantity(in.hamaker, physics::kEnergyUnits, kDigits);
+    case Row::WorkOfAdhesion:
+      return typographic(format_quantity(2.0 * in.mean_surface_energy, physics::kSurfaceEnergyUnits, kDigits));
+    case Row::ReducedModulus:
+      return std::isfinite(in.reduced_modulus.si)
+                 ? format_quantity(in.reduced_modulus, physics::kPressureUnits, kDigits)
+                 : "rigid";
+    case Row::Law:
+      break;
+  }
+  return fmt::format("{}{}", law_after(steps_[index(row)]) ? "" : "auto: ", law_name(now_.parameters));
+}
+
+}  // namespace afm::curves

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves/measured_material.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "curves/curve_file.h"
+#include "physics/measured_branches.h"
+
+namespace afm::curves {
+
+namespace {
+
+scene::MaterialEntry entry_of(const std::string& path, const CurveMetadata& metadata,
+                              const scene::MaterialEntry& like) {
+  scene::MaterialEntry entry;
+  entry.name = "measured";
+  entry.title = std::filesystem::path(path).stem().string();
+  entry.look = like.look;
+  entry.note = metadata.instrument.empty() ? "a recorded curve" : "recorded by " + metadata.instrument;
+  entry.interaction = like.interaction;
+  if (metadata.spring_constant) {
+    entry.interaction.spring_constant = *metadata.spring_constant;
+    entry.sources.push_back({"spring_constant", fmt::format("{:g} N/m", metadata.spring_constant->si),
+                             std::filesystem::path(path).filename().string(), false});
+  }
+  return entry;
+}
+
+}  // namespace
+
+core::Result<MeasuredMaterial> load_measured_material(const std::string& path, const scene::MaterialEntry& like) {
+  const auto recorded = load_curve(path);
+  if (!recorded) return tl::unexpected(recorded.error());
+  try {
+    const auto branches = physics::measured_branches(recorded->points, scene::kMaxMeasuredPoints);
+    MeasuredMaterial measured{entry_of(path, recorded->metadata, like), {}};
+    measured.curve.approach_count = static_cast<std::uint32_t>(branches.approach.size());
+    measured.curve.retract_count = static_cast<std::uint32_t>(branches.retract.size());
+    std::copy(branches.approach.begin(), branches.approach.end(), measured.curve.approach.begin());
+    std::copy(branches.retract.begin(), branches.retract.end(), measured.curve.retract.begin());
+    return measured;
+  } catch (const std::invalid_argument& error) {
+    return core::failure(core::ErrorCategory::BadInputFile, fmt::format("curve file {}: {}", path, error.what()));
+  }
+}
+
+}  // namespace afm::curves

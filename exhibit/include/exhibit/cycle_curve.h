@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/frame.h"
+#include "servo/session_file.h"
+
+namespace afm::exhibit {
+
+// The force-displacement curve of one cycle as it grows: every sample that the servo gave while its force was enabled
+// and the tip had been lifted, and at every event the two ends of the jump, exactly where it happened. Split at the
+// deepest push into approach and retract.
+class CycleCurve {
+ public:
+  void add(const scene::TipSample& sample);
+  void add(const scene::TipEvent& event);
+
+  bool empty() const { return points_.empty(); }
+
+  render::PlotCurve plot(std::string label, const glm::vec3& color) const;
+
+ private:
+  void add_point(const render::PlotPoint& point);
+
+  std::vector<render::PlotPoint> points_;
+  std::size_t deepest_ = 0;
+};
+
+// The curve of a session up to `end_ns`, samples and events in their order in time.
+CycleCurve curve_until(const servo::RecordedSession& session, std::int64_t end_ns);
+
+}  // namespace afm::exhibit

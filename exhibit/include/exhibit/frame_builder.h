@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "curves/felt_material.h"
+#include "exhibit/moment.h"
+#include "exhibit/wall_scene.h"
+#include "render/frame.h"
+#include "scene/display/wall.h"
+#include "scene/shared/shared_blocks.h"
+
+namespace afm::exhibit {
+
+// The part of the cycle in words, with the letters of the paper's Fig. 2.
+std::string stage_of_cycle(const Moment& moment, double z_jtc_m);
+
+// Turns moments into frames for one wall and one viewer.
+class FrameBuilder {
+ public:
+  // `wall_scene` and `materials` must outlive it; what a material is felt with may change between two frames.
+  FrameBuilder(const WallScene& wall_scene, const std::vector<curves::FeltMaterial>& materials,
+               const std::array<scene::EyeView, 2>& eyes);
+
+  render::FrameState build(const Moment& moment) const;
+
+ private:
+  render::ForcePanel force_panel(const Moment& moment) const;
+  render::Banner banner(const Moment& moment) const;
+
+  const WallScene* wall_scene_;
+  const std::vector<curves::FeltMaterial>* materials_;
+  std::array<scene::EyeView, 2> eyes_;
+};
+
+// The eyes of the wall's first viewer at his sweet spot, for its first screen.
+core::Result<std::array<scene::EyeView, 2>> eyes_at_sweet_spot(const scene::Wall& wall);
+
+// Colours of the materials' curves, by their place in the material file: Okabe & Ito's palette, safe for the
+// colour-blind.
+glm::vec3 curve_color(std::size_t material);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <string>
+#include <vector>
+
+#include "exhibit/model_builder.h"
+#include "render/frame.h"
+#include "scene/graph/scene.h"
+
+namespace afm::exhibit {
+
+// A round length, 1, 2 or 5 times a power of ten, that is drawn no longer than a limit.
+struct ScaleBar {
+  double length_m = 0;  // of the nanoworld
+  double drawn = 0;     // as large as it stands in the picture
+  std::string text;     // "10 nm"
+};
+
+// `m_per_unit` > 0: metres of the nanoworld shown as one unit of the picture; the bar is drawn more than 0.4 and at
+// most 1.0 times `longest`.
+ScaleBar scale_bar(double m_per_unit, double longest);
+
+// What is drawn beside the instrument so that it can be read: a ruler that stands on the sample in the wall's plane,
+// and where the lever would be without its bend.
+class WallMarks {
+ public:
+  WallMarks() = default;
+  // Appends its nodes: the ruler's below `layout`, the lever's below `sample`.
+  WallMarks(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout, scene::NodeIndex sample);
+
+  // The ruler, in layout units.
+  void place_ruler(const ScaleBar& bar, std::vector<glm::dmat4>& local) const;
+
+  // The unbent lever's middle line from the clamp to beyond its end, and the bend from there to the real end.
+  void place_lever(const glm::dvec3& clamp, const glm::dvec3& unbent_end, const glm::dvec3& end,
+                   std::vector<glm::dmat4>& local) const;
+
+  // Those that are hidden with the instrument, and the ruler's.
+  std::vector<scene::NodeIndex> lever_nodes() const { return {unbent_, bend_}; }
+  std::vector<scene::NodeIndex> ruler_nodes() const { return {ruler_, ruler_low_, ruler_high_}; }
+
+ private:
+  scene::NodeIndex ruler_ = 0, ruler_low_ = 0, ruler_high_ = 0, unbent_ = 0, bend_ = 0;
+};
+
+}  // namespace afm::exhibit

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "exhibit/analogy.h"
+#include "exhibit/journey.h"
+#include "exhibit/jump_cue.h"
+#include "exhibit/own_models.h"
+#include "exhibit/wall_marks.h"
+#include "input/selection.h"
+#include "input/wand.h"
+#include "render/frame.h"
+#include "scene/display/wall.h"
+#include "scene/graph/scene.h"
+#include "scene/samples/material_library.h"
+#include "scene/shared/shared_blocks.h"
+
+namespace afm::exhibit {
+
+// What the picture shows of the tip: heights along the sample's normal, metres of the nanoworld.
+struct TipView {
+  double z_m = 0;               // piezo displacement
+  double deflection_m = 0;      // delta_c, positive towards the sample
+  double z_joc_m = 0;           // where the tip lets go with the parameters that it has now; 0: those of the material
+  glm::dvec2 xy_m{0.0};         // the tip's place in the sample's frame
+  double surface_height_m = 0;  // below the tip; Z and the deflection count from there
+};
+
+// How large things are drawn: metres of the nanoworld (or of the instrument) shown as one metre on the wall.
+struct DrawnScale {
+  double sample_m_per_m = 0;  // sample, displacement, deflection
+  double lever_m_per_m = 0;   // chip and cantilever
+  double tip_m_per_m = 0;     // tip
+};
+
+// The scene that stands on the wall (design, section 5): which models, where, and how they move with the tip. Built
+// once; const from then on. A wall of any size shows the same picture.
+class WallScene {
+ public:
+  static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
+                                      const scene::Screen& screen, const glm::dvec3& viewer_m,
+                                      const OwnModels& own = {});
+
+  const scene::Scene& scene() const { return scene_; }
+  scene::NodeIndex sample_node() const { return sample_frame_; }
+
+  // The swatches as targets of the wand, in the order of the materials.
+  std::vector<input::Target> swatch_targets() const;
+
+  // The surfaces that are felt, as they are drawn; and which of them a material has, scene::kNoHeightField for none.
+  std::span<const scene::SharedHeightField> height_fields() const { return height_fields_; }
+  std::uint32_t height_field(std::size_t material) const { return looks_[material].height_field; }
+
+  // Where the tip meets the sample, as long as nothing has been moved: in the wall's plane.
+  glm::dvec3 contact_m() const { return glm::dvec3(room_from_layout_[3]); }
+
+  // What the panels draw as a millimetre, so that they look on every wall as on the paper's.
+  double panel_millimetre_m() const;
+
+  // Outward normal of the sample in the room, and its x axis, to the right; unit.
+  glm::dvec3 sample_normal() const;
+  glm::dvec3 sample_right() const;
+
+  // Where a simulated person holds the wand.
+  glm::dvec3 wand_grip_m() const;
+
+  // Metres of the nanoworld on a metre of the wall, at a place of the journey.
+  double journey_m_per_m(double orders) const;
+
+  DrawnScale drawn_scale(std::size_t material, const TipView& tip = {}) const;
+
+  // Where the parameters of a material are changed, in the place of its data; and the target that opens it.
+  render::PanelPlacement parameter_placement() const;
+  render::PanelPlacement parameter_tab_placement() const;
+
+  // What stands in the middle: the instrument; in the finale the plot alone; Millet's analogy of what happens; or the
+  // instrument at one true scale.
+  enum class Exhibit { Instrument, Plot, Analogy, Journey };
+
+  struct Pose {
+    std::optional<std::size_t> material{};  // none: no sample lies on the stage yet
+    TipView tip{};
+    std::optional<std::size_t> hovered{};
+    std::optional<input::WandState> wand{};
+    Exhibit exhibit = Exhibit::Instrument;
+    double journey_orders = 0;   // of Exhibit::Journey, as in app/journey.h
+    double veil = 0;             // 0..1: how much of everything has dissolved
+    glm::dmat4 navigation{1.0};  // room from room: where sample and instrument have been moved, turned and scaled to
+    std::optional<JumpCue> cue{};
+  };
+
+  // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.
+  void place(const Pose& pose, render::FrameState& frame) const;
+
+  // Only the transforms, for the shared block that the servo reads.
+  void place(const Pose& pose, scene::SceneTransforms& transforms) const;
+
+ private:
+  struct MaterialLook {
+    std::size_t ground;       // of the journey
+    scene::NodeIndex sample;  // the frame that is scaled
+    scene::NodeIndex swatch;
+    scene::NodeIndex label;    // on the swatch, where its name stands
+    double stroke_m;           // from the deepest push to the highest lift
+    double full_deflection_m;  // at pull-off
+    double thickness_m;        // of the slab
+    std::uint32_t height_field;
+  };
+
+  std::uint32_t height_field_of(const std::string& model, scene::NodeIndex surface);
+  void place_probe(const Pose& pose, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
+  void place_sample(const Pose& pose, std::vector<glm::dmat4>& local) const;
+  void place_optics(const Pose& pose, std::vector<glm::dmat4>& local) const;
+  void place_wand(const Pose& pose, std::vector<glm::dmat4>& local) const;
+  double parameter_factor(std::size_t material, const TipView& tip) const;  // of Z_joc, against the material's own
+  double layout_per_m(const Pose& pose) const;                              // layout units per metre of the nanoworld
+  double side_width() const;                                                // of the panels beside the instrument
+  glm::dvec3 swatch_place(std::size_t i) const;
+  glm::dvec3 below_tip(const Pose& pose) const;     // the surface's point, sample's frame, layout units
+  double ruler_m_per_unit(const Pose& pose) const;  // what a layout unit beside the ruler shows; 0: nothing
+  Analogy::Heights analogy_heights(const Pose& pose) const;
+  std::vector<scene::NodeIndex> hidden_roots(const Pose& pose) const;
+  void place_panels(const Pose& pose, render::FrameState& frame) const;
+  void place_swatch_labels(const Pose& pose, render::FrameState& frame) const;
+  void place_analogy_labels(const Pose& pose, render::FrameState& frame) const;
+  void place_haze(const Pose& pose, render::FrameState& frame) const;
+  void place_marks(const Pose& pose, render::FrameState& frame) const;
+  std::vector<glm::dmat4> local_transforms(const Pose& pose, render::BeamBend& bend) const;
+  std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;
+  render::PanelPlacement panel(double left, double bottom, double width, double height) const;
+
+  scene::Scene scene_;
+  std::vector<std::string> titles_;
+  std::vector<MaterialLook> looks_;
+  std::vector<scene::SharedHeightField> height_fields_;
+  std::vector<std::string> surface_models_;  // of which model each of them is
+  glm::dmat4 room_from_layout_{
+      1.0};                // origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre
+  double wall_width_ = 0;  // in layout units
+  double wall_top_ = 0;
+  double shelf_y_ = 0;
+
+  scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, stage_{};
+  scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{}, wand_{}, ray_{}, apex_{};
+  WallMarks marks_;
+  Journey journey_;
+  Analogy analogy_;
+  double lever_length_ = 0;  // glTF metres, clamp to tip axis
+  double tip_length_ = 0;    // glTF metres, base to apex
+  double stage_scale_ = 0;
+};
+
+}  // namespace afm::exhibit

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/cycle_curve.h"
+
+#include <utility>
+
+namespace afm::exhibit {
+
+namespace {
+
+constexpr double kNmPerM = 1e9;
+constexpr double kNnPerN = 1e9;
+
+}  // namespace
+
+void CycleCurve::add(const scene::TipSample& sample) {
+  const bool felt =
+      sample.servo_state == scene::ServoState::Running && sample.phase != scene::ContactPhase::WaitForLift;
+  if (felt) add_point({.z_nm = sample.z_m * kNmPerM, .force_nn = sample.force_n * kNnPerN});
+}
+
+void CycleCurve::add(const scene::TipEvent& event) {
+  add_point({.z_nm = event.z_m * kNmPerM, .force_nn = event.force_before_n * kNnPerN});
+  add_point({.z_nm = event.z_m * kNmPerM, .force_nn = event.force_after_n * kNnPerN});
+}
+
+void CycleCurve::add_point(const render::PlotPoint& point) {
+  if (points_.empty() || point.z_nm < points_[deepest_].z_nm) deepest_ = points_.size();
+  points_.push_back(point);
+}
+
+render::PlotCurve CycleCurve::plot(std::string label, const glm::vec3& color) const {
+  render::PlotCurve curve{.label = std::move(label), .color = color, .faded = false, .approach = {}, .retract = {}};
+  if (points_.empty()) return curve;
+  const auto turn = points_.begin() + static_cast<std::ptrdiff_t>(deepest_);
+  curve.approach.assign(points_.begin(), turn + 1);
+  curve.retract.assign(turn, points_.end());
+  return curve;
+}
+
+CycleCurve curve_until(const servo::RecordedSession& session, std::int64_t end_ns) {
+  CycleCurve curve;
+  auto event = session.events.begin();
+  for (const scene::TipSample& sample : session.samples) {
+    if (sample.time_ns > end_ns) break;
+    for (; event != session.events.end() && event->time_ns <= sample.time_ns; ++event) curve.add(*event);
+    curve.add(sample);
+  }
+  return curve;
+}
+
+}  // namespace afm::exhibit

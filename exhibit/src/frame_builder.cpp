@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/frame_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "exhibit/data_panel.h"
+#include "haptics/scaling.h"
+#include "physics/quantity_text.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+using physics::format_quantity;
+
+constexpr double kNmPerM = 1e9;
+constexpr double kNnPerN = 1e9;
+
+// Axes around the loop, in units of the reach of the pull and of its strength.
+constexpr double kAxisBelow = 0.42, kAxisAbove = 1.42;
+constexpr double kForceBelow = 1.22, kForceAbove = 0.52;
+constexpr double kPushShare = 0.4;  // of the reach: the deepest push
+constexpr double kHardlyPulled = 0.05;
+
+struct StateSign {
+  const char* word;
+  render::StateShape shape;
+  glm::vec3 color;
+};
+
+StateSign sign_of(scene::ServoState state) {
+  switch (state) {
+    case scene::ServoState::Arming:
+      return {"ARMING", render::StateShape::Triangle, {0.94F, 0.89F, 0.26F}};
+    case scene::ServoState::Running:
+      return {"FORCE ON", render::StateShape::Circle, {0.34F, 0.85F, 0.60F}};
+    case scene::ServoState::Fading:
+      return {"RELEASING", render::StateShape::Diamond, {0.90F, 0.62F, 0.0F}};
+    case scene::ServoState::Fault:
+      return {"FAULT", render::StateShape::Cross, {0.95F, 0.35F, 0.25F}};
+    case scene::ServoState::Disarmed:
+      break;
+  }
+  return {"FORCE OFF", render::StateShape::Square, {0.70F, 0.74F, 0.80F}};
+}
+
+// "33.1 nm": how much one metre of the wall shows.
+std::string scale_text(double m_per_m) {
+  std::string text = format_quantity(physics::Length(m_per_m), physics::kLengthUnits, 3);
+  if (const std::size_t micro = text.find("um"); micro != std::string::npos) text.replace(micro, 1, "\u00b5");
+  return text;
+}
+
+// Round the loops of all materials that are in front.
+class Axes {
+ public:
+  void include(const curves::FeltMaterial& material) {
+    const double reach_m = material.scaling.release_z_m();
+    const double push_n = material.tables->attached.force(physics::Length(-kPushShare * reach_m)).si;
+    reach_nm_ = std::max(reach_nm_, reach_m * kNmPerM);
+    pull_nn_ = std::max(pull_nn_, haptics::strongest_pull_n(*material.tables) * kNnPerN);
+    push_nn_ = std::max(push_nn_, push_n * kNnPerN);
+  }
+
+  // A tip that is hardly pulled is pushed; otherwise the pull gives the measure.
+  void apply(render::ForcePanel& panel) const {
+    const bool pulled = pull_nn_ > kHardlyPulled * push_nn_;
+    panel.z_min_nm = -kAxisBelow * reach_nm_;
+    panel.z_max_nm = kAxisAbove * reach_nm_;
+    panel.force_min_nn = pulled ? -kForceBelow * pull_nn_ : -kForceAbove * push_nn_;
+    panel.force_max_nn = pulled ? kForceAbove * pull_nn_ : kForceBelow * push_nn_;
+  }
+
+ private:
+  double reach_nm_ = 1e-6, pull_nn_ = 1e-9, push_nn_ = 0.0;
+};
+
+// The three forces that a cycle is known by: of the law at the fold, which is felt just before the jump; just after it,
+// the paper's F_attr; and the pull-off.
+std::vector<render::PlotMarker> jump_markers(const physics::CycleFigures& figures) {
+  using Kind = render::PlotMarker::Kind;
+  const double z_jtc_nm = figures.z_jtc.si * kNmPerM, z_joc_nm = figures.z_joc.si * kNmPerM;
+  const double fold_nn = figures.force_before_jtc.si * kNnPerN;
+  const double after_nn = figures.force_after_jtc.si * kNnPerN;
+  const double pull_off_nn = figures.force_before_joc.si * kNnPerN;
+  std::vector<render::PlotMarker> markers{
+      {Kind::VerticalLine, z_jtc_nm, fmt::format("Z_jtc {:.2f} nm", z_jtc_nm)},
+      {Kind::VerticalLine, z_joc_nm, fmt::format("Z_joc {:.2f} nm", z_joc_nm)},
+      {Kind::HorizontalLine, after_nn, fmt::format("F_attr {:.3f} nN", std::abs(after_nn))},
+      {Kind::HorizontalLine, pull_off_nn, fmt::format("F_ad {:.3f} nN", std::abs(pull_off_nn))}};
+  if (fold_nn != 0.0) {
+    markers.push_back({Kind::HorizontalLine, fold_nn, fmt::format("F_fold {:.3f} nN", std::abs(fold_nn))});
+  }
+  return markers;
+}
+
+}  // namespace
+
+glm::vec3 curve_color(std::size_t material) {
+  static constexpr std::array<glm::vec3, 7> kOkabeIto{{{0.34F, 0.71F, 0.91F},
+                                                       {0.90F, 0.62F, 0.00F},
+                                                       {0.00F, 0.78F, 0.56F},
+                                                       {0.80F, 0.47F, 0.65F},
+                                                       {0.94F, 0.89F, 0.26F},
+                                                       {0.00F, 0.45F, 0.70F},
+                                                       {0.84F, 0.37F, 0.00F}}};
+  return kOkabeIto[material % kOkabeIto.size()];
+}
+
+core::Result<std::array<scene::EyeView, 2>> eyes_at_sweet_spot(const scene::Wall& wall) {
+  std::array<scene::EyeView, 2> eyes;
+  const scene::Viewer& viewer = wall.viewers.front();
+  for (std::size_t i = 0; i < eyes.size(); ++i) {
+    const auto view = scene::off_axis_view(wall.screens.front(),
+                                           scene::eye_position(viewer.sweet_spot, scene::kEyes[i], viewer.ipd_m),
+                                           scene::DepthConvention::VulkanReversedInfinite, scene::kNearM, 0.0);
+    if (!view) return tl::unexpected(view.error());
+    eyes[i] = *view;
+  }
+  return eyes;
+}
+
+std::string stage_of_cycle(const Moment& moment, double z_jtc_m) {
+  if (moment.phase == scene::ContactPhase::WaitForLift) return "lift the tip";
+  if (moment.phase == scene::ContactPhase::Free) {
+    if (moment.retracting) return "B \u2192 A   free again";
+    return moment.tip.z_m < 2.0 * z_jtc_m ? "A \u2192 C   close to the jump" : "A \u2192 C   approach, no force";
+  }
+  if (!moment.retracting) return moment.tip.z_m > 0.0 ? "C \u2192 D   jump to contact" : "D \u2192 E   press";
+  return moment.tip.z_m > 0.0 ? "E \u2192 F   adhesion pulls" : "E \u2192 F   retract";
+}
+
+FrameBuilder::FrameBuilder(const WallScene& wall_scene, const std::vector<curves::FeltMaterial>& materials,
+                           const std::array<scene::EyeView, 2>& eyes)
+    : wall_scene_(&wall_scene), materials_(&materials), eyes_(eyes) {}
+
+render::FrameState FrameBuilder::build(const Moment& moment) const {
+  render::FrameState frame;
+  frame.eyes = eyes_;
+  wall_scene_->place(pose_of(moment), frame);
+  frame.force_panel = force_panel(moment);
+  if (moment.compare_all) {
+    frame.data_panel = felt_panel(moment.felt);
+  } else if (moment.material) {
+    frame.data_panel = data_panel((*materials_)[*moment.material], moment.tip.deflection_m, moment.force_n);
+  } else {
+    frame.data_panel = {.title = "No material yet", .subtitle = "point at a swatch and press", .rows = {}};
+  }
+  frame.banner = banner(moment);
+  return frame;
+}
+
+render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
+  render::ForcePanel panel;
+  panel.title = "Force on the tip";
+  Axes axes;
+  for (std::size_t i = 0; i < materials_->size(); ++i) {
+    const bool in_front = moment.compare_all || !moment.material || moment.material == i;
+    if (in_front) axes.include((*materials_)[i]);
+    if (i >= moment.curves.size() || moment.curves[i].empty()) continue;
+    render::PlotCurve curve = moment.curves[i].plot((*materials_)[i].setup.material.title, curve_color(i));
+    curve.faded = !in_front;
+    panel.curves.push_back(std::move(curve));
+  }
+  // earlier materials behind, the current one in front
+  std::stable_partition(panel.curves.begin(), panel.curves.end(), [](const render::PlotCurve& c) { return c.faded; });
+  axes.apply(panel);
+  if (moment.compare_all) {
+    panel.title = "Approach and retract, all together";
+    panel.stage = "";
+    return panel;
+  }
+  if (!moment.material) return panel;
+
+  const physics::CycleFigures& figures = (*materials_)[*moment.material].figures();
+  if (figures.hysteretic) panel.markers = jump_markers(figures);
+  panel.stage = stage_of_cycle(moment, figures.z_jtc.si);
+  if (moment.phase != scene::ContactPhase::WaitForLift) {
+    panel.cursor = render::PlotPoint{moment.tip.z_m * kNmPerM, moment.force_n * kNnPerN};
+  }
+  return panel;
+}
+
+render::Banner FrameBuilder::banner(const Moment& moment) const {
+  const StateSign sign = sign_of(moment.servo_state);
+  render::Banner banner;
+  banner.guidance = moment.guidance;
+  banner.state_word = sign.word;
+  banner.state_shape = sign.shape;
+  banner.state_color = sign.color;
+  if (!moment.realtime) banner.warning = "not real-time";
+  if (moment.slow_motion > 1.0) {
+    banner.warning =
+        fmt::format("slow motion \u00d7{:.3g}{}", moment.slow_motion, moment.realtime ? "" : ", not real-time");
+  }
+  if (moment.journey_orders) {
+    banner.guidance = fmt::format("Journey of scale: {}", journey_place(*moment.journey_orders));
+    banner.scale = fmt::format("true to scale: 1 m on the wall = {}",
+                               scale_text(wall_scene_->journey_m_per_m(*moment.journey_orders)));
+    return banner;
+  }
+  const DrawnScale scale = wall_scene_->drawn_scale(moment.material.value_or(0), moment.tip);
+  banner.scale = fmt::format(
+      "sample and motion: 1 m = {}     lever: 1 m = {}     tip: 1 m = {}     deflection \u00d7{:.0f} against the lever",
+      scale_text(scale.sample_m_per_m), scale_text(scale.lever_m_per_m), scale_text(scale.tip_m_per_m),
+      scale.lever_m_per_m / scale.sample_m_per_m);
+  // on a line of its own
+  for (const render::DataRow& row : moment.servo) {
+    banner.scale +=
+        fmt::format("{}{}: {} ({})", &row == &moment.servo.front() ? "\n" : "     ", row.name, row.value, row.source);
+  }
+  return banner;
+}
+
+}  // namespace afm::exhibit

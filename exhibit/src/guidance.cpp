@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/guidance.h"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "exhibit/phrase_book.h"
+#include "haptics/safety.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+// In the order of Hint, then "force-off", then FaultCode without None.
+constexpr std::array<std::string_view, 25> kKeys{
+    "choose-sample",   "lift",         "turn-on",         "turn-on-and-hold",  "coming-on",  "going-off",
+    "move-down",       "press-on",     "pressed",         "move-up",           "let-go",     "press-to-go-on",
+    "servo-ended",     "force-off",    "renderer-died",   "renderer-hung",     "not-finite", "late-tick",
+    "velocity-trip",   "device-error", "bad-shared-data", "dead-man-released", "motors-hot", "energy-exceeded",
+    "out-of-workspace"};
+constexpr std::size_t kForceOff = static_cast<std::size_t>(Hint::ServoEnded) + 1;
+static_assert(kKeys[static_cast<std::size_t>(Hint::ServoEnded)] == "servo-ended" && kKeys[kForceOff] == "force-off");
+static_assert(kForceOff + static_cast<std::size_t>(scene::FaultCode::OutOfWorkspace) == kKeys.size() - 1);
+
+// Where the servo accepts Turn-On.
+bool is_lifted(const scene::TipState& tip) {
+  return tip.phase == scene::ContactPhase::Free &&
+         (tip.z_m - tip.release_z_m) * tip.hand_m_per_m >= haptics::SafetyGovernor::kArmingMarginM;
+}
+
+Hint step_with_force(const scene::TipState& tip, bool ascending, int cycles) {
+  if (tip.phase == scene::ContactPhase::Attached) {
+    if (ascending) return Hint::MoveUp;
+    return tip.z_m > 0.0 ? Hint::PressOn : Hint::Pressed;
+  }
+  return cycles > 0 && ascending ? Hint::LetGo : Hint::MoveDown;
+}
+
+}  // namespace
+
+Hint next_step(const scene::TipState& tip, bool ascending, int cycles) {
+  if (tip.material < 0) return Hint::ChooseSample;
+  switch (tip.servo_state) {
+    case scene::ServoState::Arming:
+      return Hint::ComingOn;
+    case scene::ServoState::Fading:
+      return Hint::GoingOff;
+    case scene::ServoState::Fault:
+      return Hint::PressToGoOn;
+    case scene::ServoState::Running:
+      if (tip.phase != scene::ContactPhase::WaitForLift) return step_with_force(tip, ascending, cycles);
+      break;
+    case scene::ServoState::Disarmed:
+      if (is_lifted(tip)) return tip.dead_man != 0 ? Hint::TurnOnAndHold : Hint::TurnOn;
+      break;
+  }
+  return Hint::Lift;
+}
+
+core::Result<Guidance> Guidance::load(const std::string& path) {
+  auto phrases = load_phrases(path, kKeys);
+  if (!phrases) return tl::unexpected(phrases.error());
+  Guidance guidance;
+  guidance.phrases_ = std::move(*phrases);
+  return guidance;
+}
+
+const std::string& Guidance::text(Hint hint) const { return phrases_[static_cast<std::size_t>(hint)]; }
+
+std::string Guidance::line(const scene::TipState& tip, bool ascending, int cycles) const {
+  const std::string& step = text(next_step(tip, ascending, cycles));
+  const bool off = tip.servo_state == scene::ServoState::Disarmed || tip.servo_state == scene::ServoState::Fault;
+  if (tip.material < 0 || !off || tip.fault == scene::FaultCode::None) return step;
+  return phrases_[kForceOff] + ": " + phrases_[kForceOff + static_cast<std::size_t>(tip.fault)] + ". " + step;
+}
+
+}  // namespace afm::exhibit

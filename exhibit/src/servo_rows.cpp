@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/servo_rows.h"
+#include "core/percentiles.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace afm::exhibit {
+
+namespace {
+
+constexpr double kWarmEnoughToTell = 0.5;
+
+}  // namespace
+
+const char* text_of(scene::ScaleMode mode) {
+  switch (mode) {
+    case scene::ScaleMode::Common:
+      return "common: one scale for all samples";
+    case scene::ScaleMode::Fit:
+      return "fit: each sample on its own scale";
+    case scene::ScaleMode::Compressed:
+      break;
+  }
+  return "compressed: weak forces are raised";
+}
+
+std::vector<render::DataRow> servo_rows(const scene::TipState& tip, const scene::ServoTiming& timing,
+                                        const scene::SharedDevice& device) {
+  std::vector<render::DataRow> rows;
+  // metres and newtons of the hand for those of the nanoworld: mm per nm, N per nN
+  if (tip.hand_m_per_m > 0) {
+    rows.push_back({"Scale of the hand",
+                    fmt::format("{:.3g} mm/nm, {:.3g} N/nN", tip.hand_m_per_m * 1e-6, tip.hand_n_per_n * 1e-9),
+                    text_of(tip.scale_mode)});
+  }
+  rows.push_back({"Force at most", fmt::format("{:.2g} N, {:.0f} N/s", tip.force_cap_n, tip.slew_limit_n_per_s),
+                  std::string(device.name.data()) + (tip.dead_man != 0 ? ", only while Turn-On is held" : "")});
+  if (timing.ticks > 0) {
+    rows.push_back({"Servo",
+                    fmt::format("{:.0f} Hz, {}", timing.rate_hz, tip.realtime != 0 ? "real-time" : "not real-time"),
+                    fmt::format("wakes late by p99 {:.0f} \u00b5s, {} of {} ticks missed",
+                                core::percentiles(timing.wake_us, timing.wake_max_us).p99, timing.missed,
+                                timing.ticks + timing.missed)});
+  }
+  if (tip.motor_heat > kWarmEnoughToTell) {
+    rows.push_back({"Motors", fmt::format("{:.0f} % warm", 100.0 * tip.motor_heat),
+                    fmt::format("force at {:.0f} %", 100.0 * tip.thermal_gain)});
+  }
+  return rows;
+}
+
+}  // namespace afm::exhibit

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/shared_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace afm::exhibit {
+
+namespace {
+
+// Names are for people; a longer one is cut.
+void set_name(scene::Name& name, std::string_view text) {
+  std::copy_n(text.begin(), std::min(text.size(), name.size() - 1), name.begin());
+}
+
+}  // namespace
+
+core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
+                                              std::span<const curves::FeltMaterial> materials,
+                                              std::span<const scene::SharedHeightField> surfaces,
+                                              std::span<const scene::SharedMeasuredCurve> curves) {
+  if (scene.nodes.size() > scene::kMaxNodes || materials.size() > scene::kMaxMaterials ||
+      surfaces.size() > scene::kMaxHeightFields || curves.size() > scene::kMaxMeasuredCurves) {
+    return core::failure(
+        core::ErrorCategory::BadInputFile,
+        fmt::format("the scene has {} nodes, {} materials, {} surfaces and {} measured curves; at most {}, {}, {} and "
+                    "{} can be shared with the servo",
+                    scene.nodes.size(), materials.size(), surfaces.size(), curves.size(), scene::kMaxNodes,
+                    scene::kMaxMaterials, scene::kMaxHeightFields, scene::kMaxMeasuredCurves));
+  }
+  scene::SharedModel model;
+  model.node_count = static_cast<std::uint32_t>(scene.nodes.size());
+  model.material_count = static_cast<std::uint32_t>(materials.size());
+  model.height_field_count = static_cast<std::uint32_t>(surfaces.size());
+  model.curve_count = static_cast<std::uint32_t>(curves.size());
+  model.sample_node = sample_node;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    scene::SharedNode& node = model.nodes[i];
+    set_name(node.name, scene.nodes[i].name);
+    node.parent = scene.nodes[i].parent.value_or(scene::kNoParent);
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 4; ++row) {
+        node.parent_from_node[static_cast<std::size_t>(4 * column + row)] =
+            scene.nodes[i].parent_from_node[column][row];
+      }
+    }
+  }
+  std::transform(materials.begin(), materials.end(), model.materials.begin(),
+                 [](const curves::FeltMaterial& material) { return material.parameters; });
+  std::copy(surfaces.begin(), surfaces.end(), model.height_fields.begin());
+  std::copy(curves.begin(), curves.end(), model.curves.begin());
+  return model;
+}
+
+}  // namespace afm::exhibit

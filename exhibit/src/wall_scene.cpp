@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/wall_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/check.h"
+#include "exhibit/model_builder.h"
+#include "exhibit/wall_layout.h"
+#include "physics/contact.h"
+#include "scene/graph/height_field.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+constexpr const char* kNeutralLook = "si3n4";
+
+using glm::dmat4;
+using glm::dvec3;
+
+// Whose models stand for a material: its own, those of its look, or the plain grey ones.
+std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& material) {
+  for (const std::string& name : {material.name, material.look}) {
+    std::error_code ignored;
+    if (std::filesystem::exists(assets_dir + "/models/sample-" + name + ".glb", ignored)) return name;
+  }
+  return kNeutralLook;
+}
+
+}  // namespace
+
+core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
+                                        const scene::Screen& screen, const glm::dvec3& viewer_m, const OwnModels& own) {
+  WallScene w;
+
+  // the contact point: at eye height, in the middle, as far as everything finds its place above and below it, but never
+  // out of the wall's middle third
+  const double unit = layout_unit_m(screen);
+  const dvec3 right = glm::normalize(screen.lower_right - screen.lower_left);
+  const dvec3 out = screen.normal();
+  const dvec3 up = glm::cross(out, right);
+  const double eye_height = glm::dot(viewer_m - screen.lower_left, up);
+  const double third_m = screen.height_m() / 3.0;
+  const double contact_height = std::clamp(eye_height, std::max(kRoomBelow * unit, third_m),
+                                           std::min(screen.height_m() - kRoomAbove * unit, 2.0 * third_m));
+  const dvec3 contact = screen.lower_left + 0.5 * screen.width_m() * right + contact_height * up;
+  w.room_from_layout_ = frame_matrix(unit * right, unit * up, unit * out, contact);
+  w.wall_width_ = screen.width_m() / unit;
+  const double wall_bottom = -contact_height / unit;
+  w.wall_top_ = wall_bottom + screen.height_m() / unit;
+
+  // who looks down from above the wall sees what stands before it lower: then the shelf is higher
+  const double eye_y = (eye_height - contact_height) / unit, eye_z = glm::dot(viewer_m - screen.lower_left, out) / unit;
+  const double lowest_seen = eye_y + (wall_bottom + kPanelMargin - eye_y) * (eye_z - kShelfZ) / eye_z;
+  w.shelf_y_ = std::clamp(lowest_seen + kShelfHeight, kShelfY, kHighestShelfY);
+
+  ModelBuilder build(assets_dir + "/models", w.scene_);
+  w.layout_ = build.frame("layout", std::nullopt, w.room_from_layout_);
+  const double c = std::cos(kSampleTiltRad), s = std::sin(kSampleTiltRad);
+  w.sample_frame_ = build.frame("sample", w.layout_, frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)));
+  w.stage_ = build.model_in_frame_of("stage", "stage.glb", "stage", w.sample_frame_);
+  w.probe_frame_ = build.frame("probe-frame", w.sample_frame_, dmat4(1.0));
+  w.lever_ =
+      own.probe ? build.part(*own.probe, "probe", w.probe_frame_) : build.model("probe.glb", "probe", w.probe_frame_);
+  w.cantilever_ = build.node("probe/cantilever");
+  w.tip_ = build.node("probe/tip");
+  w.apex_ = build.node("probe/apex");
+  w.optics_ = build.model("optics.glb", "optics", w.layout_);
+  w.laser_ = build.node("optics/laser");
+  w.photodiode_ = build.node("optics/photodiode");
+  w.beam_in_ = build.node("optics/beam");
+  w.spot_ = build.node("optics/spot");
+  build.model("wand.glb", "wand", w.layout_);
+  w.wand_ = build.node("wand/wand");
+  w.ray_ = build.node("wand/ray");
+  w.marks_ = WallMarks(build, w.scene_, w.layout_, w.sample_frame_);
+  w.analogy_ = Analogy(build, w.scene_, w.sample_frame_);
+  w.journey_ = Journey(build, w.scene_, w.layout_);
+  for (const scene::MaterialEntry& material : materials.materials) {
+    const physics::ApproachRetractEvents events = physics::approach_retract_events(material.interaction);
+    MaterialLook look{};
+    const std::string model = model_of(assets_dir, material);
+    const std::string sample = "sample-" + material.name;
+    look.sample = own.sample ? build.part(sample_as(*own.sample, material), sample, w.sample_frame_)
+                             : build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, w.sample_frame_);
+    const scene::NodeIndex surface = build.node(sample + "/surface");
+    look.ground = w.journey_.add_ground(build, w.scene_, model);
+    look.height_field = build.error() ? scene::kNoHeightField : w.height_field_of(own.sample ? "own" : model, surface);
+    const std::string swatch = "swatch-" + material.name;
+    look.swatch = build.model("swatch-" + model + ".glb", swatch, w.layout_);
+    look.label = build.node(swatch + "/label");
+    look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
+    look.thickness_m = build.error() ? 0.0 : -bounds_below(w.scene_, surface).low.z;
+    look.full_deflection_m = events.f_ad.si / material.interaction.spring_constant.si;
+    w.looks_.push_back(look);
+    const auto of_this_title = [&](const scene::MaterialEntry& other) { return other.title == material.title; };
+    const bool alone = std::count_if(materials.materials.begin(), materials.materials.end(), of_this_title) == 1;
+    w.titles_.push_back(alone ? material.title : material.title + ", " + material.medium);
+  }
+  if (build.error()) return tl::unexpected(*build.error());
+
+  // the second half of the beam is a node of its own that shows the same mesh
+  scene::Node beam_out = w.scene_.nodes[w.beam_in_];
+  beam_out.name = "optics/beam-reflected";
+  w.beam_out_ = static_cast<scene::NodeIndex>(w.scene_.nodes.size());
+  w.scene_.nodes.push_back(beam_out);
+
+  w.lever_length_ = dvec3(glm::inverse(ancestor_from_node(w.scene_, w.lever_, w.cantilever_)) *
+                          ancestor_from_node(w.scene_, w.lever_, w.tip_)[3])
+                        .x;
+  w.tip_length_ = -bounds_below(w.scene_, w.tip_).low.z;
+  const Bounds stage = bounds_below(w.scene_, build.node("stage/stage"));
+  w.stage_scale_ = kStageDrawnDiameter / (stage.high.x - stage.low.x);
+  return w;
+}
+
+// Materials that share a model share its surface. More surfaces than the servo has room for are felt as planes.
+std::uint32_t WallScene::height_field_of(const std::string& model, scene::NodeIndex surface) {
+  const auto known = std::find(surface_models_.begin(), surface_models_.end(), model);
+  if (known != surface_models_.end()) return static_cast<std::uint32_t>(known - surface_models_.begin());
+  const auto field = scene::height_field_below(scene_, surface);
+  if (!field || height_fields_.size() == scene::kMaxHeightFields) return scene::kNoHeightField;
+  surface_models_.push_back(model);
+  height_fields_.push_back(*field);
+  return static_cast<std::uint32_t>(height_fields_.size() - 1);
+}
+
+double WallScene::parameter_factor(std::size_t material, const TipView& tip) const {
+  return tip.z_joc_m > 0.0 ? tip.z_joc_m * kStrokeOfZjoc / looks_[material].stroke_m : 1.0;
+}
+
+DrawnScale WallScene::drawn_scale(std::size_t material, const TipView& tip) const {
+  const double unit_m = glm::length(dvec3(room_from_layout_[0]));
+  const double stroke_m = looks_[material].stroke_m * parameter_factor(material, tip);
+  return {.sample_m_per_m = stroke_m / (kStrokeHeight * unit_m),
+          .lever_m_per_m = lever_length_ / (kLeverDrawnLength * unit_m),
+          .tip_m_per_m = tip_length_ / (kTipDrawnLength * unit_m)};
+}
+
+double WallScene::journey_m_per_m(double orders) const {
+  return std::pow(10.0, -orders) / glm::length(dvec3(room_from_layout_[0]));
+}
+
+double WallScene::layout_per_m(const Pose& pose) const {
+  // before a choice nothing lies on the stage, and the tip rests at its height of zero
+  if (!pose.material) return 0.0;
+  return kStrokeHeight / (looks_[*pose.material].stroke_m * parameter_factor(*pose.material, pose.tip));
+}
+
+glm::dvec3 WallScene::swatch_place(std::size_t i) const {
+  const std::size_t front = std::min(looks_.size(), kFrontSwatches);
+  const auto across = [](std::size_t place, std::size_t count, double spacing) {
+    return spacing * (static_cast<double>(place) - 0.5 * static_cast<double>(count - 1));
+  };
+  if (i < front) return {across(i, front, kSwatchSpacing), shelf_y_, kShelfZ};
+  return {across(i - front, looks_.size() - front, kBackSpacing), shelf_y_ + kBackRise, kBackZ};
+}
+
+std::vector<input::Target> WallScene::swatch_targets() const {
+  const double radius = looks_.size() <= kFewSwatches ? kSwatchRadius : kSlimSwatchRadius;
+  std::vector<input::Target> targets;
+  for (std::size_t i = 0; i < looks_.size(); ++i) {
+    targets.push_back({dvec3(room_from_layout_ * glm::dvec4(swatch_place(i) + kSwatchCenter, 1.0)),
+                       radius * glm::length(dvec3(room_from_layout_[0]))});
+  }
+  return targets;
+}
+
+glm::dvec3 WallScene::sample_normal() const {
+  return glm::normalize(
+      dvec3(room_from_layout_ * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(0, 0, 1, 0)));
+}
+
+glm::dvec3 WallScene::sample_right() const {
+  return glm::normalize(
+      dvec3(room_from_layout_ * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(1, 0, 0, 0)));
+}
+
+glm::dvec3 WallScene::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(kWandGrip, 1.0)); }
+
+glm::dvec3 WallScene::below_tip(const Pose& pose) const {
+  return layout_per_m(pose) * dvec3(pose.tip.xy_m, pose.tip.surface_height_m);
+}
+
+}  // namespace afm::exhibit

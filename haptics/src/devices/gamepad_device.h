@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/latest_value.h"
+#include "core/result.h"
+#include "devices/force_rumble.h"
+#include "haptics/device.h"
+#include "haptics/simulated_device.h"
+
+namespace afm::haptics {
+
+struct SdlFunctions;  // haptics/src/sdl_library.h
+class GamepadPort;    // haptics/src/gamepad_port.h
+
+// A game controller or a joystick that SDL2 knows. What it moves is the aim of a simulated hand, as a mouse does: the
+// governor's force acts on that hand, so that the tip snaps in, sticks and flies off on the wall, and a person feels of
+// it what the device can show.
+//
+// - A game controller moves the aim at a bounded speed: left stick up and down, right stick or cross sideways; A is
+//   Turn-On. Its motors tell of jumps and of the force (ForceRumble).
+// - A joystick with force feedback places the aim by its deflection, its first button is Turn-On, and it is pushed with
+//   a constant effect in the direction of the force, at full strength for the cap.
+//
+// SDL lives in a thread of its own, some 250 times a second; the servo's tick and it meet in two mailboxes. Neither
+// trusts the other: with no news for kStallNs, or unplugged, the device is not healthy; a force that the servo has not
+// renewed for kStaleNs stops, and a rumble ends by itself after kRumbleMs.
+class GamepadDevice final : public HapticDevice {
+ public:
+  static constexpr std::int64_t kStallNs = 100'000'000;
+  static constexpr std::int64_t kCoastNs = 20'000'000;  // the aim stands still without news for so long
+  static constexpr std::int64_t kStaleNs = 20'000'000;
+  static constexpr std::uint32_t kRumbleMs = 60;
+  static constexpr double kFastestMPerS = 0.10;  // of the aim of a game controller
+  static constexpr double kReachM = 0.060;       // of the aim of a joystick, to either side
+
+  // What is said when there is no gamepad, with the line that mends the rights to one.
+  static constexpr const char* kNone =
+      "none is plugged in, or none may be opened: then sudo usermod -aG input \"$(id -un)\" and log in again";
+
+  // What is plugged in.
+  struct Facts {
+    std::string name;
+    bool force_feedback = false;
+    bool rumble = false;
+  };
+
+  // All that are there, in SDL's order; starts none.
+  static core::Result<std::vector<Facts>> list(const SdlFunctions& sdl);
+
+  enum class Wanted { Any, ForceFeedback };
+
+  // Takes the first one with force feedback, or else, if any will do, the first one. DeviceMissing: there is none.
+  // `clock` outlives the device and is the one whose time read() is given.
+  static core::Result<std::unique_ptr<GamepadDevice>> open(const SdlFunctions& sdl, const core::Clock& clock,
+                                                           Wanted wanted);
+
+  // Stops motors and effects first.
+  ~GamepadDevice() override;
+
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  DeviceSample read(std::int64_t now_ns) noexcept override;
+  void write(const ForceCommand& command) noexcept override;
+
+ private:
+  // Sticks -1 to 1 along the device frame, as SDL gave them last.
+  struct Frame {
+    std::int64_t time_ns = 0;
+    std::array<double, 3> sticks{};
+    std::uint32_t turn_on = 0;
+    std::uint32_t attached = 0;
+  };
+  struct Feeling {
+    std::int64_t time_ns = 0;
+    std::array<double, 3> force_n{};
+    Rumble rumble;
+  };
+
+  GamepadDevice(const core::Clock& clock, std::unique_ptr<GamepadPort> port);
+
+  void run();
+  void show(const Feeling& feeling, std::int64_t now_ns);
+  void move_aim(std::int64_t now_ns) noexcept;
+
+  const core::Clock& clock_;
+  std::unique_ptr<GamepadPort> port_;
+  DeviceSpec spec_;
+
+  // between the threads
+  core::LatestValue<Frame> frames_;
+  core::LatestValue<Feeling> feelings_;
+  std::atomic<bool> closing_{false};
+
+  // the servo's thread
+  SimulatedDevice hand_;
+  ForceRumble rumble_;
+  Frame seen_;
+  glm::dvec3 aim_m_;
+  std::uint32_t script_ = 0;
+  std::int64_t tick_ns_ = 0;
+
+  // SDL's thread
+  Rumble told_;
+  std::int64_t told_ns_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace afm::haptics

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/haply_device.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "core/log.h"
+#include "devices/haply_link.h"
+#include "devices/haply_message.h"
+
+namespace afm::haptics {
+
+namespace {
+
+constexpr auto kFirstPlacePatience = std::chrono::seconds(2);
+constexpr auto kReleasePatience = std::chrono::milliseconds(50);
+constexpr auto kPause = std::chrono::milliseconds(2);
+
+template <class Condition>
+bool wait_until(std::chrono::milliseconds patience, Condition&& condition) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(kPause);
+  }
+  return true;
+}
+
+// The service tells no limits. The force is what careful drivers give a hand (Isaac Lab clips at 2 N); the stiffness
+// that of a Touch; the workspace a part of the reach in front of the arm that every Inverse3 has, around the place
+// (0, -0.12, 0.15) of its documentation.
+DeviceSpec inverse3() {
+  return {.name = "Haply Inverse3",
+          .max_force_n = 2.2,
+          .max_continuous_force_n = 0.9,
+          .max_stiffness_n_per_m = 400.0,
+          .workspace_min_m = {-0.08, 0.08, 0.04},
+          .workspace_max_m = {0.08, 0.20, 0.20},
+          .contact_point_m = {0.0, 0.12, 0.12}};
+}
+
+}  // namespace
+
+core::Result<std::unique_ptr<HaplyDevice>> HaplyDevice::open(const core::Clock& clock, std::uint16_t port) {
+  auto link = std::make_unique<HaplyLink>();
+  if (auto connected = link->connect(port); !connected) return tl::unexpected(connected.error());
+  std::unique_ptr<HaplyDevice> device(new HaplyDevice(clock, port, std::move(link)));
+  if (!wait_until(kFirstPlacePatience, [&] { return device->frames_.try_load().has_value(); })) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         fmt::format("the haply inverse service at port {} tells the place of no inverse3 within {} s: "
+                                     "plug it in, and calibrate it",
+                                     port, kFirstPlacePatience.count()));
+  }
+  return device;
+}
+
+core::Result<void> HaplyDevice::query(std::uint16_t port) { return HaplyLink().connect(port); }
+
+HaplyDevice::HaplyDevice(const core::Clock& clock, std::uint16_t port, std::unique_ptr<HaplyLink> link)
+    : clock_(clock), port_(port), spec_(inverse3()), link_(std::move(link)), thread_([this] { serve(); }) {}
+
+HaplyDevice::~HaplyDevice() {
+  closing_.store(true);
+  wait_until(kReleasePatience, [this] { return released_.load(); });
+  link_->interrupt();
+  thread_.join();
+}
+
+DeviceSample HaplyDevice::read(std::int64_t now_ns) noexcept {
+  if (const auto frame = frames_.try_load()) frame_ = *frame;
+  return {.position_m = frame_.position_m,
+          .turn_on = frame_.button != 0,
+          .healthy = frame_.time_ns != 0 && now_ns - frame_.time_ns <= kStallNs};
+}
+
+void HaplyDevice::write(const ForceCommand& command) noexcept {
+  commands_.store({.time_ns = clock_.now_ns(), .force_n = command.force_n()});
+}
+
+void HaplyDevice::serve() noexcept {
+  bool connected = true, told = false;
+  while (!closing_.load()) {
+    try {
+      if (connected || link_->connect(port_)) {
+        connected = false;
+        if (told) core::log_line("haptics: the haply inverse service answers again");
+        told = false;
+        exchange();
+        released_.store(true);  // nobody is there to hold a force
+      }
+    } catch (const std::exception& error) {
+      core::log_line(fmt::format("haptics: the haply inverse service cannot be spoken with: {}", error.what()));
+    }
+    if (closing_.load()) return;
+    if (!told) core::log_line("haptics: the haply inverse service does not answer: no force reaches the hand");
+    told = true;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::nanoseconds(kRetryNs);
+    while (!closing_.load() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kPause);
+  }
+}
+
+// Until the connection ends. The service speaks first; then each of its states answers a force.
+void HaplyDevice::exchange() {
+  std::string device_id;
+  force_ns_ = clock_.now_ns();
+  trust_ns_ = 0;
+  while (const auto message = link_->receive()) {
+    const std::int64_t now_ns = clock_.now_ns();
+    if (const auto state = parse_haply_state(*message)) {
+      device_id = state->device_id;
+      frames_.store({.time_ns = now_ns, .position_m = state->position_m, .button = state->button ? 1U : 0U});
+    }
+    if (device_id.empty()) continue;  // there is nobody to answer
+    const glm::dvec3 force_n = force_for(now_ns);
+    const bool none = force_n == glm::dvec3(0.0);
+    if (!none) released_.store(false);
+    if (!link_->send(haply_force_message(device_id, force_n))) return;
+    if (none) released_.store(true);
+  }
+}
+
+glm::dvec3 HaplyDevice::force_for(std::int64_t now_ns) {
+  if (const auto command = commands_.try_load()) command_ = *command;
+  const std::int64_t elapsed_ns = std::max<std::int64_t>(0, now_ns - force_ns_);
+  force_ns_ = now_ns;
+  const bool stale = now_ns - command_.time_ns > kStaleNs;
+  // in whole nanoseconds, so that the fade ends at exactly zero
+  trust_ns_ =
+      std::clamp<std::int64_t>(trust_ns_ + (stale ? -elapsed_ns * (kReturnNs / kReleaseNs) : elapsed_ns), 0, kReturnNs);
+  if (closing_.load()) trust_ns_ = 0;
+  return static_cast<double>(trust_ns_) / static_cast<double>(kReturnNs) * command_.force_n;
+}
+
+}  // namespace afm::haptics

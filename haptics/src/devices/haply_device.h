@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "core/clock.h"
+#include "core/latest_value.h"
+#include "core/result.h"
+#include "haptics/device.h"
+#include "haptics/device_probe.h"
+
+namespace afm::haptics {
+
+class HaplyLink;
+
+// A Haply Inverse3, through the Inverse Service that its maker's set-up starts on this machine. One thread speaks with
+// the service, a message each way about once a millisecond; the servo finds the newest place and leaves the newest
+// force, and waits for nothing. Turn-On is the grip's button.
+//
+// - A force that the servo has not renewed for kStaleNs fades to exactly zero within kReleaseNs, and comes back over
+//   kReturnNs; a service that gets no message lets go by itself.
+// - Without a place for kStallNs the device is not healthy, so that the governor cuts. A service that went away is
+//   looked for again every kRetryNs.
+class HaplyDevice final : public HapticDevice {
+ public:
+  static constexpr std::int64_t kStaleNs = 5'000'000;
+  static constexpr std::int64_t kReleaseNs = 10'000'000;
+  static constexpr std::int64_t kReturnNs = 100'000'000;
+  static constexpr std::int64_t kStallNs = 20'000'000;
+  static constexpr std::int64_t kRetryNs = 200'000'000;
+
+  // DeviceMissing: no service, or no Inverse3 that tells its place within two seconds. `clock` outlives the device and
+  // is the one whose time read() is given.
+  static core::Result<std::unique_ptr<HaplyDevice>> open(const core::Clock& clock,
+                                                         std::uint16_t port = kHaplyServicePort);
+
+  // Whether the service answers; nothing is started.
+  static core::Result<void> query(std::uint16_t port = kHaplyServicePort);
+
+  ~HaplyDevice() override;  // after a message of zero force
+
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  DeviceSample read(std::int64_t now_ns) noexcept override;
+  void write(const ForceCommand& command) noexcept override;
+
+ private:
+  struct Frame {
+    std::int64_t time_ns = 0;
+    glm::dvec3 position_m{0.0};
+    std::uint32_t button = 0;
+  };
+  struct TimedForce {
+    std::int64_t time_ns = 0;
+    glm::dvec3 force_n{0.0};
+  };
+
+  HaplyDevice(const core::Clock& clock, std::uint16_t port, std::unique_ptr<HaplyLink> link);
+
+  void serve() noexcept;  // begins with the connection that `link_` has
+  void exchange();
+  glm::dvec3 force_for(std::int64_t now_ns);
+
+  const core::Clock& clock_;
+  std::uint16_t port_;
+  DeviceSpec spec_;
+  std::unique_ptr<HaplyLink> link_;
+
+  core::LatestValue<Frame> frames_;
+  core::LatestValue<TimedForce> commands_;
+  std::atomic<bool> closing_{false};
+  std::atomic<bool> released_{true};  // no force was sent since the last zero
+
+  // the servo's
+  Frame frame_;
+
+  // of the thread that speaks
+  TimedForce command_;
+  std::int64_t force_ns_ = 0;
+  std::int64_t trust_ns_ = 0;  // 0: the command is not believed, kReturnNs: wholly
+  std::thread thread_;
+};
+
+}  // namespace afm::haptics

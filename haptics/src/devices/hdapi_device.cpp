@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/hdapi_device.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/log.h"
+#include "devices/hdapi_numbers.h"
+#include "devices/hdapi_setup.h"
+
+namespace afm::haptics {
+
+namespace {
+
+constexpr std::int64_t kSchedulerPeriodNs = 1'000'000;
+constexpr auto kSupervisionPause = std::chrono::milliseconds(5);
+constexpr auto kFirstFramePatience = std::chrono::seconds(1);
+constexpr auto kReleasePatience = std::chrono::milliseconds(50);
+constexpr int kMostErrorsInAFrame = 8;
+constexpr std::int64_t kForEver = std::numeric_limits<std::int64_t>::max();
+
+// Between two callbacks a hand moves a millimetre at most; beside the workspace the figures have some play.
+constexpr double kLongestLeapM = 0.05;
+constexpr double kWorkspacePlayM = 0.1;
+
+bool wait_until(std::chrono::milliseconds patience, const std::atomic<bool>& condition) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!condition.load()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+}  // namespace
+
+core::Result<DeviceSpec> HdapiDevice::query(const HdapiFunctions& functions, const std::string& name) {
+  const auto handle = hdapi::take_device(functions, name);
+  if (!handle) return tl::unexpected(handle.error());
+  auto spec = hdapi::query_spec(functions);
+  functions.disable_device(*handle);
+  return spec;
+}
+
+core::Result<std::unique_ptr<HdapiDevice>> HdapiDevice::open(const HdapiFunctions& functions, const core::Clock& clock,
+                                                             const std::string& name, Supervision supervision) {
+  const auto handle = hdapi::take_device(functions, name);
+  if (!handle) return tl::unexpected(handle.error());
+  auto spec = hdapi::query_spec(functions);
+  if (!spec) {
+    functions.disable_device(*handle);
+    return tl::unexpected(spec.error());
+  }
+  std::unique_ptr<HdapiDevice> device(new HdapiDevice(functions, clock, *handle, std::move(*spec)));
+  if (auto started = device->start(supervision); !started) return tl::unexpected(started.error());
+  return device;
+}
+
+HdapiDevice::HdapiDevice(const HdapiFunctions& functions, const core::Clock& clock, HdapiHandle handle, DeviceSpec spec)
+    : hd_(functions),
+      clock_(clock),
+      handle_(handle),
+      spec_(std::move(spec)),
+      calibration_style_(hdapi::calibration_style(functions)) {}
+
+core::Result<void> HdapiDevice::start(Supervision supervision) {
+  // the driver's own clamp stays behind ours
+  hd_.enable(hdapi::kForceClamping);
+  hd_.set_scheduler_rate(1'000'000'000 / kSchedulerPeriodNs);
+  hdapi::take_newest_error(hd_);  // neither is vital
+
+  // asked in a frame, a device that cannot tell would look like one that failed
+  std::array<double, hdapi::kRoomForValues> heat{};
+  hd_.get_doubles(hdapi::kMotorTemperature, heat.data());
+  measures_heat_ = hdapi::take_newest_error(hd_).code == 0;
+
+  const HdapiSchedulerHandle callback = hd_.schedule_asynchronous(&HdapiDevice::call, this, hdapi::kHighestPriority);
+  HdapiError error = hdapi::take_newest_error(hd_);
+  if (error.code == 0 && callback != hdapi::kInvalidCallback) {
+    callback_ = callback;
+    hd_.start_scheduler();
+    scheduler_started_ = true;
+    error = hdapi::take_newest_error(hd_);
+  }
+  if (error.code != 0 || !callback_) {
+    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot start {}: {}; end other programs that use it",
+                                                                  spec_.name, hdapi::error_text(hd_, error.code)));
+  }
+  if (supervision == Supervision::Caller) return {};
+  if (!wait_until(kFirstFramePatience, called_)) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("cannot start {}: its driver did not call within {} s; switch it off and on",
+                                     spec_.name, kFirstFramePatience.count()));
+  }
+  supervisor_ = std::thread([this] {
+    while (!closing_.load()) {
+      if (const auto line = supervise()) core::log_line(*line);
+      std::this_thread::sleep_for(kSupervisionPause);
+    }
+  });
+  return {};
+}
+
+HdapiDevice::~HdapiDevice() {
+  closing_.store(true);
+  if (supervisor_.joinable()) supervisor_.join();
+  // a scheduler that has stalled cannot take the zero; its output is off already
+  if (scheduler_started_) wait_until(kReleasePatience, released_);
+  hd_.make_current_device(handle_);
+  hd_.disable(hdapi::kForceOutput);
+  if (scheduler_started_) hd_.stop_scheduler();
+  if (callback_) hd_.unschedule(*callback_);
+  hd_.disable_device(handle_);
+}
+
+DeviceSample HdapiDevice::read(std::int64_t now_ns) noexcept {
+  tick_ns_ = now_ns;
+  if (const auto frame = frames_.try_load()) seen_ = *frame;
+  return {.position_m = seen_.position_m,
+          .turn_on = (seen_.buttons & hdapi::kFirstButton) != 0,
+          .healthy = seen_.ready != 0 && now_ns - seen_.time_ns <= kStallNs,
+          .motor_heat = seen_.motor_heat};
+}
+
+void HdapiDevice::write(const ForceCommand& command) noexcept {
+  commands_.store({.time_ns = tick_ns_, .force_n = command.force_n()});
+}
+
+HdapiHealth HdapiDevice::health(std::int64_t now_ns) const noexcept {
+  if (called_.load() && now_ns - last_frame_ns_.load() > kStallNs) return HdapiHealth::SchedulerStalled;
+  return health_.load();
+}
+
+std::optional<std::string> HdapiDevice::supervise() {
+  const HdapiHealth now = health(clock_.now_ns());
+  const bool stalled = now == HdapiHealth::SchedulerStalled;
+  if (stalled && !cut_) {
+    hd_.make_current_device(handle_);
+    hd_.disable(hdapi::kForceOutput);
+    output_cut_.store(true);
+  }
+  cut_ = stalled;
+  if (now == told_) return std::nullopt;
+  told_ = now;
+  const std::uint32_t code = stalled ? 0 : error_code_.load();
+  return fmt::format("{}: {}{}", spec_.name, describe(now),
+                     code == 0 ? "" : fmt::format("; the driver said: {}", hdapi::error_text(hd_, code)));
+}
+
+std::uint32_t HdapiDevice::call(void* self) noexcept {
+  static_cast<HdapiDevice*>(self)->run_frame();
+  return hdapi::kContinue;
+}
+
+void HdapiDevice::run_frame() noexcept {
+  const std::int64_t now_ns = clock_.now_ns();
+  const std::int64_t elapsed_ns = std::clamp<std::int64_t>(now_ns - frame_.time_ns, 0, kReleaseNs);
+  frame_.time_ns = now_ns;
+
+  hd_.begin_frame(handle_);
+  read_hand(now_ns);
+  follow_calibration(now_ns);
+  const bool closing = closing_.load();
+  switch_output(own_health(now_ns) == HdapiHealth::Ready && !closing);
+  send_force(now_ns, elapsed_ns);
+  hd_.end_frame(handle_);
+  take_errors(now_ns);
+
+  const HdapiHealth health = own_health(now_ns);
+  frame_.ready = health == HdapiHealth::Ready ? 1 : 0;
+  frames_.store(frame_);
+  error_code_.store(health == fault_ ? fault_code_ : 0);
+  health_.store(health);
+  last_frame_ns_.store(now_ns);
+  called_.store(true);
+  if (closing) released_.store(true);
+}
+
+// The place is the last good one while the device gives nonsense.
+void HdapiDevice::read_hand(std::int64_t now_ns) noexcept {
+  std::array<double, hdapi::kRoomForValues> mm{};
+  hd_.get_doubles(hdapi::kPosition, mm.data());
+  std::array<std::int32_t, hdapi::kRoomForValues> buttons{};
+  hd_.get_integers(hdapi::kButtons, buttons.data());
+  frame_.buttons = static_cast<std::uint32_t>(buttons[0]);
+  if (measures_heat_) {
+    std::array<double, hdapi::kRoomForValues> heat{};
+    hd_.get_doubles(hdapi::kMotorTemperature, heat.data());
+    frame_.motor_heat = *std::max_element(heat.begin(), heat.end());
+  }
+
+  const glm::dvec3 position_m = 1e-3 * glm::dvec3(mm[0], mm[1], mm[2]);
+  bool inside = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    // a NaN compares false
+    inside = inside && position_m[axis] >= spec_.workspace_min_m[axis] - kWorkspacePlayM &&
+             position_m[axis] <= spec_.workspace_max_m[axis] + kWorkspacePlayM;
+  }
+  const bool leapt = inside && has_position_ && glm::length(position_m - raw_position_m_) > kLongestLeapM;
+  if (!inside || leapt) raise(HdapiHealth::ImplausiblePosition, 0, now_ns);
+  if (!inside) return;
+  raw_position_m_ = position_m;
+  has_position_ = true;
+  if (!leapt) frame_.position_m = position_m;
+}
+
+void HdapiDevice::follow_calibration(std::int64_t now_ns) noexcept {
+  if (calibration_ != HdapiHealth::Starting && now_ns - calibration_checked_ns_ < kCalibrationCheckNs) return;
+  calibration_checked_ns_ = now_ns;
+  const std::uint32_t status = hd_.check_calibration();
+  if (status == hdapi::kCalibrated) {
+    calibration_ = HdapiHealth::Ready;
+  } else if (status == hdapi::kNeedsUpdate) {
+    // the new origin may move the hand's place: never while a force is on
+    if (output_ == Output::Off) hd_.update_calibration(calibration_style_);
+    calibration_ = HdapiHealth::Calibrating;
+  } else {
+    calibration_ = HdapiHealth::NeedsInkwell;
+  }
+}
+
+void HdapiDevice::switch_output(bool on) noexcept {
+  if (output_cut_.exchange(false)) output_ = Output::Unknown;
+  const Output wanted = on ? Output::On : Output::Off;
+  if (output_ == wanted) return;
+  if (on) {
+    hd_.enable(hdapi::kForceOutput);
+  } else {
+    hd_.disable(hdapi::kForceOutput);
+  }
+  output_ = wanted;
+}
+
+void HdapiDevice::send_force(std::int64_t now_ns, std::int64_t elapsed_ns) noexcept {
+  if (const auto command = commands_.try_load()) command_ = *command;
+  const bool stale = now_ns - command_.time_ns > kStaleNs;
+  // in whole nanoseconds, so that the fade ends at exactly zero
+  trust_ns_ =
+      std::clamp<std::int64_t>(trust_ns_ + (stale ? -elapsed_ns * (kReturnNs / kReleaseNs) : elapsed_ns), 0, kReturnNs);
+  const double gain = static_cast<double>(trust_ns_) / static_cast<double>(kReturnNs);
+
+  const glm::dvec3 target_n = output_ == Output::On ? gain * command_.force_n : glm::dvec3(0.0);
+  // two of the servo's steps may fall between two callbacks
+  const double seconds = 1e-9 * static_cast<double>(std::min(elapsed_ns, kSchedulerPeriodNs));
+  const double longest_step_n = kUsableLimitShare * spec_.max_slew_n_per_s * seconds;
+  const glm::dvec3 step_n = target_n - force_n_;
+  const double length = glm::length(step_n);
+  force_n_ = target_n == glm::dvec3(0.0) || length <= longest_step_n ? target_n
+                                                                     : force_n_ + step_n * (longest_step_n / length);
+  const std::array<double, 3> newtons{force_n_.x, force_n_.y, force_n_.z};
+  hd_.set_doubles(hdapi::kForce, newtons.data());
+}
+
+void HdapiDevice::take_errors(std::int64_t now_ns) noexcept {
+  for (int i = 0; i < kMostErrorsInAFrame; ++i) {
+    const HdapiError error = hd_.get_error();
+    if (error.code == 0) return;
+    raise(health_after(error.code), error.code, now_ns);
+  }
+}
+
+void HdapiDevice::raise(HdapiHealth fault, std::uint32_t error_code, std::int64_t now_ns) noexcept {
+  if (fault_until_ns_ == kForEver) return;
+  const auto recovery = recovery_ns(fault);
+  fault_ = fault;
+  fault_code_ = error_code;
+  fault_until_ns_ = recovery ? now_ns + *recovery : kForEver;
+}
+
+HdapiHealth HdapiDevice::own_health(std::int64_t now_ns) const noexcept {
+  return now_ns < fault_until_ns_ ? fault_ : calibration_;
+}
+
+}  // namespace afm::haptics

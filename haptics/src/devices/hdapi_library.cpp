@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/hdapi_library.h"
+
+#include <dlfcn.h>
+
+namespace afm::haptics {
+
+namespace {
+
+// 3.4 drives the Touch (USB, Ethernet), 3.0 the Omni (FireWire).
+constexpr const char* kLibraryNames[] = {"libHD.so.3.4", "libHD.so.3.0", "libHD.so"};
+
+// Looks up functions of one library and remembers the first that is missing.
+class Binder {
+ public:
+  explicit Binder(void* library) : library_(library) {}
+
+  template <class Function>
+  void bind(const char* name, Function*& function) {
+    function = reinterpret_cast<Function*>(::dlsym(library_, name));
+    if (function == nullptr && missing_.empty()) missing_ = name;
+  }
+
+  const std::string& missing() const { return missing_; }
+
+ private:
+  void* library_;
+  std::string missing_;
+};
+
+std::string linker_error() {
+  const char* text = ::dlerror();
+  return text == nullptr ? "the dynamic linker gave no reason" : text;
+}
+
+// Empty if everything was found.
+std::string bind_all(void* library, HdapiFunctions& hd) {
+  Binder binder(library);
+  binder.bind("hdInitDevice", hd.init_device);
+  binder.bind("hdDisableDevice", hd.disable_device);
+  binder.bind("hdMakeCurrentDevice", hd.make_current_device);
+  binder.bind("hdBeginFrame", hd.begin_frame);
+  binder.bind("hdEndFrame", hd.end_frame);
+  binder.bind("hdGetError", hd.get_error);
+  binder.bind("hdGetErrorString", hd.get_error_string);
+  binder.bind("hdEnable", hd.enable);
+  binder.bind("hdDisable", hd.disable);
+  binder.bind("hdGetIntegerv", hd.get_integers);
+  binder.bind("hdGetDoublev", hd.get_doubles);
+  binder.bind("hdSetDoublev", hd.set_doubles);
+  binder.bind("hdGetString", hd.get_string);
+  binder.bind("hdCheckCalibration", hd.check_calibration);
+  binder.bind("hdUpdateCalibration", hd.update_calibration);
+  binder.bind("hdStartScheduler", hd.start_scheduler);
+  binder.bind("hdStopScheduler", hd.stop_scheduler);
+  binder.bind("hdSetSchedulerRate", hd.set_scheduler_rate);
+  binder.bind("hdScheduleAsynchronous", hd.schedule_asynchronous);
+  binder.bind("hdUnschedule", hd.unschedule);
+  return binder.missing();
+}
+
+}  // namespace
+
+HdapiSearch load_hdapi(const std::string& configured) {
+  std::vector<std::string> names(std::begin(kLibraryNames), std::end(kLibraryNames));
+  if (!configured.empty()) names = {configured};
+
+  HdapiSearch search;
+  for (const std::string& name : names) {
+    LibraryAttempt& attempt = search.attempts.emplace_back(LibraryAttempt{name, {}});
+    // never closed, not even when it is refused; its own plug-ins look for its symbols among the global ones
+    void* library = ::dlopen(name.c_str(), RTLD_NOW | RTLD_GLOBAL);
+    if (library == nullptr) {
+      attempt.refusal = linker_error();
+      continue;
+    }
+    HdapiFunctions functions;
+    if (const std::string missing = bind_all(library, functions); !missing.empty()) {
+      attempt.refusal = "it lacks the function " + missing;
+      continue;
+    }
+    search.functions = functions;
+    break;
+  }
+  return search;
+}
+
+}  // namespace afm::haptics

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/law_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "laws/bent_branch.h"
+#include "laws/paper_tables.h"
+#include "physics/force_laws.h"
+#include "physics/quantity_text.h"
+
+namespace afm::physics {
+namespace {
+
+// What the law itself is made of, validated. Fixed grips are a lever that no person owns: an infinite k_c is legal here
+// and nowhere else, and no law asks for it.
+Interaction without_lever(Interaction interaction) {
+  if (std::isinf(interaction.spring_constant.si) && interaction.spring_constant.si > 0.0) {
+    interaction.spring_constant = Stiffness(1.0);
+  }
+  validate(interaction);
+  return interaction;
+}
+
+double compliance(const Interaction& interaction) {
+  return 1.0 / interaction.spring_constant.si + 1.0 / interaction.sample_stiffness.si;
+}
+
+// Where a tip rests, SI, and the parameter of that place on its branch.
+struct Rest {
+  double z = 0.0;
+  double force = 0.0;
+  double s = 0.0;
+};
+
+// A law that is single-valued in h says so by an attached branch that goes on to where the free one begins.
+bool is_single_valued(const ForceLaw& law) {
+  const double farthest = law.free.at(law.free.first).h.si;
+  return std::abs(law.attached.at(law.attached.last).h.si - farthest) < 1e-6 * farthest;
+}
+
+class Builder {
+ public:
+  Builder(Law name, const ForceLaw& law, const Interaction& interaction)
+      : law_(law),
+        single_valued_(is_single_valued(law)),
+        free_curve_(single_valued_ ? reversed(law.attached) : law.free),
+        compliance_(compliance(interaction)),
+        free_(free_curve_, compliance_, BentBranch::Direction::Inwards),
+        attached_(law.attached, compliance_, BentBranch::Direction::Outwards) {
+    tables_.law = name;
+    tables_.interaction = interaction;
+    tables_.contact_gap = law.contact_gap;
+  }
+
+  LawTables build() {
+    CycleFigures& figures = tables_.figures;
+    // of a loop narrower than rounding nothing is left
+    figures.hysteretic = !single_valued_ || (free_.folded() && attached_.folded() &&
+                                             attached_.at(attached_.end()).z > free_.at(free_.end()).z);
+    figures.critical_stiffness = critical_stiffness();
+    if (figures.hysteretic) {
+      solve_jumps();
+    } else {
+      meet_at_contact();
+    }
+    set_tip_heights();
+    tabulate();
+    return std::move(tables_);
+  }
+
+ private:
+  Rest rest(const BentBranch& branch, double s) const {
+    const BentBranch::Point point = branch.at(s);
+    return {point.z, point.force, s};
+  }
+
+  Stiffness critical_stiffness() const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (!single_valued_) return Stiffness(kInfinity);
+    const double steepest = std::max(steepest_attraction(law_.free), steepest_attraction(law_.attached));
+    if (steepest <= 0.0) return Stiffness();
+    const double lever_compliance = 1.0 / steepest - 1.0 / tables_.interaction.sample_stiffness.si;
+    return Stiffness(lever_compliance > 0.0 ? 1.0 / lever_compliance : kInfinity);
+  }
+
+  void meet_at_contact() {
+    const LawPoint touch = law_.free.at(law_.free.last);
+    const double z = touch.h.si - compliance_ * touch.force.si;
+    free_.cut_at(free_.at_z(z).value_or(free_.end()));
+    attached_.cut_at(attached_.at_z(z).value_or(attached_.end()));
+    const Rest contact{z, touch.force.si, 0.0};
+    CycleFigures& figures = tables_.figures;
+    figures.z_jtc = figures.z_joc = Length(contact.z);
+    figures.force_before_jtc = figures.force_after_jtc = Force(contact.force);
+    figures.force_before_joc = figures.force_after_joc = Force(contact.force);
+  }
+
+  void solve_jumps() {
+    const Rest in_from = rest(free_, free_.end());
+    const Rest off_from = rest(attached_, attached_.end());
+    const auto in_to_s = attached_.at_z(in_from.z);
+    if (in_from.z < attached_.at(law_.attached.first).z) {
+      throw std::invalid_argument("the sample is too soft: a tip that jumps to contact at " +
+                                  format_quantity(Length(in_from.z), kLengthUnits) + " would sink in by more than " +
+                                  format_quantity(-law_.attached.at(law_.attached.first).h, kLengthUnits));
+    }
+    if (off_from.z <= in_from.z || !in_to_s) {
+      throw std::invalid_argument(
+          "the adhesion is too weak: jump-off-contact at " + format_quantity(Length(off_from.z), kLengthUnits) +
+          " does not lie above jump-to-contact at " + format_quantity(Length(in_from.z), kLengthUnits));
+    }
+    const Rest in_to = rest(attached_, *in_to_s);
+    // a lever so soft that it lets go beyond the law's end springs back to where there is no force
+    const Rest off_to = rest(free_, free_.at_z(off_from.z).value_or(free_curve_.first));
+
+    CycleFigures& figures = tables_.figures;
+    figures.z_jtc = Length(in_from.z);
+    figures.force_before_jtc = Force(in_from.force);
+    figures.force_after_jtc = Force(in_to.force);
+    figures.z_joc = Length(off_from.z);
+    figures.force_before_joc = Force(off_from.force);
+    figures.force_after_joc = Force(off_to.force);
+
+    const double fall_of_free = potential_rise(free_curve_, off_to.s, in_from.s);
+    const double rise_of_attached = potential_rise(law_.attached, in_to.s, off_from.s);
+    const double loop =
+        fall_of_free + rise_of_attached + stored(in_from) - stored(in_to) + stored(off_from) - stored(off_to);
+    figures.loop_energy = Energy(single_valued_ ? std::max(0.0, loop) : loop);
+    figures.lost_at_jtc = lost_at_jtc(in_from, in_to, figures.loop_energy);
+    figures.lost_at_joc = figures.loop_energy - figures.lost_at_jtc;
+  }
+
+  // In lever and support.
+  double stored(const Rest& rest) const { return 0.5 * compliance_ * rest.force * rest.force; }
+
+  Energy lost_at_jtc(const Rest& from, const Rest& to, Energy loop) const {
+    if (single_valued_) {
+      // along the one curve; it cannot be negative, but rounding can be larger than it is
+      const double lost = potential_rise(law_.attached, to.s, -from.s) + stored(from) - stored(to);
+      return Energy(std::clamp(lost, 0.0, loop.si));
+    }
+    // without a potential nothing tells the two jumps apart: the well is just deep enough for the first one
+    if (!law_.attached_end_potential) return Energy();
+    const double u_from = potential_far_away() + potential_rise(law_.free, law_.free.first, from.s);
+    const double u_to = law_.attached_end_potential->si - potential_rise(law_.attached, to.s, law_.attached.last);
+    return Energy(u_from + stored(from) - u_to - stored(to));
+  }
+
+  // U at the first point of the free branch, as of a force that goes on as the power of h that it is there.
+  double potential_far_away() const {
+    const LawPoint far = law_.free.at(law_.free.first);
+    if (far.force.si == 0.0) return 0.0;
+    const double exponent = -far.dforce_ds / far.dh_ds * far.h.si / far.force.si;
+    return far.force.si * far.h.si / (exponent - 1.0);
+  }
+
+  void set_tip_heights() {
+    CycleFigures& figures = tables_.figures;
+    const auto height = [this](Length z, Force force) { return z + force / tables_.interaction.spring_constant; };
+    figures.tip_height_before_jtc = height(figures.z_jtc, figures.force_before_jtc);
+    figures.tip_height_after_jtc = height(figures.z_jtc, figures.force_after_jtc);
+    figures.tip_height_before_joc = height(figures.z_joc, figures.force_before_joc);
+    figures.tip_height_after_joc = height(figures.z_joc, figures.force_after_joc);
+  }
+
+  void tabulate() {
+    // beyond, a branch goes on by itself: ten times the cycle, and far enough for any stroke of a few micrometres
+    constexpr double kShortest = 4e-6;  // m
+    const double reach = std::max(kShortest, 10.0 * std::abs(tables_.figures.z_joc.si));
+    tables_.free = free_.table(reach);
+    tables_.attached = attached_.table(reach);
+  }
+
+  const ForceLaw& law_;
+  bool single_valued_;
+  // of a single-valued law the attached branch the other way: a tip that comes in follows that one curve until it
+  // folds, be it before contact or after
+  LawBranch free_curve_;
+  double compliance_;
+  BentBranch free_;
+  BentBranch attached_;
+  LawTables tables_;
+};
+
+}  // namespace
+
+std::shared_ptr<const LawTables> build_law_tables(Law name, const ForceLaw& law, const Interaction& interaction) {
+  without_lever(interaction);
+  return std::make_shared<const LawTables>(Builder(name, law, interaction).build());
+}
+
+std::shared_ptr<const LawTables> build_law_tables(Law law, const Interaction& interaction, const LawOptions& options) {
+  const Interaction surfaces = without_lever(interaction);
+  const bool rigid_contact = law == Law::Paper || law == Law::Hao;
+  if (rigid_contact && compliance(interaction) == 0.0) {
+    throw std::invalid_argument("the law " + std::string(name_of(law)) +
+                                " has a rigid contact, which has no force without a lever");
+  }
+  if (law == Law::Paper) return std::make_shared<const LawTables>(paper_tables(interaction));
+  return build_law_tables(law, force_law(law, surfaces, options), interaction);
+}
+
+}  // namespace afm::physics

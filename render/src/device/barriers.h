@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+
+#include "device/vulkan.h"
+
+namespace afm::render {
+
+// How an image is used at one point of a command buffer. Every barrier of the renderer names two of these, with stages
+// and accesses spelled out at the call.
+struct ImageUse {
+  vk::PipelineStageFlags2 stages;
+  vk::AccessFlags2 access;
+  vk::ImageLayout layout = vk::ImageLayout::eUndefined;
+
+  // The same, and what the image holds is not needed any more: to be waited for, not to be kept.
+  constexpr ImageUse discarded() const { return {stages, access, vk::ImageLayout::eUndefined}; }
+};
+
+struct LayerRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = VK_REMAINING_ARRAY_LAYERS;
+};
+
+inline vk::ImageMemoryBarrier2 image_barrier(vk::Image image, vk::ImageAspectFlags aspect, const ImageUse& before,
+                                             const ImageUse& after, LayerRange layers = {}) {
+  return {.srcStageMask = before.stages,
+          .srcAccessMask = before.access,
+          .dstStageMask = after.stages,
+          .dstAccessMask = after.access,
+          .oldLayout = before.layout,
+          .newLayout = after.layout,
+          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+          .image = image,
+          .subresourceRange = {.aspectMask = aspect,
+                               .levelCount = VK_REMAINING_MIP_LEVELS,
+                               .baseArrayLayer = layers.first,
+                               .layerCount = layers.count}};
+}
+
+inline void record_barriers(const vk::raii::CommandBuffer& command,
+                            std::initializer_list<vk::ImageMemoryBarrier2> barriers) {
+  command.pipelineBarrier2({.imageMemoryBarrierCount = static_cast<std::uint32_t>(barriers.size()),
+                            .pImageMemoryBarriers = barriers.begin()});
+}
+
+}  // namespace afm::render

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device/device.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "core/check.h"
+#include "output/window_handle.h"
+
+namespace afm::render {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* kInstallDriver =
+    "install a Vulkan driver (Debian: mesa-vulkan-drivers, which also draws without a GPU)";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* sink) {
+  static_cast<MessageSink*>(sink)->add(data->pMessage);
+  return VK_FALSE;
+}
+
+vk::DebugUtilsMessengerCreateInfoEXT messenger_info(MessageSink& sink) {
+  using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+  using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+  return {.messageSeverity = Severity::eWarning | Severity::eError,
+          .messageType = Type::eValidation | Type::ePerformance,
+          .pfnUserCallback = on_message,
+          .pUserData = &sink};
+}
+
+std::optional<std::uint32_t> graphics_family(const vk::raii::PhysicalDevice& physical) {
+  const auto families = physical.getQueueFamilyProperties();
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
+    if (families[i].queueFlags & vk::QueueFlagBits::eGraphics) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+// Why the renderer cannot use this device, empty if it can.
+std::string missing_ability(const vk::raii::PhysicalDevice& physical) {
+  if (physical.getProperties().apiVersion < VK_API_VERSION_1_3) {
+    return "its driver is older than Vulkan 1.3";
+  }
+  if (!graphics_family(physical)) {
+    return "it has no graphics queue";
+  }
+  return {};
+}
+
+bool shows_windows(const vk::raii::Instance& instance, const vk::raii::PhysicalDevice& physical) {
+  const auto extensions = physical.enumerateDeviceExtensionProperties();
+  const bool has_swapchain =
+      std::any_of(extensions.begin(), extensions.end(), [](const vk::ExtensionProperties& extension) {
+        return std::string_view(extension.extensionName) == VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+      });
+  return has_swapchain && can_present(instance, physical, *graphics_family(physical));
+}
+
+int preference(vk::PhysicalDeviceType type) {
+  switch (type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+      return 4;
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+      return 3;
+    case vk::PhysicalDeviceType::eVirtualGpu:
+      return 2;
+    case vk::PhysicalDeviceType::eCpu:
+      return 1;
+    case vk::PhysicalDeviceType::eOther:
+      break;
+  }
+  return 0;
+}
+
+std::string kind_of(vk::PhysicalDeviceType type) {
+  switch (type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+      return "discrete GPU";
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+      return "integrated GPU";
+    case vk::PhysicalDeviceType::eVirtualGpu:
+      return "virtual GPU";
+    case vk::PhysicalDeviceType::eCpu:
+      return "CPU";
+    case vk::PhysicalDeviceType::eOther:
+      break;
+  }
+  return "other";
+}
+
+bool has_validation_layer(const vk::raii::Context& loader) {
+  const auto layers = loader.enumerateInstanceLayerProperties();
+  return std::any_of(layers.begin(), layers.end(), [](const vk::LayerProperties& layer) {
+    return std::string_view(layer.layerName) == kValidationLayer;
+  });
+}
+
+}  // namespace
+
+core::Result<std::unique_ptr<vk::raii::Context>> open_loader() {
+  try {
+    return std::make_unique<vk::raii::Context>();
+  } catch (const std::runtime_error&) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         "cannot open the Vulkan loader libvulkan.so.1: install libvulkan1 and a driver "
+                         "(Debian: mesa-vulkan-drivers, which also draws without a GPU)");
+  }
+}
+
+// EnumeratePhysicalDevices fails or finds nothing when the loader has no driver.
+core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::raii::Instance& instance) {
+  try {
+    std::vector<vk::raii::PhysicalDevice> found;
+    for (auto& physical : vk::raii::PhysicalDevices(instance)) {
+      found.push_back(std::move(physical));
+    }
+    if (!found.empty()) {
+      return found;
+    }
+  } catch (const vk::SystemError&) {
+    // said below
+  }
+  return core::failure(core::ErrorCategory::DeviceMissing, std::string("found no Vulkan device: ") + kInstallDriver);
+}
+
+void MessageSink::add(std::string message) {
+  const std::scoped_lock lock(mutex_);
+  messages_.push_back(std::move(message));
+}
+
+std::vector<std::string> MessageSink::take() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(messages_, {});
+}
+
+core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader, Validation validation,
+                                                 Presentation presentation, MessageSink& sink) {
+  const bool validate = validation == Validation::On;
+  if (validate && !has_validation_layer(loader)) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         "cannot find the Vulkan validation layer: install vulkan-validationlayers");
+  }
+  const vk::ApplicationInfo application{.pApplicationName = "touchafm", .apiVersion = VK_API_VERSION_1_3};
+  const std::array layers{kValidationLayer};
+  std::vector<const char*> extensions;
+  if (presentation == Presentation::Window) {
+    extensions = surface_extensions();
+  }
+  if (validate) {
+    extensions.insert(extensions.end(), {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME});
+  }
+  const std::array enabled{vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+  const auto messages = messenger_info(sink);
+  const vk::ValidationFeaturesEXT features{.pNext = &messages,
+                                           .enabledValidationFeatureCount = static_cast<std::uint32_t>(enabled.size()),
+                                           .pEnabledValidationFeatures = enabled.data()};
+  const vk::InstanceCreateInfo info{
+      .pNext = validate ? &features : nullptr,
+      .pApplicationInfo = &application,
+      .enabledLayerCount = validate ? static_cast<std::uint32_t>(layers.size()) : 0U,
+      .ppEnabledLayerNames = layers.data(),
+      .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+      .ppEnabledExtensionNames = extensions.data(),
+  };
+  try {
+    return vk::raii::Instance(loader, info);
+  } catch (const vk::SystemError& error) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         std::string("cannot start Vulkan (") + error.what() + "): " + kInstallDriver);
+  }
+}
+
+DeviceDescription describe(const vk::raii::PhysicalDevice& physical) {
+  const auto properties = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+  const auto& core_properties = properties.get<vk::PhysicalDeviceProperties2>().properties;
+  const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
+  DeviceDescription description;
+  description.name = std::string(std::string_view(core_properties.deviceName));
+  description.kind = kind_of(core_properties.deviceType);
+  description.driver =
+      std::string(std::string_view(driver.driverName)) + " " + std::string(std::string_view(driver.driverInfo));
+  description.reason = missing_ability(physical);
+  description.usable = description.reason.empty();
+  return description;
+}
+
+core::Result<void> Device::choose_physical(Presentation presentation) {
+  auto candidates = physical_devices(instance_);
+  if (!candidates) {
+    return tl::unexpected(candidates.error());
+  }
+  int best = -1;
+  std::string reasons;
+  for (auto& candidate : *candidates) {
+    const auto properties = candidate.getProperties();
+    std::string reason = missing_ability(candidate);
+    if (reason.empty() && presentation == Presentation::Window && !shows_windows(instance_, candidate)) {
+      reason = "it cannot present to this display";
+    }
+    if (!reason.empty()) {
+      reasons += (reasons.empty() ? "" : "; ") + std::string(std::string_view(properties.deviceName)) + ": " + reason;
+    } else if (preference(properties.deviceType) > best) {
+      best = preference(properties.deviceType);
+      name_ = std::string(std::string_view(properties.deviceName));
+      queue_family_ = *graphics_family(candidate);
+      physical_ = std::move(candidate);
+    }
+  }
+  if (best < 0) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         "no Vulkan device can draw this (" + reasons + "): " + kInstallDriver);
+  }
+  return {};
+}
+
+void Device::create_device(Presentation presentation) {
+  const std::array extensions{VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+  const float priority = 1.0F;
+  const vk::DeviceQueueCreateInfo queue_info{
+      .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
+  // maintenance4: SPIR-V 1.6 gives a compute shader's size as the feature allows
+  vk::PhysicalDeviceVulkan13Features features13{
+      .synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE, .maintenance4 = VK_TRUE};
+  vk::PhysicalDeviceVulkan12Features features12{.pNext = &features13, .timelineSemaphore = VK_TRUE};
+  multiview_ = physical_.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features>()
+                   .get<vk::PhysicalDeviceVulkan11Features>()
+                   .multiview == VK_TRUE;
+  const vk::PhysicalDeviceVulkan11Features features11{.pNext = &features12,
+                                                      .multiview = multiview_ ? VK_TRUE : VK_FALSE};
+  device_ = vk::raii::Device(physical_, {.pNext = &features11,
+                                         .queueCreateInfoCount = 1,
+                                         .pQueueCreateInfos = &queue_info,
+                                         .enabledExtensionCount = presentation == Presentation::Window ? 1U : 0U,
+                                         .ppEnabledExtensionNames = extensions.data()});
+  queue_ = device_.getQueue(queue_family_, 0);
+  const auto properties = physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+  clips_first_view_only_ = properties.get<vk::PhysicalDeviceDriverProperties>().driverID == vk::DriverId::eMesaLlvmpipe;
+  pool_ = vk::raii::CommandPool(
+      device_, {.flags = vk::CommandPoolCreateFlagBits::eTransient, .queueFamilyIndex = queue_family_});
+}
+
+core::Result<std::unique_ptr<Device>> Device::open(Validation validation, Presentation presentation) {
+  auto loader = open_loader();
+  if (!loader) {
+    return tl::unexpected(loader.error());
+  }
+  std::unique_ptr<Device> device(new Device());
+  device->loader_ = std::move(*loader);
+  auto instance = create_instance(*device->loader_, validation, presentation, *device->messages_);
+  if (!instance) {
+    return tl::unexpected(instance.error());
+  }
+  device->instance_ = std::move(*instance);
+  device->naming_ = validation == Validation::On;
+  if (validation == Validation::On) {
+    device->messenger_ = vk::raii::DebugUtilsMessengerEXT(device->instance_, messenger_info(*device->messages_));
+  }
+  if (auto chosen = device->choose_physical(presentation); !chosen) {
+    return tl::unexpected(chosen.error());
+  }
+  try {
+    device->create_device(presentation);
+  } catch (const vk::SystemError& error) {
+    return core::failure(core::ErrorCategory::DeviceMissing, "cannot open the Vulkan device " + device->name_ + " (" +
+                                                                 error.what() + "): " + kInstallDriver);
+  }
+  return device;
+}
+
+std::uint32_t Device::memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags wanted) const {
+  const auto properties = physical_.getMemoryProperties();
+  const auto suits = [&](std::uint32_t type) {
+    return (type_bits & (1U << type)) != 0 && (properties.memoryTypes[type].propertyFlags & wanted) == wanted;
+  };
+  std::uint32_t type = 0;
+  while (type < properties.memoryTypeCount && !suits(type)) {
+    ++type;
+  }
+
+  // the specification promises host-visible coherent and device-local memory for every resource used here
+  AFM_CHECK(type < properties.memoryTypeCount);
+  return type;
+}
+
+std::uint64_t Device::largest_heap_bytes() const {
+  const auto properties = physical_.getMemoryProperties();
+  vk::DeviceSize largest = 0;
+  for (std::uint32_t i = 0; i < properties.memoryHeapCount; ++i) {
+    largest = std::max(largest, properties.memoryHeaps[i].size);
+  }
+  return largest;
+}
+
+void Device::wait_idle() const noexcept {
+  try {
+    device_.waitIdle();
+  } catch (const vk::SystemError&) {
+    // lost, or without memory: said by whatever needs the device next
+  }
+}
+
+void Device::run_once(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
+  const vk::raii::CommandBuffers commands(
+      device_, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
+  const auto& command = commands.front();
+  command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  record(command);
+  command.end();
+  const vk::raii::Fence fence(device_, vk::FenceCreateInfo{});
+  const vk::CommandBufferSubmitInfo submit{.commandBuffer = *command};
+  queue_.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submit}, *fence);
+  const auto result = device_.waitForFences(*fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
+  AFM_CHECK(result == vk::Result::eSuccess);
+}
+
+}  // namespace afm::render

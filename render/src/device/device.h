@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "device/vulkan.h"
+#include "render/context.h"
+
+namespace afm::render {
+
+// Collects what the validation layer says; the layer may call from any thread.
+class MessageSink {
+ public:
+  void add(std::string message);
+  std::vector<std::string> take();
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> messages_;
+};
+
+// The steps that Device::open() and list_devices() share; DeviceMissing with what to install.
+core::Result<std::unique_ptr<vk::raii::Context>> open_loader();
+core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader, Validation validation,
+                                                 Presentation presentation, MessageSink& sink);
+core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::raii::Instance& instance);
+DeviceDescription describe(const vk::raii::PhysicalDevice& physical);
+
+// What Context hides: the Vulkan objects that every part of the renderer needs.
+class Device {
+ public:
+  static core::Result<std::unique_ptr<Device>> open(Validation validation, Presentation presentation);
+
+  const vk::raii::Device& operator*() const { return device_; }
+  const vk::raii::Device* operator->() const { return &device_; }
+  const vk::raii::Instance& instance() const { return instance_; }
+  const vk::raii::PhysicalDevice& physical() const { return physical_; }
+  const vk::raii::Queue& queue() const { return queue_; }
+  std::uint32_t queue_family() const { return queue_family_; }
+  const std::string& name() const { return name_; }
+  MessageSink& messages() { return *messages_; }
+
+  // Index of a memory type among `type_bits` with all of `wanted`. Every Vulkan device has the combinations asked for
+  // here.
+  std::uint32_t memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags wanted) const;
+
+  // Whether both eyes can be drawn in one pass.
+  bool multiview() const { return multiview_; }
+
+  // Mesa 22.3's lavapipe draws a triangle that is clipped into the first view of a multiview pass alone.
+  bool clips_first_view_only() const { return clips_first_view_only_; }
+
+  // Before what the device may still use is destroyed. A lost device uses nothing.
+  void wait_idle() const noexcept;
+
+  std::uint64_t largest_heap_bytes() const;
+
+  // Records with `record`, submits and waits: for uploads at start and for reading back.
+  void run_once(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
+
+  // The name shows in validation messages and captures.
+  template <class Object>
+  void set_name(const Object& object, const std::string& name) const {
+    if (!naming_) {
+      return;
+    }
+    const auto handle = reinterpret_cast<std::uint64_t>(static_cast<typename Object::CType>(*object));
+    device_.setDebugUtilsObjectNameEXT(
+        {.objectType = Object::objectType, .objectHandle = handle, .pObjectName = name.c_str()});
+  }
+
+ private:
+  Device() = default;
+  core::Result<void> choose_physical(Presentation presentation);
+  void create_device(Presentation presentation);
+
+  std::unique_ptr<MessageSink> messages_ = std::make_unique<MessageSink>();
+  std::unique_ptr<vk::raii::Context> loader_;
+  vk::raii::Instance instance_{nullptr};
+  vk::raii::DebugUtilsMessengerEXT messenger_{nullptr};
+  vk::raii::PhysicalDevice physical_{nullptr};
+  std::string name_;
+  std::uint32_t queue_family_ = 0;
+  bool naming_ = false;
+  bool multiview_ = false;
+  bool clips_first_view_only_ = false;
+  vk::raii::Device device_{nullptr};
+  vk::raii::Queue queue_{nullptr};
+  vk::raii::CommandPool pool_{nullptr};
+};
+
+}  // namespace afm::render

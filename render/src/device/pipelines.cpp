@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device/pipelines.h"
+
+#include <array>
+#include <vector>
+
+namespace afm::render {
+namespace {
+
+constexpr std::array kDynamicStates{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
+                                    vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace};
+
+vk::raii::ShaderModule create_module(const Device& device, std::span<const std::uint32_t> code) {
+  return vk::raii::ShaderModule(*device, {.codeSize = code.size_bytes(), .pCode = code.data()});
+}
+
+vk::PipelineColorBlendAttachmentState blend_state(Blending blending) {
+  using Component = vk::ColorComponentFlagBits;
+  return {.blendEnable = blending == Blending::Premultiplied,
+          .srcColorBlendFactor = vk::BlendFactor::eOne,
+          .dstColorBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha,
+          .colorBlendOp = vk::BlendOp::eAdd,
+          .srcAlphaBlendFactor = vk::BlendFactor::eOne,
+          .dstAlphaBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha,
+          .alphaBlendOp = vk::BlendOp::eAdd,
+          .colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA};
+}
+
+vk::PipelineDepthStencilStateCreateInfo depth_state(const PipelineRequest& request) {
+  return {.depthTestEnable = request.depth != DepthUse::None,
+          .depthWriteEnable = request.depth == DepthUse::TestAndWrite,
+          .depthCompareOp = request.depth_compare};
+}
+
+vk::PipelineRasterizationStateCreateInfo raster_state(const PipelineRequest& request) {
+  return {.polygonMode = vk::PolygonMode::eFill,
+          .depthBiasEnable = request.depth_bias_constant != 0.0F || request.depth_bias_slope != 0.0F,
+          .depthBiasConstantFactor = request.depth_bias_constant,
+          .depthBiasSlopeFactor = request.depth_bias_slope,
+          .lineWidth = 1.0F};
+}
+
+}  // namespace
+
+vk::raii::Pipeline create_pipeline(const Device& device, const PipelineRequest& request) {
+  const vk::SpecializationMapEntry look{.constantID = 0, .offset = 0, .size = sizeof(request.look)};
+  const vk::SpecializationInfo specialization{
+      .mapEntryCount = 1, .pMapEntries = &look, .dataSize = sizeof(request.look), .pData = &request.look};
+  std::vector<vk::raii::ShaderModule> modules;
+  std::vector<vk::PipelineShaderStageCreateInfo> stages;
+  modules.push_back(create_module(device, request.vertex_code));
+  stages.push_back({.stage = vk::ShaderStageFlagBits::eVertex, .module = *modules.back(), .pName = "main"});
+  if (!request.fragment_code.empty()) {
+    modules.push_back(create_module(device, request.fragment_code));
+    stages.push_back({.stage = vk::ShaderStageFlagBits::eFragment,
+                      .module = *modules.back(),
+                      .pName = "main",
+                      .pSpecializationInfo = &specialization});
+  }
+
+  const vk::PipelineVertexInputStateCreateInfo vertex_input{
+      .vertexBindingDescriptionCount = static_cast<std::uint32_t>(request.bindings.size()),
+      .pVertexBindingDescriptions = request.bindings.data(),
+      .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(request.attributes.size()),
+      .pVertexAttributeDescriptions = request.attributes.data()};
+  const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = request.topology};
+  const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
+  const auto raster = raster_state(request);
+  const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = request.samples};
+  const auto depth = depth_state(request);
+  const auto blend_attachment = blend_state(request.blending);
+  const bool has_color = request.color_format != vk::Format::eUndefined;
+  const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = has_color ? 1U : 0U,
+                                                    .pAttachments = &blend_attachment};
+  const vk::PipelineDynamicStateCreateInfo dynamic{
+      .dynamicStateCount = static_cast<std::uint32_t>(kDynamicStates.size()), .pDynamicStates = kDynamicStates.data()};
+  const vk::PipelineRenderingCreateInfo rendering{.viewMask = request.view_mask,
+                                                  .colorAttachmentCount = has_color ? 1U : 0U,
+                                                  .pColorAttachmentFormats = &request.color_format,
+                                                  .depthAttachmentFormat = request.depth_format};
+  vk::raii::Pipeline pipeline(*device, nullptr,
+                              vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
+                                                             .stageCount = static_cast<std::uint32_t>(stages.size()),
+                                                             .pStages = stages.data(),
+                                                             .pVertexInputState = &vertex_input,
+                                                             .pInputAssemblyState = &assembly,
+                                                             .pViewportState = &viewport,
+                                                             .pRasterizationState = &raster,
+                                                             .pMultisampleState = &multisample,
+                                                             .pDepthStencilState = &depth,
+                                                             .pColorBlendState = &blend,
+                                                             .pDynamicState = &dynamic,
+                                                             .layout = request.layout});
+  device.set_name(pipeline, request.name);
+  return pipeline;
+}
+
+vk::raii::PipelineLayout create_pipeline_layout(const Device& device, const LayoutRequest& request) {
+  const vk::PushConstantRange push{.stageFlags = request.push_stages, .offset = 0, .size = request.push_size};
+  return vk::raii::PipelineLayout(*device, {.setLayoutCount = static_cast<std::uint32_t>(request.sets.size()),
+                                            .pSetLayouts = request.sets.data(),
+                                            .pushConstantRangeCount = request.push_size > 0 ? 1U : 0U,
+                                            .pPushConstantRanges = &push});
+}
+
+void set_viewport(const vk::raii::CommandBuffer& command, vk::Extent2D extent, float guard_band) {
+  const auto width = static_cast<float>(extent.width);
+  const auto height = static_cast<float>(extent.height);
+  command.setViewport(0, vk::Viewport{.x = 0.5F * width * (1.0F - guard_band),
+                                      .y = 0.5F * height * (1.0F - guard_band),
+                                      .width = width * guard_band,
+                                      .height = height * guard_band,
+                                      .minDepth = 0.0F,
+                                      .maxDepth = 1.0F});
+  command.setScissor(0, vk::Rect2D{.extent = extent});
+  command.setCullMode(vk::CullModeFlagBits::eNone);
+  command.setFrontFace(vk::FrontFace::eCounterClockwise);
+}
+
+}  // namespace afm::render

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output/composer.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "device/barriers.h"
+#include "device/pipelines.h"
+#include "device/shader_interface.h"
+#include "output/readback.h"
+#include "shaders/compose_frag.h"
+#include "shaders/fullscreen_vert.h"
+
+namespace afm::render {
+namespace {
+
+constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
+constexpr ImageUse kDrawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+                          vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal};
+constexpr ImageUse kCopiedTo{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferWrite,
+                             vk::ImageLayout::eTransferDstOptimal};
+
+vk::DescriptorSetLayoutBinding binding(std::uint32_t index, vk::DescriptorType type) {
+  return {
+      .binding = index, .descriptorType = type, .descriptorCount = 1, .stageFlags = vk::ShaderStageFlagBits::eFragment};
+}
+
+vk::raii::DescriptorSetLayout create_set_layout(const Device& device) {
+  const std::array bindings{binding(AFM_BINDING_TEXTURE, vk::DescriptorType::eCombinedImageSampler),
+                            binding(AFM_BINDING_LINEAR, vk::DescriptorType::eCombinedImageSampler),
+                            binding(AFM_BINDING_ANAGLYPH, vk::DescriptorType::eUniformBuffer)};
+  return vk::raii::DescriptorSetLayout(
+      *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
+}
+
+vk::raii::DescriptorPool create_pool(const Device& device) {
+  const std::array sizes{
+      vk::DescriptorPoolSize{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2},
+      vk::DescriptorPoolSize{.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = 1}};
+  return vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                            .maxSets = 1,
+                                            .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+                                            .pPoolSizes = sizes.data()});
+}
+
+// In the order of AnaglyphBlock.
+constexpr std::array kAnaglyphs{scene::StereoMode::AnaglyphRedCyan, scene::StereoMode::AnaglyphGreenMagenta,
+                                scene::StereoMode::AnaglyphAmberBlue};
+static_assert(kAnaglyphs.size() == AFM_ANAGLYPH_COUNT);
+
+Buffer upload_anaglyphs(const Device& device) {
+  AnaglyphBlock block;
+  for (std::size_t i = 0; i < kAnaglyphs.size(); ++i) {
+    const auto matrices = *scene::anaglyph_matrices(kAnaglyphs[i]);
+    block.left[i] = glm::mat4(glm::mat3(matrices.left));
+    block.right[i] = glm::mat4(glm::mat3(matrices.right));
+  }
+  return upload_buffer(device, "anaglyph matrices", std::as_bytes(std::span(&block, 1)),
+                       vk::BufferUsageFlagBits::eUniformBuffer);
+}
+
+// The whole picture of each eye; with two of them, layer 1 is the right eye's.
+std::int32_t shader_mode(scene::StereoMode mode, std::uint32_t layer) {
+  using Mode = scene::StereoMode;
+  switch (mode) {
+    case Mode::Mono:
+    case Mode::Left:
+      return AFM_COMPOSE_LEFT;
+    case Mode::Right:
+      return AFM_COMPOSE_RIGHT;
+    case Mode::SideBySide:
+    case Mode::SideBySideHalf:
+      return AFM_COMPOSE_SIDE_BY_SIDE;
+    case Mode::TopBottom:
+    case Mode::TopBottomHalf:
+      return AFM_COMPOSE_TOP_BOTTOM;
+    case Mode::Row:
+      return AFM_COMPOSE_ROW;
+    case Mode::Column:
+      return AFM_COMPOSE_COLUMN;
+    case Mode::Checkerboard:
+      return AFM_COMPOSE_CHECKERBOARD;
+    case Mode::AnaglyphRedCyan:
+    case Mode::AnaglyphGreenMagenta:
+    case Mode::AnaglyphAmberBlue:
+      return AFM_COMPOSE_ANAGLYPH;
+    case Mode::FramePacked720p:
+    case Mode::FramePacked1080p:
+      return AFM_COMPOSE_FRAME_PACKED;
+    case Mode::QuadBuffer:
+    case Mode::Dual:
+      break;
+  }
+  return layer == 0 ? AFM_COMPOSE_LEFT : AFM_COMPOSE_RIGHT;
+}
+
+ComposeBlock compose_block(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place,
+                           std::uint32_t layer) {
+  const auto mode = composition.mode;
+  const bool swapped = composition.order == scene::EyeOrder::Swapped && mode != scene::StereoMode::Mono;
+  const bool keystone = composition.picture_from_output != glm::dmat3(1.0);
+  const auto* const anaglyph = std::find(kAnaglyphs.begin(), kAnaglyphs.end(), mode);
+  const vk::Extent2D whole = eyes.extent(), drawn = eyes.drawing().extent;
+  ComposeBlock block{
+      .mode = {shader_mode(mode, layer), swapped, keystone, static_cast<int>(anaglyph - kAnaglyphs.begin())},
+      .drawn = {static_cast<float>(drawn.width) / static_cast<float>(whole.width),
+                static_cast<float>(drawn.height) / static_cast<float>(whole.height), eyes.same_eyes() ? 1.0F : 0.0F,
+                0.0F},
+      .place = {place.area.offset.x, place.area.offset.y, place.area.extent.width, place.area.extent.height},
+      .screen = {place.screen_px.x, place.screen_px.y, 0, 0},
+      .picture_from_output = {}};
+  if (const auto packing = scene::frame_packing(mode)) {
+    block.screen.z = static_cast<int>(packing->eye_px.y);
+    block.screen.w = static_cast<int>(packing->blank_lines);
+  }
+  for (int column = 0; column < 3; ++column) {
+    block.picture_from_output[column] = glm::vec4(composition.picture_from_output[column], 0.0);
+  }
+  return block;
+}
+
+bool is_exact(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
+  const vk::Extent2D whole = eyes.extent();
+  const glm::uvec2 seen = scene::eye_size(composition.mode, {place.area.extent.width, place.area.extent.height});
+  const bool half =
+      composition.mode == scene::StereoMode::SideBySideHalf || composition.mode == scene::StereoMode::TopBottomHalf;
+  return !half && composition.picture_from_output == glm::dmat3(1.0) && eyes.drawing().extent == whole &&
+         seen == glm::uvec2(whole.width, whole.height);
+}
+
+// Of a pipeline for such a picture.
+std::uint32_t look_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
+  const bool mixed = scene::anaglyph_matrices(composition.mode).has_value();
+  return (is_exact(eyes, composition, place) ? 0U : AFM_LOOK_SCALED) | (mixed ? AFM_LOOK_MIXED : 0U);
+}
+
+// Whether the target shows the eyes' images beside each other, whole, and nothing else.
+bool shows_eyes_alone(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
+  const std::int32_t mode = shader_mode(composition.mode, 0);
+  const bool beside = mode == AFM_COMPOSE_LEFT || mode == AFM_COMPOSE_RIGHT || mode == AFM_COMPOSE_SIDE_BY_SIDE ||
+                      mode == AFM_COMPOSE_TOP_BOTTOM;
+  const glm::uvec2 size = scene::picture_size(composition.mode, {eyes.extent().width, eyes.extent().height});
+  return beside && is_exact(eyes, composition, place) && place.area.extent == place.target &&
+         glm::uvec2(place.target.width, place.target.height) == size;
+}
+
+}  // namespace
+
+vk::Pipeline ComposePipeline::get(std::uint32_t look) {
+  auto& pipeline = made_.at(look);
+  if (!*pipeline) {
+    pipeline = create_pipeline(*device_, {.name = "compose",
+                                          .vertex_code = shaders::fullscreen_vert,
+                                          .fragment_code = shaders::compose_frag,
+                                          .layout = layout_,
+                                          .topology = vk::PrimitiveTopology::eTriangleStrip,
+                                          .color_format = format_,
+                                          .look = look});
+  }
+  return *pipeline;
+}
+
+Composer::Composer(const Device& device, const EyeTargets& eyes)
+    : device_(device),
+      eyes_(eyes),
+      set_layout_(create_set_layout(device)),
+      layout_(create_pipeline_layout(device, {.sets = {&*set_layout_, 1},
+                                              .push_stages = vk::ShaderStageFlagBits::eFragment,
+                                              .push_size = sizeof(ComposeBlock)})),
+      pipeline_(create_pipeline_for(kEyeFormat)),
+      sampler_(*device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
+                                              .minFilter = vk::Filter::eLinear,
+                                              .addressModeU = vk::SamplerAddressMode::eClampToEdge,
+                                              .addressModeV = vk::SamplerAddressMode::eClampToEdge}),
+      anaglyphs_(upload_anaglyphs(device)),
+      pool_(create_pool(device)) {
+  set_ = std::move(vk::raii::DescriptorSets(
+                       *device, {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &*set_layout_})
+                       .front());
+  const vk::DescriptorBufferInfo anaglyphs{.buffer = *anaglyphs_.buffer, .range = VK_WHOLE_SIZE};
+  device_->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = *set_,
+                                                       .dstBinding = AFM_BINDING_ANAGLYPH,
+                                                       .descriptorCount = 1,
+                                                       .descriptorType = vk::DescriptorType::eUniformBuffer,
+                                                       .pBufferInfo = &anaglyphs},
+                                nullptr);
+  eyes_changed();
+}
+
+void Composer::eyes_changed() {
+  const auto write = [this](std::uint32_t binding, vk::ImageView view) {
+    const vk::DescriptorImageInfo image{
+        .sampler = *sampler_, .imageView = view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+    device_->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = *set_,
+                                                         .dstBinding = binding,
+                                                         .descriptorCount = 1,
+                                                         .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                                         .pImageInfo = &image},
+                                  nullptr);
+  };
+  write(AFM_BINDING_TEXTURE, eyes_.both_eyes());
+  write(AFM_BINDING_LINEAR, eyes_.both_eyes_linear());
+}
+
+vk::Extent2D Composer::extent(scene::StereoMode mode) const {
+  const auto size = scene::picture_size(mode, {eyes_.extent().width, eyes_.extent().height});
+  return {size.x, size.y};
+}
+
+void Composer::draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
+                    const ComposePlace& place, std::uint32_t layer) const {
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+  set_viewport(command, place.target);
+  command.setScissor(0, place.area);
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
+  command.pushConstants<ComposeBlock>(*layout_, vk::ShaderStageFlagBits::eFragment, 0,
+                                      compose_block(eyes_, composition, place, layer));
+  command.draw(4, 1, 0, 0);
+}
+
+void Composer::copy(const vk::raii::CommandBuffer& command, const Composition& composition,
+                    const ComposeInto& into) const {
+  const bool swapped = composition.order == scene::EyeOrder::Swapped && composition.mode != scene::StereoMode::Mono;
+  const auto put = [&](scene::Eye eye, std::uint32_t layer, vk::Offset2D place) {
+    const bool left = (eye == scene::Eye::Left) != swapped;
+    eyes_.copy(command, left ? scene::Eye::Left : scene::Eye::Right, into.image, layer, place);
+  };
+  const auto width = static_cast<std::int32_t>(eyes_.extent().width);
+  const auto height = static_cast<std::int32_t>(eyes_.extent().height);
+  eyes_.begin_copies(command);
+  for (std::uint32_t layer = 0; layer < into.layers.size(); ++layer) {
+    const std::int32_t mode = shader_mode(composition.mode, layer);
+    put(mode == AFM_COMPOSE_RIGHT ? scene::Eye::Right : scene::Eye::Left, layer, {0, 0});
+    if (mode == AFM_COMPOSE_SIDE_BY_SIDE) put(scene::Eye::Right, layer, {width, 0});
+    if (mode == AFM_COMPOSE_TOP_BOTTOM) put(scene::Eye::Right, layer, {0, height});
+  }
+  eyes_.end_copies(command);
+}
+
+void Composer::record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
+                      const ComposePlace& place, const ComposeInto& into) const {
+  if (into.takes_copies && shows_eyes_alone(eyes_, composition, place)) {
+    record_barriers(command, {image_barrier(into.image, kColor, into.before.discarded(), kCopiedTo)});
+    copy(command, composition, into);
+    record_barriers(command, {image_barrier(into.image, kColor, kCopiedTo, into.after)});
+    return;
+  }
+  const vk::Pipeline chosen = pipeline.get(look_of(eyes_, composition, place));
+  const bool covered = place.area.extent == place.target;
+  record_barriers(command, {image_barrier(into.image, kColor, into.before.discarded(), kDrawn)});
+  for (std::uint32_t i = 0; i < into.layers.size(); ++i) {
+    const vk::RenderingAttachmentInfo color{
+        .imageView = into.layers[i],
+        .imageLayout = kDrawn.layout,
+        .loadOp = covered ? vk::AttachmentLoadOp::eDontCare : vk::AttachmentLoadOp::eClear,
+        .storeOp = vk::AttachmentStoreOp::eStore,
+        .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
+    command.beginRendering({.renderArea = {.extent = place.target},
+                            .layerCount = 1,
+                            .colorAttachmentCount = 1,
+                            .pColorAttachments = &color});
+    draw(command, chosen, composition, place, i);
+    command.endRendering();
+  }
+  record_barriers(command, {image_barrier(into.image, kColor, kDrawn, into.after)});
+}
+
+void Composer::record(const vk::raii::CommandBuffer& command, const Composition& composition, const ReadArea& area,
+                      ComposeTarget& target) {
+  const std::uint32_t count = scene::has_two_pictures(composition.mode) ? 2 : 1;
+  const vk::Extent2D size =
+      area.size_px == glm::uvec2(0) ? extent(composition.mode) : vk::Extent2D{area.size_px.x, area.size_px.y};
+  if (target.image.extent != size || target.image.layers != count) {
+    target.image = create_image(device_, "composed",
+                                {.format = kEyeFormat,
+                                 .extent = size,
+                                 .usage = vk::ImageUsageFlagBits::eColorAttachment |
+                                          vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
+                                 .layers = count});
+    for (std::uint32_t i = 0; i < count; ++i) target.views[i] = create_view(device_, target.image, kColor, i, 1);
+  }
+  const std::array layers{*target.views[0], *target.views[1]};
+  record(command, pipeline_, composition, {.target = size, .area = {.extent = size}, .screen_px = area.screen_px},
+         {.image = *target.image.image,
+          .layers = std::span(layers).first(count),
+          .before = kCopied,
+          .after = kCopied,
+          .takes_copies = true});
+}
+
+std::vector<Image> Composer::compose(const Composition& composition, const ReadArea& area) {
+  HostCopy copy;
+  device_.run_once([&](const vk::raii::CommandBuffer& command) {
+    record(command, composition, area, target_);
+    copy.record(device_, command, target_.image);
+  });
+  std::vector<Image> pictures;
+  for (std::uint32_t layer = 0; layer < target_.image.layers; ++layer) {
+    pictures.push_back(to_image(copy.picture(layer)));
+  }
+  return pictures;
+}
+
+}  // namespace afm::render

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "device/barriers.h"
+#include "passes/eye_targets.h"
+#include "render/composition.h"
+#include "render/frame.h"
+#include "render/renderer.h"
+
+namespace afm::render {
+
+// Where a picture is drawn.
+struct ComposePlace {
+  vk::Extent2D target;      // the whole image
+  vk::Rect2D area;          // what the picture fills
+  glm::ivec2 screen_px{0};  // where the target's first pixel lies on its screen
+};
+
+// What a picture is composed into: an image with a layer for each picture of the mode, whose contents are not needed.
+struct ComposeInto {
+  vk::Image image;
+  std::span<const vk::ImageView> layers;  // views of single layers
+  ImageUse before, after;                 // how the image is found and left
+  bool takes_copies = false;              // it has the eyes' format, and may be copied to
+};
+
+// An image that pictures are composed into to be read, with as many layers as the mode has pictures.
+struct ComposeTarget {
+  DeviceImage image;
+  std::array<vk::raii::ImageView, 2> views{nullptr, nullptr};  // of each layer alone
+};
+
+// What composes into images of one format: a pipeline for each kind of picture, made when it is first asked for.
+class ComposePipeline {
+ public:
+  // `layout` must outlive it.
+  ComposePipeline(const Device& device, vk::PipelineLayout layout, vk::Format format)
+      : device_(&device), layout_(layout), format_(format) {}
+
+  // `look`: AFM_LOOK_SCALED and AFM_LOOK_MIXED.
+  vk::Pipeline get(std::uint32_t look);
+
+ private:
+  const Device* device_;
+  vk::PipelineLayout layout_;
+  vk::Format format_;
+  std::array<vk::raii::Pipeline, 4> made_{nullptr, nullptr, nullptr, nullptr};
+};
+
+// Puts the two eye images into one picture: byte for byte where it is drawn at its own size. Every stereo mode is a
+// mode of one full-screen shader.
+class Composer {
+ public:
+  Composer(const Device& device, const EyeTargets& eyes);
+
+  // The picture, or both, of the eyes' newest contents; waits for it. The device can make an image of that size.
+  std::vector<Image> compose(const Composition& composition, const ReadArea& area);
+
+  // To be called when the eye images have been made anew and nothing is in flight.
+  void eyes_changed();
+
+  // The picture's own size.
+  vk::Extent2D extent(scene::StereoMode mode) const;
+
+  // For targets of another format than the eyes'.
+  ComposePipeline create_pipeline_for(vk::Format format) const { return {device_, *layout_, format}; }
+
+  // Draws the picture, or each of two into a layer of its own, scaled to fill its area and black around it: into what a
+  // window shows and into what is read alike. Where the picture is nothing but the eyes' images beside each other,
+  // these are copied: on a CPU device that takes a fifth of the time.
+  void record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
+              const ComposePlace& place, const ComposeInto& into) const;
+
+  // Draws what is read into `target`, which nothing in flight uses and which is made anew if it is not of that size,
+  // and leaves it in eTransferSrcOptimal.
+  void record(const vk::raii::CommandBuffer& command, const Composition& composition, const ReadArea& area,
+              ComposeTarget& target);
+
+ private:
+  void draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
+            const ComposePlace& place, std::uint32_t layer) const;
+  void copy(const vk::raii::CommandBuffer& command, const Composition& composition, const ComposeInto& into) const;
+
+  const Device& device_;
+  const EyeTargets& eyes_;
+  vk::raii::DescriptorSetLayout set_layout_;
+  vk::raii::PipelineLayout layout_;
+  ComposePipeline pipeline_;
+  vk::raii::Sampler sampler_;
+  Buffer anaglyphs_;
+  vk::raii::DescriptorPool pool_;
+  vk::raii::DescriptorSet set_{nullptr};
+  ComposeTarget target_;  // of compose()
+};
+
+}  // namespace afm::render

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/presenter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/check.h"
+#include "device/explained.h"
+#include "output/window_surface.h"
+#include "passes/renderer_parts.h"
+
+namespace afm::render {
+namespace {
+
+constexpr std::uint64_t kTurnNs = 5'000'000;  // from one call of while_waiting to the next
+constexpr int kMostSurfacesLost = 20;         // one after the other
+
+}  // namespace
+
+PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px, PictureFit fit) {
+  if (fit == PictureFit::Fill) {
+    return {.offset_px = glm::uvec2(0), .size_px = window_px};
+  }
+  const glm::dvec2 window(window_px);
+  const glm::dvec2 picture(picture_px);
+  double scale = std::min(window.x / picture.x, window.y / picture.y);
+  // a picture that was made for this window may be a pixel short of its border
+  if (scale > 1.0 && (window_px.x - picture_px.x <= 1 || window_px.y - picture_px.y <= 1)) {
+    scale = 1.0;
+  }
+  const glm::uvec2 size = glm::clamp(glm::uvec2(glm::round(picture * scale)), glm::uvec2(1), window_px);
+  return {.offset_px = (window_px - size) / 2U, .size_px = size};
+}
+
+// In the order of creation.
+struct Presenter::Parts {
+  Parts(const Device& the_device, Renderer::Parts& the_renderer)
+      : device(the_device),
+        renderer(the_renderer),
+        pool(*device, vk::CommandPoolCreateInfo{.queueFamilyIndex = device.queue_family()}),
+        commands(std::move(
+            vk::raii::CommandBuffers(
+                *device, {.commandPool = *pool, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1})
+                .front())),
+        finished(*device, vk::FenceCreateInfo{}) {
+    if (renderer.options.time_passes && Stopwatch::works_on(device)) stopwatch.emplace(device, 2);
+  }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+  ~Parts() { device.wait_idle(); }
+
+  // A window, and what is done with it in this frame.
+  struct Pane {
+    std::unique_ptr<WindowSurface> surface;
+    WindowPicture picture;
+    bool taken = false;  // it has an image to draw into
+    bool drawn = false;
+  };
+
+  core::Result<void> add(Window& window);
+  template <class Work>
+  bool follow_surfaces(Work&& work);
+  void draw(std::span<const std::size_t> windows, const std::function<void()>& while_waiting);
+  void show();
+
+  const Device& device;
+  Renderer::Parts& renderer;
+  vk::raii::CommandPool pool;
+  vk::raii::CommandBuffer commands;
+  vk::raii::Fence finished;
+  std::optional<Stopwatch> stopwatch;  // marks 0 and 1: before and after composing
+  std::vector<Pane> panes;
+  int surfaces_lost = 0;  // since a picture was shown
+};
+
+core::Result<void> Presenter::Parts::add(Window& window) {
+  panes.push_back({.surface = std::make_unique<WindowSurface>(device, window, renderer.composer), .picture = {}});
+  return panes.back().surface->choose_format();
+}
+
+// Does what can find a surface outdated or lost; false if it has.
+template <class Work>
+bool Presenter::Parts::follow_surfaces(Work&& work) {
+  try {
+    std::forward<Work>(work)();
+    return true;
+  } catch (const vk::OutOfDateKHRError&) {
+    for (Pane& pane : panes) {
+      pane.surface->outdate();
+    }
+  } catch (const vk::SurfaceLostKHRError&) {
+    if (++surfaces_lost > kMostSurfacesLost) {
+      throw DeviceFailure("the window's surface was lost and no other can be had: see to the display and start again");
+    }
+    for (Pane& pane : panes) {
+      pane.surface->replace();
+    }
+  }
+  for (Pane& pane : panes) {
+    pane.taken = pane.drawn = false;
+  }
+  return false;
+}
+
+void Presenter::Parts::draw(std::span<const std::size_t> windows, const std::function<void()>& while_waiting) {
+  std::array<vk::SemaphoreSubmitInfo, kMostWindows> waits, signals;
+  std::uint32_t count = 0;
+  pool.reset();
+  commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  if (stopwatch) {
+    stopwatch->reset(commands, 0, 2);
+    stopwatch->mark(commands, 0);
+  }
+  for (const std::size_t window : windows) {
+    Pane& pane = panes.at(window);
+    if (!pane.taken) {
+      continue;
+    }
+    WindowSurface& surface = *pane.surface;
+    surface.record(commands, pane.picture);
+    waits[count] = {.semaphore = surface.acquired(), .stageMask = kFilling};
+    signals[count] = {.semaphore = surface.drawn(), .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
+    pane.drawn = true;
+    ++count;
+  }
+  if (stopwatch) stopwatch->mark(commands, 1);
+  commands.end();
+  const vk::CommandBufferSubmitInfo submit{.commandBuffer = *commands};
+  device.queue().submit2(vk::SubmitInfo2{.waitSemaphoreInfoCount = count,
+                                         .pWaitSemaphoreInfos = waits.data(),
+                                         .commandBufferInfoCount = 1,
+                                         .pCommandBufferInfos = &submit,
+                                         .signalSemaphoreInfoCount = count,
+                                         .pSignalSemaphoreInfos = signals.data()},
+                         *finished);
+
+  // presented only once it is drawn: some drivers (lavapipe) would wait inside the call, where nobody beats
+  while (device->waitForFences(*finished, VK_TRUE, kTurnNs) == vk::Result::eTimeout) {
+    while_waiting();
+  }
+  device->resetFences(*finished);
+  if (stopwatch) renderer.compose_ms = stopwatch->between_ms(0, 1);
+}
+
+void Presenter::Parts::show() {
+  std::array<vk::Semaphore, kMostWindows> drawn;
+  std::array<vk::SwapchainKHR, kMostWindows> swapchains;
+  std::array<std::uint32_t, kMostWindows> indices{};
+  std::uint32_t count = 0;
+  for (Pane& pane : panes) {
+    if (!pane.drawn) {
+      continue;
+    }
+    drawn[count] = pane.surface->drawn();
+    swapchains[count] = pane.surface->swapchain();
+    indices[count] = pane.surface->index();
+    pane.surface->presented();
+    pane.taken = pane.drawn = false;
+    ++count;
+  }
+  if (count == 0) {
+    return;
+  }
+  const vk::Result result = device.queue().presentKHR({.waitSemaphoreCount = count,
+                                                       .pWaitSemaphores = drawn.data(),
+                                                       .swapchainCount = count,
+                                                       .pSwapchains = swapchains.data(),
+                                                       .pImageIndices = indices.data()});
+  surfaces_lost = 0;
+  if (result == vk::Result::eSuboptimalKHR) {
+    for (Pane& pane : panes) {
+      pane.surface->outdate();
+    }
+  }
+}
+
+Presenter::Presenter(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Presenter::Presenter(Presenter&&) noexcept = default;
+Presenter& Presenter::operator=(Presenter&&) noexcept = default;
+Presenter::~Presenter() = default;
+
+core::Result<Presenter> Presenter::create(Context& context, Renderer& renderer, std::span<Window* const> windows) {
+  AFM_CHECK(!windows.empty() && windows.size() <= kMostWindows);
+  auto parts = std::make_unique<Parts>(context.device(), *renderer.parts_);
+  for (Window* const window : windows) {
+    if (auto added = parts->add(*window); !added) {
+      return tl::unexpected(added.error());
+    }
+  }
+  return Presenter(std::move(parts));
+}
+
+core::Result<void> Presenter::check_mode(scene::StereoMode mode) const {
+  const auto flat = [](const Parts::Pane& pane) { return pane.surface->most_layers() < 2; };
+  const auto& panes = parts_->panes;
+  if (mode == scene::StereoMode::QuadBuffer && std::any_of(panes.begin(), panes.end(), flat)) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         "stereo mode quad-buffer: " + parts_->device.name() +
+                             " gives this display one picture for both eyes; enable stereo in the driver of a "
+                             "professional graphics card, or choose another mode");
+  }
+  return {};
+}
+
+bool Presenter::begin(std::span<const WindowPicture> pictures, const std::function<void()>& while_waiting) {
+  auto& panes = parts_->panes;
+  AFM_CHECK(pictures.size() == panes.size());
+  const auto take = [&] {
+    for (std::size_t i = 0; i < panes.size(); ++i) {
+      const bool quad = pictures[i].composition.mode == scene::StereoMode::QuadBuffer;
+      panes[i].picture = pictures[i];
+      panes[i].taken = panes[i].surface->follow_window(quad ? 2 : 1) && panes[i].surface->acquire(while_waiting);
+    }
+  };
+  return explained(parts_->device, "showing a picture", [&] { return parts_->follow_surfaces(take); }) &&
+         std::any_of(panes.begin(), panes.end(), [](const Parts::Pane& pane) { return pane.taken; });
+}
+
+void Presenter::draw(std::span<const std::size_t> windows, const std::function<void()>& while_waiting) {
+  AFM_CHECK(parts_->renderer.eyes_drawn);
+  explained(parts_->device, "showing a picture", [&] { parts_->draw(windows, while_waiting); });
+}
+
+void Presenter::show() {
+  explained(parts_->device, "showing a picture", [&] { parts_->follow_surfaces([&] { parts_->show(); }); });
+}
+
+}  // namespace afm::render

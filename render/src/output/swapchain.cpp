@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output/swapchain.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "passes/eye_targets.h"
+
+namespace afm::render {
+namespace {
+
+// The value by which a surface says that its size is ours to choose (Wayland).
+constexpr std::uint32_t kFreeExtent = std::numeric_limits<std::uint32_t>::max();
+
+vk::Extent2D choose_extent(const vk::SurfaceCapabilitiesKHR& surface, vk::Extent2D wanted) {
+  if (surface.currentExtent.width != kFreeExtent) {
+    return surface.currentExtent;
+  }
+  return {std::clamp(wanted.width, surface.minImageExtent.width, surface.maxImageExtent.width),
+          std::clamp(wanted.height, surface.minImageExtent.height, surface.maxImageExtent.height)};
+}
+
+// One more than the least, so that drawing need not wait for the image that is being shown.
+std::uint32_t choose_image_count(const vk::SurfaceCapabilitiesKHR& surface) {
+  const std::uint32_t count = surface.minImageCount + 1;
+  return surface.maxImageCount == 0 ? count : std::min(count, surface.maxImageCount);
+}
+
+vk::CompositeAlphaFlagBitsKHR choose_alpha(const vk::SurfaceCapabilitiesKHR& surface) {
+  const auto opaque = vk::CompositeAlphaFlagBitsKHR::eOpaque;
+  return surface.supportedCompositeAlpha & opaque ? opaque : vk::CompositeAlphaFlagBitsKHR::eInherit;
+}
+
+}  // namespace
+
+vk::SurfaceFormatKHR choose_surface_format(const Device& device, vk::SurfaceKHR surface) {
+  const auto formats = device.physical().getSurfaceFormatsKHR(surface);
+  for (const vk::Format wanted : {kEyeFormat, vk::Format::eR8G8B8A8Unorm}) {
+    const vk::SurfaceFormatKHR format{wanted, vk::ColorSpaceKHR::eSrgbNonlinear};
+    if (std::find(formats.begin(), formats.end(), format) != formats.end()) return format;
+  }
+  return {};
+}
+
+Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
+                     std::uint32_t layers, const Swapchain* old)
+    : layer_count_(layers) {
+  const auto capabilities = device.physical().getSurfaceCapabilitiesKHR(surface);
+  extent_ = choose_extent(capabilities, wanted);
+  constexpr auto kCopiedTo = vk::ImageUsageFlagBits::eTransferDst;
+  takes_copies_ = static_cast<bool>(capabilities.supportedUsageFlags & kCopiedTo);
+  vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eColorAttachment;
+  if (takes_copies_) usage |= kCopiedTo;
+  swapchain_ =
+      vk::raii::SwapchainKHR(*device, {.surface = surface,
+                                       .minImageCount = choose_image_count(capabilities),
+                                       .imageFormat = format.format,
+                                       .imageColorSpace = format.colorSpace,
+                                       .imageExtent = extent_,
+                                       .imageArrayLayers = layers,
+                                       .imageUsage = usage,
+                                       .imageSharingMode = vk::SharingMode::eExclusive,
+                                       .preTransform = capabilities.currentTransform,
+                                       .compositeAlpha = choose_alpha(capabilities),
+                                       .presentMode = vk::PresentModeKHR::eFifo,
+                                       .clipped = VK_TRUE,
+                                       .oldSwapchain = old == nullptr ? vk::SwapchainKHR() : *old->swapchain_});
+  for (const VkImage image : swapchain_.getImages()) {
+    images_.emplace_back(image);
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+      views_.emplace_back(*device,
+                          vk::ImageViewCreateInfo{.image = image,
+                                                  .viewType = vk::ImageViewType::e2D,
+                                                  .format = format.format,
+                                                  .subresourceRange = {.aspectMask = vk::ImageAspectFlagBits::eColor,
+                                                                       .levelCount = 1,
+                                                                       .baseArrayLayer = layer,
+                                                                       .layerCount = 1}});
+      layers_.push_back(*views_.back());
+    }
+    drawn_.emplace_back(*device, vk::SemaphoreCreateInfo{});
+  }
+}
+
+}  // namespace afm::render

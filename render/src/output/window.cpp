@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <glm/common.hpp>
+#include <span>
+#include <utility>
+
+#include "output/window_handle.h"
+#include "render/device_failure.h"
+#include "render/monitor.h"
+
+namespace afm::render {
+namespace {
+
+constexpr double kRefreshHz = 60.0;
+
+constexpr auto kNoWindow = core::ErrorCategory::DeviceMissing;
+
+constexpr double kLeftOver = 0.75;  // of a monitor that is left, each way: for a window whose own has gone
+
+// By its name; null if it is not there.
+GLFWmonitor* monitor_named(const std::string& name) {
+  int count = 0;
+  GLFWmonitor** const monitors = glfwGetMonitors(&count);
+  for (GLFWmonitor* candidate : std::span(monitors, static_cast<std::size_t>(count))) {
+    if (name == glfwGetMonitorName(candidate)) return candidate;
+  }
+  return nullptr;
+}
+
+Key key_of(int key) {
+  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
+    return static_cast<Key>(static_cast<int>(Key::Digit1) + key - GLFW_KEY_1);
+  }
+  switch (key) {
+    case GLFW_KEY_ESCAPE:
+      return Key::Escape;
+    case GLFW_KEY_SPACE:
+      return Key::Space;
+    case GLFW_KEY_F1:
+      return Key::F1;
+    case GLFW_KEY_F2:
+      return Key::F2;
+    case GLFW_KEY_F11:
+      return Key::F11;
+    case GLFW_KEY_F12:
+      return Key::F12;
+    case GLFW_KEY_H:
+      return Key::H;
+    case GLFW_KEY_A:
+      return Key::A;
+    case GLFW_KEY_J:
+      return Key::J;
+    case GLFW_KEY_B:
+      return Key::B;
+    case GLFW_KEY_C:
+      return Key::C;
+    case GLFW_KEY_G:
+      return Key::G;
+    case GLFW_KEY_V:
+      return Key::V;
+    case GLFW_KEY_LEFT_BRACKET:
+      return Key::LeftBracket;
+    case GLFW_KEY_RIGHT_BRACKET:
+      return Key::RightBracket;
+    case GLFW_KEY_M:
+      return Key::M;
+    case GLFW_KEY_P:
+      return Key::P;
+    case GLFW_KEY_R:
+      return Key::R;
+    case GLFW_KEY_S:
+      return Key::S;
+    case GLFW_KEY_T:
+      return Key::T;
+    default:
+      return Key::Other;
+  }
+}
+
+}  // namespace
+
+std::vector<const char*> surface_extensions() {
+  std::uint32_t count = 0;
+  const char* const* names = glfwGetRequiredInstanceExtensions(&count);
+  return {names, names + count};
+}
+
+bool can_present(const vk::raii::Instance& instance, const vk::raii::PhysicalDevice& physical, std::uint32_t family) {
+  return glfwGetPhysicalDevicePresentationSupport(*instance, *physical, family) == GLFW_TRUE;
+}
+
+core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptions& options) {
+  auto system = WindowSystem::join();
+  if (!system) return tl::unexpected(system.error());
+  std::unique_ptr<WindowHandle> handle(new WindowHandle(std::move(*system)));
+  if (glfwVulkanSupported() != GLFW_TRUE) {
+    return core::failure(kNoWindow, "this display cannot show Vulkan pictures (" + window_system_error() +
+                                        "): install mesa-vulkan-drivers");
+  }
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a wall stays full when its operator looks at another screen
+  glfwWindowHint(GLFW_DECORATED, options.rect ? GLFW_FALSE : GLFW_TRUE);
+  glfwWindowHint(GLFW_VISIBLE, options.rect ? GLFW_FALSE : GLFW_TRUE);  // not before it is in its place
+  const glm::uvec2 size = options.rect ? options.rect->size_px : glm::uvec2(options.width, options.height);
+  handle->window_ =
+      glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), options.title.c_str(), nullptr, nullptr);
+  if (handle->window_ == nullptr) {
+    return core::failure(kNoWindow, "cannot open a window of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                                        " pixels: " + window_system_error());
+  }
+  glfwSetWindowUserPointer(handle->window_, handle.get());
+  glfwSetKeyCallback(handle->window_, on_key);
+  glfwSetMouseButtonCallback(handle->window_, on_button);
+  glfwSetCursorPosCallback(handle->window_, on_move);
+  glfwSetScrollCallback(handle->window_, on_scroll);
+  glfwGetCursorPos(handle->window_, &handle->cursor_.x, &handle->cursor_.y);
+  if (auto placed = handle->place(options); !placed) return tl::unexpected(placed.error());
+  return handle;
+}
+
+core::Result<void> WindowHandle::place(const WindowOptions& options) {
+  if (options.rect) {
+    if (!can_place_windows()) {
+      return core::failure(
+          kNoWindow,
+          "a Wayland desktop lets no program place its windows: name a monitor instead of a rectangle, "
+          "or log into an X11 session");
+    }
+    rect_ = options.rect;
+    take_rect();
+    glfwShowWindow(window_);
+    return {};
+  }
+  if (options.monitor.empty()) {
+    if (options.full_screen) set_full_screen(true);
+    return {};
+  }
+  GLFWmonitor* const wanted = monitor_named(options.monitor);
+  if (wanted == nullptr) return core::failure(kNoWindow, "there is no monitor \"" + options.monitor + "\" here");
+  fill(wanted);
+  return {};
+}
+
+WindowHandle::~WindowHandle() {
+  if (window_ != nullptr) {
+    glfwDestroyWindow(window_);
+  }
+}
+
+vk::raii::SurfaceKHR WindowHandle::create_surface(const vk::raii::Instance& instance) const {
+  VkSurfaceKHR surface = VK_NULL_HANDLE;
+  const VkResult result = glfwCreateWindowSurface(*instance, window_, nullptr, &surface);
+  vk::resultCheck(static_cast<vk::Result>(result), "glfwCreateWindowSurface");
+  return vk::raii::SurfaceKHR(instance, surface);
+}
+
+WindowInput WindowHandle::poll() {
+  glfwPollEvents();
+  if (WindowSystem::lost()) {
+    throw DeviceFailure("the display was lost, with the window on it: see to the X server and start again");
+  }
+  int x = 0, y = 0;
+  glfwGetWindowPos(window_, &x, &y);
+  const WindowInput::MonitorNews news = follow_monitor();
+  return {.events = std::exchange(events_, {}),
+          .cursor_px = picture_px(cursor_),
+          .origin_px = glm::dvec2(x, y) * pixels_per_unit(),
+          .close_requested = glfwWindowShouldClose(window_) == GLFW_TRUE,
+          .monitor_news = news,
+          .monitor = news == WindowInput::MonitorNews::None ? std::string() : full_on_};
+}
+
+WindowInput::MonitorNews WindowHandle::follow_monitor() {
+  if (rect_) return follow_rect();
+  if (full_on_.empty() || full_screen()) return WindowInput::MonitorNews::None;
+  if (!monitor_lost_) {
+    monitor_lost_ = true;
+    become_small();
+    return WindowInput::MonitorNews::Lost;
+  }
+  GLFWmonitor* const back = monitor_named(full_on_);
+  if (back == nullptr) return WindowInput::MonitorNews::None;
+  fill(back);
+  return WindowInput::MonitorNews::Back;
+}
+
+// Asking where the monitors are takes a while: only when some have come or gone, or the window waits for one.
+WindowInput::MonitorNews WindowHandle::follow_rect() {
+  const unsigned changes = WindowSystem::monitor_changes();
+  const bool changed = std::exchange(monitor_changes_, changes) != changes;
+  if (!changed && !monitor_lost_) return WindowInput::MonitorNews::None;
+  const auto monitors = list_monitors();
+  const bool lost = !monitors || !is_shown(*rect_, *monitors);
+  if (std::exchange(monitor_lost_, lost) == lost) return WindowInput::MonitorNews::None;
+  if (lost) {
+    become_small();
+    return WindowInput::MonitorNews::Lost;
+  }
+  take_rect();
+  return WindowInput::MonitorNews::Back;
+}
+
+// On what is left, wherever the window happened to lie when its monitor went.
+void WindowHandle::become_small() {
+  GLFWmonitor* const left = glfwGetPrimaryMonitor();
+  const GLFWvidmode* const mode = left == nullptr ? nullptr : glfwGetVideoMode(left);
+  if (mode == nullptr) return;
+  const glm::ivec2 whole(mode->width, mode->height), size(kLeftOver * glm::dvec2(whole));
+  glm::ivec2 corner(0);
+  glfwGetMonitorPos(left, &corner.x, &corner.y);
+  corner += (whole - size) / 2;
+  glfwSetWindowMonitor(window_, nullptr, corner.x, corner.y, size.x, size.y, 0);
+}
+
+void WindowHandle::take_rect() {
+  const glm::ivec2 size(rect_->size_px);
+  glfwSetWindowMonitor(window_, nullptr, rect_->offset_px.x, rect_->offset_px.y, size.x, size.y, 0);
+}
+
+void WindowHandle::wait(double seconds) { glfwWaitEventsTimeout(seconds); }
+
+glm::uvec2 WindowHandle::size_px() const {
+  if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) {
+    return {0, 0};
+  }
+  int width = 0;
+  int height = 0;
+  glfwGetFramebufferSize(window_, &width, &height);
+  return {static_cast<unsigned>(std::max(width, 0)), static_cast<unsigned>(std::max(height, 0))};
+}
+
+// Places come in the units of the desktop, which some window systems scale.
+glm::dvec2 WindowHandle::pixels_per_unit() const {
+  int width = 0;
+  int height = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  return glm::dvec2(size_px()) / glm::dvec2(std::max(width, 1), std::max(height, 1));
+}
+
+glm::dvec2 WindowHandle::picture_px(const glm::dvec2& place) const { return place * pixels_per_unit(); }
+
+// The monitor that shows the largest part of the window.
+GLFWmonitor* WindowHandle::monitor() const {
+  if (GLFWmonitor* current = glfwGetWindowMonitor(window_)) {
+    return current;
+  }
+  int x = 0, y = 0, width = 0, height = 0, count = 0;
+  glfwGetWindowPos(window_, &x, &y);
+  glfwGetWindowSize(window_, &width, &height);
+  GLFWmonitor* best = glfwGetPrimaryMonitor();
+  int best_area = 0;
+  GLFWmonitor** const monitors = glfwGetMonitors(&count);
+  for (GLFWmonitor* candidate : std::span(monitors, static_cast<std::size_t>(count))) {
+    const GLFWvidmode* mode = glfwGetVideoMode(candidate);
+    if (mode == nullptr) {
+      continue;
+    }
+    int left = 0, top = 0;
+    glfwGetMonitorPos(candidate, &left, &top);
+    const int shared_width = std::min(x + width, left + mode->width) - std::max(x, left);
+    const int shared_height = std::min(y + height, top + mode->height) - std::max(y, top);
+    const int area = std::max(shared_width, 0) * std::max(shared_height, 0);
+    if (area > best_area) {
+      best = candidate;
+      best_area = area;
+    }
+  }
+  return best;
+}
+
+void WindowHandle::fill(GLFWmonitor* monitor) {
+  const GLFWvidmode* const mode = glfwGetVideoMode(monitor);
+  if (mode == nullptr) {
+    return;
+  }
+  glfwGetWindowPos(window_, &windowed_x_, &windowed_y_);
+  glfwGetWindowSize(window_, &windowed_width_, &windowed_height_);
+  full_on_ = glfwGetMonitorName(monitor);
+  monitor_lost_ = false;
+  glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void WindowHandle::set_full_screen(bool wanted) {
+  if (wanted == full_screen() || rect_) {
+    return;
+  }
+  if (!wanted) {
+    full_on_.clear();
+    glfwSetWindowMonitor(window_, nullptr, windowed_x_, windowed_y_, windowed_width_, windowed_height_, 0);
+  } else if (GLFWmonitor* const screen = monitor()) {
+    fill(screen);
+  }
+}
+
+glm::ivec2 WindowHandle::screen_px() const {
+  GLFWmonitor* const screen = monitor();
+  if (screen == nullptr) {
+    return glm::ivec2(0);
+  }
+  int x = 0, y = 0, left = 0, top = 0;
+  glfwGetWindowPos(window_, &x, &y);
+  glfwGetMonitorPos(screen, &left, &top);
+  return glm::ivec2(glm::round(glm::dvec2(x - left, y - top) * pixels_per_unit()));
+}
+
+double WindowHandle::refresh_hz() const {
+  GLFWmonitor* const screen = monitor();
+  const GLFWvidmode* const mode = screen == nullptr ? nullptr : glfwGetVideoMode(screen);
+  return mode == nullptr || mode->refreshRate <= 0 ? kRefreshHz : mode->refreshRate;
+}
+
+WindowHandle& WindowHandle::of(GLFWwindow* window) {
+  return *static_cast<WindowHandle*>(glfwGetWindowUserPointer(window));
+}
+
+void WindowHandle::add(WindowEvent event) {
+  event.cursor_px = picture_px(cursor_);
+  events_.push_back(event);
+}
+
+void WindowHandle::on_key(GLFWwindow* window, int key, int, int action, int) {
+  if (action == GLFW_REPEAT) {
+    return;
+  }
+  of(window).add(
+      {.kind = action == GLFW_PRESS ? WindowEvent::Kind::KeyDown : WindowEvent::Kind::KeyUp, .key = key_of(key)});
+}
+
+void WindowHandle::on_button(GLFWwindow* window, int button, int action, int) {
+  if (button > GLFW_MOUSE_BUTTON_MIDDLE) {
+    return;
+  }
+  of(window).add({.kind = action == GLFW_PRESS ? WindowEvent::Kind::ButtonDown : WindowEvent::Kind::ButtonUp,
+                  .button = button == GLFW_MOUSE_BUTTON_LEFT    ? MouseButton::Left
+                            : button == GLFW_MOUSE_BUTTON_RIGHT ? MouseButton::Right
+                                                                : MouseButton::Middle});
+}
+
+void WindowHandle::on_move(GLFWwindow* window, double x, double y) { of(window).cursor_ = {x, y}; }
+
+void WindowHandle::on_scroll(GLFWwindow* window, double, double y) {
+  of(window).add({.kind = WindowEvent::Kind::Scroll, .scroll = y});
+}
+
+Window::Window(std::unique_ptr<WindowHandle> handle) : handle_(std::move(handle)) {}
+Window::Window(Window&&) noexcept = default;
+Window& Window::operator=(Window&&) noexcept = default;
+Window::~Window() = default;
+
+core::Result<Window> Window::open(const WindowOptions& options) {
+  auto handle = WindowHandle::open(options);
+  if (!handle) {
+    return tl::unexpected(handle.error());
+  }
+  return Window(std::move(*handle));
+}
+
+WindowInput Window::poll() { return handle_->poll(); }
+void Window::wait(double seconds) { handle_->wait(seconds); }
+glm::uvec2 Window::size_px() const { return handle_->size_px(); }
+bool Window::full_screen() const { return handle_->full_screen(); }
+void Window::set_full_screen(bool full_screen) { handle_->set_full_screen(full_screen); }
+double Window::refresh_hz() const { return handle_->refresh_hz(); }
+
+}  // namespace afm::render

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "device/vulkan.h"
+#include "output/window_system.h"
+#include "render/window.h"
+
+namespace afm::render {
+
+// What Window hides. Its place in memory is known to GLFW: never moved.
+class WindowHandle {
+ public:
+  static core::Result<std::unique_ptr<WindowHandle>> open(const WindowOptions& options);
+  WindowHandle(const WindowHandle&) = delete;
+  WindowHandle& operator=(const WindowHandle&) = delete;
+  ~WindowHandle();
+
+  // Throws vk::SystemError as vkCreate...SurfaceKHR fails.
+  vk::raii::SurfaceKHR create_surface(const vk::raii::Instance& instance) const;
+
+  WindowInput poll();
+  void wait(double seconds);
+  glm::uvec2 size_px() const;
+  // Of its picture's first pixel on the monitor that shows most of it; 0,0 where the window system keeps that to
+  // itself.
+  glm::ivec2 screen_px() const;
+  bool full_screen() const { return glfwGetWindowMonitor(window_) != nullptr; }
+  void set_full_screen(bool full_screen);
+  double refresh_hz() const;
+
+ private:
+  explicit WindowHandle(WindowSystem system) : system_(std::move(system)) {}
+  core::Result<void> place(const WindowOptions& options);
+  GLFWmonitor* monitor() const;
+  glm::dvec2 pixels_per_unit() const;
+  void fill(GLFWmonitor* monitor);
+  WindowInput::MonitorNews follow_monitor();
+  WindowInput::MonitorNews follow_rect();
+  void become_small();
+  void take_rect();
+  glm::dvec2 picture_px(const glm::dvec2& place) const;
+  void add(WindowEvent event);
+  static WindowHandle& of(GLFWwindow* window);
+  static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
+  static void on_button(GLFWwindow* window, int button, int action, int modifiers);
+  static void on_move(GLFWwindow* window, double x, double y);
+  static void on_scroll(GLFWwindow* window, double x, double y);
+
+  WindowSystem system_;
+  GLFWwindow* window_ = nullptr;
+  std::optional<scene::PixelRect> rect_;  // its place, or the one that it takes again when a monitor is back
+  unsigned monitor_changes_ = WindowSystem::monitor_changes();  // as follow_rect() saw them last
+  std::string full_on_;  // the monitor that it fills, or fills again when it is back; empty: a window
+  bool monitor_lost_ = false;
+  std::vector<WindowEvent> events_;
+  glm::dvec2 cursor_{0.0};  // after the newest event, in the desktop's units: asking GLFW tells where it is now
+  int windowed_x_ = 0, windowed_y_ = 0, windowed_width_ = 0, windowed_height_ = 0;  // to come back from full screen
+};
+
+// Instance extensions that GLFW needs for surfaces. Empty before a window has been opened.
+std::vector<const char*> surface_extensions();
+
+// Whether this queue can present to this machine's windows.
+bool can_present(const vk::raii::Instance& instance, const vk::raii::PhysicalDevice& physical, std::uint32_t family);
+
+}  // namespace afm::render

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output/window_surface.h"
+
+#include <utility>
+
+#include "device/barriers.h"
+#include "render/presenter.h"
+
+namespace afm::render {
+namespace {
+
+constexpr std::uint64_t kTurnNs = 5'000'000;  // from one call of while_waiting to the next
+constexpr int kMostTurns = 40;                // how long a display may keep all its images before the loop goes on
+
+constexpr ImageUse kAcquired{kFilling, vk::AccessFlagBits2::eNone, vk::ImageLayout::eUndefined};
+constexpr ImageUse kPresented{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagBits2::eNone,
+                              vk::ImageLayout::ePresentSrcKHR};
+
+}  // namespace
+
+WindowSurface::WindowSurface(const Device& device, Window& window, const Composer& composer)
+    : device_(device),
+      window_(window),
+      composer_(composer),
+      surface_(window.handle().create_surface(device.instance())),
+      acquired_(*device, vk::SemaphoreCreateInfo{}) {}
+
+core::Result<void> WindowSurface::choose_format() {
+  if (device_.physical().getSurfaceSupportKHR(device_.queue_family(), *surface_) == VK_TRUE) {
+    format_ = choose_surface_format(device_, *surface_);
+  }
+  if (format_.format == vk::Format::eUndefined) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         "cannot show pictures of 8 bits a channel in a window of this display with " + device_.name() +
+                             ": set the display to a colour depth of 24 bits");
+  }
+  pipeline_ = composer_.create_pipeline_for(format_.format);
+  return {};
+}
+
+std::uint32_t WindowSurface::most_layers() const {
+  return device_.physical().getSurfaceCapabilitiesKHR(*surface_).maxImageArrayLayers;
+}
+
+bool WindowSurface::follow_window(std::uint32_t layers) {
+  const glm::uvec2 size = window_.size_px();
+  if (size.x == 0 || size.y == 0) {
+    return false;
+  }
+  const vk::Extent2D wanted{size.x, size.y};
+  if (swapchain_ && !outdated_ && swapchain_->extent() == wanted && swapchain_->layer_count() == layers) {
+    return true;
+  }
+  const auto capabilities = device_.physical().getSurfaceCapabilitiesKHR(*surface_);
+  if (capabilities.maxImageExtent.width == 0 || capabilities.maxImageExtent.height == 0) {
+    return false;
+  }
+  device_->waitIdle();
+  swapchain_ = Swapchain(device_, *surface_, format_, wanted, layers, swapchain_ ? &*swapchain_ : nullptr);
+  // an image that was taken from the old ones may have left it signalled
+  acquired_ = vk::raii::Semaphore(*device_, vk::SemaphoreCreateInfo{});
+  index_.reset();
+  outdated_ = false;
+  return true;
+}
+
+bool WindowSurface::acquire(const std::function<void()>& while_waiting) {
+  const int most_turns = std::exchange(starved_, false) ? 1 : kMostTurns;
+  for (int turn = 0; !index_ && turn < most_turns; ++turn) {
+    const auto [result, index] = (*swapchain_)->acquireNextImage(kTurnNs, *acquired_);
+    if (result == vk::Result::eSuccess || result == vk::Result::eSuboptimalKHR) {
+      index_ = index;
+    } else {
+      while_waiting();
+    }
+  }
+  starved_ = !index_;
+  return !starved_;
+}
+
+void WindowSurface::record(const vk::raii::CommandBuffer& command, const WindowPicture& picture) {
+  const Composition& composition = picture.composition;
+  const vk::Extent2D window_size = swapchain_->extent();
+  const vk::Extent2D whole = composer_.extent(composition.mode);
+  const PicturePlace place =
+      picture_place({window_size.width, window_size.height}, {whole.width, whole.height}, picture.fit);
+  composer_.record(
+      command, *pipeline_, composition,
+      {.target = window_size,
+       .area = {.offset = {static_cast<std::int32_t>(place.offset_px.x), static_cast<std::int32_t>(place.offset_px.y)},
+                .extent = {place.size_px.x, place.size_px.y}},
+       .screen_px = scene::is_interleaved(composition.mode) ? window_.handle().screen_px() : glm::ivec2(0)},
+      {.image = swapchain_->image(*index_),
+       .layers = swapchain_->layers(*index_),
+       .before = kAcquired,
+       .after = kPresented,
+       .takes_copies = swapchain_->takes_copies() && format_.format == kEyeFormat});
+}
+
+void WindowSurface::replace() {
+  device_->waitIdle();
+  swapchain_.reset();
+  index_.reset();
+  surface_ = nullptr;
+  surface_ = window_.handle().create_surface(device_.instance());
+  acquired_ = vk::raii::Semaphore(*device_, vk::SemaphoreCreateInfo{});
+}
+
+}  // namespace afm::render

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output/window_system.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "render/monitor.h"
+
+namespace afm::render {
+
+std::string window_system_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text == nullptr ? "no reason given" : text;
+}
+
+core::Result<WindowSystem> WindowSystem::join() {
+  if (glfwInit() != GLFW_TRUE) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         "cannot open a window (" + window_system_error() +
+                             "): run this on a desktop, with DISPLAY or WAYLAND_DISPLAY set");
+  }
+  if (++shares_ == 1) {
+    outlive_the_display();
+    glfwSetMonitorCallback([](GLFWmonitor*, int) { ++monitor_changes_; });
+  }
+  return WindowSystem();
+}
+
+WindowSystem::WindowSystem(WindowSystem&& other) noexcept : joined_(std::exchange(other.joined_, false)) {}
+
+WindowSystem& WindowSystem::operator=(WindowSystem&& other) noexcept {
+  std::swap(joined_, other.joined_);
+  return *this;
+}
+
+WindowSystem::~WindowSystem() {
+  if (joined_ && --shares_ == 0) glfwTerminate();
+}
+
+// Xlib ends the process when its connection breaks, unless both its handlers return: the one for all connections, and
+// the one of ours (libX11 1.7 and later). The functions are looked up in what GLFW has brought along: its build for
+// Wayland has none of them.
+void WindowSystem::outlive_the_display() {
+  using OnError = int (*)(void* display);
+  using OnExit = void (*)(void* display, void* data);
+  const auto display = reinterpret_cast<void* (*)()>(::dlsym(RTLD_DEFAULT, "glfwGetX11Display"));
+  const auto set_on_error = reinterpret_cast<OnError (*)(OnError)>(::dlsym(RTLD_DEFAULT, "XSetIOErrorHandler"));
+  const auto set_on_exit =
+      reinterpret_cast<void (*)(void*, OnExit, void*)>(::dlsym(RTLD_DEFAULT, "XSetIOErrorExitHandler"));
+  if (display == nullptr || set_on_error == nullptr || set_on_exit == nullptr) return;
+  lost_ = false;
+  set_on_error([](void*) {
+    lost_ = true;
+    return 0;
+  });
+  set_on_exit(display(), [](void*, void*) {}, nullptr);
+}
+
+core::Result<std::vector<Monitor>> list_monitors() {
+  const auto system = WindowSystem::join();
+  if (!system) return tl::unexpected(system.error());
+  int count = 0;
+  GLFWmonitor** const all = glfwGetMonitors(&count);
+  std::vector<Monitor> monitors;
+  for (GLFWmonitor* one : std::span(all, static_cast<std::size_t>(count))) {
+    Monitor monitor{.name = glfwGetMonitorName(one), .rect = {}};
+    glfwGetMonitorPos(one, &monitor.rect.offset_px.x, &monitor.rect.offset_px.y);
+    if (const GLFWvidmode* mode = glfwGetVideoMode(one)) {
+      monitor.rect.size_px = {static_cast<unsigned>(mode->width), static_cast<unsigned>(mode->height)};
+      monitor.rate_hz = mode->refreshRate;
+    }
+    monitors.push_back(std::move(monitor));
+  }
+  return monitors;
+}
+
+const Monitor* find_monitor(const std::vector<Monitor>& monitors, const std::string& name_or_number) {
+  for (const Monitor& monitor : monitors) {
+    if (monitor.name == name_or_number) return &monitor;
+  }
+  std::size_t number = 0;
+  const char* const end = name_or_number.data() + name_or_number.size();
+  const auto read = std::from_chars(name_or_number.data(), end, number);
+  const bool counted = read.ec == std::errc() && read.ptr == end && number >= 1 && number <= monitors.size();
+  return counted ? &monitors[number - 1] : nullptr;
+}
+
+bool is_shown(const scene::PixelRect& rect, const std::vector<Monitor>& monitors) {
+  const glm::ivec2 first = rect.offset_px, last = first + glm::ivec2(rect.size_px) - 1;
+  const std::array corners{first, glm::ivec2(last.x, first.y), glm::ivec2(first.x, last.y), last};
+  return std::all_of(corners.begin(), corners.end(), [&](const glm::ivec2& corner) {
+    return std::any_of(monitors.begin(), monitors.end(), [&](const Monitor& monitor) {
+      const glm::ivec2 inside = corner - monitor.rect.offset_px, size(monitor.rect.size_px);
+      return inside.x >= 0 && inside.y >= 0 && inside.x < size.x && inside.y < size.y;
+    });
+  });
+}
+
+// GLFW 3.3 is built for one window system.
+bool can_place_windows() { return std::string_view(glfwGetVersionString()).find("Wayland") == std::string_view::npos; }
+
+}  // namespace afm::render

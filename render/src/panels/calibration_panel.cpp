@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include "panels/panel_painting.h"
+
+namespace afm::render {
+namespace {
+
+constexpr float kWallHeightMm = 2286.0F;  // for which the texts have their size; on another screen they scale with it
+constexpr Color kGround{{0.10F, 0.10F, 0.11F}, 1.0F};
+constexpr Color kFine{{0.30F, 0.32F, 0.35F}, 1.0F};
+constexpr Color kCoarse{{0.52F, 0.55F, 0.60F}, 1.0F};
+constexpr Color kWhite{{1.0F, 1.0F, 1.0F}, 1.0F};
+constexpr Color kBlack{{0.0F, 0.0F, 0.0F}, 1.0F};
+
+constexpr float kLeastIpdMm = 45.0F, kMostIpdMm = 80.0F;  // Dodgson 2004: nearly all adults
+
+Color grey(float srgb) { return {glm::vec3(srgb), 1.0F}; }
+
+// Lines every `step` from the middle, both ways.
+void paint_grid(Canvas& canvas, float step, float width, Color color) {
+  const glm::vec2 size = canvas.size_mm(), middle = 0.5F * size;
+  for (float x = 0.0F; x <= middle.x; x += step) {
+    for (const float side : {-1.0F, 1.0F}) {
+      canvas.line({middle.x + side * x, 0.0F}, {middle.x + side * x, size.y}, width, color);
+    }
+  }
+  for (float y = 0.0F; y <= middle.y; y += step) {
+    for (const float side : {-1.0F, 1.0F}) {
+      canvas.line({0.0F, middle.y + side * y}, {size.x, middle.y + side * y}, width, color);
+    }
+  }
+}
+
+void paint_circle(Canvas& canvas, glm::vec2 center, float radius, float width, Color color) {
+  constexpr std::size_t kCorners = 180;
+  std::array<glm::vec2, kCorners + 1> points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float angle = 6.2831853F * static_cast<float>(i) / kCorners;
+    points[i] = center + radius * glm::vec2(std::cos(angle), std::sin(angle));
+  }
+  canvas.polyline(points, width, color);
+}
+
+// Distances from the mark at its left end, at true scale.
+void paint_ruler(Canvas& canvas, glm::vec2 zero, float unit, double ipd_m) {
+  const auto tick = [&](float mm, float height, Color color) {
+    const float x = mm * canvas.true_mm();
+    canvas.line(zero + glm::vec2(x, 0.0F), zero + glm::vec2(x, -height * unit), 1.5F * unit, color);
+  };
+  canvas.line(zero, zero + glm::vec2(kMostIpdMm * canvas.true_mm(), 0.0F), 1.5F * unit, kWhite);
+  tick(0.0F, 60.0F, kWhite);
+  for (float mm = kLeastIpdMm; mm <= kMostIpdMm; mm += 5.0F)
+    tick(mm, std::fmod(mm, 10.0F) == 0.0F ? 50.0F : 30.0F, kWhite);
+  tick(static_cast<float>(ipd_m * 1e3), 80.0F, palette::kOrange);
+}
+
+// Black to white in encoded values, and stripes of black and white beside the grey that has half of white's light.
+void paint_greys(Canvas& canvas, glm::vec2 at, float unit) {
+  const glm::vec2 patch(70.0F * unit);
+  constexpr int kSteps = 11;
+  for (int i = 0; i < kSteps; ++i) {
+    const glm::vec2 from = at + glm::vec2(patch.x * static_cast<float>(i), 0.0F);
+    canvas.rectangle(from, from + patch, grey(static_cast<float>(i) / (kSteps - 1)));
+  }
+  const glm::vec2 stripes = at + glm::vec2(patch.x * (kSteps + 1), 0.0F);
+  canvas.rectangle(stripes, stripes + patch, kBlack);
+  constexpr int kPairs = 7;
+  const float pitch = patch.y / kPairs;
+  for (int i = 0; i < kPairs; ++i) {
+    const float y = pitch * static_cast<float>(i);
+    canvas.rectangle(stripes + glm::vec2(0.0F, y), stripes + glm::vec2(patch.x, y + 0.5F * pitch), kWhite);
+  }
+  canvas.rectangle(stripes + glm::vec2(patch.x, 0.0F), stripes + glm::vec2(2.0F * patch.x, patch.y),
+                   grey(188.0F / 255.0F));
+}
+
+// As fmt::format(), into memory of the caller's.
+template <class... Values>
+std::string_view written(fmt::memory_buffer& text, fmt::format_string<const Values&...> format,
+                         const Values&... values) {
+  text.clear();
+  fmt::format_to(std::back_inserter(text), format, values...);
+  return {text.data(), text.size()};
+}
+
+}  // namespace
+
+void paint(Canvas& canvas, const CalibrationPanel& panel) {
+  const glm::vec2 size = canvas.size_mm(), middle = 0.5F * size;
+  const float unit = size.y / kWallHeightMm;
+  const glm::vec2 true_size_mm = size / canvas.true_mm();
+  const float step_mm = true_size_mm.x < 1000.0F ? 10.0F : 100.0F;
+  const float step = step_mm * canvas.true_mm();
+  canvas.rectangle({0.0F, 0.0F}, size, kGround);
+  paint_grid(canvas, step, 1.5F * unit, kFine);
+  paint_grid(canvas, 10.0F * step, 3.0F * unit, kCoarse);
+  canvas.outline(glm::vec2(2.0F * unit), size - 2.0F * unit, 4.0F * unit, kWhite);
+  paint_circle(canvas, middle, 0.44F * std::min(size.x, size.y), 4.0F * unit, palette::kSkyBlue);
+  canvas.line({middle.x - 300.0F * unit, middle.y}, {middle.x + 300.0F * unit, middle.y}, 5.0F * unit,
+              palette::kYellow);
+  canvas.line({middle.x, middle.y - 300.0F * unit}, {middle.x, middle.y + 300.0F * unit}, 5.0F * unit,
+              palette::kYellow);
+
+  const auto line = [&](float y, TextStyle style, std::string_view text) {
+    canvas.text({middle.x, y * unit}, style, kWhite, text, Align::Center, unit);
+  };
+  fmt::memory_buffer text;
+  line(220.0F, TextStyle::Title,
+       written(text, "{}   {:.3f} m x {:.3f} m", panel.screen, true_size_mm.x * 1e-3F, true_size_mm.y * 1e-3F));
+  line(320.0F, TextStyle::Strong, panel.mode);
+  line(390.0F, TextStyle::Body,
+       written(text, "a square is {:g} mm; the circle is round; L to the left eye, R to the right", step_mm));
+  paint_ruler(canvas, {middle.x - 0.5F * kMostIpdMm * canvas.true_mm(), 1840.0F * unit}, unit, panel.ipd_m);
+  line(1860.0F, TextStyle::Body,
+       written(text, "between the eyes: ticks from 45 to 80 mm, orange {:.1f} mm", panel.ipd_m * 1e3));
+  paint_greys(canvas, {middle.x - 490.0F * unit, 1950.0F * unit}, unit);
+}
+
+void paint(Canvas& canvas, const EyeMark& mark) {
+  const glm::vec2 size = canvas.size_mm();
+  const float width = 0.16F * std::min(size.x, size.y);
+  const auto at = [&](float x, float y) { return glm::vec2(x, y) * (size - width) + 0.5F * width; };
+  if (mark.eye == scene::Eye::Left) {
+    const std::array stroke{at(0.1F, 0.0F), at(0.1F, 1.0F), at(0.9F, 1.0F)};
+    canvas.polyline(stroke, width, kWhite);
+    return;
+  }
+  const std::array stroke{at(0.1F, 1.0F),  at(0.1F, 0.0F),   at(0.6F, 0.0F),  at(0.85F, 0.1F),
+                          at(0.9F, 0.27F), at(0.85F, 0.44F), at(0.6F, 0.55F), at(0.1F, 0.55F)};
+  canvas.polyline(stroke, width, kWhite);
+  canvas.line(at(0.5F, 0.55F), at(0.9F, 1.0F), width, kWhite);
+}
+
+}  // namespace afm::render

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "panels/marker_layout.h"
+#include "panels/panel_fonts.h"
+
+namespace afm::render {
+
+struct Color {
+  glm::vec3 srgb{1.0F};
+  float alpha = 1.0F;
+};
+
+// The panels' colours: light ink on a dark plate, and what must be told apart in Okabe and Ito's palette, which people
+// with any colour vision can.
+namespace palette {
+inline constexpr Color kPlate{{0.055F, 0.066F, 0.090F}, 0.90F};
+inline constexpr Color kEdge{{0.62F, 0.70F, 0.80F}, 0.30F};
+inline constexpr Color kInk{{0.95F, 0.96F, 0.97F}, 1.0F};
+inline constexpr Color kMuted{{0.68F, 0.73F, 0.79F}, 1.0F};
+inline constexpr Color kGrid{{0.70F, 0.78F, 0.88F}, 0.14F};
+inline constexpr Color kAxis{{0.78F, 0.83F, 0.89F}, 0.75F};
+inline constexpr Color kOrange{{0.902F, 0.624F, 0.0F}, 1.0F};
+inline constexpr Color kSkyBlue{{0.337F, 0.706F, 0.914F}, 1.0F};
+inline constexpr Color kYellow{{0.941F, 0.894F, 0.259F}, 1.0F};
+}  // namespace palette
+
+enum class Align { Left, Center, Right };
+
+// What painting needs for a moment, kept so that painting again needs no new memory.
+struct CanvasMemory {
+  std::vector<ImVec2> texels;
+  std::vector<glm::vec2> points, dash;
+  std::vector<MarkerLabel> labels;
+  std::vector<LabelBox> boxes;
+};
+
+// Draws in millimetres from the panel's top left corner, x to the right and y down. Hides Dear ImGui's draw list.
+class Canvas {
+ public:
+  Canvas(ImDrawList& list, const PanelFonts& fonts, CanvasMemory& memory, glm::vec2 size_mm);
+
+  glm::vec2 size_mm() const { return size_mm_; }
+
+  // A millimetre of the room: all lengths here are in the panels'.
+  float true_mm() const { return fonts_.true_mm; }
+
+  // The panel's plate with its rounded edge.
+  void plate(Color edge = palette::kEdge, float edge_width_mm = 2.0F);
+
+  // `position` is the top of the line at its left end, middle or right end. An underscore starts a subscript that lasts
+  // to the next character that is no letter or digit: "Z_jtc". `scale` makes the style smaller.
+  void text(glm::vec2 position, TextStyle style, Color color, std::string_view text, Align align = Align::Left,
+            float scale = 1.0F);
+  float text_width_mm(TextStyle style, std::string_view text, float scale = 1.0F) const;
+
+  // The same from the left, cut with an ellipsis where it would be wider than `width_mm`.
+  void fitted_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm);
+
+  // For who paints: nothing in it is kept from one call to the next, and `points` and `labels` no call here uses.
+  CanvasMemory& memory() { return memory_; }
+
+  void line(glm::vec2 from, glm::vec2 to, float width_mm, Color color);
+  void polyline(std::span<const glm::vec2> points, float width_mm, Color color);
+  void dashed_polyline(std::span<const glm::vec2> points, float width_mm, float dash_mm, float gap_mm, Color color);
+  void rectangle(glm::vec2 from, glm::vec2 to, Color color, float rounding_mm = 0.0F);
+  void outline(glm::vec2 from, glm::vec2 to, float width_mm, Color color, float rounding_mm = 0.0F);
+  void disc(glm::vec2 center, float radius_mm, Color color);
+  void polygon(std::span<const glm::vec2> convex, Color color);
+
+  // Nothing is drawn outside the rectangle until pop_clip().
+  void push_clip(glm::vec2 from, glm::vec2 to);
+  void pop_clip();
+
+ private:
+  ImVec2 texel(glm::vec2 mm) const;
+  float draw_text_run(glm::vec2 position, TextStyle style, float scale, Color color, std::string_view run,
+                      bool visible) const;
+  float text_pass(glm::vec2 position, TextStyle style, float scale, Color color, std::string_view text,
+                  bool visible) const;
+
+  ImDrawList& list_;
+  const PanelFonts& fonts_;
+  CanvasMemory& memory_;
+  glm::vec2 size_mm_;
+};
+
+}  // namespace afm::render

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "panels/panel_painting.h"
+#include "render/control_layout.h"
+
+namespace afm::render {
+namespace {
+
+constexpr double kMargin = 28.0;
+constexpr double kTop = 124.0;  // below the title and the buttons beside it
+constexpr double kTallestRow = 104.0;
+constexpr double kTargetWidth = 88.0;
+constexpr double kButtonWidth = 165.0;
+constexpr double kGap = 10.0;
+constexpr double kNoteHeight = 43.0;
+constexpr float kValueScale = 0.8F;
+
+// From one row to the next: what the notes leave.
+double row_pitch(const ControlPanel& panel, double height_mm) {
+  const double notes = kNoteHeight * static_cast<double>(panel.notes.size() + 1) + kGap;
+  const double rows = static_cast<double>(std::max<std::size_t>(panel.rows.size(), 1));
+  return std::clamp((height_mm - kTop - notes) / rows, 1.0, kTallestRow);
+}
+
+glm::vec2 f(const glm::dvec2& v) { return glm::vec2(v); }
+
+// A target: bright when pointed at, with a sign or a word in its middle.
+void paint_target(Canvas& canvas, const ControlBox& box, std::string_view text, bool pointed) {
+  const Color plate = pointed ? palette::kOrange : Color{palette::kSkyBlue.srgb, 0.22F};
+  canvas.rectangle(f(box.from_mm), f(box.to_mm), plate, 12.0F);
+  canvas.outline(f(box.from_mm), f(box.to_mm), 2.5F, palette::kSkyBlue, 12.0F);
+  const glm::vec2 middle = f(0.5 * (box.from_mm + box.to_mm));
+  const float height = text_height_mm(TextStyle::Title);
+  const float width = static_cast<float>(box.to_mm.x - box.from_mm.x) - 16.0F;
+  const float scale = std::min(1.0F, width / std::max(canvas.text_width_mm(TextStyle::Title, text), 1.0F));
+  canvas.text({middle.x, middle.y - 0.5F * scale * height}, TextStyle::Title, pointed ? palette::kPlate : palette::kInk,
+              text, Align::Center, scale);
+}
+
+void paint_row(Canvas& canvas, const ControlPanel& panel, std::size_t row, double top, double pitch) {
+  const ControlRow& content = panel.rows[row];
+  const glm::dvec2 size(canvas.size_mm());
+  const auto room = static_cast<float>(size.x - 2.0 * kMargin - 2.0 * kTargetWidth - 2.0 * kGap);
+  const auto y = static_cast<float>(top + 0.5 * (pitch - 84.0));
+  canvas.fitted_text({kMargin, y}, TextStyle::Body, palette::kMuted, content.name, room);
+  const float scale =
+      std::min(kValueScale, room / std::max(canvas.text_width_mm(TextStyle::Title, content.value), 1.0F));
+  canvas.text({kMargin, y + 36.0F}, TextStyle::Title, content.changed ? palette::kOrange : palette::kInk, content.value,
+              Align::Left, scale);
+  for (const auto kind : {ControlTarget::Kind::Less, ControlTarget::Kind::More}) {
+    const ControlTarget target{kind, row};
+    paint_target(canvas, control_box(panel, size, target), kind == ControlTarget::Kind::Less ? "\u2212" : "+",
+                 panel.pointed == target);
+  }
+}
+
+}  // namespace
+
+ControlBox control_box(const ControlPanel& panel, const glm::dvec2& size_mm, const ControlTarget& target) {
+  if (target.kind == ControlTarget::Kind::Button) {
+    const auto from_right = static_cast<double>(panel.buttons.size() - target.index);
+    const double left = size_mm.x - kMargin + kGap - from_right * (kButtonWidth + kGap);
+    return {{left, 2.0 * kGap}, {left + kButtonWidth, kTop - kGap}};
+  }
+  const double pitch = row_pitch(panel, size_mm.y);
+  const double top = kTop + pitch * static_cast<double>(target.index) + 0.5 * kGap;
+  const double right = size_mm.x - kMargin - (target.kind == ControlTarget::Kind::Less ? kTargetWidth + kGap : 0.0);
+  return {{right - kTargetWidth, top}, {right, top + pitch - kGap}};
+}
+
+std::optional<ControlTarget> control_at(const ControlPanel& panel, const glm::dvec2& size_mm,
+                                        const glm::dvec2& point_mm) {
+  const auto hit = [&](const ControlTarget& target) {
+    const ControlBox box = control_box(panel, size_mm, target);
+    return point_mm.x >= box.from_mm.x && point_mm.x < box.to_mm.x && point_mm.y >= box.from_mm.y &&
+           point_mm.y < box.to_mm.y;
+  };
+  for (std::size_t row = 0; row < panel.rows.size(); ++row) {
+    for (const auto kind : {ControlTarget::Kind::Less, ControlTarget::Kind::More}) {
+      if (hit({kind, row})) return ControlTarget{kind, row};
+    }
+  }
+  for (std::size_t button = 0; button < panel.buttons.size(); ++button) {
+    const ControlTarget target{ControlTarget::Kind::Button, button};
+    if (hit(target)) return target;
+  }
+  return std::nullopt;
+}
+
+void paint(Canvas& canvas, const ControlPanel& panel) {
+  canvas.plate();
+  const glm::dvec2 size(canvas.size_mm());
+  const auto width = static_cast<float>(size.x - 2.0 * kMargin);
+  const float beside = static_cast<float>(static_cast<double>(panel.buttons.size()) * (kButtonWidth + kGap));
+  canvas.fitted_text({kMargin, 34.0F}, TextStyle::Title, palette::kInk, panel.title, width - beside);
+  const double pitch = row_pitch(panel, size.y);
+  for (std::size_t row = 0; row < panel.rows.size(); ++row) {
+    paint_row(canvas, panel, row, kTop + pitch * static_cast<double>(row), pitch);
+  }
+  double y = kTop + pitch * static_cast<double>(panel.rows.size()) + kGap;
+  canvas.fitted_text({kMargin, static_cast<float>(y)}, TextStyle::Body, palette::kYellow, panel.status, width);
+  for (const std::string& note : panel.notes) {
+    y += kNoteHeight;
+    canvas.fitted_text({kMargin, static_cast<float>(y)}, TextStyle::Body, palette::kInk, note, width);
+  }
+  for (std::size_t button = 0; button < panel.buttons.size(); ++button) {
+    const ControlTarget target{ControlTarget::Kind::Button, button};
+    paint_target(canvas, control_box(panel, size, target), panel.buttons[button], panel.pointed == target);
+  }
+}
+
+}  // namespace afm::render

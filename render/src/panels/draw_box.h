@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <utility>
+
+#include "passes/scene_geometry.h"
+#include "render/frame.h"
+
+namespace afm::render {
+
+// In a node's frame, along its axes.
+struct DrawBox {
+  glm::dvec3 center;
+  glm::dvec3 half_size;
+};
+
+// What a draw fills at most, bent as the frame says.
+DrawBox bent_box(const Draw& draw, const FrameState& frame);
+
+// The least and the largest value of dot(form, (place, 1)) over the box.
+std::pair<double, double> range(const glm::dvec4& form, const DrawBox& box);
+
+}  // namespace afm::render

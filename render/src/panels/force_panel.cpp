@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "panels/panel_painting.h"
+#include "panels/plot_scale.h"
+
+namespace afm::render {
+namespace {
+
+constexpr float kMargin = 34.0F;
+constexpr float kColumn = 1.0F;  // a third of a pixel at 960 pixels on a wall of 3 m
+constexpr float kRetractWidth = 7.0F;
+constexpr float kApproachWidth = 4.5F;
+constexpr float kFadedAlpha = 0.50F;
+
+// Where the axes stand on the canvas and what they span.
+struct Plot {
+  glm::vec2 top_left{0.0F};
+  glm::vec2 bottom_right{0.0F};
+  double z_min = 0, z_max = 1, force_min = 0, force_max = 1;
+
+  float x(double z_nm) const {
+    return top_left.x + static_cast<float>((z_nm - z_min) / (z_max - z_min)) * (bottom_right.x - top_left.x);
+  }
+  float y(double force_nn) const {
+    const auto share = static_cast<float>((force_nn - force_min) / (force_max - force_min));
+    return bottom_right.y - share * (bottom_right.y - top_left.y);
+  }
+  glm::vec2 place(const PlotPoint& point) const { return {x(point.z_nm), y(point.force_nn)}; }
+};
+
+// A range that the app left empty or inverted still gives an axis.
+std::pair<double, double> sane_range(double low, double high) {
+  if (std::isfinite(low) && std::isfinite(high) && high > low) {
+    return {low, high};
+  }
+  return {-1.0, 1.0};
+}
+
+void paint_heading(Canvas& canvas, const ForcePanel& panel) {
+  canvas.text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title);
+  canvas.fitted_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.stage,
+                     canvas.size_mm().x - 2.0F * kMargin);
+}
+
+// One entry for each curve, and what dashed and solid mean.
+void paint_legend(Canvas& canvas, const ForcePanel& panel, float y) {
+  float x = kMargin;
+  const float middle = y + 19.0F;
+  for (const auto& curve : panel.curves) {
+    const Color color{curve.color, curve.faded ? 0.65F : 1.0F};
+    canvas.line({x, middle}, {x + 42.0F, middle}, kRetractWidth, color);
+    canvas.text({x + 54.0F, y + 2.0F}, TextStyle::Small, curve.faded ? palette::kMuted : palette::kInk, curve.label);
+    x += 54.0F + canvas.text_width_mm(TextStyle::Small, curve.label) + 34.0F;
+  }
+  const float right = canvas.size_mm().x - kMargin;
+  const float retract = right - canvas.text_width_mm(TextStyle::Small, "retract");
+  const float approach = retract - 88.0F - canvas.text_width_mm(TextStyle::Small, "approach");
+  if (approach - 64.0F < x) {
+    return;
+  }
+  const std::array<glm::vec2, 2> dashes{glm::vec2(approach - 64.0F, middle), glm::vec2(approach - 12.0F, middle)};
+  canvas.dashed_polyline(dashes, kApproachWidth, 14.0F, 9.0F, palette::kMuted);
+  canvas.text({approach, y + 2.0F}, TextStyle::Small, palette::kMuted, "approach");
+  canvas.line({retract - 58.0F, middle}, {retract - 12.0F, middle}, kRetractWidth, palette::kMuted);
+  canvas.text({retract, y + 2.0F}, TextStyle::Small, palette::kMuted, "retract");
+}
+
+void paint_axes(Canvas& canvas, const Plot& plot, double z_step, double force_step) {
+  const float tick_height = text_height_mm(TextStyle::Body);
+  for (double z = std::ceil(plot.z_min / z_step - 1e-9) * z_step; z <= plot.z_max + 1e-9 * z_step; z += z_step) {
+    const float x = plot.x(z);
+    canvas.line({x, plot.top_left.y}, {x, plot.bottom_right.y}, 1.5F, palette::kGrid);
+    canvas.line({x, plot.bottom_right.y}, {x, plot.bottom_right.y + 9.0F}, 2.5F, palette::kAxis);
+    canvas.text({x, plot.bottom_right.y + 12.0F}, TextStyle::Body, palette::kMuted, tick_text(z, z_step),
+                Align::Center);
+  }
+  for (double f = std::ceil(plot.force_min / force_step - 1e-9) * force_step; f <= plot.force_max + 1e-9 * force_step;
+       f += force_step) {
+    const float y = plot.y(f);
+    canvas.line({plot.top_left.x, y}, {plot.bottom_right.x, y}, 1.5F, palette::kGrid);
+    canvas.line({plot.top_left.x - 9.0F, y}, {plot.top_left.x, y}, 2.5F, palette::kAxis);
+    canvas.text({plot.top_left.x - 16.0F, y - 0.5F * tick_height}, TextStyle::Body, palette::kMuted,
+                tick_text(f, force_step), Align::Right);
+  }
+  const std::array<glm::vec2, 3> frame{plot.top_left, glm::vec2(plot.top_left.x, plot.bottom_right.y),
+                                       plot.bottom_right};
+  canvas.polyline(frame, 2.5F, palette::kAxis);
+  if (plot.force_min < 0.0 && plot.force_max > 0.0) {
+    canvas.line({plot.top_left.x, plot.y(0.0)}, {plot.bottom_right.x, plot.y(0.0)}, 3.0F, palette::kAxis);
+  }
+}
+
+constexpr const char* kForceCaption = "F (nN)";
+
+// Where the force axis says what it shows.
+LabelBox force_caption(const Canvas& canvas, const Plot& plot) {
+  const glm::vec2 place = plot.top_left + glm::vec2(8.0F, -2.0F);
+  const glm::vec2 size(canvas.text_width_mm(TextStyle::Body, kForceCaption) + 16.0F,
+                       text_height_mm(TextStyle::Body) + 6.0F);
+  return {place, place + size};
+}
+
+// What the axes show, over the curves.
+void paint_captions(Canvas& canvas, const Plot& plot) {
+  const LabelBox force = force_caption(canvas, plot);
+  canvas.rectangle(force.from, force.to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
+  canvas.text(force.from + glm::vec2(8.0F, 1.0F), TextStyle::Body, palette::kInk, kForceCaption);
+  // in the middle: the sample stands before the panel's right corner
+  canvas.text({0.5F * (plot.top_left.x + plot.bottom_right.x), plot.bottom_right.y + 54.0F}, TextStyle::Body,
+              palette::kInk, "Z (nm)", Align::Center);
+}
+
+// On the canvas, as many as it can show; valid until the next call.
+std::span<const glm::vec2> placed(Canvas& canvas, const Plot& plot, const std::vector<PlotPoint>& points) {
+  std::vector<glm::vec2>& places = canvas.memory().points;
+  places.clear();
+  for (const auto& point : points) {
+    if (std::isfinite(point.z_nm) && std::isfinite(point.force_nn)) {
+      places.push_back(plot.place(point));
+    }
+  }
+  thin_out(places, kColumn);
+  return places;
+}
+
+void paint_curve(Canvas& canvas, const Plot& plot, const PlotCurve& curve) {
+  const Color color{curve.color, curve.faded ? kFadedAlpha : 1.0F};
+  const float thin = curve.faded ? 0.75F : 1.0F;
+  canvas.polyline(placed(canvas, plot, curve.retract), kRetractWidth * thin, color);
+  canvas.dashed_polyline(placed(canvas, plot, curve.approach), kApproachWidth * thin, 16.0F, 10.0F, color);
+}
+
+bool in_range(const Plot& plot, const PlotMarker& marker) {
+  const bool vertical = marker.kind == PlotMarker::Kind::VerticalLine;
+  return vertical ? marker.value >= plot.z_min && marker.value <= plot.z_max
+                  : marker.value >= plot.force_min && marker.value <= plot.force_max;
+}
+
+// All lines first, so that none crosses a label.
+void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarker>& markers) {
+  const Color line_color{palette::kInk.srgb, 0.60F};
+  std::vector<MarkerLabel>& labels = canvas.memory().labels;
+  labels.clear();
+  for (const PlotMarker& marker : markers) {
+    if (!in_range(plot, marker)) {
+      continue;
+    }
+    const bool vertical = marker.kind == PlotMarker::Kind::VerticalLine;
+    const float line = vertical ? plot.x(marker.value) : plot.y(marker.value);
+    const std::array<glm::vec2, 2> ends{
+        vertical ? glm::vec2(line, plot.top_left.y) : glm::vec2(plot.top_left.x, line),
+        vertical ? glm::vec2(line, plot.bottom_right.y) : glm::vec2(plot.bottom_right.x, line)};
+    canvas.dashed_polyline(ends, 2.2F, 7.0F, 7.0F, line_color);
+    labels.push_back(
+        {marker.kind,
+         line,
+         {canvas.text_width_mm(TextStyle::Small, marker.label) + 12.0F, text_height_mm(TextStyle::Small) + 6.0F}});
+  }
+  std::vector<LabelBox>& boxes = canvas.memory().boxes;
+  boxes.assign(1, force_caption(canvas, plot));
+  place_labels(labels, {plot.top_left, plot.bottom_right}, boxes);
+  auto box = boxes.begin() + 1;
+  for (const PlotMarker& marker : markers) {
+    if (!in_range(plot, marker)) {
+      continue;
+    }
+    canvas.rectangle(box->from, box->to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
+    canvas.text(box->from + glm::vec2(6.0F, 2.0F), TextStyle::Small, palette::kInk, marker.label);
+    ++box;
+  }
+}
+
+void paint_cursor(Canvas& canvas, const Plot& plot, const PlotPoint& cursor) {
+  if (!std::isfinite(cursor.z_nm) || !std::isfinite(cursor.force_nn)) {
+    return;
+  }
+  glm::vec2 place = plot.place(cursor);
+  place = glm::clamp(place, plot.top_left, plot.bottom_right);
+  canvas.disc(place, 19.0F, palette::kPlate);
+  canvas.disc(place, 16.0F, palette::kInk);
+  canvas.disc(place, 9.5F, palette::kOrange);
+}
+
+}  // namespace
+
+void paint(Canvas& canvas, const ForcePanel& panel) {
+  canvas.plate();
+  paint_heading(canvas, panel);
+  const float legend_y = 146.0F;
+  paint_legend(canvas, panel, legend_y);
+
+  Plot plot;
+  std::tie(plot.z_min, plot.z_max) = sane_range(panel.z_min_nm, panel.z_max_nm);
+  std::tie(plot.force_min, plot.force_max) = sane_range(panel.force_min_nn, panel.force_max_nn);
+  const double z_step = tick_step(plot.z_max - plot.z_min, 6);
+  const double force_step = tick_step(plot.force_max - plot.force_min, 6);
+  const float widest = std::max(canvas.text_width_mm(TextStyle::Body, tick_text(plot.force_min, force_step)),
+                                canvas.text_width_mm(TextStyle::Body, tick_text(plot.force_max, force_step)));
+  plot.top_left = {kMargin + widest + 16.0F, legend_y + 56.0F};
+  plot.bottom_right = canvas.size_mm() - glm::vec2(kMargin, 112.0F);
+  paint_axes(canvas, plot, z_step, force_step);
+
+  // markers before the curves: no label hides what was measured
+  paint_markers(canvas, plot, panel.markers);
+  canvas.push_clip(plot.top_left, plot.bottom_right);
+  for (const auto& curve : panel.curves) {
+    if (curve.faded) {
+      paint_curve(canvas, plot, curve);
+    }
+  }
+  for (const auto& curve : panel.curves) {
+    if (!curve.faded) {
+      paint_curve(canvas, plot, curve);
+    }
+  }
+  canvas.pop_clip();
+  paint_captions(canvas, plot);
+  if (panel.cursor) {
+    paint_cursor(canvas, plot, *panel.cursor);
+  }
+}
+
+}  // namespace afm::render

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "panels/canvas.h"
+#include "render/frame.h"
+
+namespace afm::render {
+
+void paint(Canvas& canvas, const ForcePanel& panel);
+void paint(Canvas& canvas, const DataPanel& panel);
+void paint(Canvas& canvas, const Banner& banner);
+void paint(Canvas& canvas, const ControlPanel& panel);
+void paint(Canvas& canvas, const Label& label);
+
+// The letter that one eye's picture alone shows; fills the canvas.
+struct EyeMark {
+  scene::Eye eye = scene::Eye::Left;
+
+  bool operator==(const EyeMark&) const = default;
+};
+void paint(Canvas& canvas, const CalibrationPanel& panel);
+void paint(Canvas& canvas, const EyeMark& mark);
+
+}  // namespace afm::render

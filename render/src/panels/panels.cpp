@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panels/panels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "device/barriers.h"
+#include "device/pipelines.h"
+#include "device/shader_interface.h"
+#include "panels/panel_painting.h"
+#include "shaders/canvas_frag.h"
+#include "shaders/canvas_vert.h"
+#include "shaders/panel_frag.h"
+#include "shaders/panel_vert.h"
+#include "shaders/panel_vert_one_view.h"
+
+namespace afm::render {
+namespace {
+
+constexpr vk::Format kTextureFormat = vk::Format::eR8G8B8A8Unorm;
+constexpr double kLargestTexture = 4096.0;
+constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
+
+const Label kNoLabel{.text = {}, .highlighted = false, .placement = kNoPlacement};
+
+constexpr std::array<vk::VertexInputBindingDescription, 1> kBindings{{{.binding = 0, .stride = sizeof(ImDrawVert)}}};
+constexpr std::array<vk::VertexInputAttributeDescription, 3> kAttributes{
+    {{.location = 0, .format = vk::Format::eR32G32Sfloat, .offset = offsetof(ImDrawVert, pos)},
+     {.location = 1, .format = vk::Format::eR32G32Sfloat, .offset = offsetof(ImDrawVert, uv)},
+     {.location = 2, .format = vk::Format::eR8G8B8A8Unorm, .offset = offsetof(ImDrawVert, col)}}};
+
+vk::raii::DescriptorSetLayout create_texture_layout(const Device& device) {
+  const vk::DescriptorSetLayoutBinding binding{.binding = AFM_BINDING_TEXTURE,
+                                               .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                               .descriptorCount = 1,
+                                               .stageFlags = vk::ShaderStageFlagBits::eFragment};
+  return vk::raii::DescriptorSetLayout(*device, {.bindingCount = 1, .pBindings = &binding});
+}
+
+vk::raii::Pipeline create_canvas_pipeline(const Device& device, vk::PipelineLayout layout) {
+  return create_pipeline(device, {.name = "panel canvas",
+                                  .vertex_code = shaders::canvas_vert,
+                                  .fragment_code = shaders::canvas_frag,
+                                  .layout = layout,
+                                  .bindings = kBindings,
+                                  .attributes = kAttributes,
+                                  .color_format = kTextureFormat,
+                                  .blending = Blending::Premultiplied});
+}
+
+vk::raii::PipelineLayout create_rectangle_layout(const Device& device, vk::DescriptorSetLayout frame,
+                                                 vk::DescriptorSetLayout texture) {
+  const std::array sets{frame, texture};
+  return create_pipeline_layout(
+      device, {.sets = sets, .push_stages = vk::ShaderStageFlagBits::eVertex, .push_size = sizeof(PanelBlock)});
+}
+
+constexpr EyeCode kRectangleVertex{shaders::panel_vert, shaders::panel_vert_one_view};
+constexpr EyeCode kRectangleFragment{shaders::panel_frag, shaders::panel_frag};
+
+PipelineRequest rectangle_request(vk::PipelineLayout layout) {
+  return {.name = "panels",
+          .layout = layout,
+          .topology = vk::PrimitiveTopology::eTriangleStrip,
+          .blending = Blending::Premultiplied,
+          .depth = DepthUse::TestOnly};
+}
+
+glm::dvec2 size_m(const PanelPlacement& placement) {
+  return {glm::length(placement.right_m), glm::length(placement.up_m)};
+}
+
+// In millimetres of the panels.
+glm::dvec2 size_mm(const PanelPlacement& placement, const PanelFonts& fonts) {
+  return size_m(placement) * 1000.0 * static_cast<double>(fonts.true_mm);
+}
+
+// The L stands in the left half of the calibration picture, the R in the right.
+PanelPlacement mark_placement(const PanelPlacement& whole, scene::Eye eye) {
+  const double left = eye == scene::Eye::Left ? 0.14 : 0.66;
+  return {.lower_left_m = whole.lower_left_m + left * whole.right_m + 0.36 * whole.up_m,
+          .right_m = 0.20 * whole.right_m,
+          .up_m = 0.36 * whole.up_m};
+}
+
+// At least what is wanted, with room to grow.
+void reserve(const Device& device, Buffer& buffer, const char* name, std::size_t bytes, vk::BufferUsageFlags usage) {
+  if (buffer.size < bytes) {
+    buffer = create_host_buffer(device, name, std::max<vk::DeviceSize>(2 * bytes, 65536), usage);
+  }
+}
+
+}  // namespace
+
+void Panels::ContextDeleter::operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
+
+Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout)
+    : device_(device),
+      fonts_(std::move(fonts)),
+      imgui_(ImGui::CreateContext(fonts_.atlas.get())),
+      texture_layout_(create_texture_layout(device)),
+      canvas_layout_(create_pipeline_layout(device, {.sets = {&*texture_layout_, 1},
+                                                     .push_stages = vk::ShaderStageFlagBits::eVertex,
+                                                     .push_size = sizeof(CanvasBlock)})),
+      canvas_pipeline_(create_canvas_pipeline(device, *canvas_layout_)),
+      rectangle_layout_(create_rectangle_layout(device, frame_set_layout, *texture_layout_)),
+      rectangle_pipeline_(device, rectangle_request(*rectangle_layout_), kRectangleVertex, kRectangleFragment),
+      sampler_(*device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
+                                              .minFilter = vk::Filter::eLinear,
+                                              .addressModeU = vk::SamplerAddressMode::eClampToEdge,
+                                              .addressModeV = vk::SamplerAddressMode::eClampToEdge,
+                                              .addressModeW = vk::SamplerAddressMode::eClampToEdge}) {
+  ImGui::SetCurrentContext(imgui_.get());
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  upload_atlas();
+}
+
+Panels::~Panels() = default;
+
+void Panels::upload_atlas() {
+  unsigned char* pixels = nullptr;
+  int width = 0;
+  int height = 0;
+  fonts_.atlas->GetTexDataAsAlpha8(&pixels, &width, &height);
+  const vk::Extent2D extent{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+  const std::size_t bytes = std::size_t{extent.width} * extent.height;
+  const Buffer staging =
+      create_host_buffer(device_, "font atlas staging", bytes, vk::BufferUsageFlagBits::eTransferSrc);
+  std::memcpy(staging.mapped, pixels, bytes);
+  atlas_ = create_image(device_, "font atlas",
+                        {.format = vk::Format::eR8Unorm,
+                         .extent = extent,
+                         .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
+  const ImageUse fresh{};
+  const ImageUse copied{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferWrite,
+                        vk::ImageLayout::eTransferDstOptimal};
+  const ImageUse sampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
+                         vk::ImageLayout::eShaderReadOnlyOptimal};
+  device_.run_once([&](const vk::raii::CommandBuffer& command) {
+    record_barriers(command, {image_barrier(*atlas_.image, kColor, fresh, copied)});
+    command.copyBufferToImage(*staging.buffer, *atlas_.image, copied.layout,
+                              vk::BufferImageCopy{.imageSubresource = {.aspectMask = kColor, .layerCount = 1},
+                                                  .imageExtent = {extent.width, extent.height, 1}});
+    record_barriers(command, {image_barrier(*atlas_.image, kColor, copied, sampled)});
+  });
+  atlas_view_ = create_view(device_, atlas_, kColor, 0, 1);
+  atlas_pool_ = create_pool();
+  atlas_set_ = create_set(atlas_pool_, *atlas_view_);
+}
+
+vk::raii::DescriptorPool Panels::create_pool() const {
+  const vk::DescriptorPoolSize size{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 1};
+  return vk::raii::DescriptorPool(*device_, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                             .maxSets = 1,
+                                             .poolSizeCount = 1,
+                                             .pPoolSizes = &size});
+}
+
+vk::raii::DescriptorSet Panels::create_set(const vk::raii::DescriptorPool& pool, vk::ImageView view) const {
+  vk::raii::DescriptorSets sets(*device_,
+                                {.descriptorPool = *pool, .descriptorSetCount = 1, .pSetLayouts = &*texture_layout_});
+  const vk::DescriptorImageInfo image{
+      .sampler = *sampler_, .imageView = view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+  device_->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = *sets.front(),
+                                                       .dstBinding = AFM_BINDING_TEXTURE,
+                                                       .descriptorCount = 1,
+                                                       .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                                       .pImageInfo = &image},
+                                nullptr);
+  return std::move(sets.front());
+}
+
+Panels::Texture Panels::create_texture(vk::Extent2D extent) const {
+  Texture texture;
+  texture.image = create_image(device_, "panel",
+                               {.format = kTextureFormat,
+                                .extent = extent,
+                                .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
+  texture.view = create_view(device_, texture.image, kColor, 0, 1);
+  texture.pool = create_pool();
+  texture.set = create_set(texture.pool, *texture.view);
+  return texture;
+}
+
+// Gives the panel a texture of its placement's size; true if it is a new one.
+bool Panels::resize(Panel& panel) {
+  const glm::dvec2 texels =
+      glm::clamp(glm::ceil(size_mm(panel.placement, fonts_) * static_cast<double>(fonts_.texels_per_mm)),
+                 glm::dvec2(1.0), glm::dvec2(kLargestTexture));
+  const vk::Extent2D extent{static_cast<std::uint32_t>(texels.x), static_cast<std::uint32_t>(texels.y)};
+  if (panel.texture.image.extent == extent) {
+    return false;
+  }
+  retired_[slot_].push_back(std::exchange(panel.texture, create_texture(extent)));
+  ++revision_;
+  return true;
+}
+
+template <class Content>
+void Panels::paint_on(Panel& panel, const Content& content) {
+  ImGui::SetCurrentContext(imgui_.get());
+  const vk::Extent2D extent = panel.texture.image.extent;
+  ImGui::GetIO().DisplaySize = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
+  ImGui::NewFrame();
+  Canvas canvas(*ImGui::GetBackgroundDrawList(), fonts_, memory_, glm::vec2(size_mm(panel.placement, fonts_)));
+  paint(canvas, content);
+  ImGui::Render();
+
+  const ImDrawData* data = ImGui::GetDrawData();
+  Painting painting{.panel = &panel,
+                    .first_vertex = vertices_.size(),
+                    .first_index = indices_.size(),
+                    .first_command = commands_.size()};
+  for (int i = 0; i < data->CmdListsCount; ++i) {
+    const ImDrawList& list = *data->CmdLists[i];
+    for (ImDrawCmd command : list.CmdBuffer) {
+      command.VtxOffset += static_cast<unsigned int>(vertices_.size() - painting.first_vertex);
+      command.IdxOffset += static_cast<unsigned int>(indices_.size() - painting.first_index);
+      commands_.push_back(command);
+    }
+    vertices_.insert(vertices_.end(), list.VtxBuffer.begin(), list.VtxBuffer.end());
+    indices_.insert(indices_.end(), list.IdxBuffer.begin(), list.IdxBuffer.end());
+  }
+  painting.command_count = commands_.size() - painting.first_command;
+  paintings_.push_back(painting);
+}
+
+template <class Content>
+void Panels::update(Panel& panel, const Content& content, const PanelPlacement& placement) {
+  const glm::dvec2 size = size_m(placement);
+  const bool shown = size.x > 0.0 && size.y > 0.0;
+  if (panel.placement != placement || panel.shown != shown) {
+    ++revision_;
+  }
+  panel.placement = placement;
+  panel.shown = shown;
+  if (!panel.shown) {
+    return;
+  }
+  const bool resized = resize(panel);
+  const Content* painted = std::get_if<Content>(&panel.painted);
+  if (resized || painted == nullptr || !(*painted == content)) {
+    panel.painted = content;
+    paint_on(panel, content);
+  }
+}
+
+bool Panels::update(const FrameState& frame, std::size_t slot) {
+  slot_ = slot;
+  retired_[slot].clear();
+  paintings_.clear();
+  vertices_.clear();
+  indices_.clear();
+  commands_.clear();
+  labels_.resize(std::max(labels_.size(), frame.labels.size()));
+  update(force_, frame.force_panel, frame.force_placement);
+  update(data_, frame.data_panel, frame.data_placement);
+  update(banner_, frame.banner, frame.banner_placement);
+  update(control_, frame.control_panel, frame.control_placement);
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    const Label& label = i < frame.labels.size() ? frame.labels[i] : kNoLabel;
+    update(labels_[i], label, label.placement);
+  }
+  update(calibration_, frame.calibration, frame.calibration_placement);
+  for (std::size_t i = 0; i < eye_marks_.size(); ++i) {
+    eye_marks_[i].only_eye = scene::kEyes[i];
+    update(eye_marks_[i], EyeMark{scene::kEyes[i]}, mark_placement(frame.calibration_placement, scene::kEyes[i]));
+  }
+  return !paintings_.empty();
+}
+
+void Panels::record_textures(const vk::raii::CommandBuffer& command, std::size_t slot) {
+  Geometry& geometry = geometry_[slot];
+  const std::size_t vertex_bytes = vertices_.size() * sizeof(ImDrawVert);
+  const std::size_t index_bytes = indices_.size() * sizeof(ImDrawIdx);
+  reserve(device_, geometry.vertices, "panel vertices", vertex_bytes, vk::BufferUsageFlagBits::eVertexBuffer);
+  reserve(device_, geometry.indices, "panel indices", index_bytes, vk::BufferUsageFlagBits::eIndexBuffer);
+  std::memcpy(geometry.vertices.mapped, vertices_.data(), vertex_bytes);
+  std::memcpy(geometry.indices.mapped, indices_.data(), index_bytes);
+  for (const Painting& painting : paintings_) {
+    record_painting(command, geometry, painting);
+  }
+}
+
+void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geometry& geometry,
+                             const Painting& painting) const {
+  const Panel& panel = *painting.panel;
+  const vk::Extent2D extent = panel.texture.image.extent;
+  const ImageUse discarded{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eNone,
+                           vk::ImageLayout::eUndefined};
+  const ImageUse drawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+                       vk::AccessFlagBits2::eColorAttachmentRead | vk::AccessFlagBits2::eColorAttachmentWrite,
+                       vk::ImageLayout::eColorAttachmentOptimal};
+  const ImageUse sampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
+                         vk::ImageLayout::eShaderReadOnlyOptimal};
+  record_barriers(command, {image_barrier(*panel.texture.image.image, kColor, discarded, drawn)});
+  const vk::RenderingAttachmentInfo color{.imageView = *panel.texture.view,
+                                          .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
+                                          .loadOp = vk::AttachmentLoadOp::eClear,
+                                          .storeOp = vk::AttachmentStoreOp::eStore};
+  command.beginRendering(
+      {.renderArea = {.extent = extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &color});
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, *canvas_pipeline_);
+  set_viewport(command, extent);
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *canvas_layout_, 0, *atlas_set_, nullptr);
+  const CanvasBlock block{
+      .scale = {2.0F / static_cast<float>(extent.width), 2.0F / static_cast<float>(extent.height), 0.0F, 0.0F}};
+  command.pushConstants<CanvasBlock>(*canvas_layout_, vk::ShaderStageFlagBits::eVertex, 0, block);
+  command.bindVertexBuffers(0, *geometry.vertices.buffer, vk::DeviceSize{0});
+  command.bindIndexBuffer(*geometry.indices.buffer, 0,
+                          sizeof(ImDrawIdx) == 2 ? vk::IndexType::eUint16 : vk::IndexType::eUint32);
+  for (std::size_t i = 0; i < painting.command_count; ++i) {
+    const ImDrawCmd& draw = commands_[painting.first_command + i];
+    const glm::vec2 limit(static_cast<float>(extent.width), static_cast<float>(extent.height));
+    const glm::vec2 from = glm::clamp(glm::vec2(draw.ClipRect.x, draw.ClipRect.y), glm::vec2(0.0F), limit);
+    const glm::vec2 to = glm::clamp(glm::vec2(draw.ClipRect.z, draw.ClipRect.w), from, limit);
+    command.setScissor(0, vk::Rect2D{.offset = {static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y)},
+                                     .extent = {static_cast<std::uint32_t>(to.x - std::floor(from.x)),
+                                                static_cast<std::uint32_t>(to.y - std::floor(from.y))}});
+    command.drawIndexed(draw.ElemCount, 1, static_cast<std::uint32_t>(painting.first_index) + draw.IdxOffset,
+                        static_cast<std::int32_t>(painting.first_vertex + draw.VtxOffset), 0);
+  }
+  command.endRendering();
+  record_barriers(command, {image_barrier(*panel.texture.image.image, kColor, drawn, sampled)});
+}
+
+void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing,
+                               vk::DescriptorSet frame_set) {
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, rectangle_pipeline_.get(drawing.pass, drawing.samples));
+  command.setCullMode(vk::CullModeFlagBits::eNone);
+  const auto show = [&](const Panel& panel) {
+    if (!panel.shown) {
+      return;
+    }
+    const std::array sets{frame_set, *panel.texture.set};
+    command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *rectangle_layout_, 0, sets, std::uint32_t{0});
+    const float only_eye = !panel.only_eye ? -1.0F : *panel.only_eye == scene::Eye::Left ? 0.0F : 1.0F;
+    const PanelBlock block{.lower_left = glm::vec4(glm::vec3(panel.placement.lower_left_m), only_eye),
+                           .right = glm::vec4(glm::vec3(panel.placement.right_m), 0.0F),
+                           .up = glm::vec4(glm::vec3(panel.placement.up_m), 0.0F)};
+    command.pushConstants<PanelBlock>(*rectangle_layout_, vk::ShaderStageFlagBits::eVertex, 0, block);
+    command.draw(4, 1, 0, 0);
+  };
+  show(force_);
+  show(data_);
+  show(banner_);
+  show(control_);
+  std::for_each(labels_.begin(), labels_.end(), show);
+  show(calibration_);
+  std::for_each(eye_marks_.begin(), eye_marks_.end(), show);
+}
+
+}  // namespace afm::render

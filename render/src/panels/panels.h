@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <imgui.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "device/memory.h"
+#include "panels/panel_fonts.h"
+#include "panels/panel_painting.h"
+#include "passes/eye_targets.h"
+#include "render/frame.h"
+
+namespace afm::render {
+
+inline constexpr std::size_t kFramesInFlight = 2;
+
+// The panels of a frame: each is painted into a texture of its own, again only when its content or size has changed,
+// and shown on its rectangle in the room. Panels without area are neither painted nor shown.
+class Panels {
+ public:
+  Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout);
+  ~Panels();
+
+  // Takes a frame's panels; whether one of them must be painted again. `slot` numbers the frame in flight, whose
+  // previous use is over.
+  bool update(const FrameState& frame, std::size_t slot);
+
+  // Paints what has changed; outside any rendering.
+  void record_textures(const vk::raii::CommandBuffer& command, std::size_t slot);
+
+  // Shows all panels, blended over what is there; inside an eye pass. What it records stays right until revision()
+  // changes.
+  void record_rectangles(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing,
+                         vk::DescriptorSet frame_set);
+  std::uint64_t revision() const { return revision_; }
+
+ private:
+  struct ContextDeleter {
+    void operator()(ImGuiContext* context) const;
+  };
+  struct Texture {
+    DeviceImage image;
+    vk::raii::ImageView view{nullptr};
+    vk::raii::DescriptorPool pool{nullptr};  // of one set: panels come and go with the labels
+    vk::raii::DescriptorSet set{nullptr};
+  };
+  struct Panel {
+    PanelPlacement placement;
+    std::variant<std::monostate, ForcePanel, DataPanel, Banner, ControlPanel, Label, CalibrationPanel, EyeMark>
+        painted;  // what the texture shows
+    Texture texture;
+    bool shown = false;
+    std::optional<scene::Eye> only_eye;  // whose picture alone shows it
+  };
+  // Vertices and indices of everything painted in one frame.
+  struct Geometry {
+    Buffer vertices;
+    Buffer indices;
+  };
+  struct Painting {
+    const Panel* panel = nullptr;
+    std::size_t first_vertex = 0;
+    std::size_t first_index = 0;
+    std::size_t first_command = 0;
+    std::size_t command_count = 0;
+  };
+
+  void upload_atlas();
+  vk::raii::DescriptorPool create_pool() const;
+  vk::raii::DescriptorSet create_set(const vk::raii::DescriptorPool& pool, vk::ImageView view) const;
+  template <class Content>
+  void update(Panel& panel, const Content& content, const PanelPlacement& placement);
+  template <class Content>
+  void paint_on(Panel& panel, const Content& content);
+  bool resize(Panel& panel);
+  Texture create_texture(vk::Extent2D extent) const;
+  void record_painting(const vk::raii::CommandBuffer& command, const Geometry& geometry,
+                       const Painting& painting) const;
+
+  const Device& device_;
+  PanelFonts fonts_;
+  std::unique_ptr<ImGuiContext, ContextDeleter> imgui_;
+  vk::raii::DescriptorSetLayout texture_layout_;
+  vk::raii::PipelineLayout canvas_layout_;
+  vk::raii::Pipeline canvas_pipeline_;
+  vk::raii::PipelineLayout rectangle_layout_;
+  EyePipeline rectangle_pipeline_;
+  vk::raii::Sampler sampler_;
+  DeviceImage atlas_;
+  vk::raii::ImageView atlas_view_{nullptr};
+  vk::raii::DescriptorPool atlas_pool_{nullptr};
+  vk::raii::DescriptorSet atlas_set_{nullptr};
+  std::array<Geometry, kFramesInFlight> geometry_;
+  Panel force_;
+  Panel data_;
+  Panel banner_;
+  Panel control_;
+  std::vector<Panel> labels_;
+  Panel calibration_;
+  std::array<Panel, 2> eye_marks_;
+  std::uint64_t revision_ = 0;
+
+  // what the frames before the slot's may still show: freed when the slot comes round again
+  std::array<std::vector<Texture>, kFramesInFlight> retired_;
+  std::size_t slot_ = 0;
+
+  // what this frame paints; kept to reuse its memory
+  CanvasMemory memory_;
+  std::vector<Painting> paintings_;
+  std::vector<ImDrawVert> vertices_;
+  std::vector<ImDrawIdx> indices_;
+  std::vector<ImDrawCmd> commands_;
+};
+
+}  // namespace afm::render

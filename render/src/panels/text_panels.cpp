@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "panels/panel_painting.h"
+
+namespace afm::render {
+namespace {
+
+constexpr float kMargin = 34.0F;
+
+void paint_shape(Canvas& canvas, StateShape shape, glm::vec2 c, float r, Color color) {
+  switch (shape) {
+    case StateShape::Circle:
+      canvas.disc(c, r, color);
+      break;
+    case StateShape::Triangle: {
+      const std::array<glm::vec2, 3> corners{c + glm::vec2(0.0F, -r), c + glm::vec2(0.95F * r, 0.75F * r),
+                                             c + glm::vec2(-0.95F * r, 0.75F * r)};
+      canvas.polygon(corners, color);
+      break;
+    }
+    case StateShape::Square:
+      canvas.rectangle(c - glm::vec2(0.85F * r), c + glm::vec2(0.85F * r), color, 3.0F);
+      break;
+    case StateShape::Diamond: {
+      const std::array<glm::vec2, 4> corners{c + glm::vec2(0.0F, -r), c + glm::vec2(r, 0.0F), c + glm::vec2(0.0F, r),
+                                             c + glm::vec2(-r, 0.0F)};
+      canvas.polygon(corners, color);
+      break;
+    }
+    case StateShape::Cross:
+      canvas.line(c - glm::vec2(0.8F * r), c + glm::vec2(0.8F * r), 0.5F * r, color);
+      canvas.line(c + glm::vec2(-0.8F, 0.8F) * r, c + glm::vec2(0.8F, -0.8F) * r, 0.5F * r, color);
+      break;
+  }
+}
+
+// The state in a word and a shape; ends at `right`. Returns where it begins.
+float paint_state(Canvas& canvas, const Banner& banner, float right, float top) {
+  const float height = text_height_mm(TextStyle::Strong) + 24.0F;
+  const float width = canvas.text_width_mm(TextStyle::Strong, banner.state_word) + 96.0F;
+  const glm::vec2 from(right - width, top);
+  const Color color{banner.state_color, 1.0F};
+  canvas.rectangle(from, {right, top + height}, Color{banner.state_color, 0.16F}, 0.5F * height);
+  canvas.outline(from, {right, top + height}, 2.5F, Color{banner.state_color, 0.8F}, 0.5F * height);
+  paint_shape(canvas, banner.state_shape, from + glm::vec2(40.0F, 0.5F * height), 17.0F, color);
+  canvas.text(from + glm::vec2(70.0F, 11.0F), TextStyle::Strong, palette::kInk, banner.state_word);
+  return from.x;
+}
+
+// Name and value on one line, the source below.
+void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
+  const float right = canvas.size_mm().x - kMargin;
+  const float value_width = canvas.text_width_mm(TextStyle::Strong, row.value);
+  const float block = row.source.empty() ? 46.0F : 78.0F;
+  const float y = top + std::max(0.0F, 0.5F * (pitch - block));
+  canvas.fitted_text({kMargin, y + 2.0F}, TextStyle::Body, palette::kMuted, row.name,
+                     right - kMargin - value_width - 20.0F);
+  canvas.text({right, y}, TextStyle::Strong, palette::kInk, row.value, Align::Right);
+  canvas.fitted_text({kMargin, y + 46.0F}, TextStyle::Small, Color{palette::kMuted.srgb, 0.85F}, row.source,
+                     right - kMargin);
+  canvas.line({kMargin, top + pitch}, {right, top + pitch}, 1.5F, palette::kGrid);
+}
+
+}  // namespace
+
+void paint(Canvas& canvas, const DataPanel& panel) {
+  canvas.plate();
+  const float width = canvas.size_mm().x - 2.0F * kMargin;
+  canvas.fitted_text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title, width);
+  canvas.fitted_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.subtitle, width);
+  const float top = 150.0F;
+  canvas.line({kMargin, top}, {kMargin + width, top}, 2.0F, palette::kEdge);
+  if (panel.rows.empty()) {
+    return;
+  }
+  const float room = canvas.size_mm().y - top - 18.0F;
+  const float pitch = std::min(84.0F, room / static_cast<float>(panel.rows.size()));
+  for (std::size_t i = 0; i < panel.rows.size(); ++i) {
+    paint_row(canvas, panel.rows[i], top + pitch * static_cast<float>(i), pitch);
+  }
+}
+
+void paint(Canvas& canvas, const Banner& banner) {
+  canvas.plate();
+  // the scale may have a second line
+  const std::size_t end = banner.scale.find('\n');
+  const std::string_view more =
+      end == std::string::npos ? std::string_view() : std::string_view(banner.scale).substr(end + 1);
+  const float third = more.empty() ? 0.0F : text_height_mm(TextStyle::Body) + 8.0F;
+  const float content = text_height_mm(TextStyle::Guidance) + 16.0F + text_height_mm(TextStyle::Body) + third;
+  const float top = std::max(12.0F, 0.5F * (canvas.size_mm().y - content));
+  const float right = canvas.size_mm().x - kMargin;
+  const float state_left = banner.state_word.empty() ? right : paint_state(canvas, banner, right, top + 2.0F);
+  const float room = state_left - kMargin - 24.0F;
+  const float scale = std::min(1.0F, room / std::max(canvas.text_width_mm(TextStyle::Guidance, banner.guidance), 1.0F));
+  const float lift = 0.5F * (1.0F - scale) * text_height_mm(TextStyle::Guidance);
+  canvas.text({kMargin, top + lift}, TextStyle::Guidance, palette::kInk, banner.guidance, Align::Left, scale);
+
+  const float second = top + text_height_mm(TextStyle::Guidance) + 16.0F;
+  canvas.text({kMargin, second}, TextStyle::Body, palette::kMuted, std::string_view(banner.scale).substr(0, end));
+  if (!more.empty()) {
+    const float whole = right - kMargin;
+    const float shrink = std::min(1.0F, whole / std::max(canvas.text_width_mm(TextStyle::Body, more), 1.0F));
+    canvas.text({kMargin, second + third}, TextStyle::Body, palette::kMuted, more, Align::Left, shrink);
+  }
+  if (!banner.warning.empty()) {
+    const float width = canvas.text_width_mm(TextStyle::Body, banner.warning);
+    paint_shape(canvas, StateShape::Triangle, {right - width - 30.0F, second + 21.0F}, 17.0F, palette::kOrange);
+    canvas.text({right, second}, TextStyle::Body, palette::kOrange, banner.warning, Align::Right);
+  }
+}
+
+void paint(Canvas& canvas, const Label& label) {
+  canvas.plate(label.highlighted ? palette::kOrange : palette::kEdge, label.highlighted ? 5.0F : 2.0F);
+  const glm::vec2 size = canvas.size_mm();
+  const float by_height = 0.66F * size.y / text_height_mm(TextStyle::Guidance);
+  const float by_width = (size.x - 24.0F) / std::max(canvas.text_width_mm(TextStyle::Guidance, label.text), 1.0F);
+  const float scale = std::min({by_height, by_width, 1.0F});
+  const float height = scale * text_height_mm(TextStyle::Guidance);
+  canvas.text({0.5F * size.x, 0.5F * (size.y - height)}, TextStyle::Guidance,
+              label.highlighted ? palette::kYellow : palette::kInk, label.text, Align::Center, scale);
+}
+
+}  // namespace afm::render

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/draw_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include "panels/draw_box.h"
+
+namespace afm::render {
+namespace {
+
+constexpr std::uint32_t kManyTriangles = 10'000;  // of one draw: fewer cost little
+constexpr double kFineEdgePx = 8.0;               // of nine triangles in ten
+constexpr double kLongestEdgePx = 32.0;           // of any: the sides of a slab whose surface is fine
+
+struct Sight {
+  bool seen = false;
+  bool clipped = false;
+};
+
+Sight sight(const scene::EyeView& eye, const glm::dmat4& room_from_node, const DrawBox& box, double guard_band) {
+  const glm::dmat4 rows = glm::transpose(eye.projection * eye.view * room_from_node);
+  const glm::dvec4 near = rows[3] - rows[2];  // reversed depth: nothing is nearer than z = w
+  Sight sight{.seen = range(near, box).second >= 0.0, .clipped = range(near, box).first < 0.0};
+  for (glm::length_t axis = 0; axis < 2; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      sight.seen = sight.seen && range(rows[3] + side * rows[axis], box).second >= 0.0;
+      sight.clipped = sight.clipped || range(guard_band * rows[3] + side * rows[axis], box).first < 0.0;
+    }
+  }
+  return sight;
+}
+
+// Whether shading by vertex is as good as by fragment: edges as long as they would be if they lay across the line of
+// sight in the box's middle.
+bool is_fine(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node, double pixels_high) {
+  if (draw.look || draw.blended || draw.double_sided || draw.index_count < 3 * kManyTriangles) {
+    return false;
+  }
+  const glm::dvec4 middle = eye.projection * eye.view * room_from_node * glm::dvec4(glm::dvec3(draw.center), 1.0);
+  if (middle.w <= 0.0) {
+    return false;
+  }
+  const glm::dmat3 linear(room_from_node);
+  const double scale = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+  const double pixels_per_unit = 0.5 * pixels_high * std::abs(eye.projection[1][1]) * scale / middle.w;
+  return static_cast<double>(draw.usual_edge) * pixels_per_unit < kFineEdgePx &&
+         static_cast<double>(draw.longest_edge) * pixels_per_unit < kLongestEdgePx;
+}
+
+}  // namespace
+
+void DrawLister::list(const FrameState& frame, const SceneGeometry& geometry, float guard_band, double pixels_high,
+                      DrawList& list) {
+  const auto& draws = geometry.draws();
+  const glm::dvec3 viewer = 0.5 * (frame.eyes[0].eye_position_m + frame.eyes[1].eye_position_m);
+  list.shadow.clear();
+  list.mirrored.assign(draws.size(), 0);
+  list.fine.assign(draws.size(), 0);
+  list.clipped = false;
+  list.hazy = frame.haze.veil > 0.0F || frame.haze.end_m > frame.haze.begin_m;
+  opaque_.clear();
+  blended_.clear();
+  for (std::uint32_t i = 0; i < draws.size(); ++i) {
+    const Draw& draw = draws[i];
+    if (!frame.visible.empty() && frame.visible[draw.node] == 0) {
+      continue;
+    }
+    if (draw.casts_shadow) {
+      list.shadow.push_back(i);
+    }
+    const auto& room_from_node = frame.room_from_node[draw.node];
+    list.mirrored[i] = glm::determinant(glm::dmat3(room_from_node)) < 0.0 ? 1 : 0;
+    list.fine[i] = !list.hazy && is_fine(draw, frame.eyes[0], room_from_node, pixels_high) ? 1 : 0;
+    const DrawBox box = bent_box(draw, frame);
+    bool seen = false;
+    for (const auto& eye : frame.eyes) {
+      const Sight its = sight(eye, room_from_node, box, static_cast<double>(guard_band));
+      seen = seen || its.seen;
+      list.clipped = list.clipped || (its.seen && its.clipped);
+    }
+    if (seen) {
+      const double distance = glm::distance(viewer, glm::dvec3(room_from_node * glm::dvec4(box.center, 1.0)));
+      (draw.blended ? blended_ : opaque_).emplace_back(distance, i);
+    }
+  }
+  const auto places = [](const Distances& distances, std::vector<std::uint32_t>& to) {
+    to.clear();
+    for (const auto& each : distances) {
+      to.push_back(each.second);
+    }
+  };
+  std::sort(opaque_.begin(), opaque_.end());
+  std::sort(blended_.rbegin(), blended_.rend());
+  places(opaque_, list.opaque);
+  places(blended_, list.blended);
+}
+
+}  // namespace afm::render

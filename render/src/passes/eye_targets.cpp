@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/eye_targets.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "device/barriers.h"
+#include "device/pipelines.h"
+
+namespace afm::render {
+namespace {
+
+constexpr ImageUse kColorWritten{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+                                 vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal};
+constexpr ImageUse kDepthTested{
+    vk::PipelineStageFlagBits2::eEarlyFragmentTests | vk::PipelineStageFlagBits2::eLateFragmentTests,
+    vk::AccessFlagBits2::eDepthStencilAttachmentRead | vk::AccessFlagBits2::eDepthStencilAttachmentWrite,
+    vk::ImageLayout::eDepthAttachmentOptimal};
+// a resolve writes depth, too, in the stage and with the access of colour
+constexpr ImageUse kDepthResolved{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+                                  vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eDepthAttachmentOptimal};
+
+// The eyes' colour and depth between frames: composed, measured or copied by whoever asks.
+constexpr ImageUse kRead{vk::PipelineStageFlagBits2::eFragmentShader | vk::PipelineStageFlagBits2::eCopy,
+                         vk::AccessFlagBits2::eShaderSampledRead | vk::AccessFlagBits2::eTransferRead,
+                         vk::ImageLayout::eShaderReadOnlyOptimal};
+constexpr ImageUse kCopiedFrom{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferRead,
+                               vk::ImageLayout::eTransferSrcOptimal};
+constexpr ImageUse kCopiedTo{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferWrite,
+                             vk::ImageLayout::eTransferDstOptimal};
+
+constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
+constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
+
+// Objects may reach this many half screens beyond the screen's middle.
+constexpr float kLargestGuardBand = 8.0F;
+
+// The attachment is drawn with many samples, and what it held goes, with one, to where it pointed before.
+void resolve(vk::RenderingAttachmentInfo& attachment, vk::ImageView multisampled, vk::ResolveModeFlagBits mode) {
+  attachment.resolveImageView = std::exchange(attachment.imageView, multisampled);
+  attachment.resolveImageLayout = attachment.imageLayout;
+  attachment.resolveMode = mode;
+  attachment.storeOp = vk::AttachmentStoreOp::eDontCare;
+}
+
+}  // namespace
+
+EyeTargets::EyeTargets(const Device& device, const RendererOptions& options)
+    : device_(&device),
+      extent_{options.eye_width, options.eye_height},
+      color_(create_target("eyes", kEyeFormat, 2)),
+      depth_(create_target("eyes depth", kDepthFormat, 2)) {
+  const auto largest = device.physical().getProperties().limits.maxViewportDimensions;
+  guard_band_ = std::min({kLargestGuardBand, static_cast<float>(largest[0]) / static_cast<float>(extent_.width),
+                          static_cast<float>(largest[1]) / static_cast<float>(extent_.height)});
+}
+
+EyeTargets::Target EyeTargets::create_target(const char* name, vk::Format format, std::uint32_t layers) const {
+  using Usage = vk::ImageUsageFlagBits;
+  const bool is_depth = format == kDepthFormat;
+  const auto aspect = is_depth ? kDepth : kColor;
+  Target target;
+  target.image = create_image(*device_, name,
+                              {.format = format,
+                               .extent = extent_,
+                               .usage = (is_depth ? Usage::eDepthStencilAttachment : Usage::eColorAttachment) |
+                                        Usage::eSampled | Usage::eTransferSrc | Usage::eTransferDst,
+                               .layers = layers,
+                               .seen_as = is_depth ? vk::Format::eUndefined : kEyeLinearFormat});
+  target.both = create_view(*device_, target.image, aspect, 0, layers);
+  for (std::uint32_t layer = 0; layer < layers; ++layer) {
+    target.single.push_back(create_view(*device_, target.image, aspect, layer, 1));
+  }
+  if (!is_depth) target.linear = create_view(*device_, target.image, aspect, 0, layers, kEyeLinearFormat);
+  return target;
+}
+
+EyeTargets::Multisampled EyeTargets::create_multisampled(std::uint32_t layers) const {
+  using Usage = vk::ImageUsageFlagBits;
+  ImageRequest request{.format = kEyeFormat,
+                       .extent = extent_,
+                       .usage = Usage::eColorAttachment | Usage::eTransientAttachment,
+                       .layers = layers,
+                       .samples = drawing_.samples};
+  Multisampled made;
+  made.color = create_image(*device_, "eyes multisampled", request);
+  made.color_view = create_view(*device_, made.color, kColor, 0, layers);
+  request.format = kDepthFormat;
+  request.usage = Usage::eDepthStencilAttachment | Usage::eTransientAttachment;
+  made.depth = create_image(*device_, "eyes multisampled depth", request);
+  made.depth_view = create_view(*device_, made.depth, kDepth, 0, layers);
+  return made;
+}
+
+void EyeTargets::begin_frame(const EyeDrawing& drawing) {
+  drawing_ = drawing;
+  if (resolves() && !*multisampled().color_view) {
+    const bool both = drawing.pass == EyePass::Both;
+    multisampled_[both ? 0 : 1] = create_multisampled(both ? 2 : 1);
+  }
+  if (resolves() && drawing.pass_count == 2 && second_color_.single.empty()) {
+    second_color_ = create_target("second eye", kEyeFormat, 1);
+    second_depth_ = create_target("second eye's depth", kDepthFormat, 1);
+  }
+}
+
+EyeTargets::Filled EyeTargets::filled(std::size_t pass) const {
+  const auto layer = static_cast<std::uint32_t>(pass);
+  if (drawing_.pass_count == 1) {
+    return {.color = color_, .depth = depth_, .layer = 0, .layers = {}};
+  }
+  if (copies(pass)) {
+    return {.color = second_color_, .depth = second_depth_, .layer = 0, .layers = {}};
+  }
+  return {.color = color_, .depth = depth_, .layer = layer, .layers = {layer, 1}};
+}
+
+void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass) const {
+  const bool both = drawing_.pass == EyePass::Both;
+  const Filled to = filled(pass);
+
+  // the background covers every pixel that nothing else does, so no colour needs to be cleared
+  vk::RenderingAttachmentInfo color{.imageView = both ? *to.color.both : *to.color.single[to.layer],
+                                    .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
+                                    .loadOp = vk::AttachmentLoadOp::eDontCare,
+                                    .storeOp = vk::AttachmentStoreOp::eStore};
+  vk::RenderingAttachmentInfo depth{.imageView = both ? *to.depth.both : *to.depth.single[to.layer],
+                                    .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
+                                    .loadOp = vk::AttachmentLoadOp::eClear,
+                                    .storeOp = vk::AttachmentStoreOp::eStore,
+                                    .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};
+  record_barriers(command, {image_barrier(*to.color.image.image, kColor, kRead.discarded(), kColorWritten, to.layers),
+                            image_barrier(*to.depth.image.image, kDepth, kRead.discarded(),
+                                          resolves() ? kDepthResolved : kDepthTested, to.layers)});
+  if (resolves()) {
+    const Multisampled& drawn = multisampled();
+    record_barriers(command, {image_barrier(*drawn.color.image, kColor, kColorWritten.discarded(), kColorWritten),
+                              image_barrier(*drawn.depth.image, kDepth, kDepthTested.discarded(), kDepthTested)});
+    resolve(color, *drawn.color_view, vk::ResolveModeFlagBits::eAverage);
+    resolve(depth, *drawn.depth_view, vk::ResolveModeFlagBits::eSampleZero);
+  }
+  command.beginRendering({.renderArea = {.extent = drawing_.extent},
+                          .layerCount = 1,
+                          .viewMask = both ? kBothEyes : 0U,
+                          .colorAttachmentCount = 1,
+                          .pColorAttachments = &color,
+                          .pDepthAttachment = &depth});
+  set_viewport(command, drawing_.extent, guard_band_);
+}
+
+void EyeTargets::end(const vk::raii::CommandBuffer& command, std::size_t pass) const {
+  const Filled to = filled(pass);
+  command.endRendering();
+  record_barriers(command, {image_barrier(*to.color.image.image, kColor, kColorWritten, kRead, to.layers),
+                            image_barrier(*to.depth.image.image, kDepth, resolves() ? kDepthResolved : kDepthTested,
+                                          kRead, to.layers)});
+  if (copies(pass)) {
+    copy_second(command);
+  }
+}
+
+void EyeTargets::copy_second(const vk::raii::CommandBuffer& command) const {
+  const LayerRange second{1, 1};
+  const auto copy = [&](const Target& from, const Target& to, vk::ImageAspectFlags aspect) {
+    record_barriers(command, {image_barrier(*from.image.image, aspect, kRead, kCopiedFrom),
+                              image_barrier(*to.image.image, aspect, kRead.discarded(), kCopiedTo, second)});
+    const vk::ImageCopy region{.srcSubresource = {.aspectMask = aspect, .baseArrayLayer = 0, .layerCount = 1},
+                               .dstSubresource = {.aspectMask = aspect, .baseArrayLayer = 1, .layerCount = 1},
+                               .extent = {drawing_.extent.width, drawing_.extent.height, 1}};
+    command.copyImage(*from.image.image, kCopiedFrom.layout, *to.image.image, kCopiedTo.layout, region);
+    record_barriers(command, {image_barrier(*to.image.image, aspect, kCopiedTo, kRead, second)});
+  };
+  copy(second_color_, color_, kColor);
+  copy(second_depth_, depth_, kDepth);
+}
+
+void EyeTargets::begin_copies(const vk::raii::CommandBuffer& command) const {
+  record_barriers(command, {image_barrier(*color_.image.image, kColor, kRead, kCopiedFrom)});
+}
+
+void EyeTargets::copy(const vk::raii::CommandBuffer& command, scene::Eye eye, vk::Image to, std::uint32_t to_layer,
+                      vk::Offset2D place) const {
+  const vk::ImageCopy region{.srcSubresource = {.aspectMask = kColor, .baseArrayLayer = layer(eye), .layerCount = 1},
+                             .dstSubresource = {.aspectMask = kColor, .baseArrayLayer = to_layer, .layerCount = 1},
+                             .dstOffset = {place.x, place.y, 0},
+                             .extent = {extent_.width, extent_.height, 1}};
+  command.copyImage(*color_.image.image, kCopiedFrom.layout, to, vk::ImageLayout::eTransferDstOptimal, region);
+}
+
+void EyeTargets::end_copies(const vk::raii::CommandBuffer& command) const {
+  record_barriers(command, {image_barrier(*color_.image.image, kColor, kCopiedFrom, kRead)});
+}
+
+EyeTargets::EyeImage EyeTargets::eye(scene::Eye eye) const {
+  return {.image = *color_.image.image, .layer = layer(eye)};
+}
+
+}  // namespace afm::render

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/frame_slot.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace afm::render {
+namespace {
+
+constexpr auto kUniform = vk::DescriptorType::eUniformBuffer;
+constexpr auto kDynamicUniform = vk::DescriptorType::eUniformBufferDynamic;
+constexpr auto kSampled = vk::DescriptorType::eCombinedImageSampler;
+
+constexpr std::uint32_t kMostPasses = 2;
+
+// The smallest distance of blocks of `size` bytes that a dynamic offset can express.
+std::uint32_t aligned_stride(const Device& device, std::size_t size) {
+  const auto alignment = device.physical().getProperties().limits.minUniformBufferOffsetAlignment;
+  return static_cast<std::uint32_t>((size + alignment - 1) / alignment * alignment);
+}
+
+vk::raii::DescriptorPool create_pool(const Device& device, std::uint32_t sets) {
+  const std::array sizes{vk::DescriptorPoolSize{.type = kUniform, .descriptorCount = sets},
+                         vk::DescriptorPoolSize{.type = kDynamicUniform, .descriptorCount = sets},
+                         vk::DescriptorPoolSize{.type = kSampled, .descriptorCount = sets}};
+  return vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                            .maxSets = sets,
+                                            .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+                                            .pPoolSizes = sizes.data()});
+}
+
+void write_uniforms(const Device& device, vk::DescriptorSet set, const Buffer& uniforms, const Buffer& draws) {
+  const vk::DescriptorBufferInfo uniform_info{.buffer = *uniforms.buffer, .range = VK_WHOLE_SIZE};
+  const vk::DescriptorBufferInfo draw_info{.buffer = *draws.buffer, .range = sizeof(DrawBlock)};
+  const std::array writes{vk::WriteDescriptorSet{.dstSet = set,
+                                                 .dstBinding = AFM_BINDING_FRAME,
+                                                 .descriptorCount = 1,
+                                                 .descriptorType = kUniform,
+                                                 .pBufferInfo = &uniform_info},
+                          vk::WriteDescriptorSet{.dstSet = set,
+                                                 .dstBinding = AFM_BINDING_DRAW,
+                                                 .descriptorCount = 1,
+                                                 .descriptorType = kDynamicUniform,
+                                                 .pBufferInfo = &draw_info}};
+  device->updateDescriptorSets(writes, nullptr);
+}
+
+void write_shadow_map(const Device& device, vk::DescriptorSet set, const ShadowMap& shadow_map) {
+  const vk::DescriptorImageInfo shadow_info = shadow_map.descriptor();
+  device->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
+                                                      .dstBinding = AFM_BINDING_SHADOW,
+                                                      .descriptorCount = 1,
+                                                      .descriptorType = kSampled,
+                                                      .pImageInfo = &shadow_info},
+                               nullptr);
+}
+
+}  // namespace
+
+vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowMapUse use) {
+  const auto both = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+  std::vector<vk::DescriptorSetLayoutBinding> bindings{
+      {.binding = AFM_BINDING_FRAME, .descriptorType = kUniform, .descriptorCount = 1, .stageFlags = both},
+      {.binding = AFM_BINDING_DRAW, .descriptorType = kDynamicUniform, .descriptorCount = 1, .stageFlags = both}};
+  if (use == ShadowMapUse::Read) {
+    bindings.push_back(
+        {.binding = AFM_BINDING_SHADOW, .descriptorType = kSampled, .descriptorCount = 1, .stageFlags = both});
+  }
+  return vk::raii::DescriptorSetLayout(
+      *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
+}
+
+FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::DescriptorSetLayout shadow_layout,
+                     const ShadowMap& shadow_map, std::size_t draw_count)
+    : pool_(*device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                               .queueFamilyIndex = device.queue_family()}),
+      commands_(*device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 3}),
+      draw_stride_(aligned_stride(device, sizeof(DrawBlock))),
+      draw_blocks_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * draw_stride_,
+                                      vk::BufferUsageFlagBits::eUniformBuffer)),
+      descriptor_pool_(create_pool(device, kMostPasses + 1)) {
+  const auto allocate = [&](vk::DescriptorSetLayout of) {
+    return std::move(vk::raii::DescriptorSets(
+                         *device, {.descriptorPool = *descriptor_pool_, .descriptorSetCount = 1, .pSetLayouts = &of})
+                         .front());
+  };
+  for (std::uint32_t pass = 0; pass < kMostPasses; ++pass) {
+    uniforms_.push_back(
+        create_host_buffer(device, "frame uniforms", sizeof(FrameBlock), vk::BufferUsageFlagBits::eUniformBuffer));
+    sets_.push_back(allocate(layout));
+    write_uniforms(device, *sets_.back(), uniforms_.back(), draw_blocks_);
+    write_shadow_map(device, *sets_.back(), shadow_map);
+  }
+  shadow_set_ = allocate(shadow_layout);
+  write_uniforms(device, *shadow_set_, uniforms_.front(), draw_blocks_);
+}
+
+bool FrameSlot::Recorded::take(const DrawList& new_draws, const EyeDrawing& new_drawing, std::uint64_t new_panels) {
+  if (anything && draws == new_draws && drawing == new_drawing && panels == new_panels) {
+    return false;
+  }
+  draws = new_draws;
+  drawing = new_drawing;
+  panels = new_panels;
+  anything = true;
+  return true;
+}
+
+void FrameSlot::write(const FrameState& frame, const SceneGeometry& geometry, const EyeDrawing& drawing,
+                      float guard_band) {
+  const glm::vec2 size(static_cast<float>(drawing.extent.width), static_cast<float>(drawing.extent.height));
+  for (std::size_t pass = 0; pass < uniforms_.size(); ++pass) {
+    const FrameBlock block = make_frame_block(frame, pass, size, guard_band);
+    std::memcpy(uniforms_[pass].mapped, &block, sizeof(block));
+  }
+  mark_highlighted(frame, geometry, glowing_);
+  write_draw_blocks(frame, geometry, glowing_, draw_blocks_.mapped, draw_stride_);
+}
+
+}  // namespace afm::render

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "device/frame_blocks.h"
+#include "device/memory.h"
+#include "passes/draw_list.h"
+#include "passes/eye_targets.h"
+#include "passes/shadow_map.h"
+
+namespace afm::render {
+
+// Set 0 of all pipelines that draw the room: the frame's uniforms, the draw's, and the shadow map where it is read.
+// What draws the shadow map has a set without: lavapipe would finish each draw before the next, to let it read what the
+// other wrote.
+enum class ShadowMapUse { Read, Drawn };
+vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowMapUse use);
+
+// What one frame in flight owns: its commands, uniforms and draw blocks. Reused once the frame is finished.
+class FrameSlot {
+ public:
+  // `layout` where the shadow map is read, `shadow_layout` where it is drawn.
+  FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::DescriptorSetLayout shadow_layout,
+            const ShadowMap& shadow_map, std::size_t draw_count);
+
+  // Writes everything that the frame's shaders read.
+  void write(const FrameState& frame, const SceneGeometry& geometry, const EyeDrawing& drawing, float guard_band);
+
+  // The frame's set of a pass: with the left eye's view first, or the right one's.
+  vk::DescriptorSet set(std::size_t pass) const { return *sets_[pass]; }
+
+  // The frame's set of the pass that draws the shadow map.
+  vk::DescriptorSet shadow_set() const { return *shadow_set_; }
+
+  // Bytes from one draw's block to the next: dynamic offsets of binding AFM_BINDING_DRAW are multiples of it.
+  std::uint32_t draw_stride() const { return draw_stride_; }
+
+  // What the frame draws; the slot only keeps its memory.
+  DrawList draws;
+
+  // Commands that are recorded for one frame.
+  const vk::raii::CommandBuffer& painting() const { return commands_[0]; }
+  const vk::raii::CommandBuffer& shadow() const { return commands_[1]; }
+
+  // Commands that stay for as many frames as `recorded` says.
+  const vk::raii::CommandBuffer& drawing() const { return commands_[2]; }
+
+  // All that the commands of drawing() depend on.
+  struct Recorded {
+    DrawList draws;
+    EyeDrawing drawing;
+    std::uint64_t panels = 0;  // as Panels::revision()
+    bool anything = false;
+
+    // Whether something is another than before, and has been taken.
+    bool take(const DrawList& new_draws, const EyeDrawing& new_drawing, std::uint64_t new_panels);
+  };
+  Recorded recorded;
+
+  bool painted = false;           // panels, in the slot's newest frame
+  bool shadowed = false;          // the shadow map was drawn again, in the slot's newest frame
+  std::uint64_t finished_at = 0;  // the timeline's value when the slot's newest frame is finished
+
+ private:
+  vk::raii::CommandPool pool_;
+  vk::raii::CommandBuffers commands_{nullptr};
+  std::vector<Buffer> uniforms_;  // one for each pass
+  std::uint32_t draw_stride_;
+  Buffer draw_blocks_;
+  std::vector<std::uint8_t> glowing_;
+  vk::raii::DescriptorPool descriptor_pool_{nullptr};
+  std::vector<vk::raii::DescriptorSet> sets_;
+  vk::raii::DescriptorSet shadow_set_{nullptr};
+};
+
+}  // namespace afm::render

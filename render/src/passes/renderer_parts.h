@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "device/pass_clock.h"
+#include "output/composer.h"
+#include "panels/panels.h"
+#include "passes/eye_targets.h"
+#include "passes/frame_slot.h"
+#include "passes/scene_geometry.h"
+#include "passes/scene_pass.h"
+#include "passes/shadow_casters.h"
+#include "passes/shadow_map.h"
+#include "render/renderer.h"
+
+namespace afm::render {
+
+// In the order of creation: what is declared later uses what stands before it.
+struct Renderer::Parts {
+  Parts(const Device& the_device, const scene::Scene& scene, const RendererOptions& the_options, PanelFonts fonts);
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+  ~Parts() { device.wait_idle(); }
+
+  void wait_for(std::uint64_t value) const;
+  EyeDrawing choose_drawing(const FrameState& frame, const DrawList& draws) const;
+  void mark(const vk::raii::CommandBuffer& command, std::size_t slot, PassClock::Mark mark) const;
+  void record_painting(std::size_t slot);
+  void record_shadow(std::size_t slot, ShadowStep step);
+  void record_drawing(std::size_t slot);
+  void submit(std::size_t slot);
+  void render(const FrameState& frame);
+
+  const Device& device;
+  RendererOptions options;
+  Detail detail;
+  EyeTargets eyes;
+  SceneGeometry geometry;
+  SceneMaterials materials;
+  std::size_t node_count;
+  ShadowMap shadow_map;
+  vk::raii::DescriptorSetLayout frame_set_layout, shadow_set_layout;
+  ScenePass scene_pass;
+  Panels panels;
+  Composer composer;
+  DrawLister lister;
+  ShadowCasters shadow_casters;
+  std::vector<FrameSlot> slots;
+  std::vector<PassClock> clocks;  // one a slot, or none
+  vk::raii::Semaphore timeline;
+  std::uint64_t frames = 0;                // submitted
+  bool eyes_drawn = false;                 // since the eye images were made
+  double near_m = 0;                       // of the newest frame: its depth is near_m / distance
+  double compose_ms = 0, readback_ms = 0;  // as in PassTimes, told by whoever does it
+};
+
+}  // namespace afm::render

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "device/memory.h"
+#include "device/shader_interface.h"
+#include "passes/scene_look.h"
+#include "scene/graph/scene.h"
+
+namespace afm::render {
+
+// One primitive shown by one node: an indexed draw. Its place in SceneGeometry::draws() is its place among the
+// DrawBlocks.
+struct Draw {
+  scene::NodeIndex node = 0;
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;
+  std::int32_t first_vertex = 0;
+  bool double_sided = false;
+  bool blended = false;
+  bool casts_shadow = true;
+  std::optional<std::uint32_t> look{};  // a place in SceneGeometry::looks(); none: drawn by the plain pipelines
+  std::uint32_t material = 0;
+  glm::vec3 center{0.0F};  // of the primitive's box, in the node's frame
+  glm::vec3 half_size{0.0F};
+  float usual_edge = 0.0F;    // in the node's frame: nine triangles in ten have none that is longer
+  float longest_edge = 0.0F;  // 0: no triangles
+  DrawBlock block{};          // with the material's constants filled in
+};
+
+// What only a SceneLook reads of a vertex.
+struct LookVertex {
+  glm::vec4 tangent{0.0F};
+  glm::vec4 coordinates{0.0F};
+};
+
+// All meshes of a scene in one vertex and one index buffer, and its draws: opaque ones first, then blended ones.
+class SceneGeometry {
+ public:
+  SceneGeometry(const Device& device, const scene::Scene& scene);
+
+  const std::vector<Draw>& draws() const { return draws_; }
+  std::size_t opaque_count() const { return opaque_count_; }
+  const std::vector<std::optional<scene::NodeIndex>>& parents() const { return parents_; }
+
+  const std::vector<SceneLook>& looks() const { return looks_; }
+
+  void bind(const vk::raii::CommandBuffer& command) const;
+
+  static const std::array<vk::VertexInputBindingDescription, 1>& bindings();
+  static const std::array<vk::VertexInputAttributeDescription, 3>& attributes();
+  static const std::array<vk::VertexInputBindingDescription, 2>& look_bindings();
+  static const std::array<vk::VertexInputAttributeDescription, 5>& look_attributes();
+
+ private:
+  std::vector<Draw> draws_;
+  std::size_t opaque_count_ = 0;
+  std::vector<std::optional<scene::NodeIndex>> parents_;
+  std::vector<SceneLook> looks_;
+  Buffer vertices_;
+  Buffer look_vertices_;  // of the first of them
+  Buffer indices_;
+};
+
+}  // namespace afm::render

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/scene_pass.h"
+
+#include <array>
+
+#include "device/pipelines.h"
+#include "shaders/background_frag.h"
+#include "shaders/fine_frag.h"
+#include "shaders/fine_vert.h"
+#include "shaders/fine_vert_one_view.h"
+#include "shaders/fullscreen_vert.h"
+#include "shaders/material_frag.h"
+#include "shaders/material_frag_one_view.h"
+#include "shaders/material_vert.h"
+#include "shaders/material_vert_one_view.h"
+#include "shaders/scene_frag.h"
+#include "shaders/scene_frag_one_view.h"
+#include "shaders/scene_vert.h"
+#include "shaders/scene_vert_one_view.h"
+#include "shaders/shadow_vert.h"
+
+namespace afm::render {
+namespace {
+
+// Slope and constant bias of the shadow map; the shader's step along the normal does the rest.
+constexpr float kShadowBiasConstant = 1.0F;
+constexpr float kShadowBiasSlope = 1.5F;
+
+constexpr EyeCode kSceneVertex{shaders::scene_vert, shaders::scene_vert_one_view};
+constexpr EyeCode kSceneFragment{shaders::scene_frag, shaders::scene_frag_one_view};
+constexpr EyeCode kFineVertex{shaders::fine_vert, shaders::fine_vert_one_view};
+constexpr EyeCode kFineFragment{shaders::fine_frag, shaders::fine_frag};
+constexpr EyeCode kMaterialVertex{shaders::material_vert, shaders::material_vert_one_view};
+constexpr EyeCode kMaterialFragment{shaders::material_frag, shaders::material_frag_one_view};
+constexpr EyeCode kBackgroundVertex{shaders::fullscreen_vert, shaders::fullscreen_vert};
+constexpr EyeCode kBackgroundFragment{shaders::background_frag, shaders::background_frag};
+
+PipelineRequest scene_request(vk::PipelineLayout layout, Blending blending) {
+  const bool opaque = blending == Blending::Opaque;
+  return {.name = opaque ? "opaque" : "blended",
+          .layout = layout,
+          .bindings = SceneGeometry::bindings(),
+          .attributes = SceneGeometry::attributes(),
+          .blending = blending,
+          .depth = opaque ? DepthUse::TestAndWrite : DepthUse::TestOnly};
+}
+
+EyePipeline plain_pipeline(const Device& device, vk::PipelineLayout layout, Blending blending, std::uint32_t look) {
+  PipelineRequest request = scene_request(layout, blending);
+  request.look = look;
+  return {device, request, kSceneVertex, kSceneFragment};
+}
+
+PipelineRequest background_request(vk::PipelineLayout layout) {
+  return {.name = "background",
+          .layout = layout,
+          .topology = vk::PrimitiveTopology::eTriangleStrip,
+          .depth = DepthUse::TestOnly,
+          .depth_compare = vk::CompareOp::eEqual};  // only where the depth is still the cleared one
+}
+
+vk::PrimitiveTopology topology(scene::Topology topology) {
+  switch (topology) {
+    case scene::Topology::Points:
+      return vk::PrimitiveTopology::ePointList;
+    case scene::Topology::Lines:
+      return vk::PrimitiveTopology::eLineList;
+    default:
+      return vk::PrimitiveTopology::eTriangleList;
+  }
+}
+
+PipelineRequest look_request(vk::PipelineLayout layout, const SceneLook& look) {
+  return {.name = "look",
+          .layout = layout,
+          .bindings = SceneGeometry::look_bindings(),
+          .attributes = SceneGeometry::look_attributes(),
+          .topology = topology(look.topology),
+          .blending = look.blended ? Blending::Premultiplied : Blending::Opaque,
+          .depth = look.blended ? DepthUse::TestOnly : DepthUse::TestAndWrite,
+          .look = look.bits};
+}
+
+vk::raii::PipelineLayout create_look_layout(const Device& device, vk::DescriptorSetLayout frame,
+                                            vk::DescriptorSetLayout material) {
+  const std::array sets{frame, material};
+  return create_pipeline_layout(device, {.sets = sets});
+}
+
+vk::raii::Pipeline create_shadow_pipeline(const Device& device, vk::PipelineLayout layout) {
+  return create_pipeline(device, {.name = "shadow",
+                                  .vertex_code = shaders::shadow_vert,
+                                  .layout = layout,
+                                  .bindings = SceneGeometry::bindings(),
+                                  .attributes = {SceneGeometry::attributes().data(), 1},
+                                  .depth_format = kDepthFormat,
+                                  .depth = DepthUse::TestAndWrite,
+                                  .depth_compare = vk::CompareOp::eLessOrEqual,
+                                  .depth_bias_constant = kShadowBiasConstant,
+                                  .depth_bias_slope = kShadowBiasSlope});
+}
+
+}  // namespace
+
+ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout,
+                     vk::DescriptorSetLayout shadow_set_layout, const SceneMaterials& materials,
+                     const std::vector<SceneLook>& looks)
+    : layout_(create_pipeline_layout(device, {.sets = {&frame_set_layout, 1}})),
+      shadow_layout_(create_pipeline_layout(device, {.sets = {&shadow_set_layout, 1}})),
+      look_layout_(create_look_layout(device, frame_set_layout, materials.layout())),
+      shadow_(create_shadow_pipeline(device, *shadow_layout_)),
+      opaque_{plain_pipelines(device, *layout_, Blending::Opaque, 0),
+              plain_pipelines(device, *layout_, Blending::Opaque, AFM_LOOK_HAZE)},
+      fine_(device, scene_request(*layout_, Blending::Opaque), kFineVertex, kFineFragment),
+      background_(device, background_request(*layout_), kBackgroundVertex, kBackgroundFragment),
+      blended_{plain_pipelines(device, *layout_, Blending::Premultiplied, 0),
+               plain_pipelines(device, *layout_, Blending::Premultiplied, AFM_LOOK_HAZE)} {
+  for (const SceneLook& look : looks) {
+    looks_.emplace_back(device, look_request(*look_layout_, look), kMaterialVertex, kMaterialFragment);
+  }
+}
+
+ScenePass::BothSides ScenePass::plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
+                                                std::uint32_t look) {
+  return {plain_pipeline(device, layout, blending, look),
+          plain_pipeline(device, layout, blending, look | AFM_LOOK_DOUBLE_SIDED)};
+}
+
+void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
+                          std::uint32_t i) {
+  const Draw& draw = input.geometry.draws()[i];
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, input.frame_set, i * input.draw_stride);
+  command.setCullMode(draw.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+  command.setFrontFace(input.draws.mirrored[i] != 0 ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+}
+
+void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input,
+                               std::span<const std::uint32_t> draws, BothSides& plain) {
+  const EyePipeline* bound = nullptr;
+  for (const std::uint32_t i : draws) {
+    const Draw& draw = input.geometry.draws()[i];
+    EyePipeline& pipeline = draw.look                  ? looks_[*draw.look]
+                            : input.draws.fine[i] != 0 ? fine_
+                                                       : plain[draw.double_sided ? 1 : 0];
+    if (&pipeline != bound) {
+      command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
+      bound = &pipeline;
+    }
+    set_state(command, *layout_, input, i);
+    if (draw.look) {
+      command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *look_layout_, 1, input.materials.set(draw.material),
+                                 nullptr);
+    }
+    command.drawIndexed(draw.index_count, 1, draw.first_index, draw.first_vertex, 0);
+  }
+}
+
+void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
+                              std::span<const std::uint32_t> draws) const {
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, *shadow_);
+  input.geometry.bind(command);
+  for (const std::uint32_t i : draws) {
+    const Draw& draw = input.geometry.draws()[i];
+    set_state(command, *shadow_layout_, input, i);
+    command.drawIndexed(draw.index_count, 1, draw.first_index, draw.first_vertex, 0);
+  }
+}
+
+void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input) {
+  input.geometry.bind(command);
+  const std::size_t haze = input.draws.hazy ? 1 : 0;
+  record_in_eyes(command, drawing, input, input.draws.opaque, opaque_[haze]);
+
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, background_.get(drawing.pass, drawing.samples));
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, std::uint32_t{0});
+  command.setCullMode(vk::CullModeFlagBits::eNone);
+  command.draw(4, 1, 0, 0);
+
+  record_in_eyes(command, drawing, input, input.draws.blended, blended_[haze]);
+  command.setFrontFace(vk::FrontFace::eCounterClockwise);
+}
+
+}  // namespace afm::render

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "passes/draw_list.h"
+#include "passes/eye_targets.h"
+#include "passes/scene_geometry.h"
+#include "passes/scene_materials.h"
+
+namespace afm::render {
+
+// The pipelines that draw a SceneGeometry: into the shadow map, and into the eyes with the background behind.
+class ScenePass {
+ public:
+  ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout, vk::DescriptorSetLayout shadow_set_layout,
+            const SceneMaterials& materials, const std::vector<SceneLook>& looks);
+
+  struct Input {
+    const SceneGeometry& geometry;
+    const SceneMaterials& materials;
+    const DrawList& draws;
+    vk::DescriptorSet frame_set;
+    std::uint32_t draw_stride = 0;  // as FrameSlot::draw_stride()
+  };
+  // `draws` of the input's geometry; the input's set is FrameSlot::shadow_set().
+  void record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
+                     std::span<const std::uint32_t> draws) const;
+  void record_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input);
+
+ private:
+  using BothSides = std::array<EyePipeline, 2>;  // of single-sided materials, of double-sided ones
+  static BothSides plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
+                                   std::uint32_t look);
+  static void set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
+                        std::uint32_t draw);
+  void record_in_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input,
+                      std::span<const std::uint32_t> draws, BothSides& plain);
+
+  vk::raii::PipelineLayout layout_;
+  vk::raii::PipelineLayout shadow_layout_;
+  vk::raii::PipelineLayout look_layout_;
+  vk::raii::Pipeline shadow_;
+  std::array<BothSides, 2> opaque_;  // without haze, and with it
+  EyePipeline fine_;                 // shaded at the vertices, without haze
+  EyePipeline background_;
+  std::array<BothSides, 2> blended_;
+  std::vector<EyePipeline> looks_;  // as SceneGeometry::looks()
+};
+
+}  // namespace afm::render

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/shadow_casters.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+#include "device/frame_blocks.h"
+#include "panels/draw_box.h"
+
+namespace afm::render {
+namespace {
+
+constexpr int kSettled = 120;  // frames
+constexpr vk::Rect2D kWholeMap{.extent = {kShadowMapSize, kShadowMapSize}};
+
+}  // namespace
+
+// True if what is drawn, or the light, is another: then there is nothing to compare with.
+bool ShadowCasters::follow(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list) {
+  const glm::mat4 map_from_room = shadow_from_room(frame.key_light);
+  bool others = map_from_room != map_from_room_ || list.shadow.size() != casters_.size();
+  map_from_room_ = map_from_room;
+  casters_.resize(list.shadow.size());
+  frames_at_rest_.resize(list.shadow.size());
+  for (std::size_t i = 0; i < casters_.size(); ++i) {
+    const std::uint32_t draw = list.shadow[i];
+    const scene::NodeIndex node = geometry.draws()[draw].node;
+    const Caster caster{.draw = draw,
+                        .mirrored = list.mirrored[draw],
+                        .room_from_node = glm::mat4(frame.room_from_node[node]),
+                        .bend = bend_of(frame, node)};
+    others = others || caster.draw != casters_[i].draw;
+    frames_at_rest_[i] = caster == casters_[i] ? std::min(frames_at_rest_[i] + 1, kSettled) : 0;
+    casters_[i] = caster;
+  }
+  return others;
+}
+
+// True if drawing what rests apart spares at least half of the triangles.
+bool ShadowCasters::sort_out(const SceneGeometry& geometry) {
+  moved_before_.swap(moving_);
+  moving_.clear();
+  resting_.clear();
+  std::size_t resting = 0, moving = 0;
+  for (std::size_t i = 0; i < casters_.size(); ++i) {
+    const std::uint32_t draw = casters_[i].draw;
+    const bool rests = frames_at_rest_[i] == kSettled;
+    (rests ? resting_ : moving_).push_back(draw);
+    (rests ? resting : moving) += geometry.draws()[draw].index_count;
+  }
+  return moving <= resting;
+}
+
+// With what lies about it: a texel is drawn whose middle is covered.
+vk::Rect2D ShadowCasters::drawn_by_moving(const FrameState& frame, const SceneGeometry& geometry) const {
+  constexpr double kSize = kShadowMapSize;
+  glm::dvec2 low(kSize), high(0.0);
+  for (const std::uint32_t i : moving_) {
+    const Draw& draw = geometry.draws()[i];
+    const DrawBox box = bent_box(draw, frame);
+    const glm::dmat4 rows = glm::transpose(glm::dmat4(map_from_room_) * frame.room_from_node[draw.node]);
+    for (glm::length_t axis = 0; axis < 2; ++axis) {
+      const auto [least, largest] = range(rows[axis], box);
+      low[axis] = std::min(low[axis], 0.5 * (least + 1.0) * kSize);
+      high[axis] = std::max(high[axis], 0.5 * (largest + 1.0) * kSize);
+    }
+  }
+  low = glm::clamp(glm::floor(low) - 1.0, 0.0, kSize);
+  high = glm::clamp(glm::ceil(high) + 1.0, low, glm::dvec2(kSize));
+  const glm::ivec2 offset(low);
+  const glm::uvec2 size(high - low);
+  return {.offset = {offset.x, offset.y}, .extent = {size.x, size.y}};
+}
+
+ShadowStep ShadowCasters::take(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list) {
+  if (follow(frame, geometry, list)) {
+    std::fill(frames_at_rest_.begin(), frames_at_rest_.end(), kSettled);
+    resting_drawn_ = false;
+    return ShadowStep::Everything;
+  }
+  if (std::find(frames_at_rest_.begin(), frames_at_rest_.end(), 0) == frames_at_rest_.end()) {
+    return ShadowStep::Nothing;
+  }
+  if (!sort_out(geometry)) {
+    resting_drawn_ = false;
+    return ShadowStep::Everything;
+  }
+  const bool same = resting_drawn_ && moving_ == moved_before_;
+  stale_ = same ? drawn_ : kWholeMap;
+  drawn_ = drawn_by_moving(frame, geometry);
+  resting_drawn_ = true;
+  return same ? ShadowStep::Moving : ShadowStep::RestingAndMoving;
+}
+
+}  // namespace afm::render

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "scene/display/stereo_layout.h"
+
+// Walls, viewers and eyes: pure arithmetic in the room frame (metres, right-handed, +y up), double precision.
+namespace afm::scene {
+
+// A flat rectangular screen by three measured corners, as seen by a viewer in front of it.
+struct Screen {
+  std::string name;
+  glm::dvec3 lower_left{0.0};
+  glm::dvec3 lower_right{0.0};
+  glm::dvec3 upper_left{0.0};
+
+  double width_m() const;
+  double height_m() const;
+  glm::dvec3 normal() const;  // unit, towards the viewer
+  glm::dvec3 center() const;
+};
+
+struct HeadPose {
+  glm::dvec3 position_m{0.0};
+  glm::dquat room_from_head{1.0, 0.0, 0.0, 0.0};  // looks along -z, +x to the right
+};
+
+enum class Eye { Left, Right };
+inline constexpr std::array<Eye, 2> kEyes{Eye::Left, Eye::Right};
+
+// Depth conventions of the research's test vectors; the program renders with VulkanReversedInfinite alone.
+enum class DepthConvention { Vulkan, VulkanReversed, VulkanReversedInfinite, VulkanYUp, OpenGl };
+
+struct EyeView {
+  glm::dmat4 projection{1.0};  // clip from view
+  glm::dmat4 view{1.0};        // view from room
+  glm::dvec3 eye_position_m{0.0};
+};
+
+// left = position - R (ipd/2, 0, 0), right = position + R (ipd/2, 0, 0): roll and yaw of the head move the eyes.
+// `eye_from_tracker` is the middle of the eyes in the head's frame.
+glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m,
+                        const glm::dvec3& eye_from_tracker_m = glm::dvec3(0.0));
+
+// Whether the corners are finite, apart, and square within a degree (what a tape measure gets right).
+core::Result<void> check_screen(const Screen& screen);
+
+// An eye nearer to a screen than this is an error of measurement, not a viewer.
+inline constexpr double kSmallestEyeDistanceM = 0.01;
+
+// Generalised perspective projection (Kooima 2008): the view basis is the screen's, never the head's.
+// Fails as check_screen does, or if the eye is not in front of the screen.
+// near_m and far_m > 0; far_m is unused by the infinite convention.
+core::Result<EyeView> off_axis_view(const Screen& screen, const glm::dvec3& eye_position_m, DepthConvention convention,
+                                    double near_m, double far_m);
+
+// The near plane of every picture: closer to an eye nothing is drawn.
+inline constexpr double kNearM = 0.1;
+
+struct Viewer {
+  std::string name = "viewer";
+  double ipd_m = 0.063;
+  std::string head = "none";        // "none", or the tracked body that is the head: "dtrack:0"
+  glm::dvec3 eye_from_head_m{0.0};  // middle of the eyes in the tracked body's frame
+  HeadPose sweet_spot;              // where the head is taken to be without a tracker
+};
+
+// Dodgson 2004: 45 to 80 mm covers nearly all adults, children from 40 mm. Beyond it, it is a slip of the unit.
+inline constexpr double kSmallestIpdM = 0.030;
+inline constexpr double kLargestIpdM = 0.090;
+
+struct PixelRect {
+  glm::ivec2 offset_px{0};  // from the top left corner of the desktop, all monitors together
+  glm::uvec2 size_px{0};
+};
+
+// Where a screen's picture comes out, and how.
+struct Output {
+  std::string name;
+  std::size_t screen = 0;  // of Wall::screens
+  StereoMode mode = StereoMode::Mono;
+  std::optional<Eye> eye;  // of mode dual, and there alone: whose picture this is
+  EyeOrder order = EyeOrder::Straight;
+  std::string monitor;                  // as the window system names it; empty: the rectangle counts
+  PixelRect rect;                       // without area: the whole monitor
+  glm::dmat3 picture_from_output{1.0};  // keystone, see render::Composition
+};
+
+struct Wall {
+  std::vector<Screen> screens;
+  std::vector<Output> outputs;  // may be empty
+  std::vector<Viewer> viewers;
+};
+
+// Reads and checks a wall file: TOML, or the corners of a ParaView .pvx. The error names file, line and key.
+core::Result<Wall> load_wall(const std::string& path);
+
+}  // namespace afm::scene

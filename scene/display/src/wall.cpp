@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/display/wall.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace afm::scene {
+
+namespace {
+
+using core::ErrorCategory;
+using core::failure;
+
+// A tape measure's error on a wall is a few millimetres in metres; one degree off square is a swapped or mistyped
+// corner.
+constexpr double kLargestSquareErrorCosine = 0.0175;
+constexpr double kSmallestEdgeM = 1e-3;
+
+bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+std::string text(const glm::dvec3& v) { return fmt::format("({:g}, {:g}, {:g}) m", v.x, v.y, v.z); }
+
+struct Extent {
+  double left, right, bottom, top, near, far;
+};
+
+glm::dmat4 projection_matrix(const Extent& e, DepthConvention convention) {
+  const bool y_up = convention == DepthConvention::VulkanYUp || convention == DepthConvention::OpenGl;
+  const double y_sign = y_up ? 1.0 : -1.0;
+
+  // GLM stores columns: m[column][row]
+  glm::dmat4 m(0.0);
+  m[0][0] = 2.0 * e.near / (e.right - e.left);
+  m[2][0] = (e.right + e.left) / (e.right - e.left);
+  // Vulkan's y points down: both terms of the row turn round, or every vertically off-axis frustum is wrong
+  m[1][1] = y_sign * 2.0 * e.near / (e.top - e.bottom);
+  m[2][1] = y_sign * (e.top + e.bottom) / (e.top - e.bottom);
+  m[2][3] = -1.0;
+  switch (convention) {
+    case DepthConvention::Vulkan:
+    case DepthConvention::VulkanYUp:
+      m[2][2] = e.far / (e.near - e.far);
+      m[3][2] = e.near * e.far / (e.near - e.far);
+      break;
+    case DepthConvention::VulkanReversed:
+      m[2][2] = e.near / (e.far - e.near);
+      m[3][2] = e.near * e.far / (e.far - e.near);
+      break;
+    case DepthConvention::VulkanReversedInfinite:
+      m[3][2] = e.near;
+      break;
+    case DepthConvention::OpenGl:
+      m[2][2] = -(e.far + e.near) / (e.far - e.near);
+      m[3][2] = -2.0 * e.far * e.near / (e.far - e.near);
+      break;
+  }
+  return m;
+}
+
+}  // namespace
+
+double Screen::width_m() const { return glm::length(lower_right - lower_left); }
+double Screen::height_m() const { return glm::length(upper_left - lower_left); }
+glm::dvec3 Screen::normal() const {
+  return glm::normalize(glm::cross(lower_right - lower_left, upper_left - lower_left));
+}
+glm::dvec3 Screen::center() const { return 0.5 * (lower_right + upper_left); }
+
+core::Result<void> check_screen(const Screen& screen) {
+  const auto bad = [&](const std::string& what) {
+    return failure(ErrorCategory::BadInputFile, fmt::format("screen \"{}\": {}", screen.name, what));
+  };
+  if (!finite(screen.lower_left) || !finite(screen.lower_right) || !finite(screen.upper_left)) {
+    return bad("a corner is not a finite number; give lower_left, lower_right and upper_left in metres");
+  }
+  const glm::dvec3 right = screen.lower_right - screen.lower_left;
+  const glm::dvec3 up = screen.upper_left - screen.lower_left;
+  if (glm::length(right) < kSmallestEdgeM || glm::length(up) < kSmallestEdgeM) {
+    return bad(fmt::format("two corners coincide: lower_left {}, lower_right {}, upper_left {}; measure them again",
+                           text(screen.lower_left), text(screen.lower_right), text(screen.upper_left)));
+  }
+  const double cosine = glm::dot(glm::normalize(right), glm::normalize(up));
+  if (std::abs(cosine) > 0.9998) {
+    return bad(
+        fmt::format("the corners are collinear: lower_left {}, lower_right {}, upper_left {}; measure them again",
+                    text(screen.lower_left), text(screen.lower_right), text(screen.upper_left)));
+  }
+  if (std::abs(cosine) > kLargestSquareErrorCosine) {
+    return bad(fmt::format("the corners are {:.1f} degrees off a right angle at lower_left; measure them again",
+                           std::abs(90.0 - glm::degrees(std::acos(cosine)))));
+  }
+  return {};
+}
+
+glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m, const glm::dvec3& eye_from_tracker_m) {
+  const double side = eye == Eye::Left ? -0.5 : 0.5;
+  return head.position_m + head.room_from_head * (eye_from_tracker_m + glm::dvec3(side * ipd_m, 0.0, 0.0));
+}
+
+core::Result<EyeView> off_axis_view(const Screen& screen, const glm::dvec3& eye_position_m, DepthConvention convention,
+                                    double near_m, double far_m) {
+  if (auto checked = check_screen(screen); !checked) return tl::unexpected(checked.error());
+
+  const glm::dvec3 right = glm::normalize(screen.lower_right - screen.lower_left);
+  const glm::dvec3 normal = screen.normal();
+  const glm::dvec3 up = glm::cross(normal, right);
+
+  const glm::dvec3 to_lower_left = screen.lower_left - eye_position_m;
+  const glm::dvec3 to_lower_right = screen.lower_right - eye_position_m;
+  const glm::dvec3 to_upper_left = screen.upper_left - eye_position_m;
+  const double distance = -glm::dot(to_lower_left, normal);
+  if (!(distance >= kSmallestEyeDistanceM)) {
+    return failure(
+        ErrorCategory::BadInputFile,
+        fmt::format("screen \"{}\": the eye at {} is {:.3f} m behind or in the screen; it must be at least {} mm in "
+                    "front, on the side from which lower_left is at the left",
+                    screen.name, text(eye_position_m), -distance, kSmallestEyeDistanceM * 1e3));
+  }
+
+  const double scale = near_m / distance;
+  const Extent extent{.left = glm::dot(right, to_lower_left) * scale,
+                      .right = glm::dot(right, to_lower_right) * scale,
+                      .bottom = glm::dot(up, to_lower_left) * scale,
+                      .top = glm::dot(up, to_upper_left) * scale,
+                      .near = near_m,
+                      .far = far_m};
+
+  EyeView result;
+  result.projection = projection_matrix(extent, convention);
+  const glm::dmat4 view_from_axes = glm::transpose(
+      glm::dmat4(glm::dvec4(right, 0.0), glm::dvec4(up, 0.0), glm::dvec4(normal, 0.0), glm::dvec4(0, 0, 0, 1)));
+  result.view = glm::translate(view_from_axes, -eye_position_m);
+  result.eye_position_m = eye_position_m;
+  return result;
+}
+
+}  // namespace afm::scene

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf_accessor.h"
+#include "gltf_budget.h"
+#include "scene/gltf/gltf_loader.h"
+
+namespace afm::scene {
+
+// All meshes, after the materials: a primitive without one gets a default material behind them. Throws GltfFault.
+void read_meshes(const tinygltf::Model& model, const GltfBuffers& buffers, const GltfAccessors& accessors,
+                 GltfBudget& budget, Scene& scene, GltfNotes& notes);
+
+}  // namespace afm::scene

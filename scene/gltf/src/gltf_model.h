@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// tinygltf is compiled into the program (tinygltf.cpp), without what could open a file or decode an image by itself.
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#define TINYGLTF_NO_FS
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#include <tiny_gltf.h>
+
+#include <string>
+
+#include "gltf_file.h"
+#include "scene/gltf/gltf_loader.h"
+
+namespace afm::scene {
+
+// A model as tinygltf reads it out of a text that has been checked: what the schema promises holds of every member.
+// Buffers are filled with as many bytes as they announce; one without `data` is a placeholder for what is stored
+// compressed. Images are not decoded: they have their `uri` or their `bufferView`.
+struct GltfModel {
+  tinygltf::Model parts;
+  SideFiles side_files;
+};
+
+// Throws GltfFault.
+GltfModel read_gltf_model(const std::string& path, GltfNotes& notes);
+
+// The value of an extension of this name, or nothing.
+const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name);
+
+// Members of an extension's value.
+double number_or(const tinygltf::Value& object, const char* key, double missing);
+std::string text_or(const tinygltf::Value& object, const char* key, const char* missing);
+
+}  // namespace afm::scene

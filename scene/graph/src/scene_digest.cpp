@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bit>
+#include <cstring>
+
+#include "scene/graph/scene.h"
+
+namespace afm::scene {
+namespace {
+
+// 64-bit FNV-1a (Fowler, Noll, Vo; draft-eastlake-fnv, section 5) over values in a fixed order and byte order.
+class Digest {
+ public:
+  std::uint64_t value() const { return value_; }
+
+  void add(std::uint64_t bits) {
+    for (unsigned shift = 0; shift < 64; shift += 8) {
+      value_ = (value_ ^ ((bits >> shift) & 0xFFU)) * 0x100000001B3ULL;
+    }
+  }
+  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+  void add(float number) { add(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(number))); }
+  void add(const std::string& text) {
+    add(std::uint64_t{text.size()});
+    for (const char letter : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
+  }
+  void add(const std::optional<std::uint32_t>& index) { add(index ? std::uint64_t{*index} : ~std::uint64_t{0}); }
+  void add(const glm::vec3& v) {
+    for (int i = 0; i < 3; ++i) add(v[i]);
+  }
+  void add(const glm::vec4& v) {
+    for (int i = 0; i < 4; ++i) add(v[i]);
+  }
+  void add(const glm::vec2& v) {
+    for (int i = 0; i < 2; ++i) add(v[i]);
+  }
+  void add(const glm::dmat4& matrix) {
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 4; ++row) add(matrix[column][row]);
+    }
+  }
+
+ private:
+  std::uint64_t value_ = 0xCBF29CE484222325ULL;
+};
+
+void add_node(Digest& digest, const Node& node) {
+  digest.add(node.name);
+  digest.add(node.parent);
+  digest.add(node.mesh);
+  digest.add(node.parent_from_node);
+}
+
+void add_primitive(Digest& digest, const Primitive& primitive) {
+  digest.add(std::uint64_t{primitive.material});
+  digest.add(static_cast<std::uint64_t>(primitive.topology) | static_cast<std::uint64_t>(primitive.normals) << 2U);
+  digest.add(std::uint64_t{primitive.vertices.size()});
+  for (const Vertex& vertex : primitive.vertices) {
+    digest.add(vertex.position);
+    digest.add(vertex.normal);
+    digest.add(vertex.color);
+  }
+  digest.add(std::uint64_t{primitive.indices.size()});
+  for (const std::uint32_t index : primitive.indices) digest.add(std::uint64_t{index});
+  digest.add(std::uint64_t{primitive.texture_coordinates.size()});
+  for (const TextureCoordinates& place : primitive.texture_coordinates) {
+    digest.add(place.set_0);
+    digest.add(place.set_1);
+  }
+  for (const glm::vec4& tangent : primitive.tangents) digest.add(tangent);
+}
+
+void add_material(Digest& digest, const Material& material) {
+  digest.add(material.name);
+  digest.add(material.base_color);
+  digest.add(material.emissive);
+  digest.add(material.metallic);
+  digest.add(material.roughness);
+  digest.add(std::uint64_t{material.double_sided} | std::uint64_t{material.blended} << 1U |
+             std::uint64_t{material.unlit} << 2U);
+  digest.add(material.alpha_cutoff.value_or(-1.0F));
+  for (const float factor : {material.normal_scale, material.occlusion_strength, material.ior, material.specular,
+                             material.clearcoat, material.clearcoat_roughness, material.clearcoat_normal_scale,
+                             material.iridescence, material.iridescence_ior}) {
+    digest.add(factor);
+  }
+  digest.add(material.specular_color);
+  digest.add(material.iridescence_thickness_nm);
+  for (const TextureUse& use : material.textures) {
+    digest.add(use.texture);
+    digest.add(std::uint64_t{use.coordinates});
+    digest.add(use.offset);
+    digest.add(use.scale);
+    digest.add(use.rotation_rad);
+  }
+}
+
+void add_image(Digest& digest, const Image& image) {
+  digest.add(std::uint64_t{image.width} << 32U | image.height);
+
+  // rows are whole words of four bytes
+  for (std::size_t i = 0; i + 4 <= image.rgba.size(); i += 4) {
+    std::uint32_t pixel = 0;
+    std::memcpy(&pixel, &image.rgba[i], sizeof pixel);
+    digest.add(std::uint64_t{pixel});
+  }
+}
+
+}  // namespace
+
+std::uint64_t digest(const Scene& scene) {
+  Digest digest;
+  digest.add(std::uint64_t{scene.nodes.size()});
+  for (const Node& node : scene.nodes) add_node(digest, node);
+  digest.add(std::uint64_t{scene.meshes.size()});
+  for (const Mesh& mesh : scene.meshes) {
+    digest.add(mesh.name);
+    digest.add(std::uint64_t{mesh.primitives.size()});
+    for (const Primitive& primitive : mesh.primitives) add_primitive(digest, primitive);
+  }
+  digest.add(std::uint64_t{scene.materials.size()});
+  for (const Material& material : scene.materials) add_material(digest, material);
+  for (const Texture& texture : scene.textures) {
+    digest.add(std::uint64_t{texture.image} << 32U | static_cast<std::uint64_t>(texture.magnified) |
+               static_cast<std::uint64_t>(texture.minified) << 2U |
+               static_cast<std::uint64_t>(texture.between_mips ? 1U + static_cast<unsigned>(*texture.between_mips) : 0U)
+                   << 4U |
+               static_cast<std::uint64_t>(texture.wrap_u) << 6U | static_cast<std::uint64_t>(texture.wrap_v) << 8U);
+  }
+  for (const Image& image : scene.images) add_image(digest, image);
+  return digest.value();
+}
+
+}  // namespace afm::scene

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "physics/elasticity.h"
+#include "physics/interaction.h"
+#include "physics/lever_dynamics.h"
+#include "physics/units.h"
+#include "scene/samples/sourced_value.h"
+
+namespace afm::scene {
+
+// One choice of tip, lever, sample and medium, with where each number comes from.
+struct MaterialEntry {
+  std::string name;   // what commands and models call it: "mica"
+  std::string title;  // what people read: "Mica"
+  std::string tip;
+  std::string medium;
+  std::string note;  // what a reader of the numbers must know; may be empty
+  std::string look;  // the material whose 3D models stand for it; its own name unless the file says otherwise
+  physics::Interaction interaction;
+  std::optional<physics::Elasticity> tip_elasticity;     // where the reduced modulus was made of both bodies
+  std::optional<physics::Elasticity> sample_elasticity;  // the same
+  physics::LeverDynamics lever;                          // in the medium, far from the sample
+  std::optional<physics::Force> experiment_f_attr;       // magnitude, measured by others
+  std::optional<physics::Force> experiment_f_ad;         // magnitude, measured by others
+  std::vector<SourcedValue> sources;                     // of every number above, in the order of the fields
+};
+
+struct MaterialLibrary {
+  std::vector<MaterialEntry> materials;  // in the file's order, names unique, every interaction valid
+
+  // Null if there is none.
+  const MaterialEntry* find(std::string_view name) const;
+
+  // find(), or an error of wrong usage that lists the known names.
+  core::Result<const MaterialEntry*> require(std::string_view name) const;
+
+  // The materials of those names, in that order; an error as require() gives it.
+  core::Result<MaterialLibrary> only(std::span<const std::string> names) const;
+
+  // Adds another file's materials behind; one of a known name takes the place of the old one.
+  void add(MaterialLibrary other);
+};
+
+// The samples of Liu & Peng, which the built-in file holds first.
+inline const std::array<std::string, 3> kPaperMaterials{"mica", "gold", "si3n4"};
+
+// Reads a material file (TOML, assets/materials.toml; docs/manual.md has its keys). An unreadable file, an unknown or
+// missing key, a wrong type and an unphysical value are errors that name file, line and key.
+core::Result<MaterialLibrary> load_materials(const std::string& path);
+
+// Several files, the later ones added to the first.
+core::Result<MaterialLibrary> load_materials(std::span<const std::string> paths);
+
+}  // namespace afm::scene

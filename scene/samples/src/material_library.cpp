@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/samples/material_library.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+#include "named_entries.h"
+#include "physics/quantity_text.h"
+#include "scene/config/toml_fault.h"
+#include "scene/shared/shared_blocks.h"
+#include "sourced_table.h"
+
+namespace afm::scene {
+namespace {
+
+constexpr std::array<std::string_view, 23> kKeys{"name",
+                                                 "title",
+                                                 "tip",
+                                                 "medium",
+                                                 "note",
+                                                 "look",
+                                                 "tip_radius",
+                                                 "spring_constant",
+                                                 "hamaker",
+                                                 "sample_stiffness",
+                                                 "atomic_distance",
+                                                 "mean_surface_energy",
+                                                 "work_of_adhesion",
+                                                 "reduced_modulus",
+                                                 "tip_modulus",
+                                                 "tip_poisson_ratio",
+                                                 "sample_modulus",
+                                                 "sample_poisson_ratio",
+                                                 "resonance",
+                                                 "quality_factor",
+                                                 "temperature",
+                                                 "experiment_f_attr",
+                                                 "experiment_f_ad"};
+
+// One [[material]].
+class MaterialReader {
+ public:
+  explicit MaterialReader(const toml::table& table) : table_(table, "material") {}
+
+  MaterialEntry read() {
+    table_.refuse_keys_other_than(kKeys);
+    entry_.name = table_.text("name");
+    entry_.title = table_.text("title");
+    entry_.tip = table_.text("tip");
+    entry_.medium = table_.text("medium");
+    entry_.note = table_.text_or_empty("note");
+    entry_.look = table_.has("look") ? table_.text("look") : entry_.name;
+    if (entry_.name.size() >= kNameLength) {
+      table_.refuse("name", fmt::format("is longer than {} bytes", kNameLength - 1));
+    }
+
+    physics::Interaction& interaction = entry_.interaction;
+    interaction.tip_radius = table_.quantity("tip_radius", physics::kLengthUnits);
+    interaction.spring_constant = table_.quantity("spring_constant", physics::kStiffnessUnits);
+    interaction.sample_stiffness =
+        table_.quantity("sample_stiffness", physics::kStiffnessUnits, physics::Infinity::Allowed);
+    interaction.hamaker = table_.quantity("hamaker", physics::kEnergyUnits);
+    read_adhesion();
+    read_elasticity();
+    read_atomic_distance();
+    read_dynamics();
+    entry_.experiment_f_attr = magnitude("experiment_f_attr");
+    entry_.experiment_f_ad = magnitude("experiment_f_ad");
+    check_physics();
+    entry_.sources = std::move(table_.sources());
+    return std::move(entry_);
+  }
+
+ private:
+  void read_adhesion() {
+    if (table_.has("mean_surface_energy") == table_.has("work_of_adhesion")) {
+      table_.refuse("mean_surface_energy", "is missing; give either it or work_of_adhesion, its double, and not both");
+    }
+    physics::SurfaceEnergy& mean = entry_.interaction.mean_surface_energy;
+    if (table_.has("mean_surface_energy")) {
+      mean = table_.quantity("mean_surface_energy", physics::kSurfaceEnergyUnits);
+    } else {
+      mean = 0.5 * table_.quantity("work_of_adhesion", physics::kSurfaceEnergyUnits);  // (3.3)
+    }
+  }
+
+  // Both bodies, or E* itself, or nothing: rigid.
+  void read_elasticity() {
+    constexpr std::array<const char*, 4> kBodies{"tip_modulus", "tip_poisson_ratio", "sample_modulus",
+                                                 "sample_poisson_ratio"};
+    const auto given = std::count_if(kBodies.begin(), kBodies.end(), [&](const char* key) { return table_.has(key); });
+    if (table_.has("reduced_modulus")) {
+      if (given > 0)
+        table_.refuse("reduced_modulus", "is given beside the moduli of tip and sample; give one or other");
+      entry_.interaction.reduced_modulus = table_.quantity("reduced_modulus", physics::kPressureUnits);
+      return;
+    }
+    if (given == 0) return;
+    const physics::Elasticity tip{table_.quantity("tip_modulus", physics::kPressureUnits),
+                                  table_.number("tip_poisson_ratio")};
+    const physics::Elasticity sample{table_.quantity("sample_modulus", physics::kPressureUnits),
+                                     table_.number("sample_poisson_ratio")};
+    entry_.tip_elasticity = tip;
+    entry_.sample_elasticity = sample;
+    try {
+      entry_.interaction.reduced_modulus = physics::reduced_modulus(tip, sample);
+    } catch (const physics::UnphysicalValue& error) {
+      table_.refuse(error.field(), error.what());
+    }
+  }
+
+  void read_atomic_distance() {
+    if (table_.has("atomic_distance")) {
+      entry_.interaction.atomic_distance = table_.quantity("atomic_distance", physics::kLengthUnits);
+      return;
+    }
+    table_.add_source({"atomic_distance",
+                       physics::format_quantity(entry_.interaction.atomic_distance, physics::kLengthUnits),
+                       "default: z0 of most solids lies within 0.2 nm to 0.4 nm", true});
+  }
+
+  void read_dynamics() {
+    constexpr const char* kDefault = "default: a soft lever in a liquid";
+    physics::LeverDynamics& lever = entry_.lever;
+    lever = {physics::Frequency(12e3), 2.5, physics::Temperature(298.15)};
+    if (table_.has("resonance")) {
+      lever.resonance = table_.quantity("resonance", physics::kFrequencyUnits);
+    } else {
+      table_.add_source({"resonance", "12 kHz", kDefault, true});
+    }
+    if (table_.has("quality_factor")) {
+      lever.quality_factor = table_.number("quality_factor");
+    } else {
+      table_.add_source({"quality_factor", "2.5", kDefault, true});
+    }
+    if (table_.has("temperature")) {
+      lever.temperature = table_.quantity("temperature", physics::kTemperatureUnits);
+    } else {
+      table_.add_source({"temperature", "298.15 K", "default: 25 degrees Celsius", true});
+    }
+  }
+
+  std::optional<physics::Force> magnitude(std::string_view key) {
+    const auto force = table_.optional_quantity(key, physics::kForceUnits);
+    if (force && *force <= physics::Force()) {
+      table_.refuse(key, fmt::format("is {}; it must be a positive magnitude",
+                                     physics::format_quantity(*force, physics::kForceUnits)));
+    }
+    return force;
+  }
+
+  void check_physics() const {
+    try {
+      physics::validate(entry_.interaction);
+      physics::validate(entry_.lever);
+    } catch (const physics::UnphysicalValue& error) {
+      const bool by_work = error.field() == "mean_surface_energy" && table_.has("work_of_adhesion");
+      table_.refuse(by_work ? "work_of_adhesion" : error.field(), error.what());
+    }
+  }
+
+  SourcedTable table_;
+  MaterialEntry entry_;
+};
+
+MaterialLibrary read_library(const toml::table& root) {
+  MaterialLibrary library;
+  for (const toml::table* table : tables_of(root, "material")) {
+    MaterialEntry entry = MaterialReader(*table).read();
+    if (library.find(entry.name) != nullptr) {
+      throw Fault{table->get("name")->source(), "material.name", fmt::format("\"{}\" is used twice", entry.name)};
+    }
+    library.materials.push_back(std::move(entry));
+  }
+  return library;
+}
+
+}  // namespace
+
+const MaterialEntry* MaterialLibrary::find(std::string_view name) const { return find_named(materials, name); }
+
+core::Result<const MaterialEntry*> MaterialLibrary::require(std::string_view name) const {
+  return require_named(materials, "material", name);
+}
+
+core::Result<MaterialLibrary> MaterialLibrary::only(std::span<const std::string> names) const {
+  MaterialLibrary chosen;
+  for (const std::string& name : names) {
+    const auto entry = require(name);
+    if (!entry) return tl::unexpected(entry.error());
+    chosen.materials.push_back(**entry);
+  }
+  return chosen;
+}
+
+void MaterialLibrary::add(MaterialLibrary other) { add_named(materials, std::move(other.materials)); }
+
+core::Result<MaterialLibrary> load_materials(const std::string& path) {
+  return read_toml("material file", path, read_library);
+}
+
+core::Result<MaterialLibrary> load_materials(std::span<const std::string> paths) {
+  MaterialLibrary library;
+  for (const std::string& path : paths) {
+    auto loaded = load_materials(path);
+    if (!loaded) return loaded;
+    library.add(std::move(*loaded));
+  }
+  return library;
+}
+
+}  // namespace afm::scene

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/samples/probe_library.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "named_entries.h"
+#include "physics/cantilever.h"
+#include "physics/interaction.h"
+#include "physics/quantity_text.h"
+#include "scene/config/toml_fault.h"
+#include "sourced_table.h"
+
+namespace afm::scene {
+namespace {
+
+constexpr std::array<std::string_view, 20> kKeys{"name",
+                                                 "title",
+                                                 "shape",
+                                                 "tip",
+                                                 "note",
+                                                 "tip_radius",
+                                                 "spring_constant",
+                                                 "length",
+                                                 "width",
+                                                 "thickness",
+                                                 "base_width",
+                                                 "arm_width",
+                                                 "lever_modulus",
+                                                 "lever_density",
+                                                 "tip_modulus",
+                                                 "tip_poisson_ratio",
+                                                 "resonance_in_air",
+                                                 "resonance_in_liquid",
+                                                 "quality_factor_in_air",
+                                                 "quality_factor_in_liquid"};
+
+// One [[probe]].
+class ProbeReader {
+ public:
+  explicit ProbeReader(const toml::table& table) : table_(table, "probe") {}
+
+  ProbeEntry read() {
+    table_.refuse_keys_other_than(kKeys);
+    entry_.name = table_.text("name");
+    entry_.title = table_.text("title");
+    entry_.shape = table_.text("shape");
+    entry_.tip = table_.text("tip");
+    entry_.note = table_.text_or_empty("note");
+    if (entry_.shape != "rectangular" && entry_.shape != "v-shaped") {
+      table_.refuse("shape", fmt::format("is \"{}\"; it must be \"rectangular\" or \"v-shaped\"", entry_.shape));
+    }
+    entry_.tip_radius = table_.quantity("tip_radius", physics::kLengthUnits);
+    entry_.resonance_in_air = positive_frequency("resonance_in_air");
+    entry_.resonance_in_liquid = positive_frequency("resonance_in_liquid");
+    entry_.quality_factor_in_air = positive_number("quality_factor_in_air");
+    entry_.quality_factor_in_liquid = positive_number("quality_factor_in_liquid");
+    read_lever();
+    if (table_.has("tip_modulus") || table_.has("tip_poisson_ratio")) {
+      entry_.tip_elasticity = physics::Elasticity{table_.quantity("tip_modulus", physics::kPressureUnits),
+                                                  table_.number("tip_poisson_ratio")};
+    }
+    check_physics();
+    entry_.sources = std::move(table_.sources());
+    return std::move(entry_);
+  }
+
+ private:
+  physics::Length length(std::string_view key) { return table_.quantity(key, physics::kLengthUnits); }
+
+  // The nominal spring constant, or that of the geometry.
+  void read_lever() {
+    if (table_.has("spring_constant")) {
+      entry_.spring_constant = table_.quantity("spring_constant", physics::kStiffnessUnits);
+      // read for their sources alone
+      for (const char* key : {"length", "width", "thickness"}) table_.optional_quantity(key, physics::kLengthUnits);
+      for (const char* key : {"base_width", "arm_width", "lever_modulus", "lever_density"}) {
+        if (table_.has(key)) table_.refuse(key, "acts only where no spring_constant is given");
+      }
+      return;
+    }
+    try {
+      entry_.shape == "rectangular" ? read_rectangular_lever() : read_v_shaped_lever();
+    } catch (const physics::UnphysicalValue& error) {
+      const std::string& field = error.field();
+      table_.refuse(field == "young_modulus" ? "lever_modulus"
+                    : field == "density"     ? "lever_density"
+                                             : field,
+                    error.what());
+    }
+    table_.add_source({"spring_constant", physics::format_quantity(entry_.spring_constant, physics::kStiffnessUnits),
+                       "of the lever's geometry and modulus", true});
+  }
+
+  void read_rectangular_lever() {
+    const physics::RectangularLever lever{length("length"), length("width"), length("thickness"),
+                                          table_.quantity("lever_modulus", physics::kPressureUnits),
+                                          table_.quantity("lever_density", physics::kDensityUnits)};
+    physics::validate(lever);
+    entry_.spring_constant = physics::spring_constant(lever);
+    if (entry_.resonance_in_air) return;
+    entry_.resonance_in_air = physics::vacuum_resonance(lever);
+    table_.add_source({"resonance_in_air", physics::format_quantity(*entry_.resonance_in_air, physics::kFrequencyUnits),
+                       "of the lever's geometry, modulus and density, in vacuum", true});
+  }
+
+  void read_v_shaped_lever() {
+    const physics::VShapedLever lever{length("length"), length("base_width"), length("arm_width"), length("thickness"),
+                                      table_.quantity("lever_modulus", physics::kPressureUnits)};
+    physics::validate(lever);
+    entry_.spring_constant = physics::spring_constant(lever);
+  }
+
+  std::optional<physics::Frequency> positive_frequency(std::string_view key) {
+    const auto frequency = table_.optional_quantity(key, physics::kFrequencyUnits);
+    if (frequency && frequency->si <= 0.0) table_.refuse(key, "must be positive");
+    return frequency;
+  }
+
+  std::optional<double> positive_number(std::string_view key) {
+    if (!table_.has(key)) return std::nullopt;
+    const double number = table_.number(key);
+    if (number <= 0.0) table_.refuse(key, "must be positive");
+    return number;
+  }
+
+  // Every value within its range, whatever sample it will meet.
+  void check_physics() const {
+    constexpr physics::Elasticity kAnySample{physics::Pressure(1e9), 0.3};
+    physics::Interaction any;
+    any.tip_radius = entry_.tip_radius;
+    any.spring_constant = entry_.spring_constant;
+    any.sample_stiffness = physics::Stiffness(1.0);
+    any.hamaker = physics::Energy(1e-20);
+    any.mean_surface_energy = physics::SurfaceEnergy(1e-3);
+    try {
+      physics::validate(any);
+      if (entry_.tip_elasticity) static_cast<void>(physics::reduced_modulus(*entry_.tip_elasticity, kAnySample));
+    } catch (const physics::UnphysicalValue& error) {
+      table_.refuse(error.field(), error.what());
+    }
+  }
+
+  SourcedTable table_;
+  ProbeEntry entry_;
+};
+
+ProbeLibrary read_library(const toml::table& root) {
+  ProbeLibrary library;
+  for (const toml::table* table : tables_of(root, "probe")) {
+    ProbeEntry entry = ProbeReader(*table).read();
+    if (library.find(entry.name) != nullptr) {
+      throw Fault{table->get("name")->source(), "probe.name", fmt::format("\"{}\" is used twice", entry.name)};
+    }
+    library.probes.push_back(std::move(entry));
+  }
+  return library;
+}
+
+// Puts the probe's source of `probe_key` in the place of the material's of `key`.
+void take_source(MaterialEntry& material, std::string_view key, const ProbeEntry& probe, std::string_view probe_key) {
+  const SourcedValue* found = find_source(probe.sources, probe_key);
+  SourcedValue taken{std::string(key), found->value, fmt::format("{}: {}", probe.title, found->source),
+                     found->estimated};
+  const auto old = std::find_if(material.sources.begin(), material.sources.end(),
+                                [&](const SourcedValue& s) { return s.key == key; });
+  if (old != material.sources.end()) {
+    *old = std::move(taken);
+  } else {
+    material.sources.push_back(std::move(taken));
+  }
+}
+
+}  // namespace
+
+const ProbeEntry* ProbeLibrary::find(std::string_view name) const { return find_named(probes, name); }
+
+core::Result<const ProbeEntry*> ProbeLibrary::require(std::string_view name) const {
+  return require_named(probes, "probe", name);
+}
+
+void ProbeLibrary::add(ProbeLibrary other) { add_named(probes, std::move(other.probes)); }
+
+core::Result<ProbeLibrary> load_probes(const std::string& path) { return read_toml("probe file", path, read_library); }
+
+core::Result<ProbeLibrary> load_probes(std::span<const std::string> paths) {
+  ProbeLibrary library;
+  for (const std::string& path : paths) {
+    auto loaded = load_probes(path);
+    if (!loaded) return loaded;
+    library.add(std::move(*loaded));
+  }
+  return library;
+}
+
+MaterialEntry with_probe(MaterialEntry material, const ProbeEntry& probe) {
+  material.interaction.tip_radius = probe.tip_radius;
+  material.interaction.spring_constant = probe.spring_constant;
+  take_source(material, "tip_radius", probe, "tip_radius");
+  take_source(material, "spring_constant", probe, "spring_constant");
+
+  if (probe.tip_elasticity && material.sample_elasticity) {
+    material.tip_elasticity = probe.tip_elasticity;
+    material.interaction.reduced_modulus = physics::reduced_modulus(*probe.tip_elasticity, *material.sample_elasticity);
+    take_source(material, "tip_modulus", probe, "tip_modulus");
+    take_source(material, "tip_poisson_ratio", probe, "tip_poisson_ratio");
+  }
+
+  const bool air = material.medium == "air";
+  if (const auto& resonance = air ? probe.resonance_in_air : probe.resonance_in_liquid) {
+    material.lever.resonance = *resonance;
+    take_source(material, "resonance", probe, air ? "resonance_in_air" : "resonance_in_liquid");
+  }
+  if (const auto& quality = air ? probe.quality_factor_in_air : probe.quality_factor_in_liquid) {
+    material.lever.quality_factor = *quality;
+    take_source(material, "quality_factor", probe, air ? "quality_factor_in_air" : "quality_factor_in_liquid");
+  }
+
+  const bool pair_is_known = find_source(material.sources, "hamaker") != nullptr;
+  if (pair_is_known && material.tip != probe.tip) {
+    material.note += fmt::format("{}Hamaker constant and work of adhesion are those of a {} tip, the probe's is of {}.",
+                                 material.note.empty() ? "" : " ", material.tip, probe.tip);
+  }
+  material.tip = probe.tip;
+  return material;
+}
+
+}  // namespace afm::scene

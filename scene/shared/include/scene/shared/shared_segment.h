@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <memory>
+#include <optional>
+
+#include "core/file_descriptor.h"
+#include "core/result.h"
+#include "physics/law.h"
+#include "scene/shared/shared_blocks.h"
+
+// The memory that touchafm and touchafm-servo share: a header page, the constant SharedModel, and one channel per
+// block.
+namespace afm::scene {
+
+// Raised whenever the meaning of a block changes; a change of a block's size is noticed by itself.
+inline constexpr std::uint32_t kSegmentVersion = 3;
+
+inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
+inline constexpr std::uint32_t kEventRingCapacity = 256;
+
+struct SegmentLayout;
+
+// Counts in range, parents before children, names terminated, numbers finite, materials and curves as below.
+core::Result<void> validate(const SharedModel& model);
+
+// A material that physics::validate() accepts, of a law and with options that are known; the counts are those of its
+// SharedModel. Whether it can be felt as well, only building it can tell.
+core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count,
+                            std::uint32_t height_field_count);
+
+physics::LawOptions law_options(const SharedMaterial& material);
+
+// Whether a block is worth believing: indices within counts, enumerators known, numbers finite.
+bool plausible(const SceneTransforms& transforms, const SharedModel& model);
+bool plausible(const Selection& selection, const SharedModel& model);
+bool plausible(const HandScript& script);
+bool plausible(const RendererHeartbeat& heartbeat);
+bool plausible(const SharedDevice& device);
+bool plausible(const TipState& state, const SharedModel& model);
+bool plausible(const TipSample& sample, const SharedModel& model);
+bool plausible(const TipEvent& event, const SharedModel& model);
+
+// Where `node` rests, composed along its parents. `model` is valid and `node` is less than its node_count.
+glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node);
+
+// The ends that touchafm holds. Keep one for the life of the segment and use it from one thread: it is the single
+// writer of what it stores and the single consumer of the two rings. Nothing here waits; what is implausible is dropped
+// and counted.
+class RendererSide {
+ public:
+  void store(const SceneTransforms& transforms) noexcept;
+  void store(const Selection& selection) noexcept;
+  void store(const MaterialEdit& edit, std::uint32_t material) noexcept;  // material < material_count
+  void store(const HandScript& script) noexcept;
+  void store(const RendererHeartbeat& heartbeat) noexcept;
+
+  // What this side stored last, for a process that takes the place of one that died: its revisions must go on from
+  // there. Empty if nothing was stored, or only half.
+  std::optional<Selection> last_selection() const noexcept;
+  std::optional<HandScript> last_hand_script() const noexcept;
+  std::optional<MaterialEdit> last_edit(std::uint32_t material) const noexcept;  // material < material_count
+
+  // Empty before the servo's first tick, and if the servo died in the middle of a store.
+  std::optional<TipState> tip_state() noexcept;
+  std::optional<ServoTiming> servo_timing() const noexcept;  // some 5 times a second
+
+  std::optional<SharedDevice> device() noexcept;  // empty until a servo has started
+
+  // The next one in order, or empty.
+  std::optional<TipSample> pop_sample() noexcept;
+  std::optional<TipEvent> pop_event() noexcept;
+
+  std::uint64_t lost_samples() const noexcept;  // pushed into a full ring
+  std::uint64_t lost_events() const noexcept;
+  std::uint64_t refused_blocks() const noexcept { return refused_; }
+
+ private:
+  friend class SharedSegment;
+  explicit RendererSide(SegmentLayout& layout) : layout_(&layout) {}
+
+  SegmentLayout* layout_;
+  std::uint64_t refused_ = 0;
+};
+
+// The ends that the servo holds, for its thread alone; wait-free, fit for a tick. The new_...() give each value once:
+// empty when nothing new came since the last call, and then the caller keeps what it had.
+class ServoSide {
+ public:
+  std::optional<SceneTransforms> new_transforms() noexcept;
+  std::optional<Selection> new_selection() noexcept;
+  std::optional<HandScript> new_hand_script() noexcept;
+  std::optional<RendererHeartbeat> new_heartbeat() noexcept;
+
+  void store(const TipState& state) noexcept;
+  void store(const ServoTiming& timing) noexcept;
+  void store(const SharedDevice& device) noexcept;
+  void push(const TipSample& sample) noexcept;  // counted as lost if the renderer has fallen 16 s behind
+  void push(const TipEvent& event) noexcept;
+
+  std::uint32_t refused_blocks() const noexcept { return refused_; }
+
+ private:
+  friend class SharedSegment;
+  explicit ServoSide(SegmentLayout& layout) : layout_(&layout) {}
+
+  SegmentLayout* layout_;
+  std::uint64_t seen_transforms_ = 0;
+  std::uint64_t seen_selection_ = 0;
+  std::uint64_t seen_script_ = 0;
+  std::uint64_t seen_heartbeat_ = 0;
+  std::uint32_t refused_ = 0;
+};
+
+// The end for whoever builds what the servo feels, one thread beside the servo's.
+class EditSide {
+ public:
+  // The newest edit of this material, once; unchecked. `material` < kMaxMaterials.
+  std::optional<MaterialEdit> new_edit(std::uint32_t material) noexcept;
+
+ private:
+  friend class SharedSegment;
+  explicit EditSide(SegmentLayout& layout) : layout_(&layout) {}
+
+  SegmentLayout* layout_;
+  std::array<std::uint64_t, kMaxMaterials> seen_{};
+};
+
+// One anonymous memory file, sealed against resizing and mapped. It has no name: a process gets it by inheriting the
+// descriptor, and it is gone when the last of them ends, in whatever way. Also serves two threads of one process.
+class SharedSegment {
+ public:
+  // `model` must be valid (see validate); `scene_digest` is digest(Scene) of the scene that it describes.
+  static core::Result<SharedSegment> create(const SharedModel& model, std::uint64_t scene_digest);
+
+  // Maps what another process created. The error names both versions if they differ.
+  static core::Result<SharedSegment> attach(core::FileDescriptor descriptor);
+
+  int descriptor() const noexcept { return descriptor_.get(); }
+  const SharedModel& model() const noexcept;
+  std::uint64_t scene_digest() const noexcept;
+
+  // Call each once per process that plays the side; the segment must outlive it (moving the segment is harmless).
+  RendererSide renderer_side() noexcept { return RendererSide(*layout_); }
+  ServoSide servo_side() noexcept { return ServoSide(*layout_); }
+  EditSide edit_side() noexcept { return EditSide(*layout_); }
+
+ private:
+  struct Unmap {
+    void operator()(SegmentLayout* layout) const noexcept;
+  };
+
+  SharedSegment(core::FileDescriptor descriptor, SegmentLayout* layout)
+      : descriptor_(std::move(descriptor)), layout_(layout) {}
+
+  core::FileDescriptor descriptor_;
+  std::unique_ptr<SegmentLayout, Unmap> layout_;
+};
+
+}  // namespace afm::scene

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/shared/shared_blocks.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <span>
+#include <stdexcept>
+
+#include "core/check.h"
+#include "scene/shared/shared_segment.h"
+
+namespace afm::scene {
+
+namespace {
+
+// Nothing in the scene or in the hand's frame is as far away as this; it keeps products of numbers finite.
+constexpr double kLargest = 1e9;
+
+bool sane(double value) { return std::isfinite(value) && std::abs(value) <= kLargest; }
+
+template <class Numbers>
+bool all_sane(const Numbers& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), sane);
+}
+
+bool positive(double value) { return sane(value) && value > 0; }
+
+bool terminated(const Name& name) { return std::find(name.begin(), name.end(), '\0') != name.end(); }
+
+bool known(ServoState state) { return state <= ServoState::Fault; }
+bool known(ContactPhase phase) { return phase <= ContactPhase::Attached; }
+bool known(FaultCode code) { return code <= FaultCode::OutOfWorkspace; }
+bool known(RendererLink link) { return link <= RendererLink::Died; }
+bool known(ScaleMode mode) { return mode <= ScaleMode::Compressed; }
+bool known(TipEventKind kind) { return kind == TipEventKind::JumpToContact || kind == TipEventKind::JumpOffContact; }
+
+bool within(std::int32_t material, const SharedModel& model) {
+  return material >= -1 && material < static_cast<std::int32_t>(std::min(model.material_count, kMaxMaterials));
+}
+
+auto refusal(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
+
+bool rising_and_sane(std::span<const physics::MeasuredPoint> branch) {
+  for (std::size_t i = 0; i < branch.size(); ++i) {
+    if (!sane(branch[i].z.si) || !sane(branch[i].force.si)) return false;
+    if (i > 0 && !(branch[i].z > branch[i - 1].z)) return false;
+  }
+  return true;
+}
+
+bool plausible(const SharedMeasuredCurve& curve) {
+  const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxMeasuredPoints; };
+  return counted(curve.approach_count) && counted(curve.retract_count) &&
+         rising_and_sane(std::span(curve.approach).first(curve.approach_count)) &&
+         rising_and_sane(std::span(curve.retract).first(curve.retract_count));
+}
+
+bool plausible(const SharedHeightField& field) {
+  const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxHeightFieldSide; };
+  if (!counted(field.columns) || !counted(field.rows) || !positive(field.spacing_m)) return false;
+  const std::size_t count = std::size_t{field.columns} * field.rows;
+  return std::all_of(field.height_m.begin(), field.height_m.begin() + count,
+                     [](float h) { return sane(static_cast<double>(h)); });
+}
+
+}  // namespace
+
+physics::LawOptions law_options(const SharedMaterial& material) {
+  physics::LawOptions options;
+  options.exact_hamaker_sphere = material.exact_hamaker_sphere != 0;
+  if (material.retardation_wavelength_m > 0) {
+    options.retardation_wavelength = physics::Length(material.retardation_wavelength_m);
+  }
+  if (material.has_meniscus != 0) options.meniscus = material.meniscus;
+  return options;
+}
+
+core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count,
+                            std::uint32_t height_field_count) {
+  if (!terminated(material.name)) return refusal("it has a name without an end");
+  if (material.law > physics::Law::Measured || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
+      material.dynamic > 1) {
+    return refusal("it has a law or an option that is not known");
+  }
+  if (material.law == physics::Law::Measured && (material.measured_curve >= curve_count || material.dynamic != 0)) {
+    return refusal("it has no measured curve, or a dynamic one");
+  }
+  if (material.height_field != kNoHeightField && material.height_field >= height_field_count) {
+    return refusal("it has a surface that is not there");
+  }
+  if (!(material.retardation_wavelength_m >= 0)) return refusal("its retardation wavelength is not a length");
+  try {
+    physics::validate(material.interaction);
+    physics::validate(law_options(material));
+    if (material.dynamic != 0) physics::validate(material.lever);
+  } catch (const std::invalid_argument& error) {
+    return refusal(error.what());
+  }
+  return {};
+}
+
+core::Result<void> validate(const SharedModel& model) {
+  if (model.node_count == 0 || model.node_count > kMaxNodes) {
+    return refusal(fmt::format("the shared scene has {} nodes: 1 to {} fit", model.node_count, kMaxNodes));
+  }
+  if (model.material_count == 0 || model.material_count > kMaxMaterials) {
+    return refusal(fmt::format("the shared scene has {} materials: 1 to {} fit", model.material_count, kMaxMaterials));
+  }
+  if (model.sample_node >= model.node_count) {
+    return refusal(fmt::format("the sample is node {} of a shared scene of {}", model.sample_node, model.node_count));
+  }
+  for (std::uint32_t i = 0; i < model.node_count; ++i) {
+    const SharedNode& node = model.nodes[i];
+    if (!terminated(node.name)) return refusal(fmt::format("shared node {} has a name without an end", i));
+    if (node.parent != kNoParent && node.parent >= i) {
+      return refusal(fmt::format("shared node {} stands before its parent {}", i, node.parent));
+    }
+    if (!all_sane(node.parent_from_node)) return refusal(fmt::format("shared node {} has a transform of no use", i));
+  }
+  if (model.curve_count > kMaxMeasuredCurves) {
+    return refusal(
+        fmt::format("the shared scene has {} measured curves: {} fit", model.curve_count, kMaxMeasuredCurves));
+  }
+  for (std::uint32_t i = 0; i < model.curve_count; ++i) {
+    if (!plausible(model.curves[i])) return refusal(fmt::format("measured curve {} is not along rising Z", i));
+  }
+  const bool no_scale = model.common_hand_m_per_m == 0 && model.common_hand_n_per_n == 0;
+  if (!no_scale && !(std::isnormal(model.common_hand_m_per_m) && model.common_hand_m_per_m > 0 &&
+                     std::isnormal(model.common_hand_n_per_n) && model.common_hand_n_per_n > 0)) {
+    return refusal("the common scale of the shared scene is of no use");
+  }
+  if (model.height_field_count > kMaxHeightFields) {
+    return refusal(fmt::format("the shared scene has {} surfaces: {} fit", model.height_field_count, kMaxHeightFields));
+  }
+  for (std::uint32_t i = 0; i < model.height_field_count; ++i) {
+    if (!plausible(model.height_fields[i])) return refusal(fmt::format("surface {} is no grid of heights", i));
+  }
+  for (std::uint32_t i = 0; i < model.material_count; ++i) {
+    if (auto valid = validate(model.materials[i], model.curve_count, model.height_field_count); !valid) {
+      return refusal(fmt::format("material {} of the shared scene: {}", i, valid.error().message));
+    }
+  }
+  return {};
+}
+
+bool plausible(const SceneTransforms& transforms, const SharedModel& model) {
+  if (transforms.count != model.node_count || transforms.count > kMaxNodes) return false;
+  return std::all_of(transforms.room_from_node.begin(), transforms.room_from_node.begin() + transforms.count,
+                     [](const auto& matrix) { return all_sane(matrix); });
+}
+
+bool plausible(const Selection& selection, const SharedModel& model) {
+  return within(selection.material, model) && known(selection.scale_mode);
+}
+
+bool plausible(const HandScript& script) {
+  return all_sane(script.target_m) && sane(script.duration_s) && script.duration_s >= 0 && script.turn_on_pressed <= 1;
+}
+
+bool plausible(const RendererHeartbeat& heartbeat) { return heartbeat.leaving <= 1; }
+
+bool plausible(const SharedDevice& device) {
+  // limits may be infinite
+  return terminated(device.name) && device.max_force_n > 0 && device.max_continuous_force_n > 0 &&
+         device.max_stiffness_n_per_m > 0 && device.max_slew_n_per_s > 0 && device.max_speed_m_per_s > 0 &&
+         all_sane(device.workspace_min_m) && all_sane(device.workspace_max_m);
+}
+
+bool plausible(const TipState& state, const SharedModel& model) {
+  return sane(state.z_m) && sane(state.tip_height_m) && sane(state.deflection_m) && sane(state.sample_deformation_m) &&
+         sane(state.force_n) && all_sane(state.hand_position_m) && all_sane(state.hand_force_n) &&
+         std::isfinite(state.hand_m_per_m) && std::isfinite(state.hand_n_per_n) && sane(state.release_z_m) &&
+         positive(state.slow_motion) && all_sane(state.tip_xy_m) && sane(state.surface_height_m) &&
+         all_sane(state.normal) && sane(state.force_cap_n) && std::isfinite(state.slew_limit_n_per_s) &&
+         sane(state.motor_heat) && sane(state.thermal_gain) && sane(state.ledger_j) && sane(state.ledger_damping) &&
+         known(state.scale_mode) && known(state.servo_state) && known(state.phase) && known(state.fault) &&
+         within(state.material, model);
+}
+
+bool plausible(const TipSample& sample, const SharedModel& model) {
+  return sane(sample.z_m) && sane(sample.force_n) && sane(sample.tip_height_m) && sane(sample.deflection_m) &&
+         sane(sample.sample_deformation_m) && sane(sample.hand_height_m) && sane(sample.hand_force_n) &&
+         all_sane(sample.hand_from_contact_m) && all_sane(sample.sample_normal) && all_sane(sample.sample_x) &&
+         all_sane(sample.tip_xy_m) && sane(sample.surface_height_m) && sane(sample.motor_heat) &&
+         sample.device_healthy <= 1 && sample.changing <= 1 && known(sample.renderer) && known(sample.scale_mode) &&
+         known(sample.servo_state) && known(sample.phase) && within(sample.material, model);
+}
+
+bool plausible(const TipEvent& event, const SharedModel& model) {
+  return known(event.kind) && sane(event.z_m) && sane(event.force_before_n) && sane(event.force_after_n) &&
+         within(event.material, model);
+}
+
+glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node) {
+  AFM_CHECK(node < model.node_count && model.node_count <= kMaxNodes);
+  glm::dmat4 room_from_node(1.0);
+  for (std::uint32_t i = node;; i = model.nodes[i].parent) {
+    room_from_node = glm::make_mat4(model.nodes[i].parent_from_node.data()) * room_from_node;
+    if (model.nodes[i].parent == kNoParent) return room_from_node;
+  }
+}
+
+}  // namespace afm::scene

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/file_descriptor.h"
+#include "core/result.h"
+#include "haptics/servo_loop.h"
+
+// How a servo whose renderer died is found by the next one, so that the device that it holds is not opened, and not
+// calibrated, again. The two meet at an abstract Unix socket, named after the user and the servo's program; each
+// believes only a process of its own user.
+namespace afm::servo {
+
+// The options of touchafm-servo that say how it runs and what it holds: a renderer that wants others wants another
+// servo.
+std::vector<std::string> servo_arguments(const haptics::ServoSettings& settings, const std::string& device);
+
+// The waiting servo's end. Closed, nobody can find it any more.
+class HandoverPort {
+ public:
+  // Fails when another servo of this program waits already. `program`: the path of touchafm-servo.
+  static core::Result<HandoverPort> open(const std::string& program);
+
+  int descriptor() const { return listener_.get(); }  // readable when somebody has come
+
+  // Shows the segment and the servo's arguments to whoever has come, and waits at most a second for the answer. With
+  // Stay, `lifeline` closes when that renderer dies; Leave: it wants another servo; Nobody: it was of another user, saw
+  // nothing and does not count.
+  enum class Answer { Stay, Leave, Nobody };
+  Answer receive(int segment, const std::vector<std::string>& arguments, core::FileDescriptor& lifeline) const;
+
+ private:
+  explicit HandoverPort(core::FileDescriptor listener) : listener_(std::move(listener)) {}
+
+  core::FileDescriptor listener_;
+};
+
+// A servo that waits, as the renderer sees it. To drop it is to tell it to leave.
+struct WaitingServo {
+  core::FileDescriptor segment;
+  core::FileDescriptor lifeline;  // closes when this process dies
+  core::FileDescriptor process;   // a pidfd
+  std::vector<std::string> arguments;
+
+  void stay() const;  // the answer that makes it go on
+};
+
+// The one that waits for a renderer of `program`, if there is one. Takes a second at most.
+std::optional<WaitingServo> find_waiting_servo(const std::string& program);
+
+// Waits for the process behind a pidfd; false if it still runs after so long.
+bool process_ended_within(const core::FileDescriptor& process, int milliseconds);
+
+}  // namespace afm::servo

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "scene/shared/shared_blocks.h"
+
+namespace afm::servo {
+
+// What was felt on one material, with everything that it depended on: every tick's sample and every event, as the servo
+// gave them. The first sample follows a moment without force or motion that counts (haptics::ServoLoop), so that a
+// replay gives the same forces bit for bit.
+struct RecordedSession {
+  std::string material;                             // name in the material file
+  scene::SharedMaterial parameters;                 // what was felt; curve and surface are the only ones of a replay
+  std::optional<scene::SharedMeasuredCurve> curve;  // of Law::Measured
+  std::optional<scene::SharedHeightField> surface;  // none: a plane
+  std::array<double, 16> room_from_sample{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // as in SceneTransforms
+  scene::SharedDevice device;
+  double rate_hz = 0;
+  bool dead_man = false;
+  bool realtime = false;
+  double hand_m_per_m = 0;  // position scale
+  double hand_n_per_n = 0;  // force scale
+  double slow_motion = 1;   // as in TipState
+  std::vector<scene::TipSample> samples;
+  std::vector<scene::TipEvent> events;
+
+  double seconds_since_start(std::int64_t time_ns) const;
+  const scene::TipEvent* find(scene::TipEventKind kind) const;  // the first one, or null
+};
+
+// The scene of a session for a servo that is to feel it again: one node, the sample, and its material twice, because
+// the session may end with the choice of another.
+std::unique_ptr<scene::SharedModel> model_of(const RecordedSession& session);
+
+// A session file (.afms): "AFMS", a version, a JSON header with the material, its law, all parameters, the device's
+// limits and the scales, then the samples, the events and at most one surface as fixed-size little-endian records, then
+// a 64-bit FNV-1a checksum of all that stands before it. Written whole or not at all.
+core::Result<void> save_session(const RecordedSession& session, const std::string& path);
+
+// Believes nothing unchecked: truncated, altered and foreign files, other versions, and numbers that are not finite are
+// errors that name the file.
+core::Result<RecordedSession> load_session(const std::string& path);
+
+}  // namespace afm::servo

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "scene/shared/shared_blocks.h"
+#include "servo/servo_link.h"
+#include "servo/session_file.h"
+
+namespace afm::servo {
+
+// Makes sessions of what a servo tells: a new one whenever another material, other parameters or another scale have
+// taken effect. A session begins where no force was on and the tip was off the sample, holds every tick from there, and
+// ends at a gap or at kLongestTicks: whatever it is cut to can be replayed. One thread.
+class SessionRecorder {
+ public:
+  static constexpr std::size_t kLongestTicks = 600'000;  // 10 minutes at 1 kHz, some 150 MB
+
+  // Everything new, in the order of its times. True: a session begins with this sample, and the one before is
+  // finished().
+  bool add(const scene::TipSample& sample, const ServoLink& servo);
+  void add(const scene::TipEvent& event);
+
+  // Forgets the session under way; the next begins as soon as the force is off.
+  void begin_again();
+
+  // Ends the session under way, which is finished() then.
+  void finish();
+
+  const RecordedSession& session() const { return session_; }  // the one under way, perhaps without a sample yet
+  std::optional<RecordedSession> take_finished();              // the newest that has ended; gives it once
+
+ private:
+  bool goes_on_with(const scene::TipSample& sample) const;
+  void begin(const scene::TipSample& sample, const ServoLink& servo);
+  void take_scale(const scene::TipSample& sample, const scene::TipState& tip);
+
+  RecordedSession session_;
+  std::optional<RecordedSession> finished_;
+  std::optional<scene::TipSample> previous_;
+  bool scale_known_ = false;
+};
+
+}  // namespace afm::servo

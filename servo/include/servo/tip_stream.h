@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "scene/shared/shared_blocks.h"
+#include "servo/servo_link.h"
+
+namespace afm::servo {
+
+// The servo's samples and events in the order of their times: an event may arrive a moment before the sample of its
+// tick, and then waits for it.
+class TipStream {
+ public:
+  // Calls `on_event` for each event and `on_sample` for each sample that belongs to a material.
+  template <class OnSample, class OnEvent>
+  void take(const ServoLink::News& news, OnSample&& on_sample, OnEvent&& on_event) {
+    waiting_.insert(waiting_.end(), news.events.begin(), news.events.end());
+    auto event = waiting_.begin();
+    for (const scene::TipSample& sample : news.samples) {
+      if (sample.material < 0) continue;
+      for (; event != waiting_.end() && event->time_ns <= sample.time_ns; ++event) {
+        if (event->material >= 0) on_event(*event);
+      }
+      on_sample(sample);
+    }
+    waiting_.erase(waiting_.begin(), event);
+  }
+
+ private:
+  std::vector<scene::TipEvent> waiting_;
+};
+
+}  // namespace afm::servo

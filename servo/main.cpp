@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <signal.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "core/clock.h"
+#include "core/exit_code.h"
+#include "core/file_descriptor.h"
+#include "core/log.h"
+#include "haptics/realtime.h"
+#include "haptics/servo_loop.h"
+#include "scene/shared/shared_segment.h"
+#include "servo/haptic_choice.h"
+#include "servo/renderer_watch.h"
+#include "servo/servo_handover.h"
+
+// touchafm-servo: the process that holds the hand. Its main thread is the servo; a second thread watches the renderer,
+// a third, which is not real-time, builds what a visitor changes.
+namespace {
+
+using namespace std::string_view_literals;
+using afm::core::ExitCode;
+
+struct Options {
+  int segment = -1;
+  int parent_socket = -1;
+  afm::haptics::ServoSettings settings;
+  int dead_man = 0;  // 0 or 1
+  std::string_view haptics = "sim";
+};
+
+template <class Number>
+bool parse(std::string_view text, Number& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+std::optional<Options> parse_options(int count, char** arguments) {
+  Options options;
+  for (int i = 1; i < count; i += 2) {
+    const std::string_view name = arguments[i];
+    if (i + 1 == count) return std::nullopt;
+    const std::string_view value = arguments[i + 1];
+    const bool parsed = (name == "--segment"sv && parse(value, options.segment)) ||
+                        (name == "--parent-socket"sv && parse(value, options.parent_socket)) ||
+                        (name == "--rate"sv && parse(value, options.settings.rate_hz)) ||
+                        (name == "--linger"sv && parse(value, options.settings.linger_s)) ||
+                        (name == "--spin"sv && parse(value, options.settings.spin_ns)) ||
+                        (name == "--dead-man"sv && parse(value, options.dead_man)) || name == "--haptics"sv;
+    if (name == "--haptics"sv) options.haptics = value;
+    if (!parsed) return std::nullopt;
+  }
+  if (options.segment < 0 || options.parent_socket < 0) return std::nullopt;
+  options.settings.dead_man = options.dead_man != 0;
+  return options;
+}
+
+// SIGINT and SIGTERM become readable events; every thread that is made from here on inherits the mask.
+afm::core::FileDescriptor catch_signals() {
+  sigset_t ending;
+  ::sigemptyset(&ending);
+  ::sigaddset(&ending, SIGINT);
+  ::sigaddset(&ending, SIGTERM);
+  ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+  return afm::core::FileDescriptor(::signalfd(-1, &ending, SFD_CLOEXEC));
+}
+
+afm::core::ExitCode run(const Options& options) {
+  afm::core::FileDescriptor parent_socket(options.parent_socket);
+  auto segment = afm::scene::SharedSegment::attach(afm::core::FileDescriptor(options.segment));
+  if (!segment) {
+    afm::core::log_line(segment.error().message);
+    return afm::core::exit_code(segment.error().category);
+  }
+  // a device may bring threads of its own, which must leave the signals to the monitor
+  const afm::core::FileDescriptor signals = catch_signals();
+  const afm::core::MonotonicClock clock;
+  const auto choice = afm::servo::parse_haptic_choice(options.haptics);
+  auto opened = choice ? afm::servo::open_haptic_device(*choice, clock) : tl::unexpected(choice.error());
+  if (!opened) {
+    afm::core::log_line(opened.error().message);
+    return afm::core::exit_code(opened.error().category);
+  }
+  auto loop = afm::haptics::ServoLoop::create(*segment, *opened->device, options.settings);
+  if (!loop) {
+    afm::core::log_line(loop.error().message);
+    return afm::core::exit_code(loop.error().category);
+  }
+
+  afm::haptics::ServoExit exit{};
+  {
+    const afm::haptics::EditThread edits((*loop)->edits());
+    const afm::servo::RendererWatch watch(
+        **loop, std::move(parent_socket), signals,
+        {.seconds = options.settings.linger_s,
+         .program = afm::servo::executable_path(),
+         .segment = segment->descriptor(),
+         .arguments = afm::servo::servo_arguments(options.settings, std::string(options.haptics))});
+    const auto grant = afm::haptics::enter_realtime(afm::haptics::kServoPriority, afm::haptics::PageLock::Lock);
+    for (const std::string& note : grant.notes) afm::core::log_line(note);
+    (*loop)->note_grant(grant);
+    exit = (*loop)->run(clock);
+  }
+  if (exit == afm::haptics::ServoExit::RendererDied) {
+    afm::core::log_line("the renderer died: force released");
+    return afm::core::ExitCode::RunFailed;
+  }
+  return afm::core::ExitCode::Done;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  // a reader of stderr that died with the renderer must not end the servo
+  ::signal(SIGPIPE, SIG_IGN);
+  const auto options = parse_options(count, arguments);
+  if (!options) {
+    afm::core::log_line("touchafm-servo is started by touchafm; run 'touchafm demo --out DIR' instead");
+    return static_cast<int>(afm::core::ExitCode::WrongUsage);
+  }
+  return static_cast<int>(run(*options));
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "servo/servo_takeover.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+#include "core/log.h"
+
+namespace afm::servo {
+
+namespace {
+
+constexpr int kLeaveMs = 2000;
+
+// Bit by bit, but for the padding behind a height field.
+bool same_model(const scene::SharedModel& a, const scene::SharedModel& b) {
+  constexpr std::size_t kWithoutPadding = offsetof(scene::SharedModel, height_fields);
+  return std::memcmp(&a, &b, kWithoutPadding) == 0 &&
+         std::equal(a.height_fields.begin(), a.height_fields.end(), b.height_fields.begin(),
+                    [](const scene::SharedHeightField& one, const scene::SharedHeightField& other) {
+                      return one.columns == other.columns && one.rows == other.rows &&
+                             one.spacing_m == other.spacing_m && one.height_m == other.height_m;
+                    });
+}
+
+}  // namespace
+
+std::optional<TakenServo> take_waiting_servo(const scene::SharedModel& model, std::uint64_t scene_digest,
+                                             const haptics::ServoSettings& settings, const std::string& haptic_device,
+                                             const std::string& servo_program) {
+  auto waiting = find_waiting_servo(servo_program);
+  if (!waiting) return std::nullopt;
+  auto segment = scene::SharedSegment::attach(std::move(waiting->segment));
+  if (!segment) core::log_line(segment.error().message);
+  const bool fits = segment && settings.linger_s > 0 && segment->scene_digest() == scene_digest &&
+                    waiting->arguments == servo_arguments(settings, haptic_device) &&
+                    same_model(segment->model(), model);
+  if (fits) {
+    core::log_line("taking over the servo of a renderer that died");
+    return TakenServo{.segment = std::move(*segment), .servo = std::move(*waiting)};
+  }
+  core::log_line("the servo of a renderer that died is of another scene or device: it is told to leave");
+  waiting->lifeline.close();
+  if (!process_ended_within(waiting->process, kLeaveMs)) {
+    core::log_line("the servo of a renderer that died does not leave: it may still hold the device");
+  }
+  return std::nullopt;
+}
+
+}  // namespace afm::servo

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "servo/replay.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "haptics/safety.h"
+#include "haptics/servo_loop.h"
+#include "scene/shared/shared_segment.h"
+
+namespace afm::servo {
+
+namespace {
+
+using haptics::DeviceSample;
+using haptics::SafetyGovernor;
+using scene::RendererLink;
+using scene::TipEvent;
+using scene::TipSample;
+
+// The hand of one sample after the other. The motors' heat, which is older than the session, is told as if the device
+// had measured it: the governor goes by the larger of that and its own estimate, which began cold and is never larger.
+class RecordedHand final : public haptics::HapticDevice {
+ public:
+  explicit RecordedHand(const RecordedSession& session) : spec_(haptics::spec_of(session.device)) {}
+
+  void show(const TipSample& sample, bool healthy) {
+    const auto& [x, y, z] = sample.hand_from_contact_m;
+    now_ = {.position_m = glm::dvec3(x, y, z),
+            .turn_on = sample.turn_on != 0,
+            .healthy = healthy,
+            .motor_heat = sample.motor_heat};
+  }
+
+  const haptics::DeviceSpec& spec() const noexcept override { return spec_; }
+  DeviceSample read(std::int64_t /*now_ns*/) noexcept override { return now_; }
+  void write(const haptics::ForceCommand& /*command*/) noexcept override {}
+
+ private:
+  haptics::DeviceSpec spec_;
+  DeviceSample now_;
+};
+
+// Finds the first quantity in which two records differ.
+class Comparison {
+ public:
+  explicit Comparison(std::size_t index) : index_(index) {}
+
+  void expect(const char* quantity, double recorded, double replayed) {
+    if (first_ || std::bit_cast<std::uint64_t>(recorded) == std::bit_cast<std::uint64_t>(replayed)) return;
+    first_ = Difference{index_, quantity, recorded, replayed};
+  }
+  template <class Enumerator>
+    requires std::is_enum_v<Enumerator>
+  void expect(const char* quantity, Enumerator recorded, Enumerator replayed) {
+    expect(quantity, static_cast<double>(recorded), static_cast<double>(replayed));
+  }
+
+  const std::optional<Difference>& first() const { return first_; }
+
+ private:
+  std::size_t index_;
+  std::optional<Difference> first_;
+};
+
+std::optional<Difference> difference(std::size_t index, const TipSample& recorded, const TipSample& replayed) {
+  Comparison compare(index);
+  compare.expect("z_m", recorded.z_m, replayed.z_m);
+  compare.expect("force_N", recorded.force_n, replayed.force_n);
+  compare.expect("tip_height_m", recorded.tip_height_m, replayed.tip_height_m);
+  compare.expect("deflection_m", recorded.deflection_m, replayed.deflection_m);
+  compare.expect("sample_deformation_m", recorded.sample_deformation_m, replayed.sample_deformation_m);
+  compare.expect("hand_height_m", recorded.hand_height_m, replayed.hand_height_m);
+  compare.expect("hand_force_N", recorded.hand_force_n, replayed.hand_force_n);
+  compare.expect("servo_state", recorded.servo_state, replayed.servo_state);
+  compare.expect("phase", recorded.phase, replayed.phase);
+  compare.expect("tip_x_m", recorded.tip_xy_m[0], replayed.tip_xy_m[0]);
+  compare.expect("tip_y_m", recorded.tip_xy_m[1], replayed.tip_xy_m[1]);
+  compare.expect("surface_height_m", recorded.surface_height_m, replayed.surface_height_m);
+  return compare.first();
+}
+
+std::optional<Difference> difference(std::size_t index, const TipEvent& recorded, const TipEvent& replayed) {
+  Comparison compare(index);
+  compare.expect("kind", recorded.kind, replayed.kind);
+  compare.expect("time_ns", static_cast<double>(recorded.time_ns), static_cast<double>(replayed.time_ns));
+  compare.expect("z_m", recorded.z_m, replayed.z_m);
+  compare.expect("force_before_N", recorded.force_before_n, replayed.force_before_n);
+  compare.expect("force_after_N", recorded.force_after_n, replayed.force_after_n);
+  return compare.first();
+}
+
+// Whether a heartbeat with this tick lets the servo see what it saw then: the last one before a hang must be just old
+// enough when the hang was noticed.
+bool beats(std::span<const TipSample> from_here) {
+  const std::int64_t now_ns = from_here.front().time_ns;
+  if (from_here.front().renderer != RendererLink::Alive) return false;
+  for (const TipSample& sample : from_here) {
+    if (sample.time_ns - now_ns > SafetyGovernor::kHangNs) break;
+    if (sample.renderer == RendererLink::Hung) return false;
+  }
+  return true;
+}
+
+// A servo over a segment of its own, in the session's time.
+class Player {
+ public:
+  static core::Result<std::unique_ptr<Player>> create(const RecordedSession& session) {
+    auto segment = scene::SharedSegment::create(*model_of(session), 0);
+    if (!segment) return tl::unexpected(segment.error());
+    std::unique_ptr<Player> player(new Player(session, std::move(*segment)));
+    auto loop = haptics::ServoLoop::create(player->segment_, player->hand_,
+                                           {.rate_hz = session.rate_hz, .dead_man = session.dead_man});
+    if (!loop) return tl::unexpected(loop.error());
+    player->loop_ = std::move(*loop);
+    player->lay_sample();
+    return player;
+  }
+
+  // The tick of this sample; false if it gave none.
+  bool play(std::size_t index) {
+    const TipSample& sample = session_.samples[index];
+    if (beats(std::span(session_.samples).subspan(index))) beat(0);
+    if (sample.renderer == RendererLink::Leaving) beat(1);
+    if (sample.renderer == RendererLink::Died) loop_->renderer_died();
+    // it shows in the tick after
+    const bool changes = index + 1 < session_.samples.size() && session_.samples[index + 1].changing != 0;
+    if (changes != (chosen_ != 0)) choose(changes ? 1 : 0);
+    hand_.show(sample, sample.device_healthy != 0);
+    loop_->tick(sample.time_ns, sample.wake_us);
+    while (const auto event = renderer_.pop_event()) events_.push_back(*event);
+    const auto given = renderer_.pop_sample();
+    if (given) sample_ = *given;
+    return given.has_value();
+  }
+
+  const TipSample& sample() const { return sample_; }
+  const std::vector<TipEvent>& events() const { return events_; }
+
+ private:
+  Player(const RecordedSession& session, scene::SharedSegment segment)
+      : session_(session), segment_(std::move(segment)), renderer_(segment_.renderer_side()), hand_(session) {}
+
+  void beat(std::uint32_t leaving) {
+    renderer_.store(scene::RendererHeartbeat{.time_ns = 0, .frame = ++frame_, .leaving = leaving});
+  }
+
+  void choose(std::int32_t material) {
+    chosen_ = material;
+    renderer_.store(scene::Selection{
+        .material = material, .revision = ++selection_, .scale_mode = session_.samples.front().scale_mode});
+  }
+
+  // Before the session, so long ago that a hang which had lasted then lasts again: one tick that finds the hand where
+  // it was, and one at whose end the material takes effect. A session that begins in a fault finds the servo in one.
+  void lay_sample() {
+    const TipSample& first = session_.samples.front();
+    scene::SceneTransforms transforms;
+    transforms.count = 1;
+    transforms.room_from_node[0] = session_.room_from_sample;
+    renderer_.store(transforms);
+    if (first.renderer != RendererLink::Absent) beat(0);
+    const std::int64_t before_ns = first.time_ns - SafetyGovernor::kHangNs - loop_->period_ns();
+    hand_.show(first, true);
+    loop_->tick(before_ns - loop_->period_ns(), 0);
+    choose(0);
+    hand_.show(first, first.servo_state != scene::ServoState::Fault);
+    loop_->tick(before_ns, 0);
+  }
+
+  const RecordedSession& session_;
+  scene::SharedSegment segment_;
+  scene::RendererSide renderer_;
+  RecordedHand hand_;
+  std::unique_ptr<haptics::ServoLoop> loop_;
+  std::uint64_t frame_ = 0;
+  std::int32_t chosen_ = 0;
+  std::uint32_t selection_ = 0;
+  TipSample sample_;
+  std::vector<TipEvent> events_;
+};
+
+}  // namespace
+
+core::Result<Replay> replay(const RecordedSession& session) {
+  const auto player = Player::create(session);
+  if (!player) return tl::unexpected(player.error());
+  Replay result;
+  result.ticks = session.samples.size();
+  for (std::size_t i = 0; i < session.samples.size(); ++i) {
+    const TipSample& recorded = session.samples[i];
+    std::optional<Difference> found = Difference{i, "material", static_cast<double>(recorded.material), -1.0};
+    if ((*player)->play(i)) {
+      const TipSample& replayed = (*player)->sample();
+      found = difference(i, recorded, replayed);
+      result.largest_tip_n = std::max(result.largest_tip_n, std::abs(recorded.force_n - replayed.force_n));
+      result.largest_hand_n = std::max(result.largest_hand_n, std::abs(recorded.hand_force_n - replayed.hand_force_n));
+    }
+    if (!found) continue;
+    ++result.different_ticks;
+    if (!result.first) result.first = found;
+  }
+  const std::vector<TipEvent>& events = (*player)->events();
+  result.events = events.size();
+  for (std::size_t i = 0; i < std::max(events.size(), session.events.size()) && !result.first_event; ++i) {
+    if (i < events.size() && i < session.events.size()) {
+      result.first_event = difference(i, session.events[i], events[i]);
+    } else {
+      result.first_event =
+          Difference{i, "count", static_cast<double>(session.events.size()), static_cast<double>(events.size())};
+    }
+  }
+  return result;
+}
+
+}  // namespace afm::servo

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "servo/session_recorder.h"
+
+#include <utility>
+
+namespace afm::servo {
+
+namespace {
+
+using scene::ServoState;
+using scene::TipSample;
+
+bool same_encounter(const TipSample& a, const TipSample& b) {
+  return a.material == b.material && a.edit_revision == b.edit_revision && a.scale_mode == b.scale_mode;
+}
+
+// A servo that starts here feels the same from here on.
+bool is_released(const TipSample& sample) {
+  const bool off = sample.servo_state == ServoState::Disarmed || sample.servo_state == ServoState::Fault;
+  return off && sample.hand_force_n == 0.0 && sample.phase != scene::ContactPhase::Attached;
+}
+
+}  // namespace
+
+bool SessionRecorder::goes_on_with(const TipSample& sample) const {
+  return previous_ && same_encounter(*previous_, sample) && sample.tick == previous_->tick + 1 &&
+         session_.samples.size() < kLongestTicks;
+}
+
+bool SessionRecorder::add(const TipSample& sample, const ServoLink& servo) {
+  if (!goes_on_with(sample)) finish();
+  const bool begins = session_.samples.empty();
+  const bool fresh = previous_ && !same_encounter(*previous_, sample) && sample.tick == previous_->tick + 1;
+  previous_ = sample;
+  if (begins && !fresh && !is_released(sample)) return false;
+  if (begins) begin(sample, servo);
+  if (!scale_known_) take_scale(sample, servo.tip());
+  session_.samples.push_back(sample);
+  return begins;
+}
+
+void SessionRecorder::add(const scene::TipEvent& event) {
+  if (!session_.samples.empty()) session_.events.push_back(event);
+}
+
+void SessionRecorder::begin_again() { session_ = {}; }
+
+void SessionRecorder::finish() {
+  if (!session_.samples.empty()) finished_ = std::exchange(session_, {});
+}
+
+std::optional<RecordedSession> SessionRecorder::take_finished() { return std::exchange(finished_, std::nullopt); }
+
+void SessionRecorder::begin(const TipSample& sample, const ServoLink& servo) {
+  const scene::SharedModel& model = servo.model();
+  session_.parameters = servo.parameters(static_cast<std::size_t>(sample.material), sample.edit_revision);
+  session_.material = session_.parameters.name.data();
+  if (session_.parameters.measured_curve != scene::kNoMeasuredCurve) {
+    session_.curve = model.curves[std::exchange(session_.parameters.measured_curve, 0)];
+  }
+  if (session_.parameters.height_field != scene::kNoHeightField) {
+    session_.surface = model.height_fields[std::exchange(session_.parameters.height_field, 0)];
+  }
+  session_.room_from_sample = servo.room_from_sample();
+  session_.device = servo.device();
+  session_.rate_hz = servo.settings().rate_hz;
+  session_.dead_man = servo.settings().dead_man;
+  scale_known_ = false;
+}
+
+// The newest state may still be, or already be, that of another encounter; then the next sample asks again.
+void SessionRecorder::take_scale(const TipSample& sample, const scene::TipState& tip) {
+  scale_known_ = tip.material == sample.material && tip.edit_revision == sample.edit_revision &&
+                 tip.scale_mode == sample.scale_mode;
+  if (!scale_known_) return;
+  session_.realtime = tip.realtime != 0;
+  session_.hand_m_per_m = tip.hand_m_per_m;
+  session_.hand_n_per_n = tip.hand_n_per_n;
+  session_.slow_motion = tip.slow_motion;
+}
+
+}  // namespace afm::servo

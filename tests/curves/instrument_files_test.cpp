@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// The instruments' own binary formats, from files that are put together here as JPK's and Asylum Research's are.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "curves/curve_file.h"
+#include "support/stored_zip.h"
+
+namespace afm::curves {
+namespace {
+
+using testing::HasSubstr;
+
+std::string error_of(std::string_view bytes, const CurveReading& reading = {}) {
+  const auto curve = parse_curve(bytes, "curve.x", reading);
+  if (curve) return "accepted";
+  EXPECT_EQ(curve.error().category, core::ErrorCategory::BadInputFile);
+  return curve.error().message;
+}
+
+std::string big_endian_shorts(const std::vector<int>& values) {
+  std::string bytes;
+  for (const int value : values) {
+    bytes.push_back(static_cast<char>(value >> 8));
+    bytes.push_back(static_cast<char>(value));
+  }
+  return bytes;
+}
+
+constexpr double kSensitivity = 70e-9, kSpringConstant = 0.04;
+
+// volts -> metres -> newtons; volts = 0.0003 n - 0.007
+std::string deflection_properties(bool calibrated) {
+  const std::string set = "channel.vDeflection.conversion-set.conversion";
+  return fmt::format(
+      "channel.vDeflection.data.encoder.type=signedshort\n"
+      "channel.vDeflection.data.encoder.scaling.offset=-0.007\n"
+      "channel.vDeflection.data.encoder.scaling.multiplier=3.0E-4\n"
+      "channel.vDeflection.conversion-set.conversions.base=volts\n"
+      "{0}.distance.defined={1}\n{0}.distance.base-calibration-slot=volts\n"
+      "{0}.distance.scaling.offset=0.0\n{0}.distance.scaling.multiplier={2}\n"
+      "{0}.force.defined={1}\n{0}.force.base-calibration-slot=distance\n"
+      "{0}.force.scaling.offset=0.0\n{0}.force.scaling.multiplier={3}\n",
+      set, calibrated, kSensitivity, kSpringConstant);
+}
+
+// The height's description stands in shared-data, as newer files have it.
+std::map<std::string, std::string> jpk_entries(bool calibrated = true) {
+  std::vector<int> down, up, force;
+  for (int i = 0; i < 20; ++i) {
+    down.push_back(-1000 * i);
+    up.push_back(-20000 + 1000 * i);
+    force.push_back(i < 10 ? 0 : 100 * (i - 10));
+  }
+  const auto segment = [&](const char* style) {
+    return fmt::format(
+        "# JPK\nforce-segment-header.settings.segment-settings.style={}\n"
+        "force-segment-header.time-stamp=2016-03-31 17\\:51\\:14.543 +0200\n"
+        "channel.measuredHeight.lcd-info.*=3\n{}",
+        style, deflection_properties(calibrated));
+  };
+  return {
+      {"header.properties", "force-scan-series.description.instrument=NanoWizard\n"},
+      {"shared-data/header.properties",
+       "lcd-info.3.encoder.type=signedshort\nlcd-info.3.encoder.scaling.offset=0\n"
+       "lcd-info.3.encoder.scaling.multiplier=1\nlcd-info.3.conversion-set.conversions.base=volts\n"
+       "lcd-info.3.conversion-set.conversion.nominal.defined=true\n"
+       "lcd-info.3.conversion-set.conversion.nominal.base-calibration-slot=volts\n"
+       "lcd-info.3.conversion-set.conversion.nominal.scaling.offset=1.0E-4\n"
+       "lcd-info.3.conversion-set.conversion.nominal.scaling.multiplier=1.0E-10\n"
+       "lcd-info.30.encoder.type=signedlong\n"},
+      {"segments/0/segment-header.properties", segment("extend")},
+      {"segments/0/channels/measuredHeight.dat", big_endian_shorts(down)},
+      {"segments/0/channels/vDeflection.dat", big_endian_shorts(force)},
+      {"segments/1/segment-header.properties", segment("pause")},
+      {"segments/2/segment-header.properties", segment("retract")},
+      {"segments/2/channels/measuredHeight.dat", big_endian_shorts(up)},
+      {"segments/2/channels/vDeflection.dat", big_endian_shorts(force)},
+  };
+}
+
+TEST(JpkFile, IsDecodedThroughItsChainOfConversions) {
+  const auto curve = parse_curve(test::stored_zip(jpk_entries()), "a.jpk-force");
+  ASSERT_TRUE(curve.has_value()) << curve.error().message;
+  ASSERT_EQ(curve->points.size(), 40U);
+  EXPECT_DOUBLE_EQ(curve->points[1].z.si, 1e-4 - 1000 * 1e-10);
+  EXPECT_DOUBLE_EQ(curve->points[15].force.si, (500 * 3e-4 - 0.007) * kSensitivity * kSpringConstant);
+  EXPECT_EQ(curve->points[19].branch, physics::Branch::Approach);
+  EXPECT_EQ(curve->points[20].branch, physics::Branch::Retract);
+  EXPECT_DOUBLE_EQ(curve->metadata.spring_constant->si, kSpringConstant);
+  EXPECT_DOUBLE_EQ(*curve->metadata.sensitivity_m_per_v, kSensitivity);
+  EXPECT_EQ(curve->metadata.instrument, "NanoWizard");
+  EXPECT_EQ(curve->metadata.date, "2016-03-31");
+  EXPECT_EQ(curve->metadata.time, "17:51:14.543");
+}
+
+TEST(JpkFile, TakesACalibrationThatItDoesNotHold) {
+  const std::string bytes = test::stored_zip(jpk_entries(false));
+  EXPECT_THAT(error_of(bytes), HasSubstr("its lever is not calibrated; give --spring-constant"));
+  EXPECT_THAT(error_of(bytes, {.spring_constant = physics::Stiffness(0.1), .sensitivity_m_per_v = {}}),
+              HasSubstr("give --sensitivity"));
+  const auto curve =
+      parse_curve(bytes, "a", {.spring_constant = physics::Stiffness(0.1), .sensitivity_m_per_v = 50e-9});
+  ASSERT_TRUE(curve.has_value()) << curve.error().message;
+  EXPECT_DOUBLE_EQ(curve->points[15].force.si, (500 * 3e-4 - 0.007) * 50e-9 * 0.1);
+}
+
+TEST(JpkFile, RefusesWhatItDoesNotUnderstand) {
+  const auto refusal = [](const std::string& entry, const std::string& text) {
+    auto entries = jpk_entries();
+    entries[entry] = text;
+    return error_of(test::stored_zip(entries));
+  };
+  EXPECT_THAT(refusal("index/0/header.properties", ""), HasSubstr("a map or QI file of many curves"));
+  EXPECT_THAT(refusal("segments/0/channels/vDeflection.dat", "odd"), HasSubstr("\"vDeflection\" is cut short"));
+  EXPECT_THAT(refusal("segments/0/channels/vDeflection.dat", "even"), HasSubstr("differ in length"));
+  EXPECT_THAT(refusal("segments/0/segment-header.properties", ""), HasSubstr("whether it extends or retracts"));
+  EXPECT_THAT(refusal("segments/0/segment-header.properties", jpk_entries()["segments/0/segment-header.properties"] +
+                                                                  "channel.vDeflection.data.encoder.type=float\n"),
+              HasSubstr("encoded as \"float\", which is not understood"));
+  EXPECT_THAT(refusal("segments/0/segment-header.properties",
+                      jpk_entries()["segments/0/segment-header.properties"] +
+                          "channel.vDeflection.conversion-set.conversion.distance.base-calibration-slot=force\n"),
+              HasSubstr("its conversions lead nowhere"));
+  EXPECT_THAT(error_of(test::stored_zip({{"a.txt", "text"}})), HasSubstr("a zip archive, but not one of JPK's"));
+}
+
+TEST(JpkFile, RefusesEveryCutAndAnEntryThatClaimsToBeHuge) {
+  const std::string bytes = test::stored_zip(jpk_entries());
+  for (std::size_t size = 4; size < bytes.size(); size += 97) {
+    EXPECT_THAT(error_of(std::string_view(bytes).substr(0, size)), HasSubstr("archive is damaged"));
+  }
+  EXPECT_THAT(error_of(test::stored_zip(jpk_entries(), 0xF0000000U)), HasSubstr("in its archive is"));
+}
+
+// Version 5, three channels of floats.
+class IgorWave {
+ public:
+  explicit IgorWave(std::size_t rows) : rows_(rows), bytes_(384 + rows * 3 * sizeof(float), '\0') {
+    put<std::int16_t>(0, 5);
+    put<std::int32_t>(4, static_cast<std::int32_t>(320 + rows * 3 * sizeof(float)));
+    put<std::int16_t>(80, 2);
+    put<std::int32_t>(132, static_cast<std::int32_t>(rows));
+    put<std::int32_t>(136, 3);
+    const std::string note =
+        "ImagingMode:Contact\rSpringConstant: 1.1841\rInvOLS: 4.499e-08\rMicroscopeModel:MFP3D\rDate:2020-02-05\r";
+    put<std::int32_t>(12, static_cast<std::int32_t>(note.size()));
+    put<std::int32_t>(40, 4 * 32);
+    bytes_ += note;
+    for (const char* label : {"", "Raw", "Defl", "ZSnsr"})
+      bytes_ += std::string(label) + std::string(32 - std::strlen(label), '\0');
+  }
+
+  template <class T>
+  IgorWave& put(std::size_t offset, T value) {
+    std::memcpy(bytes_.data() + offset, &value, sizeof(T));
+    return *this;
+  }
+
+  IgorWave& set(std::size_t row, float deflection, float sensor) {
+    put(384 + (rows_ + row) * sizeof(float), deflection);
+    return put(384 + (2 * rows_ + row) * sizeof(float), sensor);
+  }
+
+  std::string bytes() {
+    put<std::uint16_t>(2, 0);
+    std::uint16_t sum = 0;
+    for (std::size_t i = 0; i < 384; i += 2) {
+      std::uint16_t word = 0;
+      std::memcpy(&word, bytes_.data() + i, sizeof(word));
+      sum = static_cast<std::uint16_t>(sum + word);
+    }
+    return put<std::uint16_t>(2, static_cast<std::uint16_t>(-sum)).bytes_;
+  }
+
+ private:
+  std::size_t rows_;
+  std::string bytes_;
+};
+
+IgorWave igor_cycle() {
+  IgorWave wave(41);
+  for (std::size_t i = 0; i < 40; ++i) {
+    const float depth = static_cast<float>(i < 20 ? i : 39 - i) * 1e-9F;
+    wave.set(i, 0.5F * depth, depth + static_cast<float>(i == 19) * 1e-10F);
+  }
+  return wave.set(40, std::numeric_limits<float>::quiet_NaN(), 0.0F);
+}
+
+TEST(IgorFile, IsTurnedAtItsDeepestPointAndScaledByItsNote) {
+  const auto curve = parse_curve(igor_cycle().bytes(), "a.ibw");
+  ASSERT_TRUE(curve.has_value()) << curve.error().message;
+  ASSERT_EQ(curve->points.size(), 40U);  // without the NaN
+  EXPECT_EQ(curve->points[19].branch, physics::Branch::Approach);
+  EXPECT_EQ(curve->points[20].branch, physics::Branch::Retract);
+  EXPECT_NEAR(curve->points[10].z.si / -10e-9, 1.0, 1e-6);
+  EXPECT_NEAR(curve->points[10].force.si / (5e-9 * 1.1841), 1.0, 1e-6);
+  EXPECT_EQ(curve->metadata.instrument, "MFP3D");
+  EXPECT_EQ(curve->metadata.date, "2020-02-05");
+  EXPECT_DOUBLE_EQ(*curve->metadata.sensitivity_m_per_v, 4.499e-08);
+}
+
+TEST(IgorFile, RefusesOtherVersionsDamageAndEveryCut) {
+  const std::string bytes = igor_cycle().bytes();
+  for (std::size_t size = 2; size < bytes.size(); size += 31) {
+    EXPECT_THAT(error_of(std::string_view(bytes).substr(0, size)), HasSubstr("cannot read the curve"));
+  }
+  EXPECT_THAT(error_of(igor_cycle().put<std::int16_t>(0, 2).bytes()), HasSubstr("another version or byte order"));
+  std::string damaged = bytes;
+  damaged[100] = 'x';
+  EXPECT_THAT(error_of(damaged), HasSubstr("the checksum of its header is wrong"));
+  EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(132, 1 << 30).bytes()), HasSubstr("cut short"));
+  EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(12, -1).bytes()), HasSubstr("negative"));
+  EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(140, 7).bytes()), HasSubstr("no table of channels"));
+  EXPECT_THAT(error_of(igor_cycle().put<std::int16_t>(80, 16).bytes()), HasSubstr("neither 32-bit nor 64-bit"));
+  EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(40, 0).bytes()), HasSubstr("have no labels"));
+}
+
+}  // namespace
+}  // namespace afm::curves

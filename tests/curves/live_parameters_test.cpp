@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves/live_parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "curves/felt_material.h"
+#include "places.h"
+#include "scene/samples/material_library.h"
+
+namespace afm::curves {
+namespace {
+
+using Row = LiveParameters::Row;
+
+class LiveParametersTest : public ::testing::Test {
+ protected:
+  static FeltMaterial material(const char* name) {
+    const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+    return felt_material(ContactSetup{*library.find(name), {}, {}}).value();
+  }
+
+  const FeltMaterial mica_ = material("mica");
+  LiveParameters parameters_{mica_};
+};
+
+TEST_F(LiveParametersTest, FourStepsAreAFactorOfTwoAndAsManyBackAreExactlyWhatWasLoaded) {
+  for (const Row row : {Row::TipRadius, Row::SpringConstant, Row::Hamaker, Row::WorkOfAdhesion, Row::ReducedModulus}) {
+    const std::string before = parameters_.value(row);
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(parameters_.step(row, 1));
+    EXPECT_TRUE(parameters_.changed(row));
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(parameters_.step(row, -1));
+    EXPECT_FALSE(parameters_.changed(row));
+    EXPECT_EQ(parameters_.value(row), before);
+  }
+  EXPECT_EQ(parameters_.felt().parameters.interaction.hamaker.si, mica_.parameters.interaction.hamaker.si);
+  for (int i = 0; i < 4; ++i) parameters_.step(Row::SpringConstant, 1);
+  EXPECT_NEAR(parameters_.felt().parameters.interaction.spring_constant.si, 0.2, 1e-15);
+}
+
+TEST_F(LiveParametersTest, TheFiguresFollowTheStiffnessAsHaosFoldDoes) {
+  const double before = parameters_.felt().figures().z_jtc.si;
+  for (int i = 0; i < 12; ++i) parameters_.step(Row::SpringConstant, 1);  // k * 8: Z_jtc falls to a half, (3.6)
+  EXPECT_NEAR(parameters_.felt().figures().z_jtc.si, 0.5 * before, 1e-9 * before);
+}
+
+TEST_F(LiveParametersTest, ThePredictedCurveReachesTheFoldForces) {
+  const auto& figures = parameters_.felt().figures();
+  double strongest = 0.0;
+  for (const physics::CurveSample& sample : parameters_.curve().samples) {
+    strongest = std::min(strongest, sample.force.si);
+  }
+  EXPECT_NEAR(strongest, figures.force_before_joc.si, 1e-6 * std::abs(strongest));
+  ASSERT_EQ(parameters_.curve().events.size(), 2U);
+}
+
+TEST_F(LiveParametersTest, TheLawGoesRoundThroughAllThatTheseParametersHave) {
+  std::set<std::string> seen;
+  const std::string first = parameters_.value(Row::Law);
+  for (int i = 0; i < 8; ++i) {
+    seen.insert(parameters_.value(Row::Law));
+    ASSERT_TRUE(parameters_.step(Row::Law, 1));
+  }
+  EXPECT_EQ(parameters_.value(Row::Law), first);
+  EXPECT_TRUE(seen.contains("paper"));
+  EXPECT_TRUE(seen.contains("dmt"));
+  EXPECT_TRUE(seen.contains("auto: dmt"));
+}
+
+TEST_F(LiveParametersTest, AStepBeyondWhatIsPhysicalChangesNothingAndSaysWhy) {
+  int steps = 0;
+  while (parameters_.step(Row::TipRadius, 1)) ASSERT_LT(++steps, 200);
+  const double radius = parameters_.felt().parameters.interaction.tip_radius.si;
+  EXPECT_FALSE(parameters_.step(Row::TipRadius, 1));
+  EXPECT_EQ(parameters_.felt().parameters.interaction.tip_radius.si, radius);
+  EXPECT_FALSE(parameters_.refusal().empty());
+  EXPECT_TRUE(parameters_.step(Row::TipRadius, -1));
+  EXPECT_TRUE(parameters_.refusal().empty());
+}
+
+TEST_F(LiveParametersTest, ResetIsWhatWasLoaded) {
+  EXPECT_FALSE(parameters_.reset());
+  parameters_.step(Row::Hamaker, 1);
+  parameters_.step(Row::Law, 1);
+  EXPECT_TRUE(parameters_.reset());
+  EXPECT_FALSE(parameters_.changed());
+  EXPECT_EQ(parameters_.felt().parameters.interaction.hamaker.si, mica_.parameters.interaction.hamaker.si);
+  EXPECT_EQ(parameters_.felt().parameters.law, mica_.parameters.law);
+}
+
+TEST_F(LiveParametersTest, ARigidContactSoftensFromAStiffOne) {
+  FeltMaterial rigid = mica_;
+  rigid.parameters.interaction.reduced_modulus = physics::Pressure(std::numeric_limits<double>::infinity());
+  LiveParameters parameters(rigid);
+  EXPECT_EQ(parameters.value(Row::ReducedModulus), "rigid");
+  EXPECT_FALSE(parameters.step(Row::ReducedModulus, 1));
+  EXPECT_TRUE(parameters.step(Row::ReducedModulus, -1));
+  EXPECT_TRUE(std::isfinite(parameters.felt().parameters.interaction.reduced_modulus.si));
+  EXPECT_TRUE(parameters.step(Row::ReducedModulus, 1));
+  EXPECT_EQ(parameters.value(Row::ReducedModulus), "rigid");
+}
+
+}  // namespace
+}  // namespace afm::curves

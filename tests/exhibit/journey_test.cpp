@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/journey.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "exhibit/wall_scene.h"
+#include "support/paper_wall.h"
+
+namespace afm::exhibit {
+namespace {
+
+class JourneyTest : public test::PaperWall {
+ protected:
+  render::FrameState frame(double orders, std::size_t material = 0) const {
+    render::FrameState state;
+    scene_.place({.material = material, .exhibit = WallScene::Exhibit::Journey, .journey_orders = orders}, state);
+    return state;
+  }
+  // The lowest and the highest z of a part, in the journey's frame, metres.
+  std::pair<double, double> heights(const std::string& name) const {
+    std::pair<double, double> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    const scene::NodeIndex part = node(name);
+    const glm::dmat4 frame_from_node = ancestor_from_node(scene_.scene(), node("journey-frame"), part);
+    for (const scene::Primitive& primitive : scene_.scene().meshes[*scene_.scene().nodes[part].mesh].primitives) {
+      for (const scene::Vertex& vertex : primitive.vertices) {
+        const double z = (frame_from_node * glm::dvec4(glm::dvec3(vertex.position), 1.0)).z;
+        range = {std::min(range.first, z), std::max(range.second, z)};
+      }
+    }
+    return range;
+  }
+};
+
+TEST_F(JourneyTest, LeavesTheContactPointWhereItIs) {
+  render::FrameState still;
+  scene_.place({.material = 0}, still);
+  const glm::dvec3 contact(still.room_from_node[node("sample")][3]);
+  for (double orders = 0.0; orders <= kJourneyOrders; orders += 0.01) {
+    // as the renderer gets it
+    const glm::mat4 room_from_frame(frame(orders).room_from_node[node("journey-frame")]);
+    EXPECT_LT(glm::distance(glm::dvec3(room_from_frame[3]), contact), 1e-6) << orders;
+  }
+}
+
+TEST_F(JourneyTest, ScalesByTheSameFactorOnEveryStepFromOneMetreToOneNanometre) {
+  const auto scale = [&](double orders) {
+    return glm::length(glm::dvec3(frame(orders).room_from_node[node("journey-frame")][0]));
+  };
+  EXPECT_NEAR(scale(0.0), 1.0, 1e-12);
+  EXPECT_NEAR(scale(9.0) / 1e9, 1.0, 1e-12);
+  const double step = std::pow(10.0, 0.05);
+  for (double orders = 0.0; orders < 8.96; orders += 0.05) {
+    EXPECT_NEAR(scale(orders + 0.05) / scale(orders), step, 1e-9 * step) << orders;
+    EXPECT_NEAR(scale(orders) * scene_.journey_m_per_m(orders), 1.0, 1e-12);
+  }
+}
+
+TEST_F(JourneyTest, HasFiniteTransformsAndSomethingToSeeEverywhere) {
+  for (double orders = 0.0; orders <= kJourneyOrders; orders += 0.1) {
+    const render::FrameState state = frame(orders);
+    std::size_t shown = 0;
+    for (std::size_t i = 0; i < state.room_from_node.size(); ++i) {
+      const glm::mat4 as_drawn(state.room_from_node[i]);
+      for (glm::length_t column = 0; column < 4; ++column) {
+        for (glm::length_t row = 0; row < 4; ++row) ASSERT_TRUE(std::isfinite(as_drawn[column][row])) << orders;
+      }
+      const bool part = is_below(scene_.scene(), node("journey-frame"), static_cast<scene::NodeIndex>(i));
+      if (scene_.scene().nodes[i].mesh && state.visible[i] != 0 && part) ++shown;
+    }
+    EXPECT_GE(shown, 3U) << orders;
+  }
+}
+
+TEST_F(JourneyTest, ShowsEachPartInItsTurn) {
+  const std::map<std::string, std::pair<double, double>> seen{
+      {"journey/bench", {0.0, 1.0}},     {"journey/instrument", {0.0, 2.0}}, {"journey/chip", {1.5, 4.0}},
+      {"journey/lever", {3.0, 5.5}},     {"journey/tip", {4.0, 8.0}},        {"journey/apex", {6.0, 9.0}},
+      {"journey/tip-atoms", {7.5, 9.0}}, {"ground-mica/atoms", {7.5, 9.0}}};
+  for (const auto& [name, range] : seen) {
+    for (double orders = range.first; orders <= range.second; orders += 0.25) {
+      EXPECT_NE(frame(orders).visible[node(name)], 0) << name << " at " << orders;
+    }
+  }
+  EXPECT_EQ(frame(6.0).visible[node("journey/bench")], 0);
+  EXPECT_EQ(frame(1.0).visible[node("ground-mica/atoms")], 0);
+}
+
+TEST_F(JourneyTest, ShowsTheGroundOfTheMaterialAlone) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const render::FrameState state = frame(9.0, material);
+    for (const scene::MaterialEntry& entry : materials_.materials) {
+      const bool own = entry.name == materials_.materials[material].name;
+      EXPECT_EQ(state.visible[node("ground-" + entry.name + "/atoms")] != 0, own) << entry.name;
+    }
+  }
+}
+
+// Half a nanometre lies between them, half a metre on the wall where it is largest: no depth buffer confuses them.
+TEST_F(JourneyTest, TheTipAndTheSampleKeepTheirGap) {
+  EXPECT_NEAR(heights("journey/apex").first, 0.7e-9, 0.02e-9);
+  EXPECT_NEAR(heights("journey/tip-atoms").first, 0.6e-9, 0.05e-9);
+  for (const scene::MaterialEntry& entry : materials_.materials) {
+    for (const scene::Node& part : scene_.scene().nodes) {
+      if (part.mesh && part.name.starts_with("ground-" + entry.name + "/")) {
+        EXPECT_LT(heights(part.name).second, 0.1e-9) << part.name;
+      }
+    }
+  }
+}
+
+// Two level faces at one height that overlap would flicker. Faces of one part never do; those of different parts must
+// be apart by more than a part in ten thousand of the smaller one's size.
+TEST_F(JourneyTest, NoTwoLevelFacesOfThePartsLieInOnePlane) {
+  struct Face {
+    std::size_t part = 0;
+    double z = 0, size = 0;
+    glm::dvec2 low{0.0}, high{0.0};
+  };
+  std::vector<Face> faces;
+  for (scene::NodeIndex i = 0; i < scene_.scene().nodes.size(); ++i) {
+    const scene::Node& part = scene_.scene().nodes[i];
+    if (!part.mesh || !part.name.starts_with("journey/")) continue;
+    const glm::dmat4 frame_from_node = ancestor_from_node(scene_.scene(), node("journey-frame"), i);
+    for (const scene::Primitive& primitive : scene_.scene().meshes[*part.mesh].primitives) {
+      for (std::size_t k = 0; k < primitive.indices.size(); k += 3) {
+        glm::dvec3 p[3];
+        for (std::size_t c = 0; c < 3; ++c) {
+          p[c] = glm::dvec3(frame_from_node *
+                            glm::dvec4(glm::dvec3(primitive.vertices[primitive.indices[k + c]].position), 1.0));
+        }
+        const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+        if (std::abs(normal.z) < 0.99999 * glm::length(normal)) continue;
+        Face face{.part = i, .z = p[0].z, .low = glm::dvec2(p[0]), .high = glm::dvec2(p[0])};
+        for (const glm::dvec3& corner : p) {
+          face.low = glm::min(face.low, glm::dvec2(corner));
+          face.high = glm::max(face.high, glm::dvec2(corner));
+        }
+        face.size = glm::distance(face.low, face.high);
+        faces.push_back(face);
+      }
+    }
+  }
+  std::size_t compared = 0;
+  for (const Face& a : faces) {
+    for (const Face& b : faces) {
+      if (a.part >= b.part || a.low.x > b.high.x || b.low.x > a.high.x || a.low.y > b.high.y || b.low.y > a.high.y)
+        continue;
+      ++compared;
+      EXPECT_GT(std::abs(a.z - b.z), 1e-4 * std::min(a.size, b.size))
+          << scene_.scene().nodes[a.part].name << " and " << scene_.scene().nodes[b.part].name << " at " << a.z;
+    }
+  }
+  EXPECT_GT(compared, 100U) << "looked at too little";
+}
+
+TEST(JourneyTravel, GoesThereAndBackWithoutACut) {
+  JourneyTravel travel;
+  std::int64_t now_ns = 5'000'000'000;
+  travel.update(now_ns);
+  EXPECT_FALSE(travel.away());
+  travel.turn_round(now_ns);
+  double before = 0.0;
+  bool there = false;
+  for (int i = 0; i < 2200; ++i) {
+    now_ns += 10'000'000;
+    travel.update(now_ns);
+    if (travel.orders() && !there) {
+      EXPECT_GT(travel.veil(), 0.97) << "what is shown changes where nothing can be seen";
+      EXPECT_EQ(*travel.orders(), 0.0);
+      there = true;
+    }
+    const double orders = travel.orders().value_or(0.0);
+    EXPECT_GE(orders, before);
+    EXPECT_LT(orders - before, 0.01);  // a fiftieth of the picture in a hundredth of a second
+    before = orders;
+  }
+  EXPECT_EQ(before, kJourneyOrders);
+  EXPECT_EQ(travel.veil(), 0.0);
+
+  // turned round twice on the way back
+  travel.turn_round(now_ns);
+  for (const int steps : {700, 300, 2600}) {
+    for (int i = 0; i < steps; ++i) {
+      now_ns += 10'000'000;
+      travel.update(now_ns);
+      EXPECT_LT(std::abs(travel.orders().value_or(0.0) - before), 0.01);
+      before = travel.orders().value_or(0.0);
+    }
+    if (steps != 2600) travel.turn_round(now_ns);
+  }
+  EXPECT_FALSE(travel.away());
+  EXPECT_EQ(travel.orders(), std::nullopt);
+}
+
+}  // namespace
+}  // namespace afm::exhibit

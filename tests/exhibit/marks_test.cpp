@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is drawn beside the instrument so that it can be read, and the cue of a jump.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "exhibit/film_strip.h"
+#include "exhibit/jump_cue.h"
+#include "exhibit/wall_marks.h"
+
+namespace afm::exhibit {
+namespace {
+
+TEST(ScaleBar, IsRoundAndFillsItsPlaceAtEveryScale) {
+  constexpr double kLongest = 0.46;
+  double before_m = 1e9;
+  for (double orders = -1.0; orders <= 11.0; orders += 0.003) {
+    const double m_per_unit = std::pow(10.0, -orders);
+    const ScaleBar bar = scale_bar(m_per_unit, kLongest);
+    EXPECT_NEAR(bar.drawn * m_per_unit, bar.length_m, 1e-9 * bar.length_m);
+    EXPECT_LE(bar.drawn, kLongest * (1.0 + 1e-9)) << orders;
+    EXPECT_GT(bar.drawn, 0.399 * kLongest) << orders;
+    const double leading = bar.length_m / std::pow(10.0, std::floor(std::log10(bar.length_m) + 1e-9));
+    EXPECT_TRUE(std::abs(leading - 1.0) < 1e-6 || std::abs(leading - 2.0) < 1e-6 || std::abs(leading - 5.0) < 1e-6)
+        << bar.length_m;
+    EXPECT_LE(bar.length_m, before_m);
+    before_m = bar.length_m;
+  }
+}
+
+TEST(ScaleBar, SaysItsLengthInTheUnitThatFits) {
+  EXPECT_EQ(scale_bar(31e-9, 0.46).text, "10 nm");
+  EXPECT_EQ(scale_bar(1.0, 0.46).text, "200 mm");
+  EXPECT_EQ(scale_bar(12e-6, 0.46).text, "5 \u00b5m");
+  EXPECT_EQ(scale_bar(1e-9, 0.46).text, "200 pm");
+  EXPECT_EQ(scale_bar(2.2e-3, 0.46).text, "1 mm");
+}
+
+scene::TipEvent event(scene::TipEventKind kind, std::int64_t time_ns) { return {.kind = kind, .time_ns = time_ns}; }
+
+TEST(JumpCue, LastsHalfASecondFromTheNewestJump) {
+  using enum scene::TipEventKind;
+  const std::vector<scene::TipEvent> events{event(JumpToContact, 1'000'000'000), event(JumpOffContact, 3'000'000'000)};
+  EXPECT_FALSE(jump_cue(events, 999'999'999));
+  ASSERT_TRUE(jump_cue(events, 1'200'000'000));
+  EXPECT_EQ(jump_cue(events, 1'200'000'000)->kind, JumpToContact);
+  EXPECT_NEAR(jump_cue(events, 1'200'000'000)->age_s, 0.2, 1e-9);
+  EXPECT_FALSE(jump_cue(events, 1'600'000'000));
+  ASSERT_TRUE(jump_cue(events, 3'000'000'000));
+  EXPECT_EQ(jump_cue(events, 3'000'000'000)->kind, JumpOffContact);
+  EXPECT_FALSE(jump_cue({}, 5));
+}
+
+TEST(JumpCue, ClosesInOnAJumpToContactAndSpreadsFromAJumpOff) {
+  using enum scene::TipEventKind;
+  for (double age_s = 0.0; age_s + 0.05 <= kCueSeconds; age_s += 0.05) {
+    const CueRing in = cue_ring({JumpToContact, age_s}), in_later = cue_ring({JumpToContact, age_s + 0.05});
+    const CueRing off = cue_ring({JumpOffContact, age_s}), off_later = cue_ring({JumpOffContact, age_s + 0.05});
+    EXPECT_LT(in_later.radius, in.radius);
+    EXPECT_GT(off_later.radius, off.radius);
+    EXPECT_LT(in_later.color.b, in.color.b);
+    EXPECT_LT(off_later.color.r, off.color.r);
+  }
+  EXPECT_EQ(cue_ring({JumpToContact, kCueSeconds}).color, glm::vec3(0.0F));
+}
+
+TEST(FilmStrip, PutsReducedFramesInRows) {
+  std::vector<render::Image> frames;
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    render::Image image{.width = 4, .height = 2, .rgba = std::vector<std::uint8_t>(32)};
+    for (std::size_t k = 0; k < 32; ++k) image.rgba[k] = static_cast<std::uint8_t>(40 * i + (k / 4) % 2 * 10);
+    frames.push_back(image);
+  }
+  const render::Image strip = film_strip(frames, 2, 2);
+  ASSERT_EQ(strip.width, 4U);
+  ASSERT_EQ(strip.height, 2U);
+  const auto red = [&](std::size_t x, std::size_t y) { return strip.rgba[4 * (y * 4 + x)]; };
+  EXPECT_EQ(red(0, 0), 5);
+  EXPECT_EQ(red(2, 0), 45);
+  EXPECT_EQ(red(1, 1), 85);
+  EXPECT_EQ(red(2, 1), 0) << "no fourth frame";
+}
+
+}  // namespace
+}  // namespace afm::exhibit

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/model_view.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+#include "exhibit/loading_notice.h"
+#include "exhibit/own_models.h"
+#include "scene/graph/height_field.h"
+#include "scene/graph/pose.h"
+#include "support/scratch_folder.h"
+
+namespace afm::exhibit {
+namespace {
+
+using testing::HasSubstr;
+
+// A square from (0, 0, 0) to (1, 1, 0); positions of 48 bytes and six 8-bit indices, without padding, in base64.
+constexpr const char* kBuffers =
+    R"("buffers": [{"byteLength": 54, "uri": "data:application/octet-stream;base64,)"
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAgD8AAAAAAAECAAID"
+    R"("}], "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 6}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 1, "componentType": 5121, "count": 6, "type": "SCALAR"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0,
+      "extensions": {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}}}]}],
+    "materials": [{"name": "plain"}, {"name": "golden"}],
+    "extensions": {"KHR_materials_variants": {"variants": [{"name": "Gold"}]}},
+    "extensionsUsed": ["KHR_materials_variants", "KHR_materials_sheen"],
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], )";
+
+class OwnModel : public testing::Test {
+ protected:
+  std::string write(const std::string& nodes) { return folder_.write("model.gltf", "{" + (kBuffers + nodes) + "}"); }
+
+  support::ScratchFolder folder_;
+};
+
+TEST_F(OwnModel, IsSeenWholeByTheAutomaticCameraWhateverItsSize) {
+  for (const double size : {1e-9, 1.0, 1e9}) {
+    std::ostringstream node;
+    node << R"("nodes": [{"mesh": 0, "scale": [)" << size << "," << size << "," << size << "]}]";
+    const auto view = open_model({.file = write(node.str())});
+    ASSERT_TRUE(view) << view.error().message;
+    for (const scene::EyeView& eye : view->frame.eyes) {
+      for (const glm::dvec4 corner : {glm::dvec4(0, 0, 0, 1), glm::dvec4(1, 1, 0, 1)}) {
+        const glm::dvec4 clip = eye.projection * eye.view * view->frame.room_from_node[0] * corner;
+        EXPECT_GT(clip.w, 0.0);
+        EXPECT_LT(std::abs(clip.x), clip.w) << size;
+        EXPECT_LT(std::abs(clip.y), clip.w) << size;
+      }
+    }
+  }
+}
+
+constexpr double kToleranceOfFile = 1e-7;  // a camera's angle is read as a 32-bit float
+
+TEST_F(OwnModel, IsSeenByItsOwnCameras) {
+  const std::string path = write(
+      R"("cameras": [{"type": "perspective", "name": "front", "perspective": {"yfov": 1.5707963267948966, "znear": 0.1}},
+                     {"type": "orthographic", "orthographic": {"xmag": 2, "ymag": 2, "znear": 0, "zfar": 9}}],
+         "nodes": [{"children": [1, 2, 3]}, {"mesh": 0}, {"camera": 0, "translation": [0.5, 0.5, 2]},
+                   {"camera": 1, "name": "plan", "translation": [0, 0, 2]}])");
+  const auto place = [&](const ModelView& view, double x, double y) {
+    const glm::dvec4 clip =
+        view.frame.eyes[0].projection * view.frame.eyes[0].view * view.frame.room_from_node[1] * glm::dvec4(x, y, 0, 1);
+    return glm::dvec3(clip) / clip.w;
+  };
+  const auto front = open_model({.file = path, .camera = "front", .size_px = {400, 200}, .eyes_apart_m = 0.0});
+  ASSERT_TRUE(front) << front.error().message;
+  EXPECT_NEAR(place(*front, 0.5, 0.5).x, 0.0, 1e-9);
+  EXPECT_NEAR(place(*front, 0.5, 1.0).y, -0.25, kToleranceOfFile)
+      << "half a metre above the axis at two metres, 90 degrees";
+  EXPECT_NEAR(place(*front, 1.0, 0.5).x, 0.125, kToleranceOfFile);
+
+  const auto plan = open_model({.file = path, .camera = "plan", .size_px = {400, 200}});
+  ASSERT_TRUE(plan) << plan.error().message;
+  EXPECT_NEAR(place(*plan, 0, 1).y, -0.5, 1e-6);
+  EXPECT_NEAR(place(*plan, 1, 0).x, 0.25, 1e-6);
+  EXPECT_NEAR(place(*plan, 0, 0).z, 7.0 / 9.0, 1e-6) << "reversed depth: 1 near, 0 far";
+  EXPECT_EQ(plan->frame.eyes[0].view, plan->frame.eyes[1].view);
+
+  const auto missing = open_model({.file = path, .camera = "side"});
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().category, core::ErrorCategory::WrongUsage);
+  EXPECT_THAT(missing.error().message, HasSubstr(R"(it has "front", "plan", and there is auto)"));
+}
+
+TEST_F(OwnModel, NamesTheVariantsThatItHas) {
+  const std::string path = write(R"("nodes": [{"mesh": 0}])");
+  const auto gold = open_model({.file = path, .variant = "Gold"});
+  ASSERT_TRUE(gold) << gold.error().message;
+  EXPECT_EQ(gold->scene.meshes[0].primitives[0].material, 1U);
+  const auto mica = open_model({.file = path, .variant = "mica"});
+  ASSERT_FALSE(mica);
+  EXPECT_THAT(mica.error().message, HasSubstr("it has Gold"));
+}
+
+TEST_F(OwnModel, IsDescribed) {
+  std::ostringstream text;
+  const std::string path =
+      write(R"("nodes": [{"mesh": 0, "extras": {"touchafm": {"role": "surface"}}, "name": "a\nb"}])");
+  ASSERT_TRUE(describe_model(path, DescriptionForm::Lines, text));
+  for (const char* line : {"2 triangles", "variant: \"Gold\"", "understood: \"KHR_materials_variants\"",
+                           "ignored: KHR_materials_sheen", "role surface: node \"a?b\""}) {
+    EXPECT_THAT(text.str(), HasSubstr(line));
+  }
+  std::ostringstream json;
+  ASSERT_TRUE(describe_model(path, DescriptionForm::Json, json));
+  const auto described = nlohmann::json::parse(json.str());
+  EXPECT_EQ(described["triangles"], 2);
+  EXPECT_EQ(described["roles"]["surface"], "a\nb");
+  EXPECT_EQ(described["variants"], nlohmann::json::array({"Gold"}));
+  EXPECT_EQ(described["understood"], nlohmann::json::array({"KHR_materials_variants"}));
+}
+
+TEST(LoadingNotice, SpeaksOnceItHasWaitedAndNotBefore) {
+  const auto said_after = [](LoadingNotice::Wait wait) {
+    std::ostringstream out;
+    {
+      const LoadingNotice notice("lever.glb", std::move(wait), out);
+    }
+    return out.str();
+  };
+  EXPECT_EQ(said_after([](const std::stop_token&) { return true; }), "loading lever.glb ...\n");
+  EXPECT_EQ(said_after([](const std::stop_token& stop) {
+              while (!stop.stop_requested()) std::this_thread::yield();
+              return false;
+            }),
+            "")
+      << "loaded before the moment came";
+}
+
+TEST_F(OwnModel, BecomesAProbeByItsRoles) {
+  const auto probe = load_own_models(
+      write(R"("nodes": [{"name": "Lever", "mesh": 0, "extras": {"touchafm": {"role": "base"}}, "scale": [3, 1, -1],
+                          "children": [1]},
+                         {"name": "tip", "translation": [1, 0, 0], "children": [2]},
+                         {"mesh": 0, "rotation": [0.7071067811865476, 0, 0, -0.7071067811865476], "scale": [0.1, 0.1, 0.1]}])"),
+      "");
+  ASSERT_TRUE(probe) << probe.error().message;
+  ASSERT_EQ(probe->probe->nodes.size(), 3U);
+  EXPECT_EQ(probe->probe->nodes[0].name, "cantilever");
+  EXPECT_EQ(probe->probe->nodes[1].name, "tip");
+  EXPECT_EQ(probe->probe->nodes[1].parent, 0U);
+  EXPECT_EQ(probe->probe->nodes[2].name, "apex");
+  EXPECT_NEAR(probe->probe->nodes[2].parent_from_node[3].z, -0.1, 1e-6);
+  EXPECT_EQ(probe->probe->meshes[0].primitives.size(), 1U);
+  EXPECT_EQ(probe->probe->meshes[1].primitives.size(), 1U);
+  const auto nothing = load_own_models(write(R"("nodes": [{"mesh": 0, "name": "tip"}])"), "");
+  ASSERT_FALSE(nothing);
+  EXPECT_THAT(nothing.error().message, HasSubstr("needs a node for the role base and one for tip"));
+}
+
+TEST_F(OwnModel, BecomesASampleThatIsFeltAsItIsDrawn) {
+  const auto own = load_own_models("", write(R"("nodes": [{"name": "surface", "children": [1]},
+      {"mesh": 0, "translation": [-2e-8, -2e-8, 3e-9], "scale": [4e-8, 4e-8, 4e-8]}])"));
+  ASSERT_TRUE(own) << own.error().message;
+  const auto field = scene::height_field_below(*own->sample, 0);
+  ASSERT_TRUE(field);
+  EXPECT_FLOAT_EQ(field->height_m[field->columns * (field->rows / 2) + field->columns / 2], 3e-9F);
+  scene::MaterialEntry gold, mica;
+  gold.name = "gold";
+  mica.name = "mica";
+  EXPECT_EQ(sample_as(*own->sample, gold).meshes[0].primitives[0].material, 1U);
+  EXPECT_EQ(sample_as(*own->sample, mica).meshes[0].primitives[0].material, 0U);
+
+  const auto large = load_own_models("", write(R"("nodes": [{"name": "surface", "mesh": 0}])"));
+  ASSERT_TRUE(large) << large.error().message;
+  EXPECT_NEAR(large->sample->meshes[0].primitives[0].vertices.at(2).position.x, 60e-9, 1e-14);
+}
+
+TEST_F(OwnModel, SaysThatItsAnimationsAreNotPlayedOnTheWall) {
+  const auto said = [&](const std::string& more) {
+    const std::string path = write(R"("nodes": [{"name": "surface", "mesh": 0}])" + more);
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(load_own_models("", path));
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(""), "");
+  EXPECT_THAT(said(R"(, "animations": [{"samplers": [], "channels": []}])"), HasSubstr("stands at rest"));
+}
+
+}  // namespace
+}  // namespace afm::exhibit

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/wall_pictures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "exhibit/depth_report.h"
+#include "places.h"
+
+namespace afm::exhibit {
+namespace {
+
+using scene::EyeOrder;
+using scene::StereoMode;
+using ::testing::HasSubstr;
+
+scene::Wall preset(const std::string& name) {
+  return scene::load_wall(AFM_SOURCE_DIR "/assets/walls/" + name + ".toml").value();
+}
+
+TEST(WallPictures, EveryPresetIsAWallThatCanBeDrawn) {
+  for (const char* name : {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2"}) {
+    const auto plan = plan_wall(preset(name), {});
+    ASSERT_TRUE(plan.has_value()) << name;
+    EXPECT_FALSE(plan->outputs.empty());
+    for (const OutputPicture& output : plan->outputs) {
+      EXPECT_TRUE(eyes_before(output.screen, preset(name).viewers[0].sweet_spot, 0.063)) << name;
+      const glm::ivec2 end = output.rect.offset_px + glm::ivec2(output.rect.size_px);
+      EXPECT_LE(end.x, static_cast<int>(plan->size_px.x)) << name;
+      EXPECT_LE(end.y, static_cast<int>(plan->size_px.y)) << name;
+    }
+  }
+}
+
+TEST(WallPictures, TwoProjectorsStandBesideEachOtherEachWithItsEye) {
+  const auto plan = plan_wall(preset("two-projectors"), {}).value();
+  EXPECT_EQ(plan.size_px, glm::uvec2(2800, 1050));
+  ASSERT_EQ(plan.outputs.size(), 2U);
+  EXPECT_EQ(plan.outputs[0].composition.mode, StereoMode::Left);
+  EXPECT_EQ(plan.outputs[1].composition.mode, StereoMode::Right);
+  EXPECT_EQ(plan.outputs[1].rect.offset_px, glm::ivec2(1400, 0));
+}
+
+TEST(WallPictures, AModeOfTheUsersDrawsAPairOfProjectorsOnce) {
+  const auto plan = plan_wall(preset("two-projectors"), {.mode = StereoMode::AnaglyphRedCyan}).value();
+  ASSERT_EQ(plan.outputs.size(), 1U);
+  EXPECT_EQ(plan.size_px, glm::uvec2(1400, 1050));
+}
+
+TEST(WallPictures, SwappingIsTheOtherWayRoundInEveryOutput) {
+  scene::Wall wall = preset("two-projectors");
+  wall.outputs[1].order = EyeOrder::Swapped;
+  const auto plan = plan_wall(wall, {.mode = {}, .order = EyeOrder::Swapped}).value();
+  EXPECT_EQ(plan.outputs[0].composition.order, EyeOrder::Swapped);
+  EXPECT_EQ(plan.outputs[1].composition.order, EyeOrder::Straight);
+}
+
+TEST(WallPictures, TilesStillTouchWhenTheyAreScaled) {
+  for (const glm::uvec2 size : {glm::uvec2(101, 77), glm::uvec2(2, 2), glm::uvec2(5000, 3000)}) {
+    const auto plan = plan_wall(preset("tiled-2x2"), {.mode = {}, .size_px = size}).value();
+    EXPECT_EQ(plan.size_px, size);
+    const auto& o = plan.outputs;
+    EXPECT_EQ(o[0].rect.size_px.x + o[1].rect.size_px.x, size.x);
+    EXPECT_EQ(o[0].rect.size_px.y + o[2].rect.size_px.y, size.y);
+    EXPECT_EQ(o[1].rect.offset_px.x, static_cast<int>(o[0].rect.size_px.x));
+    EXPECT_EQ(o[2].rect.offset_px.y, static_cast<int>(o[0].rect.size_px.y));
+  }
+}
+
+TEST(WallPictures, ASizeIsTheWholePicturesInEveryMode) {
+  const scene::Wall wall = preset("powerwall");
+  for (const auto& entry : scene::kStereoModes) {
+    for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(640, 480), glm::uvec2(31, 17)}) {
+      const auto plan = plan_wall(wall, {.mode = entry.mode, .size_px = size});
+      if (scene::frame_packing(entry.mode)) {
+        ASSERT_FALSE(plan.has_value()) << entry.name;
+        EXPECT_THAT(plan.error().message, HasSubstr("exactly"));
+        continue;
+      }
+      ASSERT_TRUE(plan.has_value()) << entry.name;
+      EXPECT_EQ(plan->size_px, size) << entry.name;
+      EXPECT_EQ(plan->outputs[0].rect.size_px, size) << entry.name;
+    }
+  }
+  EXPECT_EQ(plan_wall(wall, {.mode = StereoMode::FramePacked1080p}).value().size_px, glm::uvec2(1920, 2205));
+}
+
+TEST(PictureSize, IsTwoNumbersWithinTheDevice) {
+  EXPECT_EQ(parse_picture_size("--size", "1920x1080", 16384).value(), glm::uvec2(1920, 1080));
+  EXPECT_EQ(parse_picture_size("--size", "1x1", 16384).value(), glm::uvec2(1, 1));
+  for (const char* wrong : {"", "x", "1920", "1920x", "x1080", "1920x1080x2", "-1x5", "1920 x 1080", "0x5", "5x0",
+                            "16385x1", "1x99999999999"}) {
+    const auto size = parse_picture_size("--size", wrong, 16384);
+    ASSERT_FALSE(size.has_value()) << wrong;
+    EXPECT_EQ(size.error().category, core::ErrorCategory::WrongUsage);
+    EXPECT_THAT(size.error().message, HasSubstr("--size"));
+  }
+}
+
+TEST(DepthReport, WarnsBeyondADegreeAndNamesTheEyesThatWouldDiverge) {
+  const DepthReport easy = report_depth({.nearest_m = 2.3, .farthest_m = 2.8}, 2.5, 0.063);
+  EXPECT_FALSE(easy.hard);
+  EXPECT_THAT(easy.text, HasSubstr("2.30 m to 2.80 m"));
+  EXPECT_THAT(easy.text, HasSubstr("(-5 mm)"));
+  const DepthReport near = report_depth({.nearest_m = 1.0, .farthest_m = 2.5}, 2.5, 0.063);
+  EXPECT_TRUE(near.hard);
+  EXPECT_THAT(near.text, HasSubstr("beyond 1"));
+  const DepthReport far = report_depth({.nearest_m = 2.5, .farthest_m = 10.0}, 2.5, 0.063);
+  EXPECT_THAT(far.text, HasSubstr("not for eyes less than 48 mm apart"));
+}
+
+}  // namespace
+}  // namespace afm::exhibit

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/wall_scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "physics/contact.h"
+#include "support/paper_wall.h"
+
+namespace afm::exhibit {
+namespace {
+
+class WallSceneTest : public test::PaperWall {
+ protected:
+  const scene::Screen& screen_ = wall_.screens.front();
+  const glm::dvec3 viewer_ = wall_.viewers.front().sweet_spot.position_m;
+
+  render::FrameState frame(const WallScene::Pose& pose) const {
+    render::FrameState state;
+    scene_.place(pose, state);
+    return state;
+  }
+
+  glm::dvec3 origin_of(const render::FrameState& state, std::string_view node) const {
+    return glm::dvec3(state.room_from_node[scene_.scene().find_node(node).value()][3]);
+  }
+
+  // Where the apex is, by the drawn transforms.
+  glm::dvec3 apex(const WallScene::Pose& pose) const { return origin_of(frame(pose), "probe/apex"); }
+
+  glm::dvec3 contact() const { return origin_of(frame({}), "sample"); }
+};
+
+TEST_F(WallSceneTest, TheContactPointLiesInTheWallAtEyeHeightInItsMiddleThird) {
+  EXPECT_NEAR(contact().z, 0.0, 1e-12);
+  EXPECT_NEAR(contact().x, 0.0, 1e-12);
+  EXPECT_NEAR(contact().y, viewer_.y, 1e-12);
+  EXPECT_GT(contact().y, screen_.lower_left.y + screen_.height_m() / 3.0);
+  EXPECT_LT(contact().y, screen_.lower_left.y + screen_.height_m() * 2.0 / 3.0);
+}
+
+TEST_F(WallSceneTest, TheApexStandsAtItsHeightHoweverTheLeverBends) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const double z_joc = physics::approach_retract_events(materials_.materials[material].interaction).z_joc.si;
+    const double scale = scene_.drawn_scale(material).sample_m_per_m;
+    for (const double z : {-0.3, 0.0, 0.5, 1.0}) {
+      for (const double deflection : {-0.3, 0.0, 0.5, 1.0}) {
+        const TipView tip{.z_m = z * z_joc, .deflection_m = deflection * z_joc};
+        const glm::dvec3 offset = apex({.material = material, .tip = tip}) - contact();
+        EXPECT_NEAR(glm::dot(offset, scene_.sample_normal()), (tip.z_m - tip.deflection_m) / scale, 2e-3);
+        EXPECT_NEAR(glm::length(offset - glm::dot(offset, scene_.sample_normal()) * scene_.sample_normal()), 0.0, 2e-3);
+      }
+    }
+  }
+}
+
+TEST_F(WallSceneTest, TheApexStandsOverTheDrawnSurfaceWhereverTheTipIs) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const double scale = scene_.drawn_scale(material).sample_m_per_m;
+    const scene::SharedHeightField& field = scene_.height_fields()[scene_.height_field(material)];
+    const auto surface = scene_.scene().find_node("sample-" + materials_.materials[material].name + "/surface").value();
+    const auto& drawn = scene_.scene().meshes[*scene_.scene().nodes[surface].mesh].primitives.front().vertices;
+    for (std::size_t vertex = 5; vertex < drawn.size(); vertex += 397) {
+      const glm::dvec3 place(drawn[vertex].position);
+      EXPECT_EQ(static_cast<double>(field.height_m[vertex]), place.z);
+      for (const double gap : {0.0, 3e-9}) {
+        const WallScene::Pose pose{
+            .material = material,
+            .tip = {.z_m = gap + 1e-9, .deflection_m = 1e-9, .xy_m = glm::dvec2(place), .surface_height_m = place.z}};
+        const render::FrameState state = frame(pose);
+        const glm::dvec3 vertex_m(state.room_from_node[surface] * glm::dvec4(place, 1.0));
+        const glm::dvec3 above_m = vertex_m + gap / scale * scene_.sample_normal();
+        // the tip's mesh and its apex are floats, some 1e-7 of the tip's length apart
+        EXPECT_NEAR(glm::length(origin_of(state, "probe/apex") - above_m), 0.0, 1e-7);
+        const glm::dvec3 at_origin_m = apex({.material = material, .tip = {.z_m = gap + 1e-9, .deflection_m = 1e-9}});
+        const glm::dvec3 origin_m(state.room_from_node[surface][3]);
+        EXPECT_NEAR(glm::length(origin_of(state, "probe/apex") - at_origin_m - (vertex_m - origin_m)), 0.0, 1e-9);
+      }
+    }
+  }
+}
+
+TEST_F(WallSceneTest, TheBeamOfLightFollowsTheTip) {
+  const glm::dvec2 there(4e-9, -3e-9);
+  const auto lever_end = [&](const glm::dvec2& xy) {
+    const render::FrameState state = frame({.material = 0, .tip = {.xy_m = xy, .surface_height_m = 0.5e-9}});
+    return glm::dvec3(state.room_from_node[scene_.scene().find_node("optics/beam-reflected").value()][3]);
+  };
+  const double scale = scene_.drawn_scale(0).sample_m_per_m;
+  EXPECT_NEAR(glm::length(lever_end(there) - lever_end({})), glm::length(there) / scale, 1e-9);
+  EXPECT_NEAR(glm::dot(lever_end(there) - lever_end({}), scene_.sample_right()), there.x / scale, 1e-9);
+}
+
+TEST_F(WallSceneTest, AStrokeFillsAThirdOfTheWallsHeight) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const double z_joc = physics::approach_retract_events(materials_.materials[material].interaction).z_joc.si;
+    const glm::dvec3 high = apex({.material = material, .tip = {.z_m = 1.40 * z_joc}});
+    const glm::dvec3 low = apex({.material = material, .tip = {.z_m = -0.30 * z_joc}});
+    EXPECT_NEAR(glm::length(high - low), screen_.height_m() / 3.0, 0.02);
+  }
+}
+
+TEST_F(WallSceneTest, ShowsOnlyTheSampleOfTheMaterial) {
+  const auto visible = [&](const render::FrameState& state, const std::string& name) {
+    bool any = false;
+    for (std::size_t i = 0; i < scene_.scene().nodes.size(); ++i) {
+      const bool below = scene_.scene().nodes[i].name.starts_with("sample-" + name);
+      any = any || (below && scene_.scene().nodes[i].mesh && state.visible[i] != 0);
+    }
+    return any;
+  };
+  const render::FrameState none = frame({}), gold = frame({.material = 1});
+  for (const char* name : {"mica", "gold", "si3n4"}) {
+    EXPECT_FALSE(visible(none, name)) << name;
+    EXPECT_EQ(visible(gold, name), std::string_view(name) == "gold") << name;
+  }
+}
+
+TEST_F(WallSceneTest, WhatMustBeReadLiesInTheWallAndOnIt) {
+  const render::FrameState state = frame({.material = 0});
+  for (const render::PanelPlacement& panel : {state.force_placement, state.data_placement, state.banner_placement}) {
+    for (const glm::dvec3& corner : {panel.lower_left_m, panel.lower_left_m + panel.right_m + panel.up_m}) {
+      EXPECT_NEAR(corner.z, 0.0, 1e-12);
+      EXPECT_GE(corner.x, screen_.lower_left.x);
+      EXPECT_LE(corner.x, screen_.lower_right.x);
+      EXPECT_GE(corner.y, screen_.lower_left.y);
+      EXPECT_LE(corner.y, screen_.upper_left.y);
+    }
+  }
+}
+
+TEST_F(WallSceneTest, TheSwatchesAreSoFarApartThatTheRayCannotConfuseThem) {
+  const auto targets = scene_.swatch_targets();
+  ASSERT_EQ(targets.size(), 3U);
+  for (std::size_t aim = 0; aim < targets.size(); ++aim) {
+    const glm::dvec3 grip = scene_.wand_grip_m();
+    const input::Ray ray{.origin_m = grip, .direction = glm::normalize(targets[aim].center_m - grip)};
+    EXPECT_EQ(input::pick(ray, input::kPickConeRad, targets), aim);
+  }
+}
+
+TEST_F(WallSceneTest, NineMaterialsStandApartAndAllCanBePicked) {
+  scene::MaterialLibrary nine;
+  for (std::size_t i = 0; i < 9; ++i) {
+    nine.materials.push_back(materials_.materials[i % 3]);
+    nine.materials.back().name += "-" + std::to_string(i);  // no model of its own: the look's, or the neutral one
+    if (i < 6) nine.materials.back().look = materials_.materials[i % 3].name;
+  }
+  const WallScene many = WallScene::load(assets_, nine, screen_, viewer_).value();
+  EXPECT_LE(many.scene().nodes.size(), scene::kMaxNodes) << "what the servo can be told of";
+  const auto targets = many.swatch_targets();
+  ASSERT_EQ(targets.size(), 9U);
+  for (std::size_t aim = 0; aim < targets.size(); ++aim) {
+    // from the eye, as the mouse points, and from the hand, as the wand does
+    for (const glm::dvec3& from : {viewer_, many.wand_grip_m()}) {
+      const input::Ray ray{.origin_m = from, .direction = glm::normalize(targets[aim].center_m - from)};
+      EXPECT_EQ(input::pick(ray, input::kPickConeRad, targets), aim);
+    }
+  }
+
+  // as the viewer sees them on the wall, no label covers another
+  render::FrameState state;
+  many.place({.material = 0}, state);
+  struct Box {
+    glm::dvec2 low{1e9}, high{-1e9};
+  };
+  std::vector<Box> boxes;
+  for (const render::Label& label : state.labels) {
+    const auto& p = label.placement;
+    Box box;
+    for (const glm::dvec3& corner :
+         {p.lower_left_m, p.lower_left_m + p.right_m, p.lower_left_m + p.up_m, p.lower_left_m + p.right_m + p.up_m}) {
+      const glm::dvec2 seen(viewer_ + (corner - viewer_) * (viewer_.z / (viewer_.z - corner.z)));
+      box.low = glm::min(box.low, seen);
+      box.high = glm::max(box.high, seen);
+    }
+    EXPECT_GT(box.low.x, screen_.lower_left.x);
+    EXPECT_LT(box.high.x, screen_.lower_right.x);
+    EXPECT_GT(box.low.y, screen_.lower_left.y);
+    for (const Box& other : boxes) {
+      EXPECT_FALSE(box.low.x < other.high.x && other.low.x < box.high.x && box.low.y < other.high.y &&
+                   other.low.y < box.high.y);
+    }
+    boxes.push_back(box);
+  }
+}
+
+TEST_F(WallSceneTest, TheStrokeFillsTheSameRoomWithOtherParameters) {
+  const TipView tip{.z_m = 70e-9, .deflection_m = 0.0, .z_joc_m = 50e-9};
+  const glm::dvec3 high = apex({.material = 0, .tip = tip});
+  const glm::dvec3 low = apex({.material = 0, .tip = {.z_m = -15e-9, .deflection_m = 0.0, .z_joc_m = 50e-9}});
+  EXPECT_NEAR(glm::length(high - low), screen_.height_m() / 3.0, 0.02);
+}
+
+TEST_F(WallSceneTest, FitsAWallOfAnySize) {
+  const scene::Screen desk{"desk", {-0.3, 0.9, 0.0}, {0.3, 0.9, 0.0}, {-0.3, 1.25, 0.0}};
+  const auto small = WallScene::load(assets_, materials_, desk, {0.0, 1.2, 0.6});
+  ASSERT_TRUE(small.has_value()) << small.error().message;
+  EXPECT_NEAR(small->drawn_scale(0).sample_m_per_m / scene_.drawn_scale(0).sample_m_per_m, 2.286 / 0.35, 1e-6);
+}
+
+TEST_F(WallSceneTest, AMissingModelIsABadInputFileThatIsNamed) {
+  const auto missing = WallScene::load("/nowhere", materials_, screen_, viewer_);
+  ASSERT_FALSE(missing.has_value());
+  EXPECT_EQ(missing.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_THAT(missing.error().message, ::testing::HasSubstr("/nowhere/models/"));
+}
+
+}  // namespace
+}  // namespace afm::exhibit

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "core/clock.h"
+#include "places.h"
+#include "servo/servo_process.h"
+#include "support/paper_model.h"
+
+// What touchafm does for a servo in real time, for tests with real processes. The machine that runs them may stall for
+// many milliseconds at any moment, and the servo then lets go of the hand, as it should. So whatever needs the hand to
+// be held has to be ready to try again; what must happen is waited for with a generous limit.
+namespace afm::test {
+
+inline const std::string kServoProgram = AFM_BINARY_DIR "/bin/touchafm-servo";
+inline constexpr double kRateHz = 1000.0;
+inline constexpr auto kPatience = std::chrono::seconds(100);
+
+inline std::int64_t now_ns() { return core::MonotonicClock().now_ns(); }
+
+inline void wait_a_little() { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }
+
+inline bool eventually(const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    wait_a_little();
+  }
+  return true;
+}
+
+inline scene::SharedSegment create_segment() { return std::move(*scene::SharedSegment::create(paper_model(), 0)); }
+
+// Heartbeats while it waits for something, and a person who holds the simulated hand.
+class LiveRenderer {
+ public:
+  explicit LiveRenderer(scene::RendererSide& side) : side_(side) {}
+
+  void beat() { side_.store(scene::RendererHeartbeat{.time_ns = now_ns(), .frame = ++frame_}); }
+
+  bool until(const std::function<bool(const scene::TipState&)>& condition) {
+    return eventually([&] {
+      beat();
+      const auto state = side_.tip_state();
+      return state && condition(*state);
+    });
+  }
+
+  void aim(double height_m, double seconds, bool pressed = false) {
+    side_.store(scene::HandScript{.target_m = {0.0, height_m, 0.0},
+                                  .duration_s = seconds,
+                                  .revision = ++script_,
+                                  .turn_on_pressed = pressed ? 1U : 0U});
+  }
+
+  bool played() {
+    return until([this](const scene::TipState& state) { return state.hand_revision == script_; });
+  }
+
+  // The tip hangs on the sample and the hand feels more than half a newton.
+  bool holds() {
+    const auto state = side_.tip_state();
+    return state && state->servo_state == scene::ServoState::Running && state->hand_force_n[1] < -0.5;
+  }
+
+  // The paper's procedure, until the tip hangs on mica. When the servo lets go on the way the person begins again, as
+  // a person would.
+  bool hold_attached() {
+    side_.store(scene::Selection{.material = kMica, .revision = 1});
+    return eventually([this] {
+      if (!move(0.060, 0.4)) return false;
+      const auto lifted_ns = now_ns();
+      until([&](const scene::TipState&) { return now_ns() - lifted_ns > 200'000'000; });
+      if (!move(0.060, 0.3, true) || !move(0.060, 0.5) || !move(-0.010, 0.4) || !move(0.025, 0.4)) return false;
+      until([this](const scene::TipState& state) {
+        return holds() || state.servo_state == scene::ServoState::Disarmed ||
+               state.servo_state == scene::ServoState::Fault;
+      });
+      return holds();
+    });
+  }
+
+ private:
+  bool move(double height_m, double seconds, bool pressed = false) {
+    aim(height_m, seconds, pressed);
+    return played();
+  }
+
+  scene::RendererSide& side_;
+  std::uint64_t frame_ = 0;
+  std::uint32_t script_ = 0;
+};
+
+}  // namespace afm::test

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "core/clock.h"
+#include "places.h"
+#include "servo/servo_link.h"
+#include "support/paper_model.h"
+
+// A renderer is killed, and another one comes. Real processes: what must happen is waited for, how long it takes
+// decides nothing.
+namespace afm::servo {
+namespace {
+
+const std::string kProgram = AFM_BINARY_DIR "/bin/touchafm";
+constexpr std::uint64_t kScene = 42;
+constexpr double kHeldHeightM = 0.073;
+constexpr double kLong_s = 100.0;
+
+bool eventually(const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+auto start(double linger_s, std::uint64_t digest = kScene) {
+  return ServoLink::start(test::paper_model(), digest, {.settings = {.linger_s = linger_s}}, kProgram);
+}
+
+bool until(ServoLink& link, const std::function<bool(const scene::TipState&)>& condition) {
+  return eventually([&] { return link.poll(core::MonotonicClock().now_ns()) && condition(link.tip()); });
+}
+
+// A renderer in a process of its own: it chose gold, edited mica, holds the hand at a place where no servo starts, and
+// beats until it is killed. Its servo becomes a child of this process then.
+class Predecessor {
+ public:
+  explicit Predecessor(double linger_s) {
+    EXPECT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1UL, 0UL, 0UL, 0UL), 0);
+    std::array<int, 2> ends{};
+    EXPECT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
+    const core::FileDescriptor ready(ends[0]);
+    core::FileDescriptor told(ends[1]);
+    pid_ = ::fork();
+    if (pid_ == 0) draw(linger_s, told.get());
+    told.close();
+    EXPECT_EQ(::read(ready.get(), &servo_, sizeof(servo_)), static_cast<ssize_t>(sizeof(servo_)));
+  }
+  Predecessor(const Predecessor&) = delete;
+  Predecessor& operator=(const Predecessor&) = delete;
+
+  ~Predecessor() {
+    kill();
+    if (servo_ > 0) ::waitpid(servo_, nullptr, 0);
+  }
+
+  // Once its servo has ended: the exit code.
+  std::optional<int> servo_exit_code() {
+    int status = -1;
+    if (servo_ < 0 || ::waitpid(servo_, &status, WNOHANG) != servo_) return std::nullopt;
+    servo_ = -1;
+    return WEXITSTATUS(status);
+  }
+
+  void kill() {
+    if (pid_ < 0) return;
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+    pid_ = -1;
+  }
+
+ private:
+  [[noreturn]] static void draw(double linger_s, int told) {
+    auto link = start(linger_s);
+    if (!link) ::_exit(1);
+    (*link)->choose(test::kGold);
+    (*link)->change(test::kMica, test::paper_model().materials[test::kGold]);
+    (*link)->script({.target_m = {0.0, kHeldHeightM, 0.0}, .duration_s = 0.05, .revision = 7});
+    const bool held = until(**link, [](const scene::TipState& tip) {
+      return tip.material == test::kGold && tip.hand_revision == 7 && tip.tick > 100 &&
+             std::abs(tip.hand_position_m[1] - kHeldHeightM) < 0.002;
+    });
+    pid_t servo = -1;
+    std::ifstream("/proc/self/task/" + std::to_string(::getpid()) + "/children") >> servo;
+    if (!held || ::write(told, &servo, sizeof(servo)) != static_cast<ssize_t>(sizeof(servo))) ::_exit(1);
+    until(**link, [](const scene::TipState&) { return false; });
+    ::_exit(1);
+  }
+
+  pid_t pid_ = -1;
+  pid_t servo_ = -1;
+};
+
+TEST(ServoTakeover, GoesOnWithTheServoOfADeadRenderer) {
+  Predecessor predecessor(kLong_s);
+  predecessor.kill();
+  core::Result<std::unique_ptr<ServoLink>> link = start(kLong_s);
+  // the servo needs a moment to notice; before that a successor starts its own
+  EXPECT_TRUE(eventually([&] {
+    if (link && (*link)->tip().tick > 0) return true;
+    link = start(kLong_s);
+    return false;
+  }));
+  // as the predecessor left it, but for what the hand swings: it was not put back to its 60 mm, the material and the
+  // count of ticks go on
+  EXPECT_GT((*link)->tip().tick, 100U);
+  EXPECT_NEAR((*link)->tip().hand_position_m[1], kHeldHeightM, 0.005);
+  EXPECT_EQ((*link)->tip().material, test::kGold);
+  EXPECT_EQ((*link)->tip().servo_state, scene::ServoState::Disarmed);
+
+  // and the successor is heard: its scripts and choices count from one, like anybody's
+  (*link)->choose(test::kSiliconNitride);
+  (*link)->script({.target_m = {0.0, 0.066, 0.0}, .duration_s = 0.05, .revision = 1});
+  EXPECT_TRUE(until(**link, [](const scene::TipState& tip) {
+    return tip.material == test::kSiliconNitride && tip.hand_revision == 1 &&
+           std::abs(tip.hand_position_m[1] - 0.066) < 0.002;
+  }));
+  // what the predecessor had changed is as loaded again: mica pulls off where mica does
+  (*link)->choose(test::kMica);
+  EXPECT_TRUE(until(**link, [](const scene::TipState& tip) { return tip.material == test::kMica; }));
+  const double z_joc_m = 0.050 / (*link)->tip().hand_m_per_m;
+  EXPECT_NEAR(z_joc_m, 14.0e-9, 0.1e-9);
+}
+
+TEST(ServoTakeover, TellsAServoOfAnotherSceneToLeaveAndStartsItsOwn) {
+  Predecessor predecessor(kLong_s);
+  predecessor.kill();
+  core::Result<std::unique_ptr<ServoLink>> link = start(kLong_s, kScene + 1);
+  EXPECT_TRUE(eventually([&] {
+    if (const auto code = predecessor.servo_exit_code()) return code == 1;
+    link = start(kLong_s, kScene + 1);
+    return false;
+  }));
+  ASSERT_TRUE(link);
+  EXPECT_TRUE(until(**link, [](const scene::TipState& tip) { return tip.tick > 20 && tip.material < 0; }));
+}
+
+TEST(ServoTakeover, IsNotWaitedForByAServoThatWasNotToldTo) {
+  Predecessor predecessor(0.0);
+  predecessor.kill();
+  EXPECT_TRUE(eventually([&] { return predecessor.servo_exit_code() == 1; }));
+}
+
+TEST(ServoTakeover, IsWaitedForAsLongAsItWasTold) {
+  Predecessor predecessor(0.3);
+  predecessor.kill();
+  const auto killed = std::chrono::steady_clock::now();
+  EXPECT_TRUE(eventually([&] { return predecessor.servo_exit_code() == 1; }));
+  EXPECT_GE(std::chrono::steady_clock::now() - killed, std::chrono::milliseconds(250));
+}
+
+}  // namespace
+}  // namespace afm::servo
