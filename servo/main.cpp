@@ -19,7 +19,7 @@
 #include "haptics/servo_loop.h"
 #include "scene/shared/shared_segment.h"
 #include "servo/haptic_choice.h"
-#include "servo/renderer_watch.h"
+#include "servo/renderer_monitor.h"
 #include "servo/servo_handover.h"
 
 // touchafm-servo: the process that holds the hand. Its main thread is the servo; a second thread watches the renderer,
@@ -98,7 +98,7 @@ afm::core::ExitCode run(const Options& options) {
   afm::haptics::ServoExit exit{};
   {
     const afm::haptics::EditThread edits((*loop)->edits());
-    const afm::servo::RendererWatch watch(
+    const afm::servo::RendererMonitor watch(
         **loop, std::move(parent_socket), signals,
         {.seconds = options.settings.linger_s,
          .program = afm::servo::executable_path(),

@@ -112,14 +112,14 @@ void main() {
   Source source = source_of_pixel(pixel, compose.place.zw);
   bool swapped = compose.mode.y != 0;
   vec3 color = vec3(0.0);
-  if ((kLook & AFM_LOOK_MIXED) != 0u) {
+  if ((kLook & AFM_FEATURE_MIXED) != 0u) {
     vec3 left = eye_light(swapped ? kRight : kLeft, source);
     vec3 right = eye_light(swapped ? kLeft : kRight, source);
     vec3 mixed = mat3(anaglyph.left[compose.mode.w]) * left + mat3(anaglyph.right[compose.mode.w]) * right;
     color = srgb_from_linear(clamp(mixed, 0.0, 1.0));
   } else if (source.eye != kBlank) {
     int eye = swapped ? kRight - source.eye : source.eye;
-    color = (kLook & AFM_LOOK_SCALED) != 0u ? eye_color(eye, source) : eye_texel(eye, source);
+    color = (kLook & AFM_FEATURE_SCALED) != 0u ? eye_color(eye, source) : eye_texel(eye, source);
   }
   out_color = vec4(color, 1.0);
 }

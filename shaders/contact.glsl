@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens where the tip meets the sample, and how far a place has dissolved into the haze. Nothing branches by a
+// What happens where the tip meets the sample, and how far a place has dissolved into the fog. Nothing branches by a
 // uniform: where that would leave out much of a vertex shader, lavapipe compiles the shader anew with every new block of
 // uniforms, that is in each frame, and keeps what it has compiled.
 
@@ -16,8 +16,8 @@ vec3 contact_ring(FrameBlock frame, vec3 place) {
   return frame.contact_ring.rgb * exp2(-off * off);
 }
 
-float haze(FrameBlock frame, vec3 place) {
-  float behind = dot(frame.haze_axis, vec4(place, 1.0));
-  float far = smoothstep(0.0, 1.0, (behind - frame.haze.x) * frame.haze.y);
-  return max(frame.haze.z, far);
+float fog(FrameBlock frame, vec3 place) {
+  float behind = dot(frame.fog_axis, vec4(place, 1.0));
+  float far = smoothstep(0.0, 1.0, (behind - frame.fog.x) * frame.fog.y);
+  return max(frame.fog.z, far);
 }

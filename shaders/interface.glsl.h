@@ -20,19 +20,19 @@
 #define AFM_TEXTURE_SLOTS 12
 
 // What a pipeline of such materials does beside sampling the textures whose bits, 1 << slot, are set.
-#define AFM_LOOK_TANGENTS 0x01000u  // the vertices have tangents
-#define AFM_LOOK_UNLIT 0x02000u
-#define AFM_LOOK_MASK 0x04000u   // alphaMode MASK
-#define AFM_LOOK_BLEND 0x08000u  // alphaMode BLEND
-#define AFM_LOOK_CLEARCOAT 0x10000u
-#define AFM_LOOK_IRIDESCENCE 0x20000u
-#define AFM_LOOK_LIGHTS 0x40000u  // the scene has lights of its own
+#define AFM_FEATURE_TANGENTS 0x01000u  // the vertices have tangents
+#define AFM_FEATURE_UNLIT 0x02000u
+#define AFM_FEATURE_MASK 0x04000u   // alphaMode MASK
+#define AFM_FEATURE_BLEND 0x08000u  // alphaMode BLEND
+#define AFM_FEATURE_CLEARCOAT 0x10000u
+#define AFM_FEATURE_IRIDESCENCE 0x20000u
+#define AFM_FEATURE_LIGHTS 0x40000u  // the scene has lights of its own
 
 // Of plain materials too: the shadow on a back is looked up a step off the back, not off the front.
-#define AFM_LOOK_DOUBLE_SIDED 0x80000u
+#define AFM_FEATURE_DOUBLE_SIDED 0x80000u
 
 // What a pipeline of plain materials does: dissolve what is far. A CPU device computes what a branch leaves out, too.
-#define AFM_LOOK_HAZE 0x1u
+#define AFM_FEATURE_FOG 0x1u
 
 // texels each way
 #define AFM_SHADOW_MAP_SIZE 2048
@@ -55,10 +55,10 @@ struct FrameBlock {
   vec4 target_size;       // width, height of an eye image in pixels, and their reciprocals
   vec4 contact;           // xyz: where the tip meets the sample; w: 1 / radius of the shade there; far away without one
   vec4 contact_ring;      // rgb: linear radiance, 0 without a ring; a: its radius in radii of the shade
-  vec4 haze;              // x: begin, y: 1 / (end - begin), 0 without a range; z: veil; w: 1 with a range
+  vec4 fog;               // x: begin, y: 1 / (end - begin), 0 without a range; z: veil; w: 1 with a range
   vec4 screen[3];       // xyz: the direction in which the upper left corner of the eye images is seen from between the
                         // eyes, and what takes it to the upper right and to the lower left one
-  vec4 haze_axis;       // what lies behind the haze's origin by its units is dot(axis, (place, 1))
+  vec4 fog_axis;        // what lies behind the fog's origin by its units is dot(axis, (place, 1))
   vec4 punctual_count;  // x: how many of the lights below there are
   vec4 punctual_position[AFM_MOST_LIGHTS];   // xyz; w: 1 / range, 0 without end
   vec4 punctual_direction[AFM_MOST_LIGHTS];  // xyz: unit, along the rays; w: 0 directional, 1 all others
@@ -110,8 +110,8 @@ struct ComposeBlock {
 };
 
 // What a pipeline of the compose pass does beside copying pixels; modes are not: they change while it runs.
-#define AFM_LOOK_SCALED 0x1u  // pictures of another size than the eyes', and keystones
-#define AFM_LOOK_MIXED 0x2u   // anaglyphs
+#define AFM_FEATURE_SCALED 0x1u  // pictures of another size than the eyes', and keystones
+#define AFM_FEATURE_MIXED 0x2u   // anaglyphs
 
 #define AFM_COMPOSE_LEFT 0
 #define AFM_COMPOSE_RIGHT 1

@@ -54,7 +54,7 @@ vec2 place_in(int slot) {
 vec3 mapped_normal(vec3 normal, vec3 texel, float scale, vec2 uv) {
   vec3 tangent = room_tangent.xyz;
   float side = room_tangent.w;
-  if (!looks(AFM_LOOK_TANGENTS)) {
+  if (!looks(AFM_FEATURE_TANGENTS)) {
     vec3 dx = dFdx(room_position), dy = dFdy(room_position);
     vec2 uv_dx = dFdx(uv), uv_dy = dFdy(uv);
     float area = uv_dx.x * uv_dy.y - uv_dy.x * uv_dx.y;
@@ -94,7 +94,7 @@ vec3 punctual_light(int i, out vec3 to_light) {
 vec3 lit(Surface s, Key key, float occlusion) {
   vec3 radiance = occlusion * studio_reflection(s, key, lobe_of(s.roughness)) +
                   key_reflection(s, key.axis) * frame.light_radiance.rgb * key.visibility;
-  if (looks(AFM_LOOK_LIGHTS)) {
+  if (looks(AFM_FEATURE_LIGHTS)) {
     for (int i = 0; i < int(frame.punctual_count.x); ++i) {
       vec3 to_light;
       vec3 light = punctual_light(i, to_light);
@@ -106,10 +106,10 @@ vec3 lit(Surface s, Key key, float occlusion) {
 
 // Premultiplied. What a mask leaves out goes last: its neighbours' textures are filtered by its place too.
 void put(vec3 shown, float coverage) {
-  if (looks(AFM_LOOK_MASK) && coverage < material.scales.w) {
+  if (looks(AFM_FEATURE_MASK) && coverage < material.scales.w) {
     discard;
   }
-  float alpha = looks(AFM_LOOK_BLEND) ? coverage : 1.0;
+  float alpha = looks(AFM_FEATURE_BLEND) ? coverage : 1.0;
   out_color = vec4(srgb_from_linear(shown) * alpha, alpha);
 }
 
@@ -120,7 +120,7 @@ void main() {
   vec3 front = normalize(room_normal);
   float facing = gl_FrontFacing ? 1.0 : -1.0;  // a back has its front's normal reversed, bent or not
   vec3 normal = facing * front;
-  shadow_place = looks(AFM_LOOK_DOUBLE_SIDED) ? place_in_shadow_map(room_position, normal) : front_shadow_place;
+  shadow_place = looks(AFM_FEATURE_DOUBLE_SIDED) ? place_in_shadow_map(room_position, normal) : front_shadow_place;
   if (looks(1u << kNormal)) {
     normal = facing * mapped_normal(front, AFM_TEXEL(kNormal).xyz, material.scales.x, place_in(kNormal));
   }
@@ -132,12 +132,12 @@ void main() {
                     material.specular.a * AFM_TEXEL(kSpecular).a;
   Surface s = Surface(normal, to_eye, color.rgb * (1.0 - metallic), mix(dielectric, color.rgb, metallic), roughness);
   vec3 own_light = emitted + highlight_glow(s, draw.emissive.a);
-  if (looks(AFM_LOOK_UNLIT)) {
+  if (looks(AFM_FEATURE_UNLIT)) {
     put(min(color.rgb + own_light, vec3(1.0)), color.a);
     return;
   }
 
-  if (looks(AFM_LOOK_IRIDESCENCE)) {
+  if (looks(AFM_FEATURE_IRIDESCENCE)) {
     float share = material.iridescence.x * AFM_TEXEL(kIridescence).r;
     float nm = mix(material.iridescence.z, material.iridescence.w, AFM_TEXEL(kIridescenceThickness).g);
     vec3 film = thin_film_reflectance(material.iridescence.y, max(dot(normal, to_eye), 1e-3), nm * 1e-9, s.specular);
@@ -146,7 +146,7 @@ void main() {
   Key key = Key(frame.light_direction.xyz, frame.light_side.xyz, key_light_visibility());
   float occlusion = mix(1.0, AFM_TEXEL(kOcclusion).r, material.scales.y);
   vec3 radiance = lit(s, key, occlusion) + emitted;
-  if (looks(AFM_LOOK_CLEARCOAT)) {
+  if (looks(AFM_FEATURE_CLEARCOAT)) {
     vec3 coat_normal = facing * front;
     if (looks(1u << kClearcoatNormal)) {
       coat_normal = facing * mapped_normal(front, AFM_TEXEL(kClearcoatNormal).xyz, material.clearcoat.z,

@@ -33,13 +33,13 @@ vec3 shadow_place;
 void main() {
   vec3 front = normalize(room_normal);
   vec3 normal = gl_FrontFacing ? front : -front;
-  bool has_back = (kLook & AFM_LOOK_DOUBLE_SIDED) != 0u;
+  bool has_back = (kLook & AFM_FEATURE_DOUBLE_SIDED) != 0u;
   shadow_place = has_back ? place_in_shadow_map(room_position, normal) : front_shadow_place;
   vec3 shown = shaded(room_position, normal, vertex_color.rgb, Lobe(lobe.x, lobe.yzw));
 
   // what has dissolved is the background
-  if ((kLook & AFM_LOOK_HAZE) != 0u) {
-    shown = mix(shown, background_color(frame, gl_FragCoord.xy * frame.target_size.zw), haze(frame, room_position));
+  if ((kLook & AFM_FEATURE_FOG) != 0u) {
+    shown = mix(shown, background_color(frame, gl_FragCoord.xy * frame.target_size.zw), fog(frame, room_position));
   }
 
   // premultiplied, so that opaque and blended primitives share this shader

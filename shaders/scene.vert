@@ -32,5 +32,5 @@ void main() {
   lobe = vec4(its.border, its.spread);
   gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
   // the ruler is not lit, and stays in sight
-  if (frame.haze.w * draw.surface.z > 0.0) gl_Position.z = AFM_FRONT_DEPTH * gl_Position.w;
+  if (frame.fog.w * draw.surface.z > 0.0) gl_Position.z = AFM_FRONT_DEPTH * gl_Position.w;
 }

@@ -14,13 +14,13 @@
 #include <utility>
 #include <vector>
 
+#include "app/bench/servo_latency.h"
 #include "app/bench/servo_reaction.h"
-#include "app/bench/servo_wake.h"
 #include "app/bench/servo_work.h"
 #include "core/log.h"
 #include "core/version.h"
+#include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
-#include "exhibit/stage_setup.h"
 #include "render/context.h"
 #include "render/renderer.h"
 
@@ -48,18 +48,18 @@ struct Figures {
 
 // The servo beside the real renderer, which draws the wall with no window and no limit to its rate.
 core::Result<void> measure_beside_renderer(const CommandContext& context, const Options& options, Figures& figures) {
-  exhibit::StageFiles files;
+  exhibit::ExhibitFiles files;
   files.assets_dir = context.assets_dir;
-  auto stage = exhibit::load_stage(files);
+  auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
   auto vulkan = render::Context::open();
   if (!vulkan) return tl::unexpected(vulkan.error());
   const render::RendererOptions size = stage->renderer_options(kEyeWidth_px);
   auto renderer = render::Renderer::create(*vulkan, stage->wall_scene.scene(), size);
   if (!renderer) return tl::unexpected(renderer.error());
-  std::vector<curves::FeltMaterial> materials;
+  std::vector<curves::SampleModel> materials;
   for (const scene::MaterialEntry& entry : stage->materials.materials) {
-    auto felt = curves::felt_material(curves::ContactSetup{entry, {}, {}});
+    auto felt = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
     if (!felt) return tl::unexpected(felt.error());
     materials.push_back(std::move(*felt));
   }

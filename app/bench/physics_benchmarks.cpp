@@ -29,15 +29,15 @@ constexpr double kCurveBar_s = 10e-3;
 constexpr std::array kLaws{Law::Paper, Law::Hao, Law::Hertz, Law::Dmt, Law::Jkr, Law::MaugisDugdale, Law::LennardJones};
 
 // Mica under a silicon nitride tip, as docs/physics.md has it.
-physics::Interaction mica() {
-  physics::Interaction interaction;
-  interaction.tip_radius = 50_nm;
-  interaction.spring_constant = 0.1_N_per_m;
-  interaction.sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity());
-  interaction.hamaker = 24.5_zJ;
-  interaction.mean_surface_energy = 2.228_mJ_per_m2;
-  interaction.reduced_modulus = physics::Pressure(51.5e9);
-  return interaction;
+physics::ContactParameters mica() {
+  physics::ContactParameters contact;
+  contact.tip_radius = 50_nm;
+  contact.spring_constant = 0.1_N_per_m;
+  contact.sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity());
+  contact.hamaker = 24.5_zJ;
+  contact.mean_surface_energy = 2.228_mJ_per_m2;
+  contact.reduced_modulus = physics::Pressure(51.5e9);
+  return contact;
 }
 
 // One cycle of the hand, down from above jump-off-contact to 2 nm into the sample and up again, over and over.

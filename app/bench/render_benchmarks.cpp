@@ -15,11 +15,11 @@
 #include "app/bench/render_subjects.h"
 #include "app/bench/render_timing.h"
 #include "app/commands/standard_output.h"
-#include "app/options/stage_options.h"
+#include "app/options/exhibit_options.h"
 #include "core/clock.h"
 #include "core/log.h"
 #include "core/version.h"
-#include "exhibit/stage_setup.h"
+#include "exhibit/exhibit_setup.h"
 #include "render/context.h"
 
 namespace afm::app {
@@ -32,7 +32,7 @@ constexpr double kFrameBar_ms = 1000.0 / 15.0;
 constexpr double kFirstFrameBar_ms = 1000.0;
 
 struct Options {
-  exhibit::StageFiles files;
+  exhibit::ExhibitFiles files;
   std::uint32_t eye_width = 960;
   RenderTimingPlan plan;
   std::vector<std::string> gltf;
@@ -44,7 +44,7 @@ struct FirstFrame {
   double cold_ms = 0, warm_ms = 0;
 };
 
-core::Result<exhibit::Stage> load_wall(const Options& options) { return exhibit::load_stage(options.files); }
+core::Result<exhibit::Stage> load_wall(const Options& options) { return exhibit::load_exhibit(options.files); }
 
 // From before the device is opened to the end of the first stereo frame of the wall.
 core::Result<double> first_frame_ms(const Options& options) {

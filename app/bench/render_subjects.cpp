@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/check.h"
-#include "curves/felt_material.h"
+#include "curves/sample_model.h"
 #include "exhibit/cycle_curve.h"
 #include "exhibit/frame_builder.h"
 #include "scene/gltf/gltf_loader.h"
@@ -146,9 +146,9 @@ scene::Primitive cube() {
 }  // namespace
 
 core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint32_t eye_width_px) {
-  std::vector<curves::FeltMaterial> materials;
+  std::vector<curves::SampleModel> materials;
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
-    auto felt = curves::felt_material(curves::ContactSetup{entry, {}, {}});
+    auto felt = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
     if (!felt) return tl::unexpected(felt.error());
     materials.push_back(std::move(*felt));
   }
@@ -156,7 +156,7 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
       .name = "wall", .scene = stage.wall_scene.scene(), .drawing = stage.renderer_options(eye_width_px)};
   const std::size_t felt = std::min(kFeltMaterial, materials.size() - 1);
   const double release_m = materials[felt].scaling.release_z_m();
-  const double stiffness = materials[felt].setup.material.interaction.spring_constant.si;
+  const double stiffness = materials[felt].setup.material.contact.spring_constant.si;
   const exhibit::FrameBuilder frames(stage.wall_scene, materials, stage.eyes);
   std::vector<exhibit::CycleCurve> curves(materials.size());
   for (int i = 0; i < kFrames; ++i) {

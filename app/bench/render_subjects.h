@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/stage_setup.h"
+#include "exhibit/exhibit_setup.h"
 #include "render/frame.h"
 #include "render/renderer.h"
 #include "scene/graph/scene.h"

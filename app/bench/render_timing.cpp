@@ -18,7 +18,7 @@
 #include "app/interruption.h"
 #include "core/log.h"
 #include "render/context.h"
-#include "render/picture_saver.h"
+#include "render/screenshot_queue.h"
 
 namespace afm::app {
 
@@ -86,7 +86,7 @@ class Drawing {
   void take_pass_times(RenderFigure& figure) {
     const auto path = std::filesystem::temp_directory_path() / fmt::format("touchafm-bench-{}.png", getpid());
     {
-      render::PictureSaver saver(*context_, renderer_);
+      render::ScreenshotQueue saver(*context_, renderer_);
       saver.save({}, path.string());
     }
     std::error_code ignored;

@@ -68,7 +68,7 @@ scene::SharedHeightField rough_surface() {
 
 scene::SharedModel model_of(const Felt& felt) {
   scene::SharedModel model = mica_alone();
-  scene::SharedMaterial& mica = model.materials[0];
+  scene::SharedContact& mica = model.materials[0];
   mica.law = felt.law;
   mica.dynamic = felt.dynamic ? 1 : 0;
   if (felt.topography) {
@@ -156,14 +156,14 @@ scene::SharedModel mica_alone() {
   set_name(model.nodes[0].name, "sample");
   model.nodes[0].parent_from_node = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};  // +z is up
   model.material_count = 1;
-  scene::SharedMaterial& mica = model.materials[0];
+  scene::SharedContact& mica = model.materials[0];
   set_name(mica.name, "mica");
-  mica.interaction = {.tip_radius = physics::Length(50e-9),
-                      .spring_constant = physics::Stiffness(0.1),
-                      .sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity()),
-                      .hamaker = physics::Energy(24.5e-21),
-                      .mean_surface_energy = physics::SurfaceEnergy(2.228e-3),
-                      .reduced_modulus = physics::Pressure(51.5e9)};
+  mica.contact = {.tip_radius = physics::Length(50e-9),
+                  .spring_constant = physics::Stiffness(0.1),
+                  .sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity()),
+                  .hamaker = physics::Energy(24.5e-21),
+                  .mean_surface_energy = physics::SurfaceEnergy(2.228e-3),
+                  .reduced_modulus = physics::Pressure(51.5e9)};
   mica.lever = {physics::Frequency(12e3), 2.5, physics::Temperature(298.0)};
   return model;
 }

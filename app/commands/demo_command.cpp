@@ -18,13 +18,13 @@
 #include "app/demo/demonstration.h"
 #include "app/demo/report.h"
 #include "app/demo/report_pictures.h"
-#include "app/options/frame_budget.h"
-#include "app/options/stage_options.h"
+#include "app/options/dynamic_resolution.h"
+#include "app/options/exhibit_options.h"
 #include "core/log.h"
 #include "curves/measured_material.h"
 #include "curves/sweep.h"
+#include "exhibit/exhibit_setup.h"
 #include "exhibit/shared_model.h"
-#include "exhibit/stage_setup.h"
 #include "haptics/scaling.h"
 #include "haptics/simulated_device.h"
 #include "physics/quantity_text.h"
@@ -44,7 +44,7 @@ constexpr double kSlowestHand = 0.005, kFastestHand = 0.200;  // m/s
 
 struct DemoOptions {
   std::string out;
-  exhibit::StageFiles files;
+  exhibit::ExhibitFiles files;
   std::uint32_t eye_width = 960;
   HandPath hand;
   double frame_budget_ms = 0;
@@ -89,9 +89,9 @@ core::Result<curves::ContactSetup> setup_of(scene::MaterialEntry entry, const De
 }
 
 // The material once more for each value of each axis, titled with that value.
-core::Result<std::vector<curves::FeltMaterial>> variations_of(const curves::FeltMaterial& material,
-                                                              const DemoOptions& options) {
-  std::vector<curves::FeltMaterial> variations;
+core::Result<std::vector<curves::SampleModel>> variations_of(const curves::SampleModel& material,
+                                                             const DemoOptions& options) {
+  std::vector<curves::SampleModel> variations;
   for (const std::string& text : options.vary) {
     const auto axis = curves::parse_sweep_axis(text, options.model);
     if (!axis) return core::failure(axis.error().category, "--vary " + axis.error().message);
@@ -104,7 +104,7 @@ core::Result<std::vector<curves::FeltMaterial>> variations_of(const curves::Felt
       const std::string value = curves::format_parameter(*axis->parameter, axis->value(i));
       curves::ContactSetup changed = material.setup;
       curves::override_parameter(changed, *axis->parameter, axis->value(i), value, "--vary on the command line");
-      auto varied = curves::felt_material(material, changed);
+      auto varied = curves::make_sample_model(material, changed);
       if (!varied) return tl::unexpected(varied.error());
       varied->setup.material.title = fmt::format("{} {}", material.setup.material.title, value);
       variations.push_back(std::move(*varied));
@@ -121,7 +121,7 @@ core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optiona
   if (measured) plan.curves.push_back(measured->curve);
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
     if (measured && entry.name == measured->entry.name) {
-      auto felt = curves::felt_material(entry, plan.curves, 0);
+      auto felt = curves::make_sample_model(entry, plan.curves, 0);
       if (!felt) return tl::unexpected(felt.error());
       felt->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
       plan.materials.push_back(std::move(*felt));
@@ -130,7 +130,7 @@ core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optiona
     }
     const auto setup = setup_of(entry, options);
     if (!setup) return tl::unexpected(setup.error());
-    auto felt = curves::felt_material(*setup);
+    auto felt = curves::make_sample_model(*setup);
     if (!felt) return tl::unexpected(felt.error());
     felt->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
     auto variations = variations_of(*felt, options);
@@ -245,9 +245,9 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
 
   const auto curve = load_measured(options);
   if (!curve) return tl::unexpected(curve.error());
-  exhibit::StageFiles files = options.files;
+  exhibit::ExhibitFiles files = options.files;
   if (*curve) files.added.push_back((*curve)->entry);
-  auto stage = exhibit::load_stage(files);
+  auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
   const auto plan = plan_demo(*stage, *curve, options);
   if (!plan) return tl::unexpected(plan.error());
@@ -273,7 +273,7 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
     const auto model = exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(),
                                              plan->materials, stage->wall_scene.height_fields(), plan->curves);
     if (!model) return tl::unexpected(model.error());
-    auto servo = servo::ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
+    auto servo = servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
     if (!servo) return tl::unexpected(servo.error());
     ReportPictures live_pictures(*context, *renderer, *out);
     Demonstration live(*stage, *plan, *renderer, **servo, clock, on_scale(options.scale, options.hand), [&] {

@@ -51,16 +51,16 @@ Row listen_for_tracker(const input::DtrackSettings& settings) {
   if (!source) return {"tracker", name, false, source.error().message};
   const std::int64_t end_ns = clock.now_ns() + kListenNs;
   while (clock.now_ns() < end_ns) (*source)->poll();
-  const input::DtrackNews news = (*source)->news();
-  if (news.good_packets + news.bad_packets == 0) {
+  const input::DtrackUpdate update = (*source)->newest();
+  if (update.good_packets + update.bad_packets == 0) {
     return {"tracker", name, false,
             "nothing came in 0.3 s: start the measurement, and send its output to this address"};
   }
-  const std::string damaged = fmt::format("{} packets that are no frames in 0.3 s", news.bad_packets);
-  if (news.good_packets == 0) return {"tracker", name, false, damaged};
+  const std::string damaged = fmt::format("{} packets that are no frames in 0.3 s", update.bad_packets);
+  if (update.good_packets == 0) return {"tracker", name, false, damaged};
   return {"tracker", name, true,
-          fmt::format("{} frames, {} bodies, {} Flysticks; {}", news.good_packets, news.frame.body_count,
-                      news.frame.flystick_count, damaged)};
+          fmt::format("{} frames, {} bodies, {} Flysticks; {}", update.good_packets, update.frame.body_count,
+                      update.frame.flystick_count, damaged)};
 }
 
 void look_for_monitors(std::vector<Row>& rows) {

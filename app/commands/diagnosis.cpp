@@ -38,7 +38,7 @@ Finding locked_memory(const MachineFacts& facts) {
 }
 
 Finding wake_up(const MachineFacts& facts) {
-  const WakeJitter& jitter = facts.jitter;
+  const SchedulingLatency& jitter = facts.jitter;
   const core::Percentiles late = core::percentiles(jitter.late_us, jitter.max_us);
   const bool good = late.p999 <= kGoodLatenessUs && jitter.missed == 0;
   return {"wake-up at 1 kHz", good ? Verdict::Good : Verdict::Limited,

@@ -10,12 +10,12 @@
 #include <numeric>
 #include <span>
 
-#include "app/bench/servo_wake.h"
+#include "app/bench/servo_latency.h"
 #include "app/command.h"
 #include "app/commands/diagnosis.h"
 #include "core/log.h"
 #include "core/percentiles.h"
-#include "servo/servo_link.h"
+#include "servo/servo_client.h"
 
 namespace afm::app {
 
@@ -73,7 +73,7 @@ std::string json(const MachineFacts& facts, const std::vector<Finding>& findings
   for (const Finding& f : findings) {
     checks.push_back({{"check", f.check}, {"verdict", word(f.verdict)}, {"found", f.found}, {"mend", f.mend}});
   }
-  const WakeJitter& jitter = facts.jitter;
+  const SchedulingLatency& jitter = facts.jitter;
   const core::Percentiles late = core::percentiles(jitter.late_us, jitter.max_us);
   const nlohmann::json root{
       {"checks", checks},

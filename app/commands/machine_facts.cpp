@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "servo/haptic_choice.h"
-#include "servo/servo_link.h"
+#include "servo/servo_client.h"
 
 namespace afm::app {
 

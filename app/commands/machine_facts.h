@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/bench/wake_jitter.h"
+#include "app/bench/scheduling_latency.h"
 #include "haptics/device_probe.h"
 #include "render/context.h"
 
@@ -23,7 +23,7 @@ struct MachineFacts {
   std::uint64_t priority_limit = 0;
   std::optional<std::uint64_t> locked_memory_limit_bytes;  // empty: unlimited
   bool pages_can_be_locked = false;
-  WakeJitter jitter;
+  SchedulingLatency jitter;
   std::vector<render::DeviceDescription> graphics;
   std::string graphics_refusal;  // why there are none
   std::string display;           // empty: none

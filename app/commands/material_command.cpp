@@ -60,7 +60,7 @@ std::string cycle_text(const physics::CycleFigures& figures) {
 
 core::Result<std::shared_ptr<const physics::LawTables>> tables_of(const curves::ContactSetup& setup) {
   try {
-    return physics::build_law_tables(setup.law(), setup.material.interaction, setup.law_options);
+    return physics::build_law_tables(setup.law(), setup.material.contact, setup.law_options);
   } catch (const std::invalid_argument& error) {
     return core::failure(core::ErrorCategory::WrongUsage, error.what());
   }
@@ -101,10 +101,10 @@ core::Result<std::string> material_list(const ContactOptions& options) {
   if (!probes) return tl::unexpected(probes.error());
   std::string text = "materials (touchafm material NAME tells each number with its source)\n";
   for (const scene::MaterialEntry& m : materials->materials) {
-    const auto place = physics::choose_law(m.interaction);
+    const auto place = physics::choose_law(m.contact);
     text += fmt::format("  {:<20}{:<18}{:<9}in {:<15}W {:<13}E* {:<12}Tabor {:<10.3g}{}\n", m.name, m.title, m.tip,
-                        m.medium, text_of(2.0 * m.interaction.mean_surface_energy, physics::kSurfaceEnergyUnits),
-                        text_of(m.interaction.reduced_modulus, physics::kPressureUnits), place.tabor,
+                        m.medium, text_of(2.0 * m.contact.mean_surface_energy, physics::kSurfaceEnergyUnits),
+                        text_of(m.contact.reduced_modulus, physics::kPressureUnits), place.tabor,
                         physics::name_of(place.law));
   }
   text += "probes (--probe NAME; nominal values)\n";
@@ -127,7 +127,7 @@ core::Result<std::string> material_text(const curves::ContactSetup& setup) {
   text += "\nnumbers and where they come from\n" + sources_text(material);
   if (material.tip_elasticity) {
     text += fmt::format("  {:<22}{:<14}of tip and sample: 1/E* = (1 - nu_t^2)/E_t + (1 - nu_s^2)/E_s\n",
-                        "reduced modulus", text_of(material.interaction.reduced_modulus, physics::kPressureUnits));
+                        "reduced modulus", text_of(material.contact.reduced_modulus, physics::kPressureUnits));
   }
   if (const auto place = setup.place()) {
     text += fmt::format("\nplace on the adhesion map\n  Tabor parameter       {:.4g}\n  Maugis parameter      {:.4g}\n",
@@ -150,7 +150,7 @@ core::Result<std::string> material_map(const curves::ContactSetup& setup) {
   const std::string title =
       fmt::format("Adhesion map: {}, {} tip, in {}", setup.material.title, setup.material.tip, setup.material.medium);
   return curves::svg(
-      curves::adhesion_map_plot(title, *place, setup.material.interaction, (*tables)->figures.force_before_joc));
+      curves::adhesion_map_plot(title, *place, setup.material.contact, (*tables)->figures.force_before_joc));
 }
 
 void add_material_command(CLI::App& app, CommandContext& context) {

@@ -13,10 +13,10 @@
 
 #include "app/command.h"
 #include "app/demo/demonstration.h"
-#include "app/options/stage_options.h"
+#include "app/options/exhibit_options.h"
+#include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/model_view.h"
-#include "exhibit/stage_setup.h"
 #include "render/context.h"
 #include "servo/session_file.h"
 
@@ -35,12 +35,12 @@ struct RenderOptions {
   std::string out;
   double at_s = 0;
   std::string size;  // empty: as the wall's outputs say, or from the eyes' width
-  exhibit::PictureWish wish;
-  exhibit::StageFiles files;
+  exhibit::PictureOptions picture;
+  exhibit::ExhibitFiles files;
 };
 
 // The wall as it was, as far as the session tells: the paper's three stand together, another material alone.
-exhibit::StageFiles files_for(const servo::RecordedSession& session, exhibit::StageFiles files) {
+exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::ExhibitFiles files) {
   const auto& paper = scene::kPaperMaterials;
   const bool shown_anyway =
       !files.materials.empty() || std::find(paper.begin(), paper.end(), session.material) != paper.end();
@@ -50,7 +50,7 @@ exhibit::StageFiles files_for(const servo::RecordedSession& session, exhibit::St
     entry.title = "Measured curve";
     entry.note = "a recorded curve";
     entry.look = paper.front();
-    entry.interaction = session.parameters.interaction;
+    entry.contact = session.parameters.contact;
     files.added.push_back(entry);
   } else if (!shown_anyway) {
     files.shown = {session.material};
@@ -58,24 +58,24 @@ exhibit::StageFiles files_for(const servo::RecordedSession& session, exhibit::St
   return files;
 }
 
-core::Result<void> draw(const exhibit::Stage& stage, const std::vector<curves::FeltMaterial>& felt,
+core::Result<void> draw(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& felt,
                         const exhibit::Moment& moment, const RenderOptions& options) {
   auto context = render::Context::open();
   if (!context) return tl::unexpected(context.error());
-  exhibit::PictureWish wish = options.wish;
+  exhibit::PictureOptions picture = options.picture;
   if (!options.size.empty()) {
     const auto size = exhibit::parse_picture_size("--size", options.size, context->largest_picture_px());
     if (!size) return tl::unexpected(size.error());
-    wish.size_px = *size;
+    picture.size_px = *size;
   }
-  const auto plan = exhibit::plan_wall(stage.wall, wish);
+  const auto plan = exhibit::plan_wall(stage.wall, picture);
   if (!plan) return tl::unexpected(plan.error());
   const auto drawing = exhibit::renderer_options(*context, *plan, stage.wall_scene.panel_millimetre_m());
   auto renderer = render::Renderer::create(*context, stage.wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   const exhibit::FrameBuilder frames(stage.wall_scene, felt, stage.eyes);
   const auto pictures =
-      exhibit::draw_wall(*renderer, *plan, stage.wall.viewers.front(), wish,
+      exhibit::draw_wall(*renderer, *plan, stage.wall.viewers.front(), picture,
                          [&](const exhibit::OutputPicture&, const std::array<scene::EyeView, 2>& eyes) {
                            render::FrameState frame = frames.build(moment);
                            frame.eyes = eyes;
@@ -92,11 +92,11 @@ core::Result<void> run_journey(const RenderOptions& options) {
                          fmt::format("--journey: {:g} is no place of the journey; give 0 to {:g}",
                                      *options.journey_orders, exhibit::kJourneyOrders));
   }
-  exhibit::StageFiles files = options.files;
+  exhibit::ExhibitFiles files = options.files;
   files.shown = {options.material};
-  auto stage = exhibit::load_stage(files);
+  auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
-  auto felt = curves::felt_material(curves::ContactSetup{stage->materials.materials.front(), {}, {}});
+  auto felt = curves::make_sample_model(curves::ContactSetup{stage->materials.materials.front(), {}, {}});
   if (!felt) return tl::unexpected(felt.error());
   exhibit::Moment moment;
   moment.material = 0;
@@ -112,9 +112,9 @@ core::Result<void> run_model(const RenderOptions& options) {
   }
   auto context = render::Context::open();
   if (!context) return tl::unexpected(context.error());
-  const scene::StereoMode mode = options.wish.mode.value_or(scene::StereoMode::Mono);
+  const scene::StereoMode mode = options.picture.mode.value_or(scene::StereoMode::Mono);
   exhibit::ModelChoice choice = options.model;
-  if (options.wish.ipd_m) choice.eyes_apart_m = *options.wish.ipd_m;
+  if (options.picture.ipd_m) choice.eyes_apart_m = *options.picture.ipd_m;
   if (mode == scene::StereoMode::Mono) choice.eyes_apart_m = 0.0;
   render::ReadArea area;
   if (!options.size.empty()) {
@@ -131,7 +131,7 @@ core::Result<void> run_model(const RenderOptions& options) {
                                             .samples = exhibit::affordable_samples(*context, choice.size_px)});
   if (!renderer) return tl::unexpected(renderer.error());
   renderer->render(view->frame);
-  const render::Composition composition{.mode = mode, .order = options.wish.order};
+  const render::Composition composition{.mode = mode, .order = options.picture.order};
   std::vector<render::Image> pictures;
   if (scene::has_two_pictures(mode)) {
     for (render::Image& picture : renderer->read_pair(composition, area)) pictures.push_back(std::move(picture));
@@ -145,7 +145,7 @@ core::Result<void> run_render(const RenderOptions& options) {
   if (options.journey_orders) return run_journey(options);
   auto session = servo::load_session(options.session);
   if (!session) return tl::unexpected(session.error());
-  auto stage = exhibit::load_stage(files_for(*session, options.files));
+  auto stage = exhibit::load_exhibit(files_for(*session, options.files));
   if (!stage) return tl::unexpected(stage.error());
   const auto& materials = stage->materials.materials;
   const auto found =
@@ -158,10 +158,10 @@ core::Result<void> run_render(const RenderOptions& options) {
   }
   std::vector<scene::SharedMeasuredCurve> recorded;
   if (session->curve) recorded.push_back(*session->curve);
-  std::vector<curves::FeltMaterial> felt;
+  std::vector<curves::SampleModel> felt;
   for (const scene::MaterialEntry& entry : materials) {
-    auto one = entry.name == session->material ? curves::felt_material(entry, session->parameters, recorded)
-                                               : curves::felt_material(curves::ContactSetup{entry, {}, {}});
+    auto one = entry.name == session->material ? curves::make_sample_model(entry, session->parameters, recorded)
+                                               : curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
     if (!one) return tl::unexpected(one.error());
     felt.push_back(std::move(*one));
   }
@@ -234,14 +234,14 @@ void add_render_command(CLI::App& app, CommandContext& context) {
                               "time from the start of the session, or of the model's animations, in seconds; "
                               "default: the session's start, the model at rest")
                  ->type_name("SECONDS");
-  add_stereo_options(*command, options->wish, "the outputs of the wall file, else side-by-side; of a model mono");
+  add_stereo_options(*command, options->picture, "the outputs of the wall file, else side-by-side; of a model mono");
   CLI::Option* size = command
                           ->add_option("--size", options->size,
                                        "size of the whole picture in pixels; default: as the wall's outputs say, or "
                                        "from --eye-width; of a model 960x720 an eye")
                           ->type_name("WIDTHxHEIGHT");
   command
-      ->add_option("--eye-width", options->wish.eye_width,
+      ->add_option("--eye-width", options->picture.eye_width,
                    "width of each eye's picture in pixels; the height follows the wall")
       ->check(CLI::Range(64, 8192))
       ->excludes(size)

@@ -15,12 +15,12 @@
 #include "app/live/live_view.h"
 #include "app/live/view_display.h"
 #include "app/live/view_wand.h"
-#include "app/options/frame_budget.h"
-#include "app/options/stage_options.h"
+#include "app/options/dynamic_resolution.h"
+#include "app/options/exhibit_options.h"
 #include "core/log.h"
-#include "curves/felt_material.h"
+#include "curves/sample_model.h"
+#include "exhibit/exhibit_setup.h"
 #include "exhibit/shared_model.h"
-#include "exhibit/stage_setup.h"
 #include "render/context.h"
 #include "servo/haptic_choice.h"
 #include "servo/session_file.h"
@@ -35,8 +35,8 @@ constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // a second; t
 constexpr double kLingerS = 10.0;
 
 struct ViewOptions {
-  exhibit::StageFiles files;
-  DisplayWish display;
+  exhibit::ExhibitFiles files;
+  DisplayOptions display;
   ViewSettings settings;
   double frame_rate = 0;  // 0: the display's
   servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = kLingerS}};
@@ -51,7 +51,7 @@ std::optional<std::uint32_t> whole_number(std::string_view text) {
   return value;
 }
 
-core::Result<void> parse_size(const std::string& text, WindowWish& window) {
+core::Result<void> parse_size(const std::string& text, WindowOptions& window) {
   if (text.empty()) return {};
   const std::size_t cross = text.find('x');
   const auto width = whole_number(text.substr(0, cross));
@@ -103,11 +103,11 @@ core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& devi
 
 core::Result<void> run_view(const ViewOptions& options, const std::string& program) {
   const core::MonotonicClock clock;
-  auto stage = exhibit::load_stage(options.files);
+  auto stage = exhibit::load_exhibit(options.files);
   if (!stage) return tl::unexpected(stage.error());
-  std::vector<curves::FeltMaterial> materials;
+  std::vector<curves::SampleModel> materials;
   for (const scene::MaterialEntry& entry : stage->materials.materials) {
-    auto felt = curves::felt_material(curves::ContactSetup{entry, {}, {}});
+    auto felt = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
     if (!felt) return tl::unexpected(felt.error());
     felt->parameters.height_field = stage->wall_scene.height_field(materials.size());
     materials.push_back(std::move(*felt));
@@ -130,7 +130,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   servo.settings.spin_ns = 1000 * options.spin_us;
   if (servo.mode == servo::ServoMode::Thread) servo.settings.linger_s = 0;  // it ends with this program
   const auto start_servo = [&] {
-    return servo::ServoLink::start(*model, scene::digest(stage->wall_scene.scene()), servo, program);
+    return servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), servo, program);
   };
   LiveView live(*stage, materials, windows, (*display)->picture(), start_servo, **wand, clock, settings);
   if (auto ran = live.run(); !ran) return ran;

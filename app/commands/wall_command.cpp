@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "app/command.h"
-#include "app/options/stage_options.h"
+#include "app/options/exhibit_options.h"
 #include "exhibit/calibration.h"
-#include "exhibit/stage_setup.h"
+#include "exhibit/exhibit_setup.h"
 #include "exhibit/wall_layout.h"
 #include "render/context.h"
 #include "scene/display/disparity.h"
@@ -31,7 +31,7 @@ struct WallOptions {
   bool test_pattern = false;
   std::string out;
   std::string size;
-  exhibit::PictureWish wish;
+  exhibit::PictureOptions picture;
 };
 
 core::Result<scene::HeadPose> parse_head(std::string_view text) {
@@ -134,22 +134,22 @@ scene::Scene nothing() {
 core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions& options) {
   auto context = render::Context::open();
   if (!context) return tl::unexpected(context.error());
-  exhibit::PictureWish wish = options.wish;
+  exhibit::PictureOptions picture = options.picture;
   if (!options.size.empty()) {
     const auto size = exhibit::parse_picture_size("--size", options.size, context->largest_picture_px());
     if (!size) return tl::unexpected(size.error());
-    wish.size_px = *size;
+    picture.size_px = *size;
   }
-  const auto plan = exhibit::plan_wall(wall, wish);
+  const auto plan = exhibit::plan_wall(wall, picture);
   if (!plan) return tl::unexpected(plan.error());
   const scene::Scene scene = nothing();
   const double millimetre_m = 1e-3 * exhibit::layout_unit_m(plan->outputs.front().screen);
   auto renderer = render::Renderer::create(*context, scene, exhibit::renderer_options(*context, *plan, millimetre_m));
   if (!renderer) return tl::unexpected(renderer.error());
   const scene::Viewer& viewer = wall.viewers.front();
-  const double ipd_m = wish.ipd_m.value_or(viewer.ipd_m);
+  const double ipd_m = picture.ipd_m.value_or(viewer.ipd_m);
   const auto pictures =
-      exhibit::draw_wall(*renderer, *plan, viewer, wish,
+      exhibit::draw_wall(*renderer, *plan, viewer, picture,
                          [&](const exhibit::OutputPicture& output, const std::array<scene::EyeView, 2>& eyes) {
                            render::FrameState frame;
                            frame.eyes = eyes;
@@ -169,7 +169,7 @@ core::Result<void> run_wall(const WallOptions& options) {
   if (!wall) return tl::unexpected(wall.error());
   if (options.test_pattern) return draw_test_pattern(*wall, options);
   const scene::Viewer& viewer = wall->viewers.front();
-  const double ipd_m = options.wish.ipd_m.value_or(viewer.ipd_m);
+  const double ipd_m = options.picture.ipd_m.value_or(viewer.ipd_m);
   scene::HeadPose head = viewer.sweet_spot;
   if (!options.head.empty()) {
     const auto parsed = parse_head(options.head);
@@ -209,7 +209,7 @@ void add_wall_command(CLI::App& app, CommandContext& context) {
                     "draw the picture for setting up: grid, cross, circle, ruler, L and R; with --out");
   command->add_option("--out", options->out, "where the test pattern is written")->type_name("FILE.png");
   command->add_option("--size", options->size, "size of the whole test pattern in pixels")->type_name("WIDTHxHEIGHT");
-  add_stereo_options(*command, options->wish, "the outputs of the wall file, else side-by-side");
+  add_stereo_options(*command, options->picture, "the outputs of the wall file, else side-by-side");
   command->callback([options, &context] { context.chosen = [options] { return run_wall(*options); }; });
 }
 

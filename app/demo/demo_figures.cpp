@@ -78,11 +78,11 @@ FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
 }
 
 VariationFigure::VariationFigure(const servo::RecordedSession& base, const Measurement& measurement,
-                                 const curves::FeltMaterial& felt, std::span<const FeltVariation> variations,
+                                 const curves::SampleModel& felt, std::span<const FeltVariation> variations,
                                  std::size_t material) {
   std::vector<exhibit::Felt> all;
   const auto add = [&](const servo::RecordedSession& session, const Measurement& m,
-                       const curves::FeltMaterial& was_felt) {
+                       const curves::SampleModel& was_felt) {
     materials_.push_back(was_felt);
     curves_.push_back(exhibit::curve_until(session, session.samples.back().time_ns));
     all.push_back(felt_of(m));

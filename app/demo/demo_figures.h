@@ -39,16 +39,16 @@ class FigurePlan {
 // FrameBuilder draws from.
 class VariationFigure {
  public:
-  VariationFigure(const servo::RecordedSession& base, const Measurement& measurement, const curves::FeltMaterial& felt,
+  VariationFigure(const servo::RecordedSession& base, const Measurement& measurement, const curves::SampleModel& felt,
                   std::span<const FeltVariation> variations, std::size_t material);
   VariationFigure(const VariationFigure&) = delete;
   VariationFigure& operator=(const VariationFigure&) = delete;
 
-  const std::vector<curves::FeltMaterial>& materials() const { return materials_; }
+  const std::vector<curves::SampleModel>& materials() const { return materials_; }
   const exhibit::Moment& moment() const { return moment_; }
 
  private:
-  std::vector<curves::FeltMaterial> materials_;
+  std::vector<curves::SampleModel> materials_;
   std::vector<exhibit::CycleCurve> curves_;
   exhibit::Moment moment_;
 };

@@ -2,7 +2,7 @@
 #include "app/demo/demonstration.h"
 #include "core/percentiles.h"
 #include "servo/fault_reason.h"
-#include "servo/frame_beat.h"
+#include "servo/frame_heartbeat.h"
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ constexpr int kMostRestarts = 5;
 }  // namespace
 
 Demonstration::Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, render::Renderer& renderer,
-                             servo::ServoLink& servo, const core::Clock& clock, const HandPath& path,
+                             servo::ServoClient& servo, const core::Clock& clock, const HandPath& path,
                              std::function<void()> chosen)
     : wall_scene_(stage.wall_scene),
       guidance_(stage.guidance),
@@ -52,7 +52,7 @@ core::Result<void> Demonstration::run(DemoResult& result, const Progress& progre
     auto session = feel(i, result, progress);
     if (!session) return tl::unexpected(session.error());
     result.sessions.push_back(std::move(*session));
-    for (const curves::FeltMaterial& variation : plan_.variations[i]) {
+    for (const curves::SampleModel& variation : plan_.variations[i]) {
       session = feel_variation(i, variation, result, progress);
       if (!session) return tl::unexpected(session.error());
       result.variations.push_back({i, variation, std::move(*session), {}});
@@ -64,7 +64,7 @@ core::Result<void> Demonstration::run(DemoResult& result, const Progress& progre
 }
 
 core::Result<servo::RecordedSession> Demonstration::feel_variation(std::size_t material,
-                                                                   const curves::FeltMaterial& variation,
+                                                                   const curves::SampleModel& variation,
                                                                    DemoResult& result, const Progress& progress) {
   progress(fmt::format("  {}", variation.setup.material.title));
   const std::uint32_t revision = servo_.change(material, variation.parameters);
@@ -132,7 +132,7 @@ core::Result<void> Demonstration::keep_patience(const std::string& title, double
 }
 
 void Demonstration::wait_for_renderer() {
-  const servo::FrameBeat beat(servo_, clock_);
+  const servo::FrameHeartbeat beat(servo_, clock_);
   while (!renderer_.ready()) {
     beat();
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -143,7 +143,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   const std::int64_t start_ns = clock_.now_ns();
   wait_for_renderer();
   const std::int64_t now_ns = clock_.now_ns();
-  if (auto taken = take_news(now_ns); !taken) return taken;
+  if (auto taken = take_update(now_ns); !taken) return taken;
 
   person_.update(now_ns, servo_.tip());
   servo_.script(person_.hand());
@@ -165,12 +165,12 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   return {};
 }
 
-core::Result<void> Demonstration::take_news(std::int64_t now_ns) {
-  auto news = servo_.poll(now_ns);
-  if (!news) return tl::unexpected(news.error());
+core::Result<void> Demonstration::take_update(std::int64_t now_ns) {
+  auto update = servo_.poll(now_ns);
+  if (!update) return tl::unexpected(update.error());
 
   stream_.take(
-      *news,
+      *update,
       [&](const scene::TipSample& sample) {
         const auto material = static_cast<std::size_t>(sample.material);
         if (recorder_.add(sample, servo_)) forget_cycle(material);

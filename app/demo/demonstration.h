@@ -8,14 +8,14 @@
 
 #include "app/demo/report.h"
 #include "app/live/simulated_person.h"
-#include "app/options/frame_budget.h"
+#include "app/options/dynamic_resolution.h"
 #include "core/clock.h"
+#include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/guidance.h"
 #include "exhibit/moment.h"
-#include "exhibit/stage_setup.h"
 #include "render/renderer.h"
-#include "servo/servo_link.h"
+#include "servo/servo_client.h"
 #include "servo/session_recorder.h"
 #include "servo/tip_stream.h"
 
@@ -24,10 +24,10 @@ namespace afm::app {
 // What is felt, in order: every material, and each once more for every one of its variations, which are other
 // parameters of the same sample.
 struct DemoPlan {
-  std::vector<curves::FeltMaterial> materials;
-  std::vector<std::vector<curves::FeltMaterial>> variations;  // one list per material
-  std::vector<scene::SharedMeasuredCurve> curves;             // of measured materials
-  double frame_budget_ms = 0;                                 // as --frame-budget
+  std::vector<curves::SampleModel> materials;
+  std::vector<std::vector<curves::SampleModel>> variations;  // one list per material
+  std::vector<scene::SharedMeasuredCurve> curves;            // of measured materials
+  double frame_budget_ms = 0;                                // as --frame-budget
   scene::ScaleMode scale = scene::ScaleMode::Fit;
 };
 
@@ -38,8 +38,9 @@ class Demonstration {
   using Progress = std::function<void(const std::string&)>;
 
   // `chosen` is called once a frame is drawn in which the ray chooses for the first time. Everything must outlive it.
-  Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, render::Renderer& renderer, servo::ServoLink& servo,
-                const core::Clock& clock, const HandPath& path, std::function<void()> chosen);
+  Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, render::Renderer& renderer,
+                servo::ServoClient& servo, const core::Clock& clock, const HandPath& path,
+                std::function<void()> chosen);
 
   // Until every cycle is done. Fails when the servo dies, when something that must happen does not, or on SIGINT or
   // SIGTERM. Fills sessions, variations, frame times and the servo's timing of the result.
@@ -47,12 +48,12 @@ class Demonstration {
 
  private:
   core::Result<servo::RecordedSession> feel(std::size_t material, DemoResult& result, const Progress& progress);
-  core::Result<servo::RecordedSession> feel_variation(std::size_t material, const curves::FeltMaterial& variation,
+  core::Result<servo::RecordedSession> feel_variation(std::size_t material, const curves::SampleModel& variation,
                                                       DemoResult& result, const Progress& progress);
   core::Result<void> keep_patience(const std::string& title, double step_seconds, const DemoResult& result) const;
   void wait_for_renderer();
   core::Result<void> step(DemoResult& result);
-  core::Result<void> take_news(std::int64_t now_ns);
+  core::Result<void> take_update(std::int64_t now_ns);
   void forget_cycle(std::size_t material);
   exhibit::Moment moment(const input::WandState& wand, const input::Selector::Result& pointing) const;
   exhibit::Hint hint() const;
@@ -60,12 +61,12 @@ class Demonstration {
   const exhibit::WallScene& wall_scene_;
   const exhibit::Guidance& guidance_;
   const DemoPlan& plan_;
-  std::vector<curves::FeltMaterial> materials_;  // as they are felt now
+  std::vector<curves::SampleModel> materials_;  // as they are felt now
   exhibit::FrameBuilder frames_;
   render::Renderer& renderer_;
-  servo::ServoLink& servo_;
+  servo::ServoClient& servo_;
   const core::Clock& clock_;
-  std::optional<FrameBudget> budget_;
+  std::optional<DynamicResolution> budget_;
   HandPath path_;
   std::function<void()> chosen_;  // empty once it was called
   SimulatedPerson person_;

@@ -40,7 +40,7 @@ double Measurement::worst_error() const {
   return std::max({std::abs(e.f_attr_n), std::abs(e.f_ad_n), std::abs(e.z_jtc_m), std::abs(e.z_joc_m)});
 }
 
-core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::FeltMaterial& material) {
+core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::SampleModel& material) {
   const physics::CycleFigures& figures = material.figures();
   const scene::TipEvent* in = session.find(scene::TipEventKind::JumpToContact);
   const scene::TipEvent* out = session.find(scene::TipEventKind::JumpOffContact);

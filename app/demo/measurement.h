@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "curves/felt_material.h"
+#include "curves/sample_model.h"
 #include "scene/shared/shared_blocks.h"
 #include "servo/session_file.h"
 
@@ -50,6 +50,6 @@ inline constexpr double kEventErrorBound = 1e-3;
 
 // Fails if the cycle of a law with hysteresis has no jump to contact or no jump off contact. `material` is what the
 // session was felt with.
-core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::FeltMaterial& material);
+core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::SampleModel& material);
 
 }  // namespace afm::app

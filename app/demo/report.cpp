@@ -192,8 +192,8 @@ std::string report_html(const DemoResult& result, const std::vector<ReportPictur
 }
 
 std::string session_csv(const servo::RecordedSession& session) {
-  const scene::SharedMaterial& m = session.parameters;
-  const physics::Interaction& in = m.interaction;
+  const scene::SharedContact& m = session.parameters;
+  const physics::ContactParameters& in = m.contact;
   fmt::memory_buffer csv;
   const auto out = std::back_inserter(csv);
   fmt::format_to(out, "# TouchAFM {}: one approach-retract cycle as the servo recorded it\n", core::kVersion);

@@ -17,7 +17,7 @@ namespace afm::app {
 // One cycle on a sample whose parameters were changed while the servo ran.
 struct FeltVariation {
   std::size_t material = 0;  // of which material it is a variation
-  curves::FeltMaterial felt;
+  curves::SampleModel felt;
   servo::RecordedSession session;
   Measurement measurement;
 };

@@ -7,7 +7,7 @@
 #include "app/commands/output_folder.h"
 #include "app/demo/report.h"
 #include "core/result.h"
-#include "render/picture_saver.h"
+#include "render/screenshot_queue.h"
 
 namespace afm::app {
 
@@ -18,7 +18,7 @@ class ReportPictures {
   // All must outlive it.
   ReportPictures(render::Context& context, render::Renderer& renderer, const OutputFolder& out);
 
-  // Keeps the renderer's newest frame, side by side. Waits only where PictureSaver::kMostPictures are on their way.
+  // Keeps the renderer's newest frame, side by side. Waits only where ScreenshotQueue::kMostPictures are on their way.
   void add(const std::string& file, const std::string& caption);
 
   // All of them, in order; Failed if one could not be written.
@@ -27,7 +27,7 @@ class ReportPictures {
  private:
   void take(std::vector<render::SavedPicture> saved);
 
-  render::PictureSaver saver_;
+  render::ScreenshotQueue saver_;
   const OutputFolder& out_;
   std::vector<ReportPicture> pictures_;
   std::vector<std::string> paths_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live/live_view.h"
-#include "servo/frame_beat.h"
+#include "servo/frame_heartbeat.h"
 
 #include <fmt/format.h>
 
@@ -33,8 +33,8 @@ MouseHand hand_over(const exhibit::WallScene& wall_scene) {
 
 }  // namespace
 
-LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::FeltMaterial>& materials,
-                   ViewWindows& windows, ViewPicture& picture, ViewServo::Starter start_servo, ViewWand& view_wand,
+LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewWindows& windows,
+                   ViewPicture& picture, ServoSupervisor::Starter start_servo, ViewWand& view_wand,
                    const core::Clock& clock, const ViewSettings& settings)
     : stage_(stage),
       windows_(windows),
@@ -47,7 +47,7 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::FeltMa
       panels_(stage.wall_scene, materials),
       servo_(
           std::move(start_servo),
-          [this](servo::ServoLink& servo, std::optional<std::size_t> felt_before) { begin_with(servo, felt_before); },
+          [this](servo::ServoClient& servo, std::optional<std::size_t> felt_before) { begin_with(servo, felt_before); },
           stage.materials.materials.size(), settings.record_folder),
       wand_(stage.screen, stage.wall_scene.wand_grip_m()),
       view_wand_(view_wand),
@@ -55,7 +55,7 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::FeltMa
       hand_(hand_over(stage.wall_scene)),
       person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), HandPath{}) {}
 
-void LiveView::begin_with(servo::ServoLink& servo, std::optional<std::size_t> felt_before) {
+void LiveView::begin_with(servo::ServoClient& servo, std::optional<std::size_t> felt_before) {
   hand_ = hand_over(stage_.wall_scene);
   panels_.edits().resend(servo);
   if (const auto material = felt_before ? felt_before : settings_.first_material) choose(*material);
@@ -84,7 +84,7 @@ void LiveView::turn(std::int64_t now_ns) {
   for (const ViewEvent& event : input.events) handle(event, now_ns);
   if (std::exchange(cursor_px_, input.cursor_px) != input.cursor_px && !hand_.dragging()) cursor_moved_ns_ = now_ns;
   move_hand(input, now_ns);
-  servo_.take_news(now_ns);
+  servo_.take_update(now_ns);
   follow_wand(now_ns);
   if (windows_.hidden()) {
     picture_.rest();
@@ -287,7 +287,7 @@ double LiveView::hand_m_per_px(std::size_t window) const {
 void LiveView::move_hand(const ViewInput& input, std::int64_t now_ns) {
   const double frame_s = static_cast<double>(now_ns - std::exchange(hand_moved_ns_, now_ns)) * 1e-9;
   if (!servo_.running() || hand() == HandSource::Device) return;
-  servo::ServoLink& servo = servo_.link();
+  servo::ServoClient& servo = servo_.link();
   if (hand() == HandSource::Mouse) {
     hand_.update(windows_.on_desktop(input.window, input.cursor_px), hand_m_per_px(input.window), frame_s, now_ns);
     servo.script(hand_.script());
@@ -309,8 +309,8 @@ HandSource LiveView::hand() const {
 }
 
 exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
-  const servo::ServoLink& servo = servo_.link();
-  const exhibit::FeltCycles& cycles = servo_.cycles();
+  const servo::ServoClient& servo = servo_.link();
+  const exhibit::CycleHistory& cycles = servo_.cycles();
   const bool touched = servo.tip().phase == scene::ContactPhase::Attached || cycles.cycles() > 0;
   exhibit::Moment now = exhibit::moment_of(servo.tip(), touched && cycles.ascending());
   now.curves = cycles.curves();
@@ -323,7 +323,7 @@ exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) co
   now.cue = exhibit::jump_cue(servo_.events(), servo.tip().time_ns);
   now.analogy = analogy_;
   now.journey_orders = travel_.orders();
-  now.veil = travel_.veil();
+  now.fade = travel_.fade();
   now.servo = exhibit::servo_rows(servo.tip(), servo.timing(), servo.device());
   if (auto row = picture_.detail_row()) now.servo.push_back(std::move(*row));
   if (!servo_.running()) {
@@ -338,7 +338,7 @@ void LiveView::follow_edits() {
   const auto current = servo_.material();
   if (!current) return;
   const exhibit::ChangeState state = panels_.edits().state(*current, servo_.link().tip());
-  const curves::FeltMaterial& edited = panels_.edits().of(*current).felt();
+  const curves::SampleModel& edited = panels_.edits().of(*current).felt();
   const bool taken = state == exhibit::ChangeState::Felt || state == exhibit::ChangeState::AsLoaded;
   if (!taken || felt_[*current].tables == edited.tables) return;
   felt_[*current] = edited;
@@ -346,7 +346,7 @@ void LiveView::follow_edits() {
 }
 
 void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
-  const servo::FrameBeat beat(servo_.link(), clock_);
+  const servo::FrameHeartbeat beat(servo_.link(), clock_);
   follow_edits();
   travel(now_ns);
   const Pointed pointed = wand_points() ? wand_pointed_at() : pointed_at(input.window, input.cursor_px);

@@ -8,18 +8,18 @@
 
 #include "app/live/mouse_hand.h"
 #include "app/live/mouse_wand.h"
+#include "app/live/servo_supervisor.h"
 #include "app/live/simulated_person.h"
 #include "app/live/view_head.h"
 #include "app/live/view_keys.h"
 #include "app/live/view_panels.h"
 #include "app/live/view_picture.h"
-#include "app/live/view_servo.h"
 #include "app/live/view_wand.h"
 #include "app/live/view_windows.h"
 #include "core/clock.h"
+#include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/journey.h"
-#include "exhibit/stage_setup.h"
 
 namespace afm::app {
 
@@ -36,8 +36,8 @@ struct ViewSettings {
 class LiveView {
  public:
   // All but the settings must outlive it.
-  LiveView(const exhibit::Stage& stage, const std::vector<curves::FeltMaterial>& materials, ViewWindows& windows,
-           ViewPicture& picture, ViewServo::Starter start_servo, ViewWand& view_wand, const core::Clock& clock,
+  LiveView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewWindows& windows,
+           ViewPicture& picture, ServoSupervisor::Starter start_servo, ViewWand& view_wand, const core::Clock& clock,
            const ViewSettings& settings);
 
   // Until a window is closed, Escape, SIGINT or SIGTERM. Fails when the servo cannot be started, at the end if it has
@@ -46,7 +46,7 @@ class LiveView {
   core::Result<void> run();
 
  private:
-  void begin_with(servo::ServoLink& servo, std::optional<std::size_t> felt_before);
+  void begin_with(servo::ServoClient& servo, std::optional<std::size_t> felt_before);
   void turn(std::int64_t now_ns);
   void handle(const ViewEvent& input, std::int64_t now_ns);
   void act(ViewAction action);
@@ -75,12 +75,12 @@ class LiveView {
   ViewWindows& windows_;
   const core::Clock& clock_;
   ViewSettings settings_;
-  std::vector<curves::FeltMaterial> felt_;  // as the servo feels them
+  std::vector<curves::SampleModel> felt_;  // as the servo feels them
   exhibit::FrameBuilder frames_;
   std::vector<input::Target> swatches_;
   ViewPicture& picture_;
   ViewPanels panels_;
-  ViewServo servo_;
+  ServoSupervisor servo_;
   MouseWand wand_;
   ViewWand& view_wand_;  // in its place, if there is one
   ViewHead head_;

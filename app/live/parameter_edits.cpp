@@ -16,7 +16,7 @@ bool ParameterEdits::changed(std::size_t material) const {
   return edit.parameters && edit.parameters->changed();
 }
 
-void ParameterEdits::apply(const render::ControlTarget& target, std::size_t material, servo::ServoLink& servo) {
+void ParameterEdits::apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo) {
   using Kind = render::ControlTarget::Kind;
   curves::LiveParameters& now = parameters(material);
   bool changed = false;
@@ -28,7 +28,7 @@ void ParameterEdits::apply(const render::ControlTarget& target, std::size_t mate
   if (changed) edits_[material].revision = servo.change(material, now.felt().parameters);
 }
 
-void ParameterEdits::reset(servo::ServoLink& servo) {
+void ParameterEdits::reset(servo::ServoClient& servo) {
   for (std::size_t i = 0; i < edits_.size(); ++i) {
     if (edits_[i].parameters && edits_[i].parameters->reset()) {
       edits_[i].revision = servo.change(i, edits_[i].parameters->felt().parameters);
@@ -36,7 +36,7 @@ void ParameterEdits::reset(servo::ServoLink& servo) {
   }
 }
 
-void ParameterEdits::resend(servo::ServoLink& servo) {
+void ParameterEdits::resend(servo::ServoClient& servo) {
   for (std::size_t i = 0; i < edits_.size(); ++i) {
     edits_[i].revision = changed(i) ? servo.change(i, edits_[i].parameters->felt().parameters) : 0;
   }

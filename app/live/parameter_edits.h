@@ -8,7 +8,7 @@
 #include "curves/live_parameters.h"
 #include "exhibit/parameter_panel.h"
 #include "render/frame.h"
-#include "servo/servo_link.h"
+#include "servo/servo_client.h"
 
 namespace afm::app {
 
@@ -16,17 +16,17 @@ namespace afm::app {
 class ParameterEdits {
  public:
   // As the servo was started with.
-  explicit ParameterEdits(std::vector<curves::FeltMaterial> loaded)
+  explicit ParameterEdits(std::vector<curves::SampleModel> loaded)
       : loaded_(std::move(loaded)), edits_(loaded_.size()) {}
 
   // What the target of the panel stands for, except Close: changes the parameters and tells the servo.
-  void apply(const render::ControlTarget& target, std::size_t material, servo::ServoLink& servo);
+  void apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo);
 
   // Back to what was loaded, of every material.
-  void reset(servo::ServoLink& servo);
+  void reset(servo::ServoClient& servo);
 
   // Tells a servo that has been started again what has been changed.
-  void resend(servo::ServoLink& servo);
+  void resend(servo::ServoClient& servo);
 
   // Of a material that has been asked for before; made from what was loaded if it has not.
   const curves::LiveParameters& of(std::size_t material);
@@ -41,7 +41,7 @@ class ParameterEdits {
   };
   curves::LiveParameters& parameters(std::size_t material);
 
-  std::vector<curves::FeltMaterial> loaded_;
+  std::vector<curves::SampleModel> loaded_;
   std::vector<Edit> edits_;
 };
 

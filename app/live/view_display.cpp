@@ -12,10 +12,10 @@
 namespace afm::app {
 
 // For the windows as they have opened; panels are as sharp as the first one's screen.
-render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const DisplayWish& wish) const {
+render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const DisplayOptions& options) const {
   render::RendererOptions drawing;
-  if (wish.eye_width > 0) {
-    drawing = stage.renderer_options(wish.eye_width);
+  if (options.eye_width > 0) {
+    drawing = stage.renderer_options(options.eye_width);
   } else {
     const glm::uvec2 eye_px = glm::max(eye_size_for_all(stage, outputs_, std::nullopt, *windows_), glm::uvec2(1));
     drawing.eye_width = eye_px.x;
@@ -23,25 +23,26 @@ render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const 
     drawing.panel_texels_per_m = 2.0 * eye_px.x / outputs_.front().screen.width_m();
     drawing.panel_millimetre_m = stage.wall_scene.panel_millimetre_m();
   }
-  drawing.time_passes = wish.frame_budget_ms > 0;
+  drawing.time_passes = options.frame_budget_ms > 0;
   return drawing;
 }
 
-core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stage& stage, const DisplayWish& wish) {
+core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stage& stage,
+                                                             const DisplayOptions& options) {
   const auto monitors = render::list_monitors();
   if (!monitors) return tl::unexpected(monitors.error());
-  auto outputs = plan_view(stage.wall, stage.screen, wish.picture, wish.window, *monitors);
+  auto outputs = plan_view(stage.wall, stage.screen, options.picture, options.window, *monitors);
   if (!outputs) return tl::unexpected(outputs.error());
   std::unique_ptr<ViewDisplay> display(new ViewDisplay());
   display->outputs_ = std::move(*outputs);
   auto windows = ViewWindows::open(display->outputs_);
   if (!windows) return tl::unexpected(windows.error());
   display->windows_ = std::move(*windows);
-  auto context = render::Context::open(wish.validate ? render::Validation::On : render::Validation::Off,
+  auto context = render::Context::open(options.validate ? render::Validation::On : render::Validation::Off,
                                        render::Presentation::Window);
   if (!context) return tl::unexpected(context.error());
   display->context_ = std::move(*context);
-  const render::RendererOptions drawing = display->drawing(stage, wish);
+  const render::RendererOptions drawing = display->drawing(stage, options);
   auto renderer = render::Renderer::create(*display->context_, stage.wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   display->renderer_ = std::move(*renderer);
@@ -53,11 +54,11 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
   }
   display->picture_.emplace(stage, display->outputs_, *display->context_, *display->windows_, *display->renderer_,
                             *display->presenter_,
-                            PictureSettings{.ipd_m = wish.picture.ipd_m.value_or(stage.wall.viewers.front().ipd_m),
+                            PictureSettings{.ipd_m = options.picture.ipd_m.value_or(stage.wall.viewers.front().ipd_m),
                                             .eye_px = {drawing.eye_width, drawing.eye_height},
-                                            .fixed_eye_size = wish.eye_width > 0,
-                                            .frame_budget_ms = wish.frame_budget_ms,
-                                            .saved_folder = wish.saved_folder});
+                                            .fixed_eye_size = options.eye_width > 0,
+                                            .frame_budget_ms = options.frame_budget_ms,
+                                            .saved_folder = options.saved_folder});
   core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}; F1 shows the keys", drawing.eye_width,
                              drawing.eye_height, display->context_->device_name()));
   return display;

@@ -16,9 +16,9 @@
 namespace afm::app {
 
 // What a user asks of the live view's windows and of what is drawn into them.
-struct DisplayWish {
-  exhibit::PictureWish picture;
-  WindowWish window;
+struct DisplayOptions {
+  exhibit::PictureOptions picture;
+  WindowOptions window;
   std::uint32_t eye_width = 0;     // 0: the windows'
   double frame_budget_ms = 0;      // 0: none
   std::string saved_folder = ".";  // for the pictures that are saved
@@ -30,7 +30,7 @@ class ViewDisplay {
  public:
   // `stage` must outlive it. Fails as plan_view, ViewWindows and Context do, or where the display has not what the
   // stereo mode needs.
-  static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayWish& wish);
+  static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayOptions& options);
   ViewDisplay(const ViewDisplay&) = delete;
   ViewDisplay& operator=(const ViewDisplay&) = delete;
 
@@ -40,7 +40,7 @@ class ViewDisplay {
 
  private:
   ViewDisplay() = default;
-  render::RendererOptions drawing(const exhibit::Stage& stage, const DisplayWish& wish) const;
+  render::RendererOptions drawing(const exhibit::Stage& stage, const DisplayOptions& options) const;
 
   std::vector<ViewOutput> outputs_;
   std::optional<ViewWindows> windows_;

@@ -57,7 +57,7 @@ core::Result<render::WindowOptions> placed(const scene::Output& output, const st
 
 // A window holds one screen: a pair of projectors beside each other is one picture side by side.
 core::Result<std::vector<ViewOutput>> one_window(const scene::Wall& wall, const scene::Screen& stage,
-                                                 const exhibit::PictureWish& wish, const WindowWish& wanted,
+                                                 const exhibit::PictureOptions& options, const WindowOptions& wanted,
                                                  const std::vector<render::Monitor>& monitors) {
   ViewOutput output{.name = {}, .screen = stage, .eye = {}, .window = {.title = kTitle}};
   output.window.full_screen = wanted.full_screen;
@@ -75,10 +75,10 @@ core::Result<std::vector<ViewOutput>> one_window(const scene::Wall& wall, const 
     output.mode = first.mode == StereoMode::Dual ? StereoMode::SideBySide : first.mode;
     output.order = first.order;
     if (wall.outputs.size() == 1) output.picture_from_output = first.picture_from_output;
-    if (!wish.mode && first.eye == scene::Eye::Right) output.order = twice(output.order, EyeOrder::Swapped);
+    if (!options.mode && first.eye == scene::Eye::Right) output.order = twice(output.order, EyeOrder::Swapped);
   }
-  output.mode = wish.mode.value_or(output.mode);
-  output.order = twice(output.order, wish.order);
+  output.mode = options.mode.value_or(output.mode);
+  output.order = twice(output.order, options.order);
   if (output.mode != StereoMode::Dual) return std::vector{output};
   output.eye = scene::Eye::Left;
   ViewOutput right = output;
@@ -96,11 +96,11 @@ render::Composition ViewOutput::composition(std::optional<StereoMode> other_mode
 }
 
 core::Result<std::vector<ViewOutput>> plan_view(const scene::Wall& wall, const scene::Screen& stage,
-                                                const exhibit::PictureWish& wish, const WindowWish& window,
+                                                const exhibit::PictureOptions& options, const WindowOptions& window,
                                                 const std::vector<render::Monitor>& monitors) {
   const bool one = window.size_px || !window.monitor.empty() || window.full_screen;
   const std::vector<scene::Output>& outputs = wall.outputs;
-  if (one || outputs.empty()) return one_window(wall, stage, wish, window, monitors);
+  if (one || outputs.empty()) return one_window(wall, stage, options, window, monitors);
   if (outputs.size() > render::kMostWindows) {
     return core::failure(ErrorCategory::WrongUsage,
                          fmt::format("the wall has {} outputs, and one computer shows {}: leave some out, or --size "
@@ -109,7 +109,7 @@ core::Result<std::vector<ViewOutput>> plan_view(const scene::Wall& wall, const s
   }
   std::vector<ViewOutput> plan;
   for (const scene::Output& output : outputs) {
-    if (wish.mode == StereoMode::Dual && !output.eye) {
+    if (options.mode == StereoMode::Dual && !output.eye) {
       return core::failure(
           ErrorCategory::WrongUsage,
           fmt::format("--stereo dual: output \"{}\" of the wall file shows no eye of its own; give its "
@@ -120,9 +120,9 @@ core::Result<std::vector<ViewOutput>> plan_view(const scene::Wall& wall, const s
     if (!place) return tl::unexpected(place.error());
     plan.push_back({.name = output.name,
                     .screen = wall.screens[output.screen],
-                    .mode = wish.mode.value_or(output.mode),
+                    .mode = options.mode.value_or(output.mode),
                     .eye = output.eye,
-                    .order = twice(output.order, wish.order),
+                    .order = twice(output.order, options.order),
                     .picture_from_output = output.picture_from_output,
                     .fit = render::PictureFit::Fill,
                     .window = std::move(*place)});

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/stage_setup.h"
+#include "exhibit/exhibit_setup.h"
 #include "render/monitor.h"
 #include "render/presenter.h"
 #include "render/window.h"
@@ -29,7 +29,7 @@ struct ViewOutput {
 };
 
 // --size, --monitor and --fullscreen: one window, whatever outputs the wall file has.
-struct WindowWish {
+struct WindowOptions {
   std::optional<glm::uvec2> size_px;
   std::string monitor;  // name or number; empty: none in particular
   bool full_screen = false;
@@ -40,7 +40,7 @@ struct WindowWish {
 // output lies, with a corner at least, on none of them. WrongUsage: mode dual where an output shows no eye, more
 // windows than there can be. `stage` is what one window shows, as Stage::screen.
 core::Result<std::vector<ViewOutput>> plan_view(const scene::Wall& wall, const scene::Screen& stage,
-                                                const exhibit::PictureWish& wish, const WindowWish& window,
+                                                const exhibit::PictureOptions& options, const WindowOptions& window,
                                                 const std::vector<render::Monitor>& monitors);
 
 // The largest eye images whose picture fits into the output's window, at the proportions of its screen or of its

@@ -22,7 +22,7 @@ void log_parameters(const curves::LiveParameters& parameters) {
 
 }  // namespace
 
-ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::FeltMaterial>& materials)
+ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials)
     : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials) {}
 
 Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m,
@@ -46,7 +46,7 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
   return pointed;
 }
 
-void ViewPanels::press(const Pointed& pointed, std::size_t material, servo::ServoLink* servo) {
+void ViewPanels::press(const Pointed& pointed, std::size_t material, servo::ServoClient* servo) {
   if (pointed.tab) parameters_shown_ = true;
   if (!pointed.control || servo == nullptr) return;
   const bool button = pointed.control->kind == render::ControlTarget::Kind::Button;

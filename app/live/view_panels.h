@@ -23,7 +23,7 @@ struct Pointed {
 class ViewPanels {
  public:
   // `wall_scene` must outlive it; `materials` as the servo was started with.
-  ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::FeltMaterial>& materials);
+  ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials);
 
   void toggle_keys() { keys_shown_ = !keys_shown_; }
   void toggle_parameters() { parameters_shown_ = !parameters_shown_; }
@@ -33,7 +33,7 @@ class ViewPanels {
   Pointed pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m, std::optional<std::size_t> material);
 
   // A press on a panel or its tab; a change goes to the servo, if there is one.
-  void press(const Pointed& pointed, std::size_t material, servo::ServoLink* servo);
+  void press(const Pointed& pointed, std::size_t material, servo::ServoClient* servo);
 
   ParameterEdits& edits() { return edits_; }
 

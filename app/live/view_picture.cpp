@@ -162,7 +162,7 @@ void ViewPicture::save() { ++to_save_; }
 
 // A mode with a picture for each eye is saved side by side. What finds no place in the saver waits for a later frame.
 void ViewPicture::save_newest() {
-  tell(saver_.collect());
+  log_update(saver_.collect());
   if (to_save_ == 0) return;
   render::Composition composition = pictures_.front().composition;
   if (scene::has_two_pictures(composition.mode)) composition.mode = scene::StereoMode::SideBySide;
@@ -179,11 +179,11 @@ void ViewPicture::save_newest() {
 
 void ViewPicture::finish() {
   if (const std::string text = times_.text(); !text.empty()) core::log_line(text);
-  tell(saver_.finish());
+  log_update(saver_.finish());
   if (to_save_ > 0) core::log_line(fmt::format("{} pictures were asked for too late to be saved", to_save_));
 }
 
-void ViewPicture::tell(const std::vector<render::SavedPicture>& saved) {
+void ViewPicture::log_update(const std::vector<render::SavedPicture>& saved) {
   for (const render::SavedPicture& picture : saved) {
     core::log_line(picture.written ? "saved " + picture.path : picture.written.error().message);
   }

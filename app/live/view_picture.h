@@ -12,13 +12,13 @@
 #include "app/live/mouse_wand.h"
 #include "app/live/view_outputs.h"
 #include "app/live/view_windows.h"
-#include "app/options/frame_budget.h"
+#include "app/options/dynamic_resolution.h"
 #include "exhibit/depth_report.h"
-#include "exhibit/stage_setup.h"
+#include "exhibit/exhibit_setup.h"
 #include "render/depth_meter.h"
-#include "render/picture_saver.h"
 #include "render/presenter.h"
 #include "render/renderer.h"
+#include "render/screenshot_queue.h"
 
 namespace afm::app {
 
@@ -88,7 +88,7 @@ class ViewPicture {
   void share_out();
   void measure_depth(std::int64_t now_ns);
   void save_newest();
-  static void tell(const std::vector<render::SavedPicture>& saved);
+  static void log_update(const std::vector<render::SavedPicture>& saved);
 
   const exhibit::Stage& stage_;
   const std::vector<ViewOutput>& outputs_;
@@ -104,8 +104,8 @@ class ViewPicture {
   glm::uvec2 eye_size_px_;                       // as the renderer draws
   glm::uvec2 wanted_eye_px_{0};
   std::int64_t windows_steady_since_ns_ = 0;
-  std::optional<FrameBudget> budget_;
-  render::PictureSaver saver_;
+  std::optional<DynamicResolution> budget_;
+  render::ScreenshotQueue saver_;
   std::size_t to_save_ = 0;       // pictures that were asked for
   std::size_t saved_number_ = 0;  // of the newest file
   render::DepthMeter depth_meter_;

@@ -189,12 +189,12 @@ void ViewWand::update(std::int64_t now_ns, const scene::TipState& tip, const glm
 
 std::optional<ViewWand::Head> ViewWand::head() const {
   if (dtrack_ == nullptr || !head_body_) return std::nullopt;
-  const input::DtrackNews news = dtrack_->news();
-  const input::DtrackBody* const body = news.frame.body(*head_body_);
+  const input::DtrackUpdate update = dtrack_->newest();
+  const input::DtrackBody* const body = update.frame.body(*head_body_);
   if (body == nullptr || !body->tracked) return std::nullopt;
   const input::DtrackBody in_room = input::in_room(*body, tracker_);
   return Head{.pose = {.position_m = in_room.position_m, .room_from_head = in_room.tracker_from_body},
-              .time_ns = news.time_ns};
+              .time_ns = update.time_ns};
 }
 
 }  // namespace afm::app

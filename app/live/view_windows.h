@@ -45,7 +45,7 @@ class ViewWindows {
   glm::dvec2 on_desktop(std::size_t window, const glm::dvec2& cursor_px) const;
 
  private:
-  void tell(std::size_t window, const render::WindowInput& news) const;
+  void log_update(std::size_t window, const render::WindowInput& update) const;
 
   std::vector<std::unique_ptr<render::Window>> windows_;
   std::vector<std::optional<scene::PixelRect>> rects_;  // of those that have their place by one

@@ -27,9 +27,9 @@ scene::MaterialEntry nameless_material() {
   entry.name = "none";
   entry.title = "Given on the command line";
   entry.tip = entry.medium = "not named";
-  entry.interaction.sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity());
-  entry.interaction.hamaker = physics::Energy(1e-20);
-  entry.interaction.mean_surface_energy = physics::SurfaceEnergy(1e-9);
+  entry.contact.sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity());
+  entry.contact.hamaker = physics::Energy(1e-20);
+  entry.contact.mean_surface_energy = physics::SurfaceEnergy(1e-9);
   entry.lever = {physics::Frequency(12e3), 2.5, physics::Temperature(298.15)};
   entry.sources = {{"sample_stiffness", "inf N/m", "default: a sample on a rigid support", false},
                    {"atomic_distance", "0.3 nm", "default: z0 of most solids lies within 0.2 nm to 0.4 nm", true},

@@ -68,7 +68,7 @@ SvgMark label(double tabor, double load, const char* text) {
 }  // namespace
 
 SvgPlot adhesion_map_plot(const std::string& title, const physics::LawChoice& place,
-                          const physics::Interaction& interaction, physics::Force pull_off) {
+                          const physics::ContactParameters& contact, physics::Force pull_off) {
   SvgPlot plot;
   plot.title = title;
   plot.x_label = "Tabor parameter \u03bc = (R W\u00b2/(E*\u00b2 z\u2080\u00b3))^(1/3)";
@@ -79,7 +79,7 @@ SvgPlot adhesion_map_plot(const std::string& title, const physics::LawChoice& pl
   plot.marks = {label(1.0, 2e4, "Hertz: adhesion is negligible"), label(4e-3, 0.1, "rigid (Bradley)"),
                 label(0.05, 0.3, "DMT"), label(0.7, 0.3, "Maugis-Dugdale"), label(70.0, 0.3, "JKR")};
 
-  const physics::Force unit = std::numbers::pi * (2.0 * interaction.mean_surface_energy) * interaction.tip_radius;
+  const physics::Force unit = std::numbers::pi * (2.0 * contact.mean_surface_energy) * contact.tip_radius;
   const double load = std::abs(pull_off / unit);
   const SvgPoint here{std::clamp(place.tabor, kTaborLow, kTaborHigh), std::clamp(load, kLoadLow, kLoadHigh)};
   plot.marks.push_back({here, fmt::format("this contact: \u03bc = {:.3g}", place.tabor), "#d55e00",

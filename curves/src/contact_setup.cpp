@@ -55,42 +55,41 @@ std::array<ContactParameter, 12> make_parameters() {
   using Setup = ContactSetup;
   return {row(
               "tip-radius", "tip_radius_m", kTipRadius, "R, 0.1nm to 1mm: m, mm, um, nm, pm", kLengthUnits,
-              [](const Setup& s) { return Number(s.material.interaction.tip_radius.si); },
-              [](Setup& s, double si) { s.material.interaction.tip_radius = Length(si); }),
+              [](const Setup& s) { return Number(s.material.contact.tip_radius.si); },
+              [](Setup& s, double si) { s.material.contact.tip_radius = Length(si); }),
           row(
               "spring-constant", "spring_constant_N_per_m", kSpringConstant, "k_c, 1e-6N/m to 1e6N/m: N/m, mN/m",
-              kStiffnessUnits, [](const Setup& s) { return Number(s.material.interaction.spring_constant.si); },
-              [](Setup& s, double si) { s.material.interaction.spring_constant = Stiffness(si); }),
+              kStiffnessUnits, [](const Setup& s) { return Number(s.material.contact.spring_constant.si); },
+              [](Setup& s, double si) { s.material.contact.spring_constant = Stiffness(si); }),
           row(
               "sample-stiffness", "sample_stiffness_N_per_m", kSampleStiffness,
               "k_s of an elastic support, 1e-6N/m to \"inf N/m\": N/m, mN/m", kStiffnessUnits,
-              [](const Setup& s) { return Number(s.material.interaction.sample_stiffness.si); },
-              [](Setup& s, double si) { s.material.interaction.sample_stiffness = Stiffness(si); }, Infinity::Allowed),
+              [](const Setup& s) { return Number(s.material.contact.sample_stiffness.si); },
+              [](Setup& s, double si) { s.material.contact.sample_stiffness = Stiffness(si); }, Infinity::Allowed),
           row(
               "hamaker", "hamaker_J", kHamaker, "A_H, 1e-24J to 1e-16J: J, aJ, zJ", kEnergyUnits,
-              [](const Setup& s) { return Number(s.material.interaction.hamaker.si); },
-              [](Setup& s, double si) { s.material.interaction.hamaker = Energy(si); }),
+              [](const Setup& s) { return Number(s.material.contact.hamaker.si); },
+              [](Setup& s, double si) { s.material.contact.hamaker = Energy(si); }),
           row(
               "work-of-adhesion", "work_of_adhesion_J_per_m2", kWorkOfAdhesion,
               "W = 2 sqrt(gamma_s gamma_t), 2e-9J/m2 to 200J/m2: J/m2, mJ/m2", kSurfaceEnergyUnits,
               [](const Setup& s) {
-                return s.has_work_of_adhesion() ? Number(2.0 * s.material.interaction.mean_surface_energy.si)
-                                                : Number();
+                return s.has_work_of_adhesion() ? Number(2.0 * s.material.contact.mean_surface_energy.si) : Number();
               },
               // (3.3)
-              [](Setup& s, double si) { s.material.interaction.mean_surface_energy = SurfaceEnergy(0.5 * si); }),
+              [](Setup& s, double si) { s.material.contact.mean_surface_energy = SurfaceEnergy(0.5 * si); }),
           row(
               "reduced-modulus", "reduced_modulus_Pa", kReducedModulus, "E*, 1Pa to 10TPa: TPa, GPa, MPa, kPa, Pa",
-              kPressureUnits, [](const Setup& s) { return Number(s.material.interaction.reduced_modulus.si); },
+              kPressureUnits, [](const Setup& s) { return Number(s.material.contact.reduced_modulus.si); },
               [](Setup& s, double si) {
-                s.material.interaction.reduced_modulus = Pressure(si);
+                s.material.contact.reduced_modulus = Pressure(si);
                 s.material.tip_elasticity.reset();
                 s.material.sample_elasticity.reset();
               }),
           row(
               "atomic-distance", "atomic_distance_m", kAtomicDistance, "z0, 0.05nm to 5nm: m, mm, um, nm, pm",
-              kLengthUnits, [](const Setup& s) { return Number(s.material.interaction.atomic_distance.si); },
-              [](Setup& s, double si) { s.material.interaction.atomic_distance = Length(si); }),
+              kLengthUnits, [](const Setup& s) { return Number(s.material.contact.atomic_distance.si); },
+              [](Setup& s, double si) { s.material.contact.atomic_distance = Length(si); }),
           row(
               "retardation", "retardation_wavelength_m", kRetardation,
               "wavelength of retardation of the van der Waals force, about 100nm; default: not retarded", kLengthUnits,
@@ -168,11 +167,11 @@ bool ContactSetup::has_work_of_adhesion() const {
 
 std::optional<physics::LawChoice> ContactSetup::place() const {
   if (!has_work_of_adhesion()) return std::nullopt;
-  return physics::choose_law(material.interaction);
+  return physics::choose_law(material.contact);
 }
 
 physics::Law ContactSetup::law() const {
-  return model.automatic ? physics::choose_law(material.interaction).law : model.law;
+  return model.automatic ? physics::choose_law(material.contact).law : model.law;
 }
 
 std::string ContactSetup::used_model() const {

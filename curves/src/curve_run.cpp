@@ -64,13 +64,13 @@ core::Result<void> sweep_static(const PathOptions& path, CurveRun& run) {
     return wrong_usage(fmt::format("--speed does not act on the model {}; leave it out", run.setup.model.text));
   }
   const physics::ApproachRetractModel model(
-      physics::build_law_tables(run.setup.law(), run.setup.material.interaction, run.setup.law_options));
+      physics::build_law_tables(run.setup.law(), run.setup.material.contact, run.setup.law_options));
   run.figures = model.figures();
   const auto plan = sweep_plan(path, run.figures);
   if (!plan) return tl::unexpected(plan.error());
   run.plan = *plan;
   run.curve = run.setup.model.direction_rule
-                  ? physics::record_curve(physics::DirectionRuleModel(run.setup.material.interaction), run.plan)
+                  ? physics::record_curve(physics::DirectionRuleModel(run.setup.material.contact), run.plan)
                   : physics::record_curve(model, run.plan);
   return {};
 }
@@ -79,8 +79,8 @@ core::Result<void> sweep_dynamic(const PathOptions& path, CurveRun& run) {
   const auto speed = ramp_speed(path);
   if (!speed) return tl::unexpected(speed.error());
   constexpr physics::Time kServoTick(1e-3);
-  const physics::DynamicModel model(run.setup.law(), run.setup.material.interaction, run.setup.material.lever,
-                                    kServoTick, run.setup.law_options);
+  const physics::DynamicModel model(run.setup.law(), run.setup.material.contact, run.setup.material.lever, kServoTick,
+                                    run.setup.law_options);
   run.figures = model.figures();
   run.motion = {*speed, model.slow_motion()};
   const auto plan = sweep_plan(path, run.figures);
@@ -95,7 +95,7 @@ core::Result<void> sweep_dynamic(const PathOptions& path, CurveRun& run) {
 core::Result<CurveRun> run_curve(const ContactSetup& setup, const PathOptions& path) {
   CurveRun run{setup, {}, {}, {}, {}, {}, {}};
   try {
-    physics::validate(setup.material.interaction);
+    physics::validate(setup.material.contact);
     run.place = setup.place();
     run.model = setup.used_model();
     const auto done = setup.model.dynamic ? sweep_dynamic(path, run) : sweep_static(path, run);

@@ -28,7 +28,7 @@ constexpr std::array<std::optional<Law>, 8> kLaws{std::nullopt,       Law::Paper
                                                   Law::MaugisDugdale, Law::Jkr,   Law::LennardJones, Law::Hertz};
 
 // One cycle as far as the force panel shows.
-physics::ForceCurve predict(const FeltMaterial& material) {
+physics::ForceCurve predict(const SampleModel& material) {
   const double reach = cycle_reach_m(material);
   const physics::Length from(kReachAbove * reach), to(-kReachBelow * reach);
   return physics::record_curve(physics::ApproachRetractModel(material.tables),
@@ -37,9 +37,9 @@ physics::ForceCurve predict(const FeltMaterial& material) {
 
 }  // namespace
 
-double cycle_reach_m(const FeltMaterial& material) { return material.scaling.release_z_m(); }
+double cycle_reach_m(const SampleModel& material) { return material.scaling.release_z_m(); }
 
-LiveParameters::LiveParameters(const FeltMaterial& loaded) : loaded_(loaded), now_(loaded), curve_(predict(loaded)) {}
+LiveParameters::LiveParameters(const SampleModel& loaded) : loaded_(loaded), now_(loaded), curve_(predict(loaded)) {}
 
 std::optional<Law> LiveParameters::law_after(int steps) const {
   const std::optional<Law> first = loaded_.setup.model.automatic ? std::nullopt : std::optional(loaded_.parameters.law);
@@ -52,8 +52,8 @@ bool LiveParameters::take(const Steps& steps) {
     quantity.si *= std::exp2(kOctavesOfStep * steps[index(row)]);
     return quantity;
   };
-  scene::SharedMaterial parameters = loaded_.parameters;
-  physics::Interaction& in = parameters.interaction;
+  scene::SharedContact parameters = loaded_.parameters;
+  physics::ContactParameters& in = parameters.contact;
   in.tip_radius = scaled(Row::TipRadius, in.tip_radius);
   in.spring_constant = scaled(Row::SpringConstant, in.spring_constant);
   in.hamaker = scaled(Row::Hamaker, in.hamaker);
@@ -62,7 +62,7 @@ bool LiveParameters::take(const Steps& steps) {
   in.reduced_modulus = scaled(Row::ReducedModulus, softened ? kStiffestModulus : in.reduced_modulus);
   try {
     parameters.law = law_after(steps[index(Row::Law)]).value_or(physics::choose_law(in).law);
-    auto felt = felt_material(loaded_.setup.material, parameters, {});
+    auto felt = make_sample_model(loaded_.setup.material, parameters, {});
     if (!felt) {
       refusal_ = felt.error().message;
       return false;
@@ -84,7 +84,7 @@ bool LiveParameters::step(Row row, int direction) {
   int& steps = next[index(row)];
   if (row != Row::Law) {
     steps += direction;
-    const bool stiffer_than_rigid = std::isinf(loaded_.parameters.interaction.reduced_modulus.si) && steps > 0;
+    const bool stiffer_than_rigid = std::isinf(loaded_.parameters.contact.reduced_modulus.si) && steps > 0;
     return !(row == Row::ReducedModulus && stiffer_than_rigid) && take(next);
   }
   // the next law that these parameters have
@@ -123,7 +123,7 @@ std::string typographic(std::string text) {
 }
 
 std::string LiveParameters::value(Row row) const {
-  const physics::Interaction& in = now_.parameters.interaction;
+  const physics::ContactParameters& in = now_.parameters.contact;
   switch (row) {
     case Row::TipRadius:
       return typographic(format_quantity(in.tip_radius, physics::kLengthUnits, kDigits));

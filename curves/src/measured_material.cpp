@@ -21,9 +21,9 @@ scene::MaterialEntry entry_of(const std::string& path, const CurveMetadata& meta
   entry.title = std::filesystem::path(path).stem().string();
   entry.look = like.look;
   entry.note = metadata.instrument.empty() ? "a recorded curve" : "recorded by " + metadata.instrument;
-  entry.interaction = like.interaction;
+  entry.contact = like.contact;
   if (metadata.spring_constant) {
-    entry.interaction.spring_constant = *metadata.spring_constant;
+    entry.contact.spring_constant = *metadata.spring_constant;
     entry.sources.push_back({"spring_constant", fmt::format("{:g} N/m", metadata.spring_constant->si),
                              std::filesystem::path(path).filename().string(), false});
   }

@@ -33,9 +33,9 @@ struct Comparison {
 };
 
 Comparison compare(const scene::MaterialEntry& material) {
-  const auto choice = physics::choose_law(material.interaction);
-  const auto tables = physics::build_law_tables(choice.law, material.interaction);
-  return {material.title, choice, physics::build_law_tables(physics::Law::Paper, material.interaction)->figures,
+  const auto choice = physics::choose_law(material.contact);
+  const auto tables = physics::build_law_tables(choice.law, material.contact);
+  return {material.title, choice, physics::build_law_tables(physics::Law::Paper, material.contact)->figures,
           tables->figures, zero_of_contact_m(*tables)};
 }
 

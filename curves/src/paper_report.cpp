@@ -110,7 +110,7 @@ SvgPlot empty_plot(std::string title) {
 
 // Approach dashed and retract solid, as everywhere in the program; the turn belongs to both.
 void add_cycle(SvgPlot& plot, const scene::MaterialEntry& material, std::string_view color, const Window& window) {
-  const physics::ApproachRetractModel model(material.interaction);
+  const physics::ApproachRetractModel model(material.contact);
   const physics::Length from = 1.4 * model.figures().z_joc;
   const auto curve = physics::record_curve(model, {from, physics::Length(-5e-9), from / 1000.0});
   SvgLine approach{material.title + ", approach", std::string(color), LineStyle::Dashed, {}};
@@ -187,7 +187,7 @@ std::string table2_csv(const PaperTables& tables) {
 
 std::string figure2_svg(const scene::MaterialEntry& material) {
   using Side = SvgMark::Side;
-  const auto events = physics::approach_retract_events(material.interaction);
+  const auto events = physics::approach_retract_events(material.contact);
   SvgPlot plot = empty_plot(fmt::format("Fig. 2: one approach-retract cycle ({}, {} tip, {})", material.title,
                                         material.tip, material.medium));
   add_cycle(plot, material, distinct_color(0), {});
@@ -216,7 +216,7 @@ std::string figure5e_svg(const scene::MaterialLibrary& library) {
   for (std::size_t p = 0; p < plots.size(); ++p) {
     std::size_t index = 0;
     for (const scene::MaterialEntry& material : library.materials) {
-      const auto events = physics::approach_retract_events(material.interaction);
+      const auto events = physics::approach_retract_events(material.contact);
       const std::string_view color = distinct_color(index++);
       add_cycle(plots[p], material, color, windows[p]);
       const SvgPoint pull_off{events.z_joc.si * kNano, -events.f_ad.si * kNano};

@@ -189,7 +189,7 @@ MeasuredEvents measured_events(const scene::MaterialLibrary& library) {
   constexpr physics::Length kStep(0.1e-9);
   MeasuredEvents measured;
   for (const scene::MaterialEntry& material : library.materials) {
-    const physics::ApproachRetractModel model(material.interaction);
+    const physics::ApproachRetractModel model(material.contact);
     const auto curve = physics::record_curve(model, {1.2 * model.figures().z_joc, physics::Length(-5e-9), kStep});
     auto& events = measured[material.name];
     for (const physics::ModelEvent& event : curve.events) {
@@ -211,7 +211,7 @@ core::Result<PaperTables> paper_tables(const scene::MaterialLibrary& library, co
                            fmt::format("the material file lacks \"{}\", which the paper's tables hold", name));
     }
     tables.materials.push_back((*entry)->title);
-    events[name] = physics::approach_retract_events((*entry)->interaction);
+    events[name] = physics::approach_retract_events((*entry)->contact);
   }
 
   tables.inputs = input_rows(library);

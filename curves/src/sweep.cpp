@@ -89,7 +89,7 @@ SweepRow sweep_row(const ContactSetup& setup, const PathOptions& path) {
       row.regime = physics::name_of(place->regime);
     }
     if (!setup.model.dynamic && !setup.model.direction_rule) {
-      take_figures(physics::build_law_tables(setup.law(), setup.material.interaction, setup.law_options)->figures, row);
+      take_figures(physics::build_law_tables(setup.law(), setup.material.contact, setup.law_options)->figures, row);
       return row;
     }
     const auto run = run_curve(setup, path);

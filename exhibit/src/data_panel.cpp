@@ -31,10 +31,10 @@ std::string signed_text(double value, int decimals, const char* unit) {
 
 // A number of the contact: with where it comes from, or, marked, what it was before it was changed.
 template <class Q, class Text>
-render::DataRow row(const curves::FeltMaterial& material, const char* name, const char* option,
-                    Q physics::Interaction::* member, const Text& text) {
-  const Q now = material.parameters.interaction.*member;
-  const Q before = material.setup.material.interaction.*member;
+render::DataRow row(const curves::SampleModel& material, const char* name, const char* option,
+                    Q physics::ContactParameters::* member, const Text& text) {
+  const Q now = material.parameters.contact.*member;
+  const Q before = material.setup.material.contact.*member;
   render::DataRow row{name, text(now), ""};
   if (now != before) {
     row.value = "\u2192 " + row.value;
@@ -70,8 +70,8 @@ std::string hysteresis_text(const physics::CycleFigures& figures) {
 
 }  // namespace
 
-render::DataPanel data_panel(const curves::FeltMaterial& material, double deflection_m, double force_n) {
-  using physics::Interaction;
+render::DataPanel data_panel(const curves::SampleModel& material, double deflection_m, double force_n) {
+  using physics::ContactParameters;
   const physics::CycleFigures& figures = material.figures();
   const Law law = material.parameters.law;
   render::DataPanel panel;
@@ -79,18 +79,19 @@ render::DataPanel data_panel(const curves::FeltMaterial& material, double deflec
   panel.subtitle = law == Law::Measured
                        ? material.setup.material.note
                        : fmt::format("{} tip, in {}", material.setup.material.tip, material.setup.material.medium);
-  panel.rows = {row(material, "Tip radius R", "tip-radius", &Interaction::tip_radius, length_text),
-                row(material, "Spring constant k", "spring-constant", &Interaction::spring_constant, stiffness_text)};
+  panel.rows = {
+      row(material, "Tip radius R", "tip-radius", &ContactParameters::tip_radius, length_text),
+      row(material, "Spring constant k", "spring-constant", &ContactParameters::spring_constant, stiffness_text)};
   if (attracts_from_afar(law)) {
-    panel.rows.push_back(row(material, "Hamaker constant A", "hamaker", &Interaction::hamaker, energy_text));
+    panel.rows.push_back(row(material, "Hamaker constant A", "hamaker", &ContactParameters::hamaker, energy_text));
   }
   if (law != Law::Hertz && law != Law::Measured) {
     panel.rows.push_back(row(material, "Surface energy \u221a(\u03b3\u03b3)", "work-of-adhesion",
-                             &Interaction::mean_surface_energy, surface_energy_text));
+                             &ContactParameters::mean_surface_energy, surface_energy_text));
   }
   if (indents(law)) {
     panel.rows.push_back(
-        row(material, "Reduced modulus E*", "reduced-modulus", &Interaction::reduced_modulus, pressure_text));
+        row(material, "Reduced modulus E*", "reduced-modulus", &ContactParameters::reduced_modulus, pressure_text));
   }
   panel.rows.push_back({"Law of force", curves::law_name(material.parameters), curves::law_reason(material)});
   if (figures.hysteretic) {

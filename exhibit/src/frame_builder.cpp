@@ -58,7 +58,7 @@ std::string scale_text(double m_per_m) {
 // Round the loops of all materials that are in front.
 class Axes {
  public:
-  void include(const curves::FeltMaterial& material) {
+  void include(const curves::SampleModel& material) {
     const double reach_m = material.scaling.release_z_m();
     const double push_n = material.tables->attached.force(physics::Length(-kPushShare * reach_m)).si;
     reach_nm_ = std::max(reach_nm_, reach_m * kNmPerM);
@@ -134,7 +134,7 @@ std::string stage_of_cycle(const Moment& moment, double z_jtc_m) {
   return moment.tip.z_m > 0.0 ? "E \u2192 F   adhesion pulls" : "E \u2192 F   retract";
 }
 
-FrameBuilder::FrameBuilder(const WallScene& wall_scene, const std::vector<curves::FeltMaterial>& materials,
+FrameBuilder::FrameBuilder(const WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
                            const std::array<scene::EyeView, 2>& eyes)
     : wall_scene_(&wall_scene), materials_(&materials), eyes_(eyes) {}
 

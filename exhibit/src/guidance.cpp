@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "exhibit/phrase_book.h"
+#include "exhibit/message_catalog.h"
 #include "haptics/safety.h"
 
 namespace afm::exhibit {
@@ -59,7 +59,7 @@ Hint next_step(const scene::TipState& tip, bool ascending, int cycles) {
 }
 
 core::Result<Guidance> Guidance::load(const std::string& path) {
-  auto phrases = load_phrases(path, kKeys);
+  auto phrases = load_messages(path, kKeys);
   if (!phrases) return tl::unexpected(phrases.error());
   Guidance guidance;
   guidance.phrases_ = std::move(*phrases);

@@ -22,7 +22,7 @@ using glm::dvec3;
 // viewer would stand inside it.
 constexpr double kLowTiltRad = 0.12, kLowFromOrders = 6.0, kLowAtOrders = 7.5;
 
-constexpr double kBeyondHaze = 20.0;    // layout units; the haze ends sooner
+constexpr double kBeyondFog = 20.0;     // layout units; the haze ends sooner
 constexpr double kBelowPixel = 0.0015;  // layout units
 
 constexpr double kVeilS = 0.5, kTravelS = 20.0;
@@ -93,7 +93,7 @@ bool Journey::shows(scene::NodeIndex node, double orders, std::size_t ground) co
   const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.node == node; });
   if (part == parts_.end() || part->ground.value_or(ground) != ground) return false;
   const double scale = scale_of(orders);
-  return part->nearest_m * scale < kBeyondHaze && part->farthest_m * scale > kBelowPixel;
+  return part->nearest_m * scale < kBeyondFog && part->farthest_m * scale > kBelowPixel;
 }
 
 void JourneyTravel::turn_round(std::int64_t now_ns) {
@@ -106,7 +106,7 @@ void JourneyTravel::update(std::int64_t now_ns) {
   progress_s_ = std::clamp(progress_s_ + direction_ * passed_s, 0.0, kWholeS);
 }
 
-double JourneyTravel::veil() const { return std::max(0.0, 1.0 - std::abs(progress_s_ - kVeilS) / kVeilS); }
+double JourneyTravel::fade() const { return std::max(0.0, 1.0 - std::abs(progress_s_ - kVeilS) / kVeilS); }
 
 std::optional<double> JourneyTravel::orders() const {
   if (progress_s_ <= kVeilS) return std::nullopt;

@@ -122,7 +122,7 @@ nlohmann::json json_of(const scene::Scene& scene) {
 }  // namespace
 
 core::Result<void> describe_model(const std::string& file, DescriptionForm form, std::ostream& out) {
-  scene::GltfNotes notes;
+  scene::GltfWarnings notes;
   const auto scene = [&] {
     const LoadingNotice notice(file);
     return scene::load_gltf(file, &notes);

@@ -23,7 +23,7 @@ WallScene::Pose pose_of(const Moment& moment) {
           .wand = moment.wand,
           .exhibit = exhibit,
           .journey_orders = moment.journey_orders.value_or(0.0),
-          .veil = moment.veil,
+          .fade = moment.fade,
           .navigation = moment.navigation,
           .cue = moment.cue};
 }

@@ -18,7 +18,7 @@ void set_name(scene::Name& name, std::string_view text) {
 }  // namespace
 
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
-                                              std::span<const curves::FeltMaterial> materials,
+                                              std::span<const curves::SampleModel> materials,
                                               std::span<const scene::SharedHeightField> surfaces,
                                               std::span<const scene::SharedMeasuredCurve> curves) {
   if (scene.nodes.size() > scene::kMaxNodes || materials.size() > scene::kMaxMaterials ||
@@ -48,7 +48,7 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
     }
   }
   std::transform(materials.begin(), materials.end(), model.materials.begin(),
-                 [](const curves::FeltMaterial& material) { return material.parameters; });
+                 [](const curves::SampleModel& material) { return material.parameters; });
   std::copy(surfaces.begin(), surfaces.end(), model.height_fields.begin());
   std::copy(curves.begin(), curves.end(), model.curves.begin());
   return model;

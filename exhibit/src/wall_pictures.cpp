@@ -22,10 +22,10 @@ using core::ErrorCategory;
 using scene::StereoMode;
 
 // What one output shows: in a mode of two pictures with an eye of its own, that eye.
-render::Composition composition_of(const scene::Output& output, const PictureWish& wish) {
-  StereoMode mode = wish.mode.value_or(output.mode);
-  if (!wish.mode && output.eye) mode = *output.eye == scene::Eye::Left ? StereoMode::Left : StereoMode::Right;
-  const bool swapped = (output.order == scene::EyeOrder::Swapped) != (wish.order == scene::EyeOrder::Swapped);
+render::Composition composition_of(const scene::Output& output, const PictureOptions& options) {
+  StereoMode mode = options.mode.value_or(output.mode);
+  if (!options.mode && output.eye) mode = *output.eye == scene::Eye::Left ? StereoMode::Left : StereoMode::Right;
+  const bool swapped = (output.order == scene::EyeOrder::Swapped) != (options.order == scene::EyeOrder::Swapped);
   return {mode, swapped ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight, output.picture_from_output};
 }
 
@@ -35,7 +35,7 @@ glm::uvec2 natural_size(const scene::Screen& screen, StereoMode mode, std::uint3
 }
 
 // The outputs that are drawn: a pair that only shares its screen out to two projectors counts once in another mode.
-std::vector<scene::Output> drawn_outputs(const scene::Wall& wall, const PictureWish& wish) {
+std::vector<scene::Output> drawn_outputs(const scene::Wall& wall, const PictureOptions& options) {
   std::vector<scene::Output> outputs;
   if (wall.outputs.empty()) {
     for (std::size_t i = 0; i < wall.screens.size(); ++i) {
@@ -49,7 +49,7 @@ std::vector<scene::Output> drawn_outputs(const scene::Wall& wall, const PictureW
   }
   for (const scene::Output& output : wall.outputs) {
     const bool second_of_pair =
-        wish.mode && output.eye && std::any_of(outputs.begin(), outputs.end(), [&](const auto& other) {
+        options.mode && output.eye && std::any_of(outputs.begin(), outputs.end(), [&](const auto& other) {
           return other.eye && other.screen == output.screen;
         });
     if (!second_of_pair) outputs.push_back(output);
@@ -86,18 +86,18 @@ render::Image black(glm::uvec2 size_px) {
 
 }  // namespace
 
-core::Result<WallPlan> plan_wall(const scene::Wall& wall, const PictureWish& wish) {
+core::Result<WallPlan> plan_wall(const scene::Wall& wall, const PictureOptions& options) {
   WallPlan plan;
   glm::ivec2 upper_left(0), lower_right(0);
   bool placed = false;
   std::vector<bool> waiting;
-  for (const scene::Output& output : drawn_outputs(wall, wish)) {
+  for (const scene::Output& output : drawn_outputs(wall, options)) {
     const scene::Screen& screen = wall.screens[output.screen];
-    OutputPicture picture{output.name, screen, wish.mode.value_or(output.mode), composition_of(output, wish),
+    OutputPicture picture{output.name, screen, options.mode.value_or(output.mode), composition_of(output, options),
                           output.rect};
     const bool has_rect = output.rect.size_px != glm::uvec2(0);
     const bool exact = scene::frame_packing(picture.composition.mode).has_value();
-    if (exact || !has_rect) picture.rect.size_px = natural_size(screen, picture.composition.mode, wish.eye_width);
+    if (exact || !has_rect) picture.rect.size_px = natural_size(screen, picture.composition.mode, options.eye_width);
     if (has_rect) {
       const glm::ivec2 end = picture.rect.offset_px + glm::ivec2(picture.rect.size_px);
       upper_left = placed ? glm::min(upper_left, picture.rect.offset_px) : picture.rect.offset_px;
@@ -116,17 +116,17 @@ core::Result<WallPlan> plan_wall(const scene::Wall& wall, const PictureWish& wis
   }
   for (OutputPicture& output : plan.outputs) output.rect.offset_px -= upper_left;
   plan.size_px = glm::uvec2(lower_right - upper_left);
-  if (wish.size_px == glm::uvec2(0)) return plan;
+  if (options.size_px == glm::uvec2(0)) return plan;
 
   for (const OutputPicture& output : plan.outputs) {
     const bool packed = scene::frame_packing(output.composition.mode).has_value();
-    if (packed && (plan.size_px != wish.size_px)) {
+    if (packed && (plan.size_px != options.size_px)) {
       return core::failure(ErrorCategory::WrongUsage,
                            fmt::format("--size: {} is exactly {}x{} pixels with this wall; leave --size out",
                                        scene::name_of(output.composition.mode), plan.size_px.x, plan.size_px.y));
     }
   }
-  scale_to(wish.size_px, plan);
+  scale_to(options.size_px, plan);
   return plan;
 }
 
@@ -171,7 +171,7 @@ render::RendererOptions renderer_options(render::Context& context, const WallPla
 }
 
 core::Result<std::vector<render::Image>> draw_wall(render::Renderer& renderer, const WallPlan& plan,
-                                                   const scene::Viewer& viewer, const PictureWish& wish,
+                                                   const scene::Viewer& viewer, const PictureOptions& options,
                                                    const BuildFrame& build) {
   const bool two = std::any_of(plan.outputs.begin(), plan.outputs.end(), [](const OutputPicture& output) {
     return scene::has_two_pictures(output.composition.mode);
@@ -179,7 +179,7 @@ core::Result<std::vector<render::Image>> draw_wall(render::Renderer& renderer, c
   std::vector<render::Image> pictures(two ? 2 : 1, black(plan.size_px));
   for (const OutputPicture& output : plan.outputs) {
     const StereoMode mode = output.composition.mode;
-    const double ipd_m = mode == StereoMode::Mono ? 0.0 : wish.ipd_m.value_or(viewer.ipd_m);
+    const double ipd_m = mode == StereoMode::Mono ? 0.0 : options.ipd_m.value_or(viewer.ipd_m);
     const auto eyes = eyes_before(output.screen, viewer.sweet_spot, ipd_m);
     if (!eyes) return tl::unexpected(eyes.error());
     const glm::uvec2 eye_px = scene::eye_size(mode, output.rect.size_px);

@@ -34,7 +34,8 @@ std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& 
 }  // namespace
 
 core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
-                                        const scene::Screen& screen, const glm::dvec3& viewer_m, const OwnModels& own) {
+                                        const scene::Screen& screen, const glm::dvec3& viewer_m,
+                                        const UserModels& own) {
   WallScene w;
 
   // the contact point: at eye height, in the middle, as far as everything finds its place above and below it, but never
@@ -81,7 +82,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   w.analogy_ = Analogy(build, w.scene_, w.sample_frame_);
   w.journey_ = Journey(build, w.scene_, w.layout_);
   for (const scene::MaterialEntry& material : materials.materials) {
-    const physics::ApproachRetractEvents events = physics::approach_retract_events(material.interaction);
+    const physics::ApproachRetractEvents events = physics::approach_retract_events(material.contact);
     MaterialLook look{};
     const std::string model = model_of(assets_dir, material);
     const std::string sample = "sample-" + material.name;
@@ -95,7 +96,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
     look.label = build.node(swatch + "/label");
     look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
     look.thickness_m = build.error() ? 0.0 : -bounds_below(w.scene_, surface).low.z;
-    look.full_deflection_m = events.f_ad.si / material.interaction.spring_constant.si;
+    look.full_deflection_m = events.f_ad.si / material.contact.spring_constant.si;
     w.looks_.push_back(look);
     const auto of_this_title = [&](const scene::MaterialEntry& other) { return other.title == material.title; };
     const bool alone = std::count_if(materials.materials.begin(), materials.materials.end(), of_this_title) == 1;

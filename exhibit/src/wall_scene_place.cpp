@@ -216,7 +216,7 @@ void WallScene::place(const Pose& pose, render::FrameState& frame) const {
   if (pose.exhibit != Exhibit::Journey) place_swatch_labels(pose, frame);
   if (pose.exhibit == Exhibit::Analogy) place_analogy_labels(pose, frame);
   place_marks(pose, frame);
-  place_haze(pose, frame);
+  place_fog(pose, frame);
 
   const double unit_m = glm::length(dvec3(room_from_layout_[0]));
   frame.key_light.direction_to_light =
@@ -307,15 +307,15 @@ void WallScene::place_marks(const Pose& pose, render::FrameState& frame) const {
   frame.contact.ring_radius_m = static_cast<float>(ring.radius) * frame.contact.shade_radius_m;
 }
 
-void WallScene::place_haze(const Pose& pose, render::FrameState& frame) const {
-  frame.haze = {};
-  frame.haze.veil = static_cast<float>(pose.veil);
+void WallScene::place_fog(const Pose& pose, render::FrameState& frame) const {
+  frame.fog = {};
+  frame.fog.fade = static_cast<float>(pose.fade);
   if (pose.exhibit != Exhibit::Journey) return;
   const auto unit_m = static_cast<float>(glm::length(dvec3(room_from_layout_[0])));
-  frame.haze.begin_m = kHazeBegin * unit_m;
-  frame.haze.end_m = kHazeEnd * unit_m;
-  frame.haze.origin_m = dvec3(room_from_layout_[3]);
-  frame.haze.away = -glm::normalize(dvec3(room_from_layout_[2]));
+  frame.fog.begin_m = kFogBegin * unit_m;
+  frame.fog.end_m = kFogEnd * unit_m;
+  frame.fog.origin_m = dvec3(room_from_layout_[3]);
+  frame.fog.away = -glm::normalize(dvec3(room_from_layout_[2]));
 }
 
 }  // namespace afm::exhibit

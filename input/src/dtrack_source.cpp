@@ -97,7 +97,7 @@ bool DtrackSource::receive(int patience_ms) {
 WandState DtrackSource::poll() {
   bool heard = false;
   for (int i = 0; i < kMostPacketsAPoll && receive(i == 0 ? kPatienceMs : 0); ++i) heard = true;
-  if (heard) news_.store(now_);
+  if (heard) update_.store(now_);
 
   WandState wand;
   wand.time_ns = now_.time_ns;

@@ -12,7 +12,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "scene/config/toml_fault.h"
+#include "scene/config/toml_file.h"
 
 namespace afm::input {
 

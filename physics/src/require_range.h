@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/quantity_text.h"
 
 namespace afm::physics {

@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-physics::Interaction mica(double spring_constant) {
+physics::ContactParameters mica(double spring_constant) {
   return {.tip_radius = physics::Length(50e-9),
           .spring_constant = physics::Stiffness(spring_constant),
           .sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity()),

@@ -55,7 +55,7 @@ TEST_F(Demo, MeetsTheEquationsWithinATenthOfAPercent) {
       scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value().only(scene::kPaperMaterials).value();
   const nlohmann::json all = summary();
   for (const scene::MaterialEntry& material : materials.materials) {
-    const auto events = physics::approach_retract_events(material.interaction);
+    const auto events = physics::approach_retract_events(material.contact);
     const nlohmann::json& m = all["materials"][material.name];
     EXPECT_NEAR(m["f_attr_N"].get<double>() / events.f_attr.si, 1.0, 1e-3) << material.name;
     EXPECT_NEAR(m["f_ad_N"].get<double>() / events.f_ad.si, 1.0, 1e-3) << material.name;
@@ -170,8 +170,7 @@ TEST(DemoOfAnotherLaw, FeelsTheSameSampleWithOtherNumbers) {
   ASSERT_EQ(all["variations"].size(), 2U);
   EXPECT_NEAR(all["variations"][0]["z_joc_m"].get<double>(), 0.3819e-9 + 1.399894e-9 / 0.2, 1e-12);
   EXPECT_NEAR(all["variations"][1]["z_joc_m"].get<double>(), 0.3819e-9 + 1.399894e-9 / 0.4, 1e-12);
-  EXPECT_EQ(servo::load_session(folder.file("session-mica-vary-2.afms"))->parameters.interaction.spring_constant.si,
-            0.4);
+  EXPECT_EQ(servo::load_session(folder.file("session-mica-vary-2.afms"))->parameters.contact.spring_constant.si, 0.4);
   EXPECT_TRUE(support::read_png(folder.file("vary-mica.png")).has_value());
 }
 

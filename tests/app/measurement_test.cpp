@@ -12,15 +12,15 @@
 namespace afm::app {
 namespace {
 
-curves::FeltMaterial mica(physics::Law law = physics::Law::Paper) {
+curves::SampleModel mica(physics::Law law = physics::Law::Paper) {
   const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml");
   curves::ContactSetup setup{*library.value().find("mica"), {}, {}};
   setup.model.law = law;
-  return curves::felt_material(setup).value();
+  return curves::make_sample_model(setup).value();
 }
 
 // A cycle of the law whose jump to contact pulls too hard by this part.
-servo::RecordedSession cycle(double error, const curves::FeltMaterial& material = mica()) {
+servo::RecordedSession cycle(double error, const curves::SampleModel& material = mica()) {
   const physics::CycleFigures& figures = material.figures();
   servo::RecordedSession session;
   session.material = "mica";
@@ -49,7 +49,7 @@ TEST(Measurement, SeesAnEventThatIsOff) {
 }
 
 TEST(Measurement, IsMadeAgainstTheFiguresOfTheLawThatWasFelt) {
-  const curves::FeltMaterial dmt = mica(physics::Law::Dmt);
+  const curves::SampleModel dmt = mica(physics::Law::Dmt);
   const auto m = measure(cycle(0.0, dmt), dmt);
   ASSERT_TRUE(m.has_value());
   EXPECT_EQ(m->law, "dmt");
@@ -59,10 +59,10 @@ TEST(Measurement, IsMadeAgainstTheFiguresOfTheLawThatWasFelt) {
 }
 
 TEST(Measurement, OfALeverThatJumpsNowhereHasNothingToCompare) {
-  curves::FeltMaterial stiff = mica(physics::Law::Dmt);
+  curves::SampleModel stiff = mica(physics::Law::Dmt);
   curves::ContactSetup changed = stiff.setup;
-  changed.material.interaction.spring_constant.si = 40.0;
-  stiff = curves::felt_material(stiff, changed).value();
+  changed.material.contact.spring_constant.si = 40.0;
+  stiff = curves::make_sample_model(stiff, changed).value();
   servo::RecordedSession session = cycle(0.0);
   session.events.clear();
   const auto m = measure(session, stiff);
@@ -72,7 +72,7 @@ TEST(Measurement, OfALeverThatJumpsNowhereHasNothingToCompare) {
 }
 
 TEST(Measurement, DoesNotJudgeADynamicLever) {
-  curves::FeltMaterial dynamic = mica(physics::Law::Dmt);
+  curves::SampleModel dynamic = mica(physics::Law::Dmt);
   dynamic.parameters.dynamic = 1;
   EXPECT_EQ(measure(cycle(0.3, dynamic), dynamic)->worst_error(), 0.0);
 }

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "app/bench/servo_latency.h"
 #include "app/bench/servo_reaction.h"
-#include "app/bench/servo_wake.h"
 #include "app/bench/servo_work.h"
 #include "places.h"
 

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "exhibit/stage_setup.h"
+#include "exhibit/exhibit_setup.h"
 #include "places.h"
 #include "render/image_file.h"
 #include "support/live_program.h"
@@ -112,9 +112,9 @@ TEST_F(TwoOutputsTest, EachProjectorShowsWhatIsDrawnForItsEyeThroughItsOwnKeysto
 
   // the mouse in the second window is a hand as it is in the first
   ASSERT_EQ(on_display("xdotool key g").exit_code, 0);
-  exhibit::StageFiles files;
+  exhibit::ExhibitFiles files;
   files.assets_dir = AFM_SOURCE_DIR "/assets";
-  const exhibit::Stage stage = exhibit::load_stage(files).value();
+  const exhibit::Stage stage = exhibit::load_exhibit(files).value();
   const auto clip =
       stage.eyes[1].projection * stage.eyes[1].view * glm::dvec4(stage.wall_scene.swatch_targets()[1].center_m, 1.0);
   const glm::dvec2 place = kInset + kShrunk * 0.5 * (glm::dvec2(clip) / clip.w + 1.0);

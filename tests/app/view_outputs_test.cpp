@@ -35,8 +35,8 @@ class ViewOutputsTest : public ::testing::Test {
     right.rect = {{800, 0}, {800, 600}};
     right.picture_from_output = glm::dmat3(2.0);
   }
-  auto plan(const exhibit::PictureWish& wish = {}, const WindowWish& window = {}) const {
-    return plan_view(wall_, stage_, wish, window, monitors_);
+  auto plan(const exhibit::PictureOptions& options = {}, const WindowOptions& window = {}) const {
+    return plan_view(wall_, stage_, options, window, monitors_);
   }
 
   const scene::Screen stage_{"wall", {-2.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {-2.0, 3.0, 0.0}};
@@ -109,15 +109,15 @@ TEST_F(ViewOutputsTest, ARectangleThatNoMonitorShowsIsRefusedAndOneAcrossTwoIsNo
 }
 
 TEST_F(ViewOutputsTest, ASizeAMonitorOrFullScreenIsOneWindowOfTheStage) {
-  for (const WindowWish& wish :
-       {WindowWish{.size_px = glm::uvec2(640, 480), .monitor = {}}, WindowWish{.size_px = {}, .monitor = "DP-2"},
-        WindowWish{.size_px = {}, .monitor = {}, .full_screen = true}}) {
-    const auto outputs = plan({}, wish).value();
+  for (const WindowOptions& options :
+       {WindowOptions{.size_px = glm::uvec2(640, 480), .monitor = {}}, WindowOptions{.size_px = {}, .monitor = "DP-2"},
+        WindowOptions{.size_px = {}, .monitor = {}, .full_screen = true}}) {
+    const auto outputs = plan({}, options).value();
     ASSERT_EQ(outputs.size(), 1U);
     EXPECT_EQ(outputs[0].composition({}, EyeOrder::Straight).mode, StereoMode::SideBySide);  // a pair of projectors
     EXPECT_EQ(outputs[0].picture_from_output, glm::dmat3(1.0));
-    EXPECT_EQ(outputs[0].window.monitor, wish.monitor);
-    EXPECT_EQ(outputs[0].window.full_screen, wish.full_screen);
+    EXPECT_EQ(outputs[0].window.monitor, options.monitor);
+    EXPECT_EQ(outputs[0].window.full_screen, options.full_screen);
   }
   wall_.outputs.clear();
   EXPECT_EQ(plan().value().size(), 1U);

@@ -12,12 +12,12 @@
 #include <thread>
 
 #include "app/live/mouse_hand.h"
-#include "curves/felt_material.h"
 #include "curves/live_parameters.h"
+#include "curves/sample_model.h"
+#include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/panel_hit.h"
 #include "exhibit/parameter_panel.h"
-#include "exhibit/stage_setup.h"
 #include "places.h"
 #include "render/control_layout.h"
 #include "render/image_file.h"
@@ -76,7 +76,7 @@ class ViewTest : public ::testing::Test {
     const render::PanelPlacement panel = stage_.wall_scene.parameter_placement();
     const glm::dvec2 size = exhibit::size_mm(panel, stage_.wall_scene.panel_millimetre_m());
     const curves::LiveParameters gold(
-        curves::felt_material(curves::ContactSetup{stage_.materials.materials[1], {}, {}}).value());
+        curves::make_sample_model(curves::ContactSetup{stage_.materials.materials[1], {}, {}}).value());
     const auto box =
         render::control_box(exhibit::parameter_panel(gold, "", exhibit::ChangeState::AsLoaded), size, target);
     const glm::dvec2 share = 0.5 * (box.from_mm + box.to_mm) / size;
@@ -138,9 +138,9 @@ class ViewTest : public ::testing::Test {
   }
 
   static exhibit::Stage stage_of_the_assets() {
-    exhibit::StageFiles files;
+    exhibit::ExhibitFiles files;
     files.assets_dir = AFM_SOURCE_DIR "/assets";
-    return exhibit::load_stage(files).value();
+    return exhibit::load_exhibit(files).value();
   }
 
   const exhibit::Stage stage_ = stage_of_the_assets();

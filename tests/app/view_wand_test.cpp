@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "exhibit/stage_setup.h"
+#include "exhibit/exhibit_setup.h"
 #include "places.h"
 #include "support/live_program.h"
 #include "support/tracker.h"
@@ -20,9 +20,9 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
-  exhibit::StageFiles files;
+  exhibit::ExhibitFiles files;
   files.assets_dir = AFM_SOURCE_DIR "/assets";
-  const exhibit::Stage stage = exhibit::load_stage(files).value();
+  const exhibit::Stage stage = exhibit::load_exhibit(files).value();
   const glm::dvec3 gold = stage.wall_scene.swatch_targets()[1].center_m;
   const glm::dvec3 hand(0.5, 1.2, 1.8);
   const support::VirtualDisplay display(320, 240);

@@ -17,8 +17,8 @@ using testing::HasSubstr;
 
 SvgPlot map_of(const char* material) {
   const auto library = scene::load_materials(std::string(AFM_SOURCE_DIR "/assets/materials.toml")).value();
-  const physics::Interaction& interaction = library.find(material)->interaction;
-  return adhesion_map_plot(material, physics::choose_law(interaction), interaction, physics::Force(-1e-9));
+  const physics::ContactParameters& contact = library.find(material)->contact;
+  return adhesion_map_plot(material, physics::choose_law(contact), contact, physics::Force(-1e-9));
 }
 
 TEST(AdhesionMapPlot, MarksTheContactAtItsTaborParameterAndLoad) {

@@ -29,11 +29,11 @@ std::string error_of(std::string_view bytes, const CurveReading& reading = {}) {
 
 // A paper curve, whose approach and retract differ in length and whose jumps are two points at one height.
 RecordedCurve adhesive_curve() {
-  const physics::Interaction mica{.tip_radius = physics::Length(50e-9),
-                                  .spring_constant = physics::Stiffness(0.1),
-                                  .sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity()),
-                                  .hamaker = physics::Energy(24.5e-21),
-                                  .mean_surface_energy = physics::SurfaceEnergy(2.228e-3)};
+  const physics::ContactParameters mica{.tip_radius = physics::Length(50e-9),
+                                        .spring_constant = physics::Stiffness(0.1),
+                                        .sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity()),
+                                        .hamaker = physics::Energy(24.5e-21),
+                                        .mean_surface_energy = physics::SurfaceEnergy(2.228e-3)};
   const auto curve = physics::record_curve(physics::ApproachRetractModel(mica),
                                            {physics::Length(20e-9), physics::Length(-5e-9), physics::Length(0.05e-9)});
   RecordedCurve recorded = recorded_curve(curve, mica.spring_constant);

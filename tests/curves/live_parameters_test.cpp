@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "curves/felt_material.h"
+#include "curves/sample_model.h"
 #include "places.h"
 #include "scene/samples/material_library.h"
 
@@ -17,12 +17,12 @@ using Row = LiveParameters::Row;
 
 class LiveParametersTest : public ::testing::Test {
  protected:
-  static FeltMaterial material(const char* name) {
+  static SampleModel material(const char* name) {
     const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
-    return felt_material(ContactSetup{*library.find(name), {}, {}}).value();
+    return make_sample_model(ContactSetup{*library.find(name), {}, {}}).value();
   }
 
-  const FeltMaterial mica_ = material("mica");
+  const SampleModel mica_ = material("mica");
   LiveParameters parameters_{mica_};
 };
 
@@ -35,9 +35,9 @@ TEST_F(LiveParametersTest, FourStepsAreAFactorOfTwoAndAsManyBackAreExactlyWhatWa
     EXPECT_FALSE(parameters_.changed(row));
     EXPECT_EQ(parameters_.value(row), before);
   }
-  EXPECT_EQ(parameters_.felt().parameters.interaction.hamaker.si, mica_.parameters.interaction.hamaker.si);
+  EXPECT_EQ(parameters_.felt().parameters.contact.hamaker.si, mica_.parameters.contact.hamaker.si);
   for (int i = 0; i < 4; ++i) parameters_.step(Row::SpringConstant, 1);
-  EXPECT_NEAR(parameters_.felt().parameters.interaction.spring_constant.si, 0.2, 1e-15);
+  EXPECT_NEAR(parameters_.felt().parameters.contact.spring_constant.si, 0.2, 1e-15);
 }
 
 TEST_F(LiveParametersTest, TheFiguresFollowTheStiffnessAsHaosFoldDoes) {
@@ -72,9 +72,9 @@ TEST_F(LiveParametersTest, TheLawGoesRoundThroughAllThatTheseParametersHave) {
 TEST_F(LiveParametersTest, AStepBeyondWhatIsPhysicalChangesNothingAndSaysWhy) {
   int steps = 0;
   while (parameters_.step(Row::TipRadius, 1)) ASSERT_LT(++steps, 200);
-  const double radius = parameters_.felt().parameters.interaction.tip_radius.si;
+  const double radius = parameters_.felt().parameters.contact.tip_radius.si;
   EXPECT_FALSE(parameters_.step(Row::TipRadius, 1));
-  EXPECT_EQ(parameters_.felt().parameters.interaction.tip_radius.si, radius);
+  EXPECT_EQ(parameters_.felt().parameters.contact.tip_radius.si, radius);
   EXPECT_FALSE(parameters_.refusal().empty());
   EXPECT_TRUE(parameters_.step(Row::TipRadius, -1));
   EXPECT_TRUE(parameters_.refusal().empty());
@@ -86,18 +86,18 @@ TEST_F(LiveParametersTest, ResetIsWhatWasLoaded) {
   parameters_.step(Row::Law, 1);
   EXPECT_TRUE(parameters_.reset());
   EXPECT_FALSE(parameters_.changed());
-  EXPECT_EQ(parameters_.felt().parameters.interaction.hamaker.si, mica_.parameters.interaction.hamaker.si);
+  EXPECT_EQ(parameters_.felt().parameters.contact.hamaker.si, mica_.parameters.contact.hamaker.si);
   EXPECT_EQ(parameters_.felt().parameters.law, mica_.parameters.law);
 }
 
 TEST_F(LiveParametersTest, ARigidContactSoftensFromAStiffOne) {
-  FeltMaterial rigid = mica_;
-  rigid.parameters.interaction.reduced_modulus = physics::Pressure(std::numeric_limits<double>::infinity());
+  SampleModel rigid = mica_;
+  rigid.parameters.contact.reduced_modulus = physics::Pressure(std::numeric_limits<double>::infinity());
   LiveParameters parameters(rigid);
   EXPECT_EQ(parameters.value(Row::ReducedModulus), "rigid");
   EXPECT_FALSE(parameters.step(Row::ReducedModulus, 1));
   EXPECT_TRUE(parameters.step(Row::ReducedModulus, -1));
-  EXPECT_TRUE(std::isfinite(parameters.felt().parameters.interaction.reduced_modulus.si));
+  EXPECT_TRUE(std::isfinite(parameters.felt().parameters.contact.reduced_modulus.si));
   EXPECT_TRUE(parameters.step(Row::ReducedModulus, 1));
   EXPECT_EQ(parameters.value(Row::ReducedModulus), "rigid");
 }

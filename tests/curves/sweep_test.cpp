@@ -71,9 +71,9 @@ TEST(Sweep, GivesTheClosedFormsOfThePaperAtEveryPoint) {
   ASSERT_EQ(rows->size(), 91U);
   for (std::size_t i = 0; i < rows->size(); ++i) {
     const SweepRow& row = (*rows)[i];
-    physics::Interaction interaction = setup.material.interaction;
-    interaction.tip_radius = physics::Length(row.at[0]);
-    const auto events = physics::approach_retract_events(interaction);
+    physics::ContactParameters contact = setup.material.contact;
+    contact.tip_radius = physics::Length(row.at[0]);
+    const auto events = physics::approach_retract_events(contact);
     EXPECT_NEAR(row.at[0], (10.0 + static_cast<double>(i)) * 1e-9, 1e-18);
     EXPECT_NEAR(row.snap_in_z_m / events.z_jtc.si, 1.0, 1e-12);
     EXPECT_NEAR(row.pull_off_force_n / -events.f_ad.si, 1.0, 1e-12);

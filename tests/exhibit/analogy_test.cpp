@@ -55,8 +55,8 @@ TEST_F(AnalogyTest, TheSpringReachesFromTheMagnetToTheHand) {
         high = std::max(high, above);
       }
     }
-    const glm::dvec3 plate(state.room_from_node[scene_.scene().find_node("analogy/plate").value()][3]);
-    const double plate_height = glm::dot(plate, scene_.sample_normal());
+    const glm::dvec3 panel_background(state.room_from_node[scene_.scene().find_node("analogy/plate").value()][3]);
+    const double plate_height = glm::dot(panel_background, scene_.sample_normal());
     EXPECT_NEAR(high - plate_height, height(tip, "hand"), 1e-6);
     EXPECT_NEAR(low - plate_height, height(tip, "magnet") + 0.17, 0.02);
   }

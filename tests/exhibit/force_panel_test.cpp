@@ -51,7 +51,7 @@ TEST(ForcePanel, NoLabelCoversAnotherForAnyMaterialOfTheLibrary) {
     const scene::MaterialLibrary one{{entry}};
     const WallScene scene =
         WallScene::load(assets, one, wall.screens.front(), wall.viewers.front().sweet_spot.position_m).value();
-    const std::vector<curves::FeltMaterial> felt{curves::felt_material(curves::ContactSetup{entry, {}, {}}).value()};
+    const std::vector<curves::SampleModel> felt{curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value()};
     const FrameBuilder frames(scene, felt, eyes_at_sweet_spot(wall).value());
     Moment moment;
     moment.material = 0;

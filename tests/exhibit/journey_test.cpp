@@ -172,7 +172,7 @@ TEST(JourneyTravel, GoesThereAndBackWithoutACut) {
     now_ns += 10'000'000;
     travel.update(now_ns);
     if (travel.orders() && !there) {
-      EXPECT_GT(travel.veil(), 0.97) << "what is shown changes where nothing can be seen";
+      EXPECT_GT(travel.fade(), 0.97) << "what is shown changes where nothing can be seen";
       EXPECT_EQ(*travel.orders(), 0.0);
       there = true;
     }
@@ -182,7 +182,7 @@ TEST(JourneyTravel, GoesThereAndBackWithoutACut) {
     before = orders;
   }
   EXPECT_EQ(before, kJourneyOrders);
-  EXPECT_EQ(travel.veil(), 0.0);
+  EXPECT_EQ(travel.fade(), 0.0);
 
   // turned round twice on the way back
   travel.turn_round(now_ns);

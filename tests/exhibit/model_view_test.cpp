@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "exhibit/loading_notice.h"
-#include "exhibit/own_models.h"
+#include "exhibit/user_models.h"
 #include "scene/graph/height_field.h"
 #include "scene/graph/pose.h"
 #include "support/scratch_folder.h"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "curves/felt_material.h"
+#include "curves/sample_model.h"
 #include "places.h"
 #include "render/control_layout.h"
 #include "render/presenter.h"
@@ -21,7 +21,7 @@ const glm::dvec2 kSize(754.0, 920.0);
 
 curves::LiveParameters mica() {
   return curves::LiveParameters(
-      curves::felt_material(
+      curves::make_sample_model(
           curves::ContactSetup{
               *scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value().find("mica"), {}, {}})
           .value());

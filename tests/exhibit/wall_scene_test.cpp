@@ -44,7 +44,7 @@ TEST_F(WallSceneTest, TheContactPointLiesInTheWallAtEyeHeightInItsMiddleThird) {
 
 TEST_F(WallSceneTest, TheApexStandsAtItsHeightHoweverTheLeverBends) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
-    const double z_joc = physics::approach_retract_events(materials_.materials[material].interaction).z_joc.si;
+    const double z_joc = physics::approach_retract_events(materials_.materials[material].contact).z_joc.si;
     const double scale = scene_.drawn_scale(material).sample_m_per_m;
     for (const double z : {-0.3, 0.0, 0.5, 1.0}) {
       for (const double deflection : {-0.3, 0.0, 0.5, 1.0}) {
@@ -96,7 +96,7 @@ TEST_F(WallSceneTest, TheBeamOfLightFollowsTheTip) {
 
 TEST_F(WallSceneTest, AStrokeFillsAThirdOfTheWallsHeight) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
-    const double z_joc = physics::approach_retract_events(materials_.materials[material].interaction).z_joc.si;
+    const double z_joc = physics::approach_retract_events(materials_.materials[material].contact).z_joc.si;
     const glm::dvec3 high = apex({.material = material, .tip = {.z_m = 1.40 * z_joc}});
     const glm::dvec3 low = apex({.material = material, .tip = {.z_m = -0.30 * z_joc}});
     EXPECT_NEAR(glm::length(high - low), screen_.height_m() / 3.0, 0.02);

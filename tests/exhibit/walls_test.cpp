@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/bench/render_subjects.h"
-#include "exhibit/stage_setup.h"
+#include "exhibit/exhibit_setup.h"
 #include "places.h"
 #include "support/scratch_folder.h"
 #include "support/vulkan_fixture.h"
@@ -23,10 +23,10 @@ constexpr std::uint32_t kEyeWidth = 640;
 constexpr std::size_t kFrame = 18;
 
 core::Result<Stage> stage_on(const std::string& wall_file) {
-  StageFiles files;
+  ExhibitFiles files;
   files.assets_dir = AFM_SOURCE_DIR "/assets";
   files.wall = wall_file;
-  return load_stage(files);
+  return load_exhibit(files);
 }
 
 std::string wall_text(double width_m, double height_m, double bottom_m, double ipd_mm, const glm::dvec3& head_m) {

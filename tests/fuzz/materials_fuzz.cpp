@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const auto library = afm::scene::load_materials(file.path());
   if (!library) return 0;
   for (const afm::scene::MaterialEntry& material : library->materials) {
-    static_cast<void>(afm::physics::approach_retract_events(material.interaction));
+    static_cast<void>(afm::physics::approach_retract_events(material.contact));
   }
   return 0;
 }

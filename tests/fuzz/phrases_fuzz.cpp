@@ -2,14 +2,14 @@
 #include <array>
 #include <cstdlib>
 
-#include "exhibit/phrase_book.h"
+#include "exhibit/message_catalog.h"
 #include "fuzz/memory_file.h"
 
 // Whatever the bytes: every phrase that was asked for, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const afm::fuzz::MemoryFile file(bytes, size);
   constexpr std::array<std::string_view, 1> kKeys{"lift"};
-  const auto phrases = afm::exhibit::load_phrases(file.path(), kKeys);
+  const auto phrases = afm::exhibit::load_messages(file.path(), kKeys);
   if (phrases && (phrases->size() != kKeys.size() || phrases->front().empty())) std::abort();
   return 0;
 }

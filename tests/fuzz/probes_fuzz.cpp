@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/memory_file.h"
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "scene/samples/probe_library.h"
 
 // Whatever the bytes: probes that a sample accepts, or an error.
@@ -9,12 +9,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const auto library = afm::scene::load_probes(file.path());
   if (!library) return 0;
   afm::scene::MaterialEntry material;
-  material.interaction.sample_stiffness = afm::physics::Stiffness(1.0);
-  material.interaction.hamaker = afm::physics::Energy(1e-20);
-  material.interaction.mean_surface_energy = afm::physics::SurfaceEnergy(1e-3);
+  material.contact.sample_stiffness = afm::physics::Stiffness(1.0);
+  material.contact.hamaker = afm::physics::Energy(1e-20);
+  material.contact.mean_surface_energy = afm::physics::SurfaceEnergy(1e-3);
   material.sample_elasticity = afm::physics::Elasticity{afm::physics::Pressure(1e9), 0.3};
   for (const afm::scene::ProbeEntry& probe : library->probes) {
-    afm::physics::validate(afm::scene::with_probe(material, probe).interaction);
+    afm::physics::validate(afm::scene::with_probe(material, probe).contact);
   }
   return 0;
 }

@@ -18,17 +18,17 @@ using afm::test::kMica;
 using afm::test::paper_model;
 using afm::test::ServoBench;
 
-SharedMaterial mica_on_a_lever_of(double newton_per_metre) {
-  SharedMaterial mica = paper_model().materials[kMica];
-  mica.interaction.spring_constant.si = newton_per_metre;
+SharedContact mica_on_a_lever_of(double newton_per_metre) {
+  SharedContact mica = paper_model().materials[kMica];
+  mica.contact.spring_constant.si = newton_per_metre;
   return mica;
 }
 
 // Z_joc of the paper's law: F_ad/k_c on a rigid sample.
-double pull_off_m(const SharedMaterial& material) {
+double pull_off_m(const SharedContact& material) {
   const double adhesion_n =
-      4.0 * 3.14159265358979323846 * material.interaction.tip_radius.si * material.interaction.mean_surface_energy.si;
-  return adhesion_n / material.interaction.spring_constant.si;
+      4.0 * 3.14159265358979323846 * material.contact.tip_radius.si * material.contact.mean_surface_energy.si;
+  return adhesion_n / material.contact.spring_constant.si;
 }
 
 double pull_off_m(const ServoBench& bench, std::uint32_t revision) {
@@ -91,8 +91,8 @@ TEST(MaterialEdit, WaitsUntilTheTipIsOff) {
 TEST(MaterialEdit, OfAnotherMaterialLeavesTheHandAlone) {
   ServoBench bench;
   bench.hold_attached(kMica);
-  SharedMaterial gold = paper_model().materials[kGold];
-  gold.interaction.spring_constant.si = 0.3;
+  SharedContact gold = paper_model().materials[kGold];
+  gold.contact.spring_constant.si = 0.3;
   bench.edit(kGold, gold);
   bench.run(0.1);
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
@@ -108,7 +108,7 @@ TEST(MaterialEdit, ThatCannotBeFeltIsRefusedAndChangesNothing) {
   ServoBench bench;
   bench.hold_attached(kMica);
   const double force_n = bench.hand_force_n();
-  SharedMaterial nonsense = mica_on_a_lever_of(std::numeric_limits<double>::quiet_NaN());
+  SharedContact nonsense = mica_on_a_lever_of(std::numeric_limits<double>::quiet_NaN());
   bench.edit(kMica, nonsense);
   bench.run(0.01);
   EXPECT_EQ(bench.state().edit_refused, 1U);
@@ -120,7 +120,7 @@ TEST(MaterialEdit, ThatCannotBeFeltIsRefusedAndChangesNothing) {
   EXPECT_EQ(bench.state().edit_refused, 2U);
   // an adhesion too weak to hold what was pulled in: valid numbers, but no law
   nonsense = mica_on_a_lever_of(0.1);
-  nonsense.interaction.mean_surface_energy.si = 1e-6;
+  nonsense.contact.mean_surface_energy.si = 1e-6;
   bench.edit(kMica, nonsense);
   bench.run(0.01);
   EXPECT_EQ(bench.state().edit_refused, 3U);

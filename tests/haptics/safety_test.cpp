@@ -380,7 +380,7 @@ TEST_F(Governor, DeratesWhatIsHeldForLongToTheContinuousRating) {
   }
   EXPECT_LE(before_n, 0.88);
   EXPECT_EQ(governor_.state(), ServoState::Running);
-  EXPECT_GT(governor_.motors().heat(), ThermalBudget::kWarm);
+  EXPECT_GT(governor_.motors().heat(), MotorThermalModel::kWarm);
 }
 
 TEST_F(Governor, TakesTheForceAwayFromMotorsThatTheDeviceCallsHot) {

@@ -19,7 +19,7 @@ using afm::test::ServoBench;
 
 afm::physics::ApproachRetractEvents calculated(std::int32_t material) {
   return afm::physics::approach_retract_events(
-      afm::test::paper_model().materials[static_cast<std::size_t>(material)].interaction);
+      afm::test::paper_model().materials[static_cast<std::size_t>(material)].contact);
 }
 
 class CycleOnAScale : public testing::TestWithParam<std::tuple<std::int32_t, ScaleMode>> {};
@@ -88,7 +88,7 @@ TEST(ScaleMode, StaysWhenTheMaterialUnderTheTipIsEdited) {
   bench.arm(kMica, ScaleMode::Common);
   const double before = bench.state().hand_m_per_m;
   auto changed = bench.segment.model().materials[kMica];
-  changed.interaction.spring_constant.si *= 1.5;
+  changed.contact.spring_constant.si *= 1.5;
   bench.edit(kMica, changed);
   bench.run(0.3);
   EXPECT_EQ(bench.state().edit_revision, bench.edits);

@@ -17,7 +17,7 @@ namespace {
 
 using namespace afm::haptics;
 using afm::physics::build_law_tables;
-using afm::physics::Interaction;
+using afm::physics::ContactParameters;
 using afm::physics::Law;
 using afm::physics::LawTables;
 using afm::scene::ScaleMode;
@@ -25,7 +25,8 @@ using afm::scene::ScaleMode;
 constexpr double kRigid = std::numeric_limits<double>::infinity();
 
 // R, k_c, k_s, A_H, sqrt(gamma_s gamma_t) of Liu & Peng, Table 1; a finite k_s in the last one.
-Interaction interaction_of(double spring_constant, double sample_stiffness, double hamaker, double surface_energy) {
+ContactParameters interaction_of(double spring_constant, double sample_stiffness, double hamaker,
+                                 double surface_energy) {
   return {.tip_radius = afm::physics::Length(50e-9),
           .spring_constant = afm::physics::Stiffness(spring_constant),
           .sample_stiffness = afm::physics::Stiffness(sample_stiffness),
@@ -33,21 +34,21 @@ Interaction interaction_of(double spring_constant, double sample_stiffness, doub
           .mean_surface_energy = afm::physics::SurfaceEnergy(surface_energy)};
 }
 
-Interaction mica(double spring_constant = 0.1) {
-  Interaction in = interaction_of(spring_constant, kRigid, 24.5e-21, 2.228e-3);
+ContactParameters mica(double spring_constant = 0.1) {
+  ContactParameters in = interaction_of(spring_constant, kRigid, 24.5e-21, 2.228e-3);
   in.reduced_modulus.si = 51.5e9;
   return in;
 }
 
 // Soft and sticky: R = 1 um, E* = 2.7 MPa, W = 84 mJ/m^2.
-Interaction pdms(double spring_constant) {
-  Interaction in = interaction_of(spring_constant, kRigid, 86e-21, 42e-3);
+ContactParameters pdms(double spring_constant) {
+  ContactParameters in = interaction_of(spring_constant, kRigid, 86e-21, 42e-3);
   in.tip_radius.si = 1e-6;
   in.reduced_modulus.si = 2.7e6;
   return in;
 }
 
-class FitScalingOfThePapersLaw : public testing::TestWithParam<Interaction> {
+class FitScalingOfThePapersLaw : public testing::TestWithParam<ContactParameters> {
  protected:
   const std::shared_ptr<const LawTables> tables_ = build_law_tables(Law::Paper, GetParam());
   const double f_ad_n_ = -tables_->figures.force_before_joc.si;
@@ -61,7 +62,7 @@ TEST_P(FitScalingOfThePapersLaw, FillsTheStrokeAndTheForceAtPullOff) {
 }
 
 TEST_P(FitScalingOfThePapersLaw, FeelsTheSameSpringWhateverTheMaterial) {
-  const Interaction& in = GetParam();
+  const ContactParameters& in = GetParam();
   const double series = 1.0 / (1.0 / in.spring_constant.si + 1.0 / in.sample_stiffness.si);  // (3.1)
   EXPECT_NEAR(series * scaling_.hand_n_per_n() / scaling_.hand_m_per_m(), 40.0, 1e-9);
 }
@@ -95,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Materials, FitScalingOfThePapersLaw,
 struct Felt {
   std::string name;
   Law law;
-  Interaction interaction;
+  ContactParameters contact;
 };
 
 Scaling scaling_of(ScaleMode mode, const std::shared_ptr<const LawTables>& tables, const DeviceSpec& device) {
@@ -114,7 +115,7 @@ class ScalingOfAnyLaw : public testing::TestWithParam<std::tuple<Felt, ScaleMode
  protected:
   const Felt felt_ = std::get<Felt>(GetParam());
   const DeviceSpec device_ = SimulatedDevice().spec();
-  const std::shared_ptr<const LawTables> tables_ = build_law_tables(felt_.law, felt_.interaction);
+  const std::shared_ptr<const LawTables> tables_ = build_law_tables(felt_.law, felt_.contact);
   const Scaling scaling_ = scaling_of(std::get<ScaleMode>(GetParam()), tables_, device_);
 
   double hand_n(const afm::physics::BranchTable& branch, double height_m) const {
@@ -269,7 +270,7 @@ TEST_F(PapersMaterials, ShareAScaleThatTheSoftestDeviceStands) {
 }
 
 TEST_F(PapersMaterials, AMaterialThatWasChangedTakesLessOfTheScaleOnlyIfItMust) {
-  Interaction sticky = interaction_of(0.1, kRigid, 120e-21, 15.915e-3);
+  ContactParameters sticky = interaction_of(0.1, kRigid, 120e-21, 15.915e-3);
   EXPECT_DOUBLE_EQ(Scaling::common(*build_law_tables(Law::Paper, mica(0.2)), omni_, common_)->hand_m_per_m(),
                    common_.hand_m_per_m);
   sticky.mean_surface_energy.si *= 2.0;

@@ -81,9 +81,9 @@ class ServoTickOf : public testing::TestWithParam<AnyLaw> {
   // Mica, with the modulus and the lever that the paper does without.
   static afm::scene::SharedModel model() {
     afm::scene::SharedModel model = afm::test::paper_model();
-    afm::scene::SharedMaterial& mica = model.materials[afm::test::kMica];
+    afm::scene::SharedContact& mica = model.materials[afm::test::kMica];
     mica.law = GetParam().law;
-    mica.interaction.reduced_modulus.si = 51.5e9;
+    mica.contact.reduced_modulus.si = 51.5e9;
     mica.dynamic = GetParam().dynamic ? 1 : 0;
     mica.lever = {afm::physics::Frequency(12e3), 2.5, afm::physics::Temperature(298.0)};
     if (GetParam().law == Law::Measured) add_measured_curve(model);

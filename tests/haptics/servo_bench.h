@@ -23,14 +23,14 @@ T required(core::Result<T> result) {
   return std::move(*result);
 }
 
-// An encounter as the servo makes it, with a scale to itself; `drawn` null for a plane. Throws as required() does.
-inline std::unique_ptr<haptics::Encounter> encounter_of(const scene::SharedMaterial& material,
-                                                        const scene::SharedHeightField* drawn = nullptr,
-                                                        std::int64_t period_ns = 1'000'000) {
+// A contact model as the servo makes it, with a scale to itself; `drawn` null for a plane. Throws as required() does.
+inline std::unique_ptr<haptics::ContactModel> model_of(const scene::SharedContact& material,
+                                                       const scene::SharedHeightField* drawn = nullptr,
+                                                       std::int64_t period_ns = 1'000'000) {
   const auto omni = haptics::omni_like("hand");
-  const auto tables = required(haptics::felt_tables(material, {}));
+  const auto tables = required(haptics::build_tables(material, {}));
   const auto common = required(haptics::Scaling::common_scale(std::vector{tables}, omni));
-  return required(haptics::Encounter::create(material, 0, tables, drawn, common, omni, period_ns));
+  return required(haptics::ContactModel::create(material, 0, tables, drawn, common, omni, period_ns));
 }
 
 // The servo, the simulated hand and the renderer's side of the segment, in time that only tick() moves.
@@ -67,7 +67,7 @@ class ServoBench {
   }
 
   // Sends other parameters for a material and lets the builder work.
-  void edit(std::int32_t material, const scene::SharedMaterial& parameters) {
+  void edit(std::int32_t material, const scene::SharedContact& parameters) {
     renderer.store(scene::MaterialEdit{.material = parameters, .revision = ++edits},
                    static_cast<std::uint32_t>(material));
     loop->edits().build();

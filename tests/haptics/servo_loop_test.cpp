@@ -27,7 +27,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 afm::physics::ApproachRetractEvents calculated(std::int32_t material) {
-  return afm::physics::approach_retract_events(paper_model().materials[static_cast<std::size_t>(material)].interaction);
+  return afm::physics::approach_retract_events(paper_model().materials[static_cast<std::size_t>(material)].contact);
 }
 
 // Material, and the highest speed of the hand's aim.
@@ -67,7 +67,7 @@ TEST_P(FullCycle, JumpsOnceEachWayWithTheForcesOfTheEquations) {
   EXPECT_EQ(off.force_after_n, 0.0);
 
   EXPECT_LT(in.time_ns, off.time_ns);
-  EXPECT_LT(bench_.state().ledger_j, 1e-6);
+  EXPECT_LT(bench_.state().excess_energy_j, 1e-6);
   EXPECT_EQ(bench_.state().servo_state, ServoState::Running);
   EXPECT_EQ(bench_.state().fault, FaultCode::None);
 }
@@ -159,8 +159,8 @@ TEST(ServoLoop, TellsItsLimitsHeatAndEnergy) {
   EXPECT_GT(state.motor_heat, 0.0);
   EXPECT_LT(state.motor_heat, 0.5);
   EXPECT_EQ(state.thermal_gain, 1.0);
-  EXPECT_LT(state.ledger_j, 1e-6);
-  EXPECT_EQ(state.ledger_damping, 0.0);
+  EXPECT_LT(state.excess_energy_j, 1e-6);
+  EXPECT_EQ(state.observer_damping, 0.0);
   EXPECT_EQ(state.dead_man, 0U);
 }
 
@@ -423,7 +423,7 @@ TEST(ServoLoop, RefusesARateThatNoServoCanKeep) {
 TEST(ServoLoop, RefusesAMaterialWithoutAForceLaw) {
   SharedModel model = paper_model();
   // an adhesion too weak to hold what the van der Waals force pulls in
-  model.materials[kGold].interaction.mean_surface_energy.si = 1e-6;
+  model.materials[kGold].contact.mean_surface_energy.si = 1e-6;
   auto segment = SharedSegment::create(model, 0);
   SimulatedDevice device;
   EXPECT_THAT(ServoLoop::create(*segment, device, {}).error().message, testing::HasSubstr("gold"));

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "haptics/encounter.h"
+#include "haptics/contact_model.h"
 #include "haptics/sample_axes.h"
 #include "physics/contact.h"
 #include "servo_bench.h"
@@ -30,7 +30,7 @@ using afm::test::ServoBench;
 
 afm::physics::ApproachRetractEvents calculated(std::int32_t material) {
   return afm::physics::approach_retract_events(
-      afm::test::paper_model().materials[static_cast<std::size_t>(material)].interaction);
+      afm::test::paper_model().materials[static_cast<std::size_t>(material)].contact);
 }
 
 class Topography : public testing::TestWithParam<std::tuple<std::int32_t, ScaleMode>> {
@@ -39,34 +39,34 @@ class Topography : public testing::TestWithParam<std::tuple<std::int32_t, ScaleM
 
   const std::int32_t material_ = std::get<std::int32_t>(GetParam());
   const std::unique_ptr<afm::scene::SharedModel> model_ = std::make_unique<afm::scene::SharedModel>(rough_model());
-  const std::unique_ptr<Encounter> encounter_ = make();
+  const std::unique_ptr<ContactModel> contact_model_ = make();
   std::mt19937 random_{static_cast<std::uint32_t>(material_) + 11};
 
-  std::unique_ptr<Encounter> make() const {
+  std::unique_ptr<ContactModel> make() const {
     const DeviceSpec omni = omni_like("an Omni");
     std::vector<std::shared_ptr<const afm::physics::LawTables>> tables;
     for (std::uint32_t i = 0; i < model_->material_count; ++i) {
-      tables.push_back(required(felt_tables(model_->materials[i], {})));
+      tables.push_back(required(build_tables(model_->materials[i], {})));
     }
     const auto index = static_cast<std::size_t>(material_);
-    auto encounter =
-        required(Encounter::create(model_->materials[index], 0, tables[index], model_->height_fields.data(),
-                                   *Scaling::common_scale(tables, omni), omni, 1'000'000));
-    encounter->use(std::get<ScaleMode>(GetParam()));
-    return encounter;
+    auto contact_model =
+        required(ContactModel::create(model_->materials[index], 0, tables[index], model_->height_fields.data(),
+                                      *Scaling::common_scale(tables, omni), omni, 1'000'000));
+    contact_model->use(std::get<ScaleMode>(GetParam()));
+    return contact_model;
   }
 
   double random(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
 
   // Height of the hand for a Z above the plane of z = 0.
-  double height(double z_m) const { return encounter_->scaling().hand_height_m(z_m); }
+  double height(double z_m) const { return contact_model_->scaling().hand_height_m(z_m); }
 
   // Attaches the tip at this place and leaves it at `height_m`.
   void attach(const glm::dvec2& xy_m, double height_m) {
     for (const double at : {height(2.0 * calculated(material_).z_joc.si), height(-5e-9), height_m}) {
-      encounter_->feel(glm::dvec3(xy_m, at));
+      contact_model_->feel(glm::dvec3(xy_m, at));
     }
-    ASSERT_EQ(encounter_->phase(), Phase::Attached);
+    ASSERT_EQ(contact_model_->phase(), Phase::Attached);
   }
 };
 
@@ -78,7 +78,7 @@ TEST_P(Topography, JumpsWithTheForcesOfTheEquationsWhereverItIs) {
     const double top = height(expected.z_joc.si) + 0.01, bottom = height(-3e-9) - 0.005;
     const double step = random(20e-6, 400e-6);
     const auto feel = [&](double at) {
-      const Touch touch = encounter_->feel(glm::dvec3(xy, at));
+      const Touch touch = contact_model_->feel(glm::dvec3(xy, at));
       for (std::uint32_t k = 0; k < touch.response.event_count; ++k) events.push_back(touch.response.events[k]);
     };
     for (double at = top; at > bottom; at -= step) feel(at);
@@ -95,11 +95,11 @@ TEST_P(Topography, PushesAlongTheNormalOfTheSurfaceBelowTheTip) {
   for (int i = 0; i < 2000; ++i) {
     const glm::dvec2 xy(random(-0.03, 0.03), random(-0.03, 0.03));
     attach(xy, height(random(-3e-9, 1e-9)));
-    const Touch touch = encounter_->feel(glm::dvec3(xy, height(random(-3e-9, 1e-9))));
-    const auto place = encounter_->surface().at(touch.tip_xy_m);
+    const Touch touch = contact_model_->feel(glm::dvec3(xy, height(random(-3e-9, 1e-9))));
+    const auto place = contact_model_->surface().at(touch.tip_xy_m);
     EXPECT_EQ(touch.surface_height_m, place.height_m);
     EXPECT_NEAR(glm::length(glm::cross(touch.hand_force_n, touch.normal)), 0.0, 1e-12);
-    EXPECT_NEAR(touch.hand_force_n.z, encounter_->scaling().hand_force_n(touch.response.force.si), 1e-15);
+    EXPECT_NEAR(touch.hand_force_n.z, contact_model_->scaling().hand_force_n(touch.response.force.si), 1e-15);
     EXPECT_LE(glm::length(touch.hand_force_n), 1.1 * std::abs(touch.hand_force_n.z) + 1e-15);
   }
 }
@@ -123,10 +123,10 @@ TEST_P(Topography, TakesAndGivesNoEnergyOnClosedPathsOfOneBranch) {
     attach(glm::dvec2(at(0.0)), at(0.0).z);
     constexpr int kSteps = 4000;
     double work_j = 0, moved_j = 0;
-    Touch before = encounter_->feel(at(0.0));
+    Touch before = contact_model_->feel(at(0.0));
     for (int i = 1; i <= kSteps; ++i) {
       const glm::dvec3 step = at(static_cast<double>(i) / kSteps) - at((i - 1.0) / kSteps);
-      const Touch here = encounter_->feel(at(static_cast<double>(i) / kSteps));
+      const Touch here = contact_model_->feel(at(static_cast<double>(i) / kSteps));
       ASSERT_EQ(here.response.phase, Phase::Attached);
       const double part_j = glm::dot(0.5 * (before.hand_force_n + here.hand_force_n), step);
       work_j += part_j;
@@ -143,11 +143,11 @@ TEST_P(Topography, GivesAForceThatNeverJumpsOnABranch) {
   const double stiffness = 2.0 * Scaling::kMaxStiffnessNPerM;
   glm::dvec3 at(0.0, 0.0, height(-2e-9));
   attach(glm::dvec2(at), at.z);
-  Touch before = encounter_->feel(at);
+  Touch before = contact_model_->feel(at);
   for (int i = 0; i < 50'000; ++i) {
     glm::dvec3 next = at + kStepM * glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1));
     next.z = std::clamp(next.z, height(-4e-9), height(0.0));
-    const Touch here = encounter_->feel(next);
+    const Touch here = contact_model_->feel(next);
     ASSERT_EQ(here.response.phase, Phase::Attached);
     ASSERT_LE(glm::length(here.hand_force_n - before.hand_force_n), stiffness * glm::length(next - at) + 1e-12);
     at = next;
@@ -222,15 +222,15 @@ TEST_F(TurnedSample, TurnsHeightAxesAndForceTogether) {
 
 TEST(SampleAxes, TurnWhatTheHandMeetsExactly) {
   const auto model = std::make_unique<afm::scene::SharedModel>(rough_model());
-  const auto encounter = afm::test::encounter_of(model->materials[kMica], model->height_fields.data());
+  const auto contact_model = afm::test::model_of(model->materials[kMica], model->height_fields.data());
   const auto press = [&](const glm::dmat4& turn) {
     SampleAxes axes;
     EXPECT_TRUE(axes.turn(turned(turn)));
-    encounter->wait_for_lift();
+    contact_model->wait_for_lift();
     glm::dvec3 force_n(0.0);
     for (const double height : {0.06, -0.02, -0.01}) {
       const glm::dvec3 hand(turn * glm::dvec4(0.007, height, 0.004, 0.0));
-      force_n = axes.in_device(encounter->feel(axes.in_sample(hand)).hand_force_n);
+      force_n = axes.in_device(contact_model->feel(axes.in_sample(hand)).hand_force_n);
     }
     return force_n;
   };

@@ -46,9 +46,9 @@ TEST(DtrackSource, TurnsATrackersFrameIntoTheRooms) {
   EXPECT_TRUE(wand.pressed(WandButton::Select) && wand.pressed(WandButton::Grab));
   EXPECT_FALSE(wand.pressed(WandButton::Home));
   EXPECT_EQ(wand.push, glm::dvec3(0.5, 0.0, 1.0));
-  const DtrackNews news = (*source)->news();
-  ASSERT_NE(news.frame.body(2), nullptr);
-  EXPECT_NEAR(in_room(*news.frame.body(2), settings).position_m.y, 1.7, 1e-9);
+  const DtrackUpdate update = (*source)->newest();
+  ASSERT_NE(update.frame.body(2), nullptr);
+  EXPECT_NEAR(in_room(*update.frame.body(2), settings).position_m.y, 1.7, 1e-9);
 }
 
 TEST(DtrackSource, LetsGoOfEverythingWhenTheTrackerFallsSilent) {
@@ -82,9 +82,9 @@ TEST(DtrackSource, CountsGarbageAndGoesOn) {
   }
   EXPECT_TRUE(sender.send(kFlystick));
   EXPECT_TRUE((*source)->poll().connected);
-  const DtrackNews news = (*source)->news();
-  EXPECT_EQ(news.bad_packets, static_cast<std::uint64_t>(kRounds * kPackets));
-  EXPECT_EQ(news.good_packets, 1U);
+  const DtrackUpdate update = (*source)->newest();
+  EXPECT_EQ(update.bad_packets, static_cast<std::uint64_t>(kRounds * kPackets));
+  EXPECT_EQ(update.good_packets, 1U);
 }
 
 TEST(DtrackSource, SaysWhyItCannotListen) {

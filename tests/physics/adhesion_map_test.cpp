@@ -15,16 +15,16 @@ using namespace literals;
 
 constexpr int kMaterials = 10'000;
 
-Interaction contact_of(Length radius, SurfaceEnergy work_of_adhesion, Pressure modulus) {
-  Interaction interaction{radius, 0.1_N_per_m, Stiffness(HUGE_VAL), 24.5_zJ, work_of_adhesion / 2.0};
-  interaction.reduced_modulus = modulus;
-  return interaction;
+ContactParameters contact_of(Length radius, SurfaceEnergy work_of_adhesion, Pressure modulus) {
+  ContactParameters contact{radius, 0.1_N_per_m, Stiffness(HUGE_VAL), 24.5_zJ, work_of_adhesion / 2.0};
+  contact.reduced_modulus = modulus;
+  return contact;
 }
 
 TEST(AdhesionMap, MaugisParameterIsTaborsTimes1157) {
   RandomInteraction random(1);
   for (int i = 0; i < kMaterials; ++i) {
-    const Interaction m = random();
+    const ContactParameters m = random();
     EXPECT_NEAR(maugis_parameter(m) / tabor_parameter(m), 1.15701163485, 1e-10);
   }
 }
@@ -32,8 +32,8 @@ TEST(AdhesionMap, MaugisParameterIsTaborsTimes1157) {
 TEST(AdhesionMap, TaborParameterScalesAsItsDefinition) {
   RandomInteraction random(2);
   for (int i = 0; i < kMaterials; ++i) {
-    const Interaction m = random();
-    Interaction scaled = m;
+    const ContactParameters m = random();
+    ContactParameters scaled = m;
     scaled.tip_radius = 8.0 * m.tip_radius;
     scaled.reduced_modulus = 27.0 * m.reduced_modulus;
     scaled.mean_surface_energy = 64.0 * m.mean_surface_energy;
@@ -43,7 +43,7 @@ TEST(AdhesionMap, TaborParameterScalesAsItsDefinition) {
 }
 
 TEST(AdhesionMap, RigidContactHasParametersOfZeroAndTheRigidRegime) {
-  Interaction m = RandomInteraction(3)();
+  ContactParameters m = RandomInteraction(3)();
   m.reduced_modulus = Pressure(HUGE_VAL);
   EXPECT_EQ(tabor_parameter(m), 0.0);
   EXPECT_EQ(maugis_parameter(m), 0.0);
@@ -108,7 +108,7 @@ TEST(AdhesionMap, NamesAreTheRegimes) {
 }
 
 TEST(AdhesionMap, RefusesAnUnphysicalContact) {
-  Interaction m = RandomInteraction(4)();
+  ContactParameters m = RandomInteraction(4)();
   m.reduced_modulus = Pressure(1e30);
   EXPECT_THROW(choose_law(m), UnphysicalValue);
 }

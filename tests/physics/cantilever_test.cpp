@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "physics/beam_shape.h"
+#include "physics/contact_parameters.h"
 #include "physics/flexural_modes.h"
-#include "physics/interaction.h"
 #include "physics/sader.h"
 #include "physics/thermal_noise.h"
 

@@ -22,13 +22,13 @@ AdhesiveContact contact_of(const Case& row) {
   return {Length(row.input("R")), Pressure(row.input("E_star")), SurfaceEnergy(row.input("W"))};
 }
 
-Interaction interaction_of(const Case& row) {
-  Interaction interaction;
-  interaction.tip_radius = Length(row.input("R"));
-  interaction.mean_surface_energy = SurfaceEnergy(row.input("W") / 2.0);
-  interaction.reduced_modulus = Pressure(row.input("E_star"));
-  interaction.atomic_distance = Length(row.input("z0"));
-  return interaction;
+ContactParameters interaction_of(const Case& row) {
+  ContactParameters contact;
+  contact.tip_radius = Length(row.input("R"));
+  contact.mean_surface_energy = SurfaceEnergy(row.input("W") / 2.0);
+  contact.reduced_modulus = Pressure(row.input("E_star"));
+  contact.atomic_distance = Length(row.input("z0"));
+  return contact;
 }
 
 double van_der_waals(const Case& row, bool exact) {

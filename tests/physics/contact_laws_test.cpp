@@ -30,7 +30,7 @@ void for_random_contacts(Check check) {
 }
 
 TEST(AdhesiveContact, RefusesARigidOne) {
-  Interaction rigid = RandomInteraction(1)();
+  ContactParameters rigid = RandomInteraction(1)();
   rigid.reduced_modulus = Pressure(HUGE_VAL);
   try {
     adhesive_contact(rigid);

@@ -21,7 +21,7 @@ const Stiffness kRigid(std::numeric_limits<double>::infinity());
 const std::array<Stiffness, 6> kSampleStiffnesses{0.01_N_per_m, 0.05_N_per_m, 0.1_N_per_m,
                                                   1_N_per_m,    1e9_N_per_m,  kRigid};
 
-Interaction mica(Stiffness sample_stiffness = kRigid) {
+ContactParameters mica(Stiffness sample_stiffness = kRigid) {
   return {50_nm, 0.1_N_per_m, sample_stiffness, 24.5_zJ, 2.228_mJ_per_m2};
 }
 
@@ -53,19 +53,19 @@ TEST(Contact, JumpSharesOutBetweenGapLeverAndSample) {
 
 TEST(Contact, LeverBalancesVanDerWaalsAttractionAtTheFold) {
   for (const Stiffness k_s : kSampleStiffnesses) {
-    const Interaction interaction = mica(k_s);
-    const auto events = approach_retract_events(interaction);
-    expect_ratio(van_der_waals_attraction(interaction, events.d_attr), events.f_fold, 1.0);
+    const ContactParameters contact = mica(k_s);
+    const auto events = approach_retract_events(contact);
+    expect_ratio(van_der_waals_attraction(contact, events.d_attr), events.f_fold, 1.0);
   }
 }
 
 // Z(D) = D + (1/k_c + 1/k_s) A_H R/(6 D^2) has its minimum where the tip jumps (Hao et al. 1991).
 TEST(Contact, JumpToContactIsTheFoldOfTheEquilibrium) {
   for (const Stiffness k_s : kSampleStiffnesses) {
-    const Interaction interaction = mica(k_s);
-    const auto events = approach_retract_events(interaction);
+    const ContactParameters contact = mica(k_s);
+    const auto events = approach_retract_events(contact);
     const auto z = [&](Length gap) {
-      return gap + van_der_waals_attraction(interaction, gap) / effective_stiffness(interaction);
+      return gap + van_der_waals_attraction(contact, gap) / effective_stiffness(contact);
     };
     expect_ratio(z(events.d_attr), events.z_jtc, 1.0);
     for (const double away : {0.5, 0.9, 0.999, 1.001, 1.1, 2.0}) EXPECT_GT(z(events.d_attr * away), events.z_jtc);
@@ -87,15 +87,15 @@ TEST(Contact, StiffSampleTendsToTheRigidOne) {
 }
 
 TEST(Contact, LeverAndSampleInSeriesAreExchangeable) {
-  Interaction a = mica(0.4_N_per_m);
-  Interaction b = a;
+  ContactParameters a = mica(0.4_N_per_m);
+  ContactParameters b = a;
   std::swap(b.spring_constant, b.sample_stiffness);
   expect_ratio(effective_stiffness(a), effective_stiffness(b), 1.0);
   expect_ratio(jump_to_contact_z(a), jump_to_contact_z(b), 1.0);
 }
 
 TEST(Contact, ScalesWithRadius) {
-  Interaction larger = mica(1_N_per_m);
+  ContactParameters larger = mica(1_N_per_m);
   const auto before = approach_retract_events(larger);
   larger.tip_radius = larger.tip_radius * 8.0;
   const auto after = approach_retract_events(larger);
@@ -104,7 +104,7 @@ TEST(Contact, ScalesWithRadius) {
 }
 
 TEST(Contact, ScalesWithHamakerConstant) {
-  Interaction stronger = mica(1_N_per_m);
+  ContactParameters stronger = mica(1_N_per_m);
   const auto before = approach_retract_events(stronger);
   stronger.hamaker = stronger.hamaker * 27.0;
   const auto after = approach_retract_events(stronger);
@@ -113,7 +113,7 @@ TEST(Contact, ScalesWithHamakerConstant) {
 }
 
 TEST(Contact, ScalesWithBothStiffnesses) {
-  Interaction stiffer = mica(1_N_per_m);
+  ContactParameters stiffer = mica(1_N_per_m);
   const auto before = approach_retract_events(stiffer);
   stiffer.spring_constant = stiffer.spring_constant * 8.0;
   stiffer.sample_stiffness = stiffer.sample_stiffness * 8.0;
@@ -125,7 +125,7 @@ TEST(Contact, ScalesWithBothStiffnesses) {
 }
 
 TEST(Contact, AdhesionScalesWithSurfaceEnergyAlone) {
-  Interaction stickier = mica();
+  ContactParameters stickier = mica();
   const auto before = approach_retract_events(stickier);
   stickier.mean_surface_energy = stickier.mean_surface_energy * 2.0;
   const auto after = approach_retract_events(stickier);
@@ -134,9 +134,9 @@ TEST(Contact, AdhesionScalesWithSurfaceEnergyAlone) {
   expect_ratio(after.z_jtc, before.z_jtc, 1.0);
 }
 
-std::string refusal(const Interaction& interaction, const std::string& field) {
+std::string refusal(const ContactParameters& contact, const std::string& field) {
   try {
-    validate(interaction);
+    validate(contact);
   } catch (const UnphysicalValue& error) {
     EXPECT_EQ(error.field(), field);
     return error.what();
@@ -149,31 +149,31 @@ TEST(Validate, AcceptsTheMaterialsAndARigidSample) { EXPECT_NO_THROW(validate(mi
 
 TEST(Validate, RefusesNegativeZeroNotANumberAndAbsurdValues) {
   for (const double bad : {-1.0, 0.0, std::nan(""), 1e30, -HUGE_VAL}) {
-    Interaction interaction = mica();
-    interaction.tip_radius = Length(bad);
-    refusal(interaction, "tip_radius");
-    interaction = mica();
-    interaction.spring_constant = Stiffness(bad);
-    refusal(interaction, "spring_constant");
-    interaction = mica();
-    interaction.hamaker = Energy(bad);
-    refusal(interaction, "hamaker");
-    interaction = mica();
-    interaction.mean_surface_energy = SurfaceEnergy(bad);
-    refusal(interaction, "mean_surface_energy");
+    ContactParameters contact = mica();
+    contact.tip_radius = Length(bad);
+    refusal(contact, "tip_radius");
+    contact = mica();
+    contact.spring_constant = Stiffness(bad);
+    refusal(contact, "spring_constant");
+    contact = mica();
+    contact.hamaker = Energy(bad);
+    refusal(contact, "hamaker");
+    contact = mica();
+    contact.mean_surface_energy = SurfaceEnergy(bad);
+    refusal(contact, "mean_surface_energy");
   }
   for (const double bad : {-1.0, 0.0, std::nan(""), -HUGE_VAL}) {
-    Interaction interaction = mica();
-    interaction.sample_stiffness = Stiffness(bad);
-    refusal(interaction, "sample_stiffness");
+    ContactParameters contact = mica();
+    contact.sample_stiffness = Stiffness(bad);
+    refusal(contact, "sample_stiffness");
   }
 }
 
 TEST(Validate, QuotesTheValueWithItsUnitAndTheRange) {
-  Interaction interaction = mica();
-  interaction.tip_radius = -50_nm;
-  EXPECT_EQ(refusal(interaction, "tip_radius"), "tip radius -50 nm is not within 100 pm to 1 mm");
-  EXPECT_THROW(approach_retract_events(interaction), std::invalid_argument);
+  ContactParameters contact = mica();
+  contact.tip_radius = -50_nm;
+  EXPECT_EQ(refusal(contact, "tip_radius"), "tip radius -50 nm is not within 100 pm to 1 mm");
+  EXPECT_THROW(approach_retract_events(contact), std::invalid_argument);
 }
 
 }  // namespace

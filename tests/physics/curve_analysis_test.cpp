@@ -20,14 +20,14 @@ using namespace literals;
 using testing::HasSubstr;
 
 const Stiffness kRigid(std::numeric_limits<double>::infinity());
-const Interaction kMica{50_nm, 0.1_N_per_m, kRigid, 24.5_zJ, 2.228_mJ_per_m2};
-const Interaction kGold{50_nm, 0.1_N_per_m, kRigid, 120_zJ, 15.915_mJ_per_m2};
-const Interaction kSiliconNitride{50_nm, 0.036_N_per_m, kRigid, 10_zJ, 0.955_mJ_per_m2};
-const Interaction kSoft{50_nm, 0.1_N_per_m, 0.2_N_per_m, 24.5_zJ, 2.228_mJ_per_m2};
+const ContactParameters kMica{50_nm, 0.1_N_per_m, kRigid, 24.5_zJ, 2.228_mJ_per_m2};
+const ContactParameters kGold{50_nm, 0.1_N_per_m, kRigid, 120_zJ, 15.915_mJ_per_m2};
+const ContactParameters kSiliconNitride{50_nm, 0.036_N_per_m, kRigid, 10_zJ, 0.955_mJ_per_m2};
+const ContactParameters kSoft{50_nm, 0.1_N_per_m, 0.2_N_per_m, 24.5_zJ, 2.228_mJ_per_m2};
 
-std::vector<CurvePoint> simulated(const Interaction& interaction, Length step) {
-  const Length z_joc = approach_retract_events(interaction).z_joc;
-  return points_of(record_curve(ApproachRetractModel(interaction), {1.5 * z_joc, -0.4 * z_joc, step}).samples);
+std::vector<CurvePoint> simulated(const ContactParameters& contact, Length step) {
+  const Length z_joc = approach_retract_events(contact).z_joc;
+  return points_of(record_curve(ApproachRetractModel(contact), {1.5 * z_joc, -0.4 * z_joc, step}).samples);
 }
 
 // A sphere on an elastic half-space without adhesion, on a lever: Z = -delta - F/k_c, F = coefficient delta^1.5.
@@ -61,7 +61,7 @@ std::vector<CurvePoint> as_measured(std::vector<CurvePoint> points, Length shift
   return points;
 }
 
-class PaperCurve : public testing::TestWithParam<Interaction> {};
+class PaperCurve : public testing::TestWithParam<ContactParameters> {};
 
 TEST_P(PaperCurve, GivesTheFiguresOfItsModelBack) {
   const auto expected = approach_retract_events(GetParam());
@@ -82,7 +82,7 @@ TEST_P(PaperCurve, GivesTheFiguresOfItsModelBack) {
 
 // Van der Waals reaches so far that a line through the outermost fifth would lean on it.
 TEST(CurveAnalysis, TakesNoAttractionForTiltWhereTheZeroIsTrue) {
-  Interaction mica = kMica;
+  ContactParameters mica = kMica;
   mica.reduced_modulus = 60_GPa;
   const ApproachRetractModel model(build_law_tables(Law::Dmt, mica));
   const auto points = points_of(record_curve(model, {20_nm, -5_nm, 0.01_nm}).samples);
@@ -202,13 +202,13 @@ TEST(MeasuredBranches, AreShortRisingAndKeepTheJumps) {
 }
 
 TEST(MeasuredBranches, AreFeltWithTheJumpsThatWereRecorded) {
-  for (const Interaction& interaction : {kMica, kGold, kSiliconNitride}) {
-    const auto expected = approach_retract_events(interaction);
+  for (const ContactParameters& contact : {kMica, kGold, kSiliconNitride}) {
+    const auto expected = approach_retract_events(contact);
     const Length step = 0.005 * expected.z_jtc;
-    const auto recording = as_measured(simulated(interaction, step), 2_um, -3_nN, 0.01 * expected.effective_stiffness,
-                                       0.002 * expected.f_ad);
+    const auto recording =
+        as_measured(simulated(contact, step), 2_um, -3_nN, 0.01 * expected.effective_stiffness, 0.002 * expected.f_ad);
     const auto branches = measured_branches(recording);
-    const auto tables = measured_law_tables(branches.approach, branches.retract, interaction);
+    const auto tables = measured_law_tables(branches.approach, branches.retract, contact);
     // a jump lies somewhere in one of the bins, and in the two beside it their medians
     const Length bin = 1.9 * expected.z_joc / static_cast<double>(branches.approach.size());
     EXPECT_NEAR((tables->figures.z_jtc - expected.z_jtc) / bin, 0.0, 2.0);

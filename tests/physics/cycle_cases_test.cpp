@@ -25,7 +25,7 @@ std::vector<Case> closed_form_cases() {
   return cases;
 }
 
-Interaction interaction_of(const Case& row) {
+ContactParameters interaction_of(const Case& row) {
   // rows about the fold say nothing about adhesion, and those about the direction rule nothing but their path: mica
   return {Length(row.input_or("R", 50e-9)), Stiffness(row.input_or("kc", 0.1)), Stiffness(row.input_or("ks", HUGE_VAL)),
           Energy(row.input_or("A", 2.45e-20)), SurfaceEnergy(row.input_or("sqrt_gamma", 0.002228))};
@@ -66,10 +66,10 @@ class PaperCase : public testing::TestWithParam<Case> {};
 
 TEST_P(PaperCase, Agrees) {
   const Case& row = GetParam();
-  const Interaction interaction = interaction_of(row);
-  if (row.output == "f_sequence_nN") return expect_forces(ApproachRetractModel(interaction), row);
-  if (row.output == "f_sequence_nN_WRONG") return expect_forces(DirectionRuleModel(interaction), row);
-  expect_agrees(row, value_of(row.output, approach_retract_events(interaction)));
+  const ContactParameters contact = interaction_of(row);
+  if (row.output == "f_sequence_nN") return expect_forces(ApproachRetractModel(contact), row);
+  if (row.output == "f_sequence_nN_WRONG") return expect_forces(DirectionRuleModel(contact), row);
+  expect_agrees(row, value_of(row.output, approach_retract_events(contact)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Research, PaperCase, testing::ValuesIn(closed_form_cases()),
@@ -84,7 +84,7 @@ std::vector<Case> table_cases() {
 
 struct Question {
   Law law;
-  Interaction interaction;
+  ContactParameters contact;
   LawOptions options;
 };
 
@@ -96,17 +96,17 @@ Stiffness lever_of(const Case& row) {
 Question dmt_question(const Case& row) {
   // the row gives a0, which is A R/(6 F_ad)
   const double pull_off = row.input("A") * row.input("R") / (6.0 * row.input("a0") * row.input("a0"));
-  Interaction interaction{Length(row.input("R")), lever_of(row), Stiffness(HUGE_VAL), Energy(row.input("A")),
-                          SurfaceEnergy(pull_off / (4.0 * std::numbers::pi * row.input("R")))};
-  interaction.reduced_modulus = Pressure(row.input_or("E_star", 5.15e10));
-  return {Law::Dmt, interaction, {}};
+  ContactParameters contact{Length(row.input("R")), lever_of(row), Stiffness(HUGE_VAL), Energy(row.input("A")),
+                            SurfaceEnergy(pull_off / (4.0 * std::numbers::pi * row.input("R")))};
+  contact.reduced_modulus = Pressure(row.input_or("E_star", 5.15e10));
+  return {Law::Dmt, contact, {}};
 }
 
 Question jkr_question(const Case& row) {
-  Interaction interaction{Length(row.input("R")), lever_of(row), Stiffness(HUGE_VAL), Energy(1e-20),
-                          SurfaceEnergy(row.input("W") / 2.0)};
-  interaction.reduced_modulus = Pressure(row.input("E_star"));
-  return {Law::Jkr, interaction, {}};
+  ContactParameters contact{Length(row.input("R")), lever_of(row), Stiffness(HUGE_VAL), Energy(1e-20),
+                            SurfaceEnergy(row.input("W") / 2.0)};
+  contact.reduced_modulus = Pressure(row.input("E_star"));
+  return {Law::Jkr, contact, {}};
 }
 
 Question maugis_question(const Case& row) {
@@ -116,11 +116,11 @@ Question maugis_question(const Case& row) {
   const double peak = row.input("lambda") / 2.0 / std::cbrt(radius / (std::numbers::pi * work * k * k));
   const double unit_load = std::numbers::pi * work * radius;
   const double unit_length = std::cbrt(std::pow(std::numbers::pi * work / k, 2.0) * radius);
-  Interaction interaction{Length(radius), Stiffness(row.input("kappa") * unit_load / unit_length), Stiffness(HUGE_VAL),
-                          Energy(1e-20), SurfaceEnergy(work / 2.0)};
-  interaction.reduced_modulus = Pressure(modulus);
-  interaction.atomic_distance = Length(16.0 * work / (9.0 * std::sqrt(3.0) * peak));
-  return {Law::MaugisDugdale, interaction, {}};
+  ContactParameters contact{Length(radius), Stiffness(row.input("kappa") * unit_load / unit_length),
+                            Stiffness(HUGE_VAL), Energy(1e-20), SurfaceEnergy(work / 2.0)};
+  contact.reduced_modulus = Pressure(modulus);
+  contact.atomic_distance = Length(16.0 * work / (9.0 * std::sqrt(3.0) * peak));
+  return {Law::MaugisDugdale, contact, {}};
 }
 
 Question question_of(const Case& row) {
@@ -128,10 +128,10 @@ Question question_of(const Case& row) {
   if (row.id.starts_with("jkr_")) return jkr_question(row);
   if (row.id.starts_with("md_")) return maugis_question(row);
   if (row.id.starts_with("lj_")) {
-    Interaction interaction{Length(row.input("R")), lever_of(row), Stiffness(HUGE_VAL), Energy(1e-20),
-                            SurfaceEnergy(row.input("W") / 2.0)};
-    interaction.atomic_distance = Length(row.input("z0"));
-    return {Law::LennardJones, interaction, {}};
+    ContactParameters contact{Length(row.input("R")), lever_of(row), Stiffness(HUGE_VAL), Energy(1e-20),
+                              SurfaceEnergy(row.input("W") / 2.0)};
+    contact.atomic_distance = Length(row.input("z0"));
+    return {Law::LennardJones, contact, {}};
   }
   LawOptions exact;
   exact.exact_hamaker_sphere = true;
@@ -148,12 +148,12 @@ double zero_of(const BranchTable& attached, double low, double high) {
 }
 
 // The contact radius that goes with a load and an indentation at rest: P = E*(2 a delta - 2 a^3/(3R)).
-double contact_radius(const Interaction& interaction, Force load, Length indentation) {
-  const AdhesiveContact contact = adhesive_contact(interaction);
-  double low = 0.5 * jkr_fixed_grips_radius(contact).si, high = 2.0 * jkr_pull_off_radius(contact).si;
+double contact_radius(const ContactParameters& contact, Force load, Length indentation) {
+  const AdhesiveContact adhesive = adhesive_contact(contact);
+  double low = 0.5 * jkr_fixed_grips_radius(adhesive).si, high = 2.0 * jkr_pull_off_radius(adhesive).si;
   const auto excess = [&](double a) {
-    return 2.0 * a * indentation.si - 2.0 * a * a * a / (3.0 * contact.tip_radius.si) -
-           load.si / contact.reduced_modulus.si;
+    return 2.0 * a * indentation.si - 2.0 * a * a * a / (3.0 * adhesive.tip_radius.si) -
+           load.si / adhesive.reduced_modulus.si;
   };
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
@@ -164,18 +164,18 @@ double contact_radius(const Interaction& interaction, Force load, Length indenta
 
 double value_of(const Case& row, const LawTables& tables) {
   const CycleFigures& figures = tables.figures;
-  const Interaction& interaction = tables.interaction;
-  const double unit_load = std::numbers::pi * work_of_adhesion(interaction).si * interaction.tip_radius.si;
+  const ContactParameters& contact = tables.contact;
+  const double unit_load = std::numbers::pi * work_of_adhesion(contact).si * contact.tip_radius.si;
   if (row.output == "z_of_zero_force_on_contact_branch") return zero_of(tables.attached, 0.0, figures.z_joc.si);
   if (row.output == "contact_radius_at_pull_off") {
     // of load control the table's softest lever is still 1e-8 short
-    if (row.input("kc") == 0.0) return jkr_pull_off_radius(adhesive_contact(interaction)).si;
-    return contact_radius(interaction, figures.force_before_joc, -figures.tip_height_before_joc);
+    if (row.input("kc") == 0.0) return jkr_pull_off_radius(adhesive_contact(contact)).si;
+    return contact_radius(contact, figures.force_before_joc, -figures.tip_height_before_joc);
   }
   if (row.output == "loop_energy_coefficient") {
-    const double w = work_of_adhesion(interaction).si, r = interaction.tip_radius.si;
+    const double w = work_of_adhesion(contact).si, r = contact.tip_radius.si;
     return figures.loop_energy.si /
-           std::cbrt(std::pow(w, 5.0) * std::pow(r, 4.0) / std::pow(interaction.reduced_modulus.si, 2.0));
+           std::cbrt(std::pow(w, 5.0) * std::pow(r, 4.0) / std::pow(contact.reduced_modulus.si, 2.0));
   }
   const std::map<std::string, double> values{{"z_in", figures.z_jtc.si},
                                              {"z_jtc", figures.z_jtc.si},
@@ -202,8 +202,8 @@ class TableCase : public testing::TestWithParam<Case> {};
 
 TEST_P(TableCase, Agrees) {
   const Case& row = GetParam();
-  const auto [law, interaction, options] = question_of(row);
-  expect_agrees(row, value_of(row, *build_law_tables(law, interaction, options)));
+  const auto [law, contact, options] = question_of(row);
+  expect_agrees(row, value_of(row, *build_law_tables(law, contact, options)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Research, TableCase, testing::ValuesIn(table_cases()),

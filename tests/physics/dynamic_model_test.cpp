@@ -145,7 +145,7 @@ TEST(DynamicModel, JumpsOnceEachWayThoughTheTipBounces) {
 }
 
 TEST(DynamicModel, ReportsNoJumpsOfALeverThatIsTooStiffForThem) {
-  Interaction stiff = elastic_mica();
+  ContactParameters stiff = elastic_mica();
   stiff.spring_constant = 40_N_per_m;
   const DynamicModel model(Law::Dmt, stiff, {300_kHz, 5.0, 0_K}, kTick);
   ASSERT_FALSE(model.figures().hysteretic);
@@ -164,7 +164,7 @@ TEST(DynamicModel, SaysHowMuchSlowerThanNatureItIs) {
   EXPECT_GT(fast.slow_motion(), 10.0);
 
   // a soft sample under a slow lever needs no more than the tick has
-  Interaction gel = elastic_mica();
+  ContactParameters gel = elastic_mica();
   gel.reduced_modulus = Pressure(1e4);
   const DynamicModel slow(Law::Hertz, gel, {300_Hz, 2.0, 0_K}, kTick);
   EXPECT_EQ(slow.slow_motion(), 1.0);
@@ -226,10 +226,10 @@ TEST(DynamicModel, StaysFiniteWhateverTheHandDoes) {
 }
 
 TEST(DynamicModel, RefusesWhatHasNoDynamics) {
-  const auto message = [](Law law, const Interaction& interaction, const LeverDynamics& lever,
+  const auto message = [](Law law, const ContactParameters& contact, const LeverDynamics& lever,
                           Time tick) -> std::string {
     try {
-      DynamicModel(law, interaction, lever, tick);
+      DynamicModel(law, contact, lever, tick);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
@@ -237,7 +237,7 @@ TEST(DynamicModel, RefusesWhatHasNoDynamics) {
   };
   EXPECT_EQ(message(Law::Paper, elastic_mica(), kCold, kTick),
             "the law paper has no dynamics: take hertz, dmt, jkr, maugis or lj");
-  Interaction rigid = elastic_mica();
+  ContactParameters rigid = elastic_mica();
   rigid.reduced_modulus = Pressure(std::numeric_limits<double>::infinity());
   EXPECT_EQ(message(Law::Dmt, rigid, kCold, kTick),
             "a rigid contact has no dynamics: give it a finite reduced modulus");

@@ -19,7 +19,7 @@ using namespace literals;
 
 struct PrintedRow {
   const char* name;
-  Interaction interaction;
+  ContactParameters contact;
   Length d_attr, delta_c_attr, z_jtc;  // Table 1
   Force f_ad;                          // Table 1
   Force experiment_f_ad;               // Table 2
@@ -50,14 +50,14 @@ constexpr Force kPrintedForce = 0.00006_nN;
 
 TEST(Errata, Table1SwapsGapAndDeflectionOfMicaAndGold) {
   for (const std::size_t row : {0U, 1U}) {
-    const auto events = approach_retract_events(kPrinted[row].interaction);
+    const auto events = approach_retract_events(kPrinted[row].contact);
     EXPECT_LT(abs(events.d_attr - kPrinted[row].delta_c_attr), kPrintedLength) << kPrinted[row].name;
     EXPECT_LT(abs(events.delta_c_attr - kPrinted[row].d_attr), kPrintedLength) << kPrinted[row].name;
   }
 }
 
 TEST(Errata, Table1DoesNotSwapSiliconNitride) {
-  const auto events = approach_retract_events(kPrinted[2].interaction);
+  const auto events = approach_retract_events(kPrinted[2].contact);
   EXPECT_LT(abs(events.d_attr - kPrinted[2].d_attr), kPrintedLength);
   EXPECT_NEAR(events.d_attr.si, 5e-9 / 3.0, 1e-20);
   EXPECT_NEAR(events.delta_c_attr.si, 5e-9 / 6.0, 1e-20);
@@ -66,22 +66,22 @@ TEST(Errata, Table1DoesNotSwapSiliconNitride) {
 TEST(Errata, Table1AddsRoundedNumbersToZjtc) {
   for (const PrintedRow& row : kPrinted) {
     EXPECT_NEAR((row.d_attr + row.delta_c_attr).si, row.z_jtc.si, 1e-21) << row.name;
-    const auto events = approach_retract_events(row.interaction);
+    const auto events = approach_retract_events(row.contact);
     EXPECT_LT(abs(events.z_jtc - row.z_jtc), 0.0011_nm) << row.name;
   }
-  EXPECT_NEAR(approach_retract_events(kPrinted[2].interaction).z_jtc.si, 2.5e-9, 1e-21);
+  EXPECT_NEAR(approach_retract_events(kPrinted[2].contact).z_jtc.si, 2.5e-9, 1e-21);
 }
 
 TEST(Errata, AdhesionIsPrintedWithPiOf3Point14) {
   for (const PrintedRow& row : kPrinted) {
-    const Force exact = approach_retract_events(row.interaction).f_ad;
+    const Force exact = approach_retract_events(row.contact).f_ad;
     EXPECT_LT(abs(exact * (3.14 / std::numbers::pi) - row.f_ad), kPrintedForce) << row.name;
     EXPECT_GT(abs(exact - row.f_ad), kPrintedForce) << row.name;
   }
 }
 
 TEST(Errata, Table2PrintsAWrongAttractionForMica) {
-  const Force f_attr = approach_retract_events(kPrinted[0].interaction).f_attr;
+  const Force f_attr = approach_retract_events(kPrinted[0].contact).f_attr;
   EXPECT_LT(abs(f_attr - 0.2398_nN), kPrintedForce);
   EXPECT_GT(abs(f_attr - 0.2387_nN), 0.001_nN);
   // 2.397 nm read as 2.387 nm gives what is printed
@@ -92,16 +92,16 @@ TEST(Errata, AdhesionAgreesWithTheExperimentByConstruction) {
   // the surface energies of Table 1 are the measured pull-off forces divided by 4 pi R, rounded
   constexpr double kLastDigit = 0.00055e-3;
   for (const PrintedRow& row : kPrinted) {
-    const SurfaceEnergy solved = row.experiment_f_ad / (4.0 * std::numbers::pi * row.interaction.tip_radius);
-    EXPECT_NEAR(solved.si, row.interaction.mean_surface_energy.si, kLastDigit) << row.name;
+    const SurfaceEnergy solved = row.experiment_f_ad / (4.0 * std::numbers::pi * row.contact.tip_radius);
+    EXPECT_NEAR(solved.si, row.contact.mean_surface_energy.si, kLastDigit) << row.name;
   }
 }
 
 TEST(Errata, Table2SimulationColumnHoldsSamplingErrorThatTheLatchHasNot) {
   // 0.23019 nN is k' times 2.302 nm, 0.1 nm past the threshold; our jump has the threshold's force at any step
-  const auto events = approach_retract_events(kPrinted[0].interaction);
+  const auto events = approach_retract_events(kPrinted[0].contact);
   EXPECT_GT(events.z_jtc - 0.23019_nN / events.effective_stiffness, 0.09_nm);
-  ApproachRetractModel model(kPrinted[0].interaction);
+  ApproachRetractModel model(kPrinted[0].contact);
   model.step(20_nm);
   const TipResponse response = model.step(2.302_nm);
   ASSERT_EQ(response.event_count, 1U);
@@ -110,13 +110,13 @@ TEST(Errata, Table2SimulationColumnHoldsSamplingErrorThatTheLatchHasNot) {
 
 TEST(Errata, AttractionOfEquation310IsThreeTimesThePullBeforeTheJump) {
   for (const PrintedRow& row : kPrinted) {
-    const auto events = approach_retract_events(row.interaction);
+    const auto events = approach_retract_events(row.contact);
     EXPECT_NEAR(events.f_attr / events.f_fold, 3.0, 1e-12) << row.name;
   }
 }
 
 TEST(Errata, Equation31AsPrintedHasTheWrongSignForAForceOnTheTip) {
-  ApproachRetractModel model(kPrinted[0].interaction);
+  ApproachRetractModel model(kPrinted[0].contact);
   model.step(20_nm);
   EXPECT_GT(model.step(-2_nm).force, 0_nN);
   EXPECT_LT(model.step(5_nm).force, 0_nN);
@@ -124,13 +124,13 @@ TEST(Errata, Equation31AsPrintedHasTheWrongSignForAForceOnTheTip) {
 
 TEST(Errata, JumpOffContactIsTheAdhesionOverTheSlope) {
   for (const PrintedRow& row : kPrinted) {
-    const auto events = approach_retract_events(row.interaction);
+    const auto events = approach_retract_events(row.contact);
     EXPECT_NEAR(events.f_ad / events.effective_stiffness / events.z_joc, 1.0, 1e-15) << row.name;
   }
 }
 
 TEST(Errata, FiniteSampleStiffnessKeepsEquation310Consistent) {
-  Interaction soft = kPrinted[0].interaction;
+  ContactParameters soft = kPrinted[0].contact;
   soft.sample_stiffness = 0.1_N_per_m;
   const auto events = approach_retract_events(soft);
   EXPECT_NEAR(events.alpha, 2.0, 1e-15);
@@ -138,8 +138,8 @@ TEST(Errata, FiniteSampleStiffnessKeepsEquation310Consistent) {
 }
 
 TEST(Errata, FlowChartLeavesEqualityWithZjtcOpenAndTheLatchDoesNot) {
-  const auto events = approach_retract_events(kPrinted[0].interaction);
-  ApproachRetractModel model(kPrinted[0].interaction);
+  const auto events = approach_retract_events(kPrinted[0].contact);
+  ApproachRetractModel model(kPrinted[0].contact);
   model.step(20_nm);
   EXPECT_EQ(model.step(events.z_jtc).phase, Phase::Attached);
 }
@@ -147,8 +147,8 @@ TEST(Errata, FlowChartLeavesEqualityWithZjtcOpenAndTheLatchDoesNot) {
 // The rule of section 4, and what it does to a hand.
 
 TEST(Errata, DirectionRulePullsOnATipThatHasNeverTouched) {
-  DirectionRuleModel rule(kPrinted[1].interaction);
-  ApproachRetractModel latch(kPrinted[1].interaction);
+  DirectionRuleModel rule(kPrinted[1].contact);
+  ApproachRetractModel latch(kPrinted[1].contact);
   for (const Length z : {110_nm, 80_nm}) {
     EXPECT_EQ(rule.step(z).force, 0_nN);
     EXPECT_EQ(latch.step(z).force, 0_nN);
@@ -158,15 +158,15 @@ TEST(Errata, DirectionRulePullsOnATipThatHasNeverTouched) {
 }
 
 TEST(Errata, DirectionRulePullsOnATipThatRests) {
-  DirectionRuleModel rule(kPrinted[0].interaction);
+  DirectionRuleModel rule(kPrinted[0].contact);
   rule.step(20_nm);
   EXPECT_EQ(rule.step(12_nm).force, 0_nN);
   EXPECT_NEAR(rule.step(12_nm).force.si, -1.2e-9, 1e-15);
 }
 
 TEST(Errata, DirectionRuleLetsGoOfATipThatAdheres) {
-  DirectionRuleModel rule(kPrinted[0].interaction);
-  ApproachRetractModel latch(kPrinted[0].interaction);
+  DirectionRuleModel rule(kPrinted[0].contact);
+  ApproachRetractModel latch(kPrinted[0].contact);
   for (const Length z : {20_nm, 1_nm, 8_nm}) {
     rule.step(z);
     latch.step(z);
@@ -176,8 +176,8 @@ TEST(Errata, DirectionRuleLetsGoOfATipThatAdheres) {
 }
 
 TEST(Errata, DirectionRuleChattersUnderSensorNoiseAndTheLatchDoesNot) {
-  DirectionRuleModel rule(kPrinted[0].interaction);
-  ApproachRetractModel latch(kPrinted[0].interaction);
+  DirectionRuleModel rule(kPrinted[0].contact);
+  ApproachRetractModel latch(kPrinted[0].contact);
   rule.step(20_nm);
   latch.step(20_nm);
   int rule_jumps = 0;

@@ -17,8 +17,8 @@ using namespace literals;
 using testing::HasSubstr;
 
 const Stiffness kRigid(std::numeric_limits<double>::infinity());
-const Interaction kMica{50_nm, 0.1_N_per_m, kRigid, 24.5_zJ, 2.228_mJ_per_m2};
-const Interaction kSoft{50_nm, 0.1_N_per_m, 0.2_N_per_m, 24.5_zJ, 2.228_mJ_per_m2};
+const ContactParameters kMica{50_nm, 0.1_N_per_m, kRigid, 24.5_zJ, 2.228_mJ_per_m2};
+const ContactParameters kSoft{50_nm, 0.1_N_per_m, 0.2_N_per_m, 24.5_zJ, 2.228_mJ_per_m2};
 
 TEST(Sweep, VisitsItsEndsAndEveryStep) {
   const SweepPlan plan{20_nm, -5_nm, 0.01_nm};
@@ -61,8 +61,8 @@ TEST(Sweep, RefusesWhatCannotBeSwept) {
 class Step : public testing::TestWithParam<double> {};
 
 TEST_P(Step, DoesNotChangeExtremesAndLoopEnergy) {
-  for (const Interaction& interaction : {kMica, kSoft}) {
-    const ApproachRetractModel model(interaction);
+  for (const ContactParameters& contact : {kMica, kSoft}) {
+    const ApproachRetractModel model(contact);
     const CycleFigures& figures = model.figures();
     const auto curve = record_curve(model, {1.1 * figures.z_joc, -5_nm, Length(GetParam() * 1e-9)});
     const CurveSummary summary = summarise(curve.samples);
@@ -77,10 +77,10 @@ TEST_P(Step, DoesNotChangeExtremesAndLoopEnergy) {
 
 // Of a law that bends, a curve's area is as good as its step; its extremes are exact all the same.
 TEST(ForceCurve, OfAnyLawHoldsItsFigures) {
-  Interaction interaction = kMica;
-  interaction.reduced_modulus = 51.5_GPa;
+  ContactParameters contact = kMica;
+  contact.reduced_modulus = 51.5_GPa;
   for (const Law law : {Law::Hao, Law::Dmt, Law::MaugisDugdale, Law::Jkr}) {
-    const ApproachRetractModel model(build_law_tables(law, interaction));
+    const ApproachRetractModel model(build_law_tables(law, contact));
     const CycleFigures& figures = model.figures();
     const auto curve = record_curve(model, {1.1 * figures.z_joc, -5_nm, 0.005_nm});
     const CurveSummary summary = summarise(curve.samples);

@@ -59,14 +59,14 @@ void for_every_law(Check check) {
   for (const Law name : kLaws) {
     RandomInteraction random(static_cast<unsigned>(name));
     for (int i = 0; i < kMaterials; ++i) {
-      const Interaction m = random();
+      const ContactParameters m = random();
       check(name, m, force_law(name, m), random);
     }
   }
 }
 
 TEST(ForceLaws, DerivativesAreThoseOfTheCurve) {
-  for_every_law([](Law name, const Interaction&, const ForceLaw& law, RandomInteraction& random) {
+  for_every_law([](Law name, const ContactParameters&, const ForceLaw& law, RandomInteraction& random) {
     expect_exact_derivatives(law.free, somewhere_on(law.free, random), std::string(name_of(name)) + ", free");
     expect_exact_derivatives(law.attached, somewhere_on(law.attached, random),
                              std::string(name_of(name)) + ", attached");
@@ -74,7 +74,7 @@ TEST(ForceLaws, DerivativesAreThoseOfTheCurve) {
 }
 
 TEST(ForceLaws, ParametersRiseAlongBothBranchesAndKinksLieBetween) {
-  for_every_law([](Law, const Interaction&, const ForceLaw& law, RandomInteraction&) {
+  for_every_law([](Law, const ContactParameters&, const ForceLaw& law, RandomInteraction&) {
     for (const LawBranch* branch : {&law.free, &law.attached}) {
       EXPECT_LT(branch->first, branch->last);
       EXPECT_TRUE(std::is_sorted(branch->kinks.begin(), branch->kinks.end()));
@@ -87,7 +87,7 @@ TEST(ForceLaws, ParametersRiseAlongBothBranchesAndKinksLieBetween) {
 }
 
 TEST(ForceLaws, BranchesAreContinuousAtTheirKinks) {
-  for_every_law([](Law name, const Interaction& m, const ForceLaw& law, RandomInteraction&) {
+  for_every_law([](Law name, const ContactParameters& m, const ForceLaw& law, RandomInteraction&) {
     for (const double kink : law.attached.kinks) {
       const LawPoint below = law.attached.at(kink - 1e-13);
       const LawPoint above = law.attached.at(kink + 1e-13);
@@ -98,7 +98,7 @@ TEST(ForceLaws, BranchesAreContinuousAtTheirKinks) {
 }
 
 TEST(ForceLaws, ReachAMillimetreBothWays) {
-  for_every_law([](Law name, const Interaction& m, const ForceLaw& law, RandomInteraction&) {
+  for_every_law([](Law name, const ContactParameters& m, const ForceLaw& law, RandomInteraction&) {
     EXPECT_GE(law.free.at(law.free.first).h.si, 0.999e-3) << name_of(name);
     const LawPoint deepest = law.attached.at(law.attached.first);
     EXPECT_LE((deepest.h - deepest.force / m.spring_constant).si, -0.999e-3) << name_of(name);
@@ -106,7 +106,7 @@ TEST(ForceLaws, ReachAMillimetreBothWays) {
 }
 
 TEST(ForceLaws, NeverPushATipThatDoesNotTouchAndNeverRiseTowardsContact) {
-  for_every_law([](Law name, const Interaction&, const ForceLaw& law, RandomInteraction& random) {
+  for_every_law([](Law name, const ContactParameters&, const ForceLaw& law, RandomInteraction& random) {
     const LawPoint point = law.free.at(somewhere_on(law.free, random));
     EXPECT_LE(point.force, Force()) << name_of(name);
     EXPECT_LT(point.dh_ds, 0.0) << name_of(name);
@@ -115,7 +115,7 @@ TEST(ForceLaws, NeverPushATipThatDoesNotTouchAndNeverRiseTowardsContact) {
 }
 
 TEST(ForceLaws, PullNoHarderThanTheirAdhesion) {
-  for_every_law([](Law name, const Interaction& m, const ForceLaw& law, RandomInteraction& random) {
+  for_every_law([](Law name, const ContactParameters& m, const ForceLaw& law, RandomInteraction& random) {
     const double limit = name == Law::Jkr ? 0.75 : name == Law::Hertz ? 0.0 : 1.0;
     const LawPoint point = law.attached.at(somewhere_on(law.attached, random));
     EXPECT_GE(point.force.si, -limit * adhesion_force(m).si * (1.0 + kRounding)) << name_of(name);
@@ -143,7 +143,7 @@ TEST(ForceLaws, SingleValuedLawsAreOneCurve) {
 TEST(ForceLaws, PotentialAtTheEndIsThatOfTheLaw) {
   RandomInteraction random(8);
   for (int i = 0; i < kMaterials; ++i) {
-    const Interaction m = random();
+    const ContactParameters m = random();
     const ForceLaw dmt = dmt_law(m);
     const Length farthest = dmt.attached.at(dmt.attached.last).h;
     EXPECT_NEAR(*dmt.attached_end_potential / (-m.hamaker * m.tip_radius / (6.0 * farthest)), 1.0, kRounding);
@@ -157,7 +157,7 @@ TEST(ForceLaws, PotentialAtTheEndIsThatOfTheLaw) {
 TEST(ForceLaws, ExactSphereAndRetardationKeepTheAdhesion) {
   RandomInteraction random(9);
   for (int i = 0; i < kMaterials; ++i) {
-    const Interaction m = random();
+    const ContactParameters m = random();
     const LawOptions options{.exact_hamaker_sphere = true, .retardation_wavelength = 100_nm, .meniscus = {}};
     const ForceLaw law = dmt_law(m, options);
     EXPECT_NEAR(law.free.at(law.free.last).force / -adhesion_force(m), 1.0, kRounding);
@@ -168,7 +168,7 @@ TEST(ForceLaws, ExactSphereAndRetardationKeepTheAdhesion) {
 }
 
 TEST(ForceLaws, RigidDmtIsAWallAtTheContactGap) {
-  Interaction m = RandomInteraction(10)();
+  ContactParameters m = RandomInteraction(10)();
   m.reduced_modulus = Pressure(HUGE_VAL);
   const ForceLaw law = dmt_law(m);
   for (double s = law.attached.first; s < 0.0; s += 0.1) EXPECT_EQ(law.attached.at(s).h, law.contact_gap);
@@ -177,7 +177,7 @@ TEST(ForceLaws, RigidDmtIsAWallAtTheContactGap) {
 }
 
 TEST(ForceLaws, RefuseWhatTheyCannotCompute) {
-  Interaction m = RandomInteraction(11)();
+  ContactParameters m = RandomInteraction(11)();
   EXPECT_THROW(force_law(Law::Paper, m), std::invalid_argument);
   EXPECT_THROW(force_law(Law::Measured, m), std::invalid_argument);
   EXPECT_THROW(dmt_law(m, {.exact_hamaker_sphere = false, .retardation_wavelength = 0_nm, .meniscus = {}}),

@@ -18,11 +18,11 @@ using namespace literals;
 using testing::HasSubstr;
 
 const Stiffness kRigid(std::numeric_limits<double>::infinity());
-const Interaction kMica{50_nm, 0.1_N_per_m, kRigid, 24.5_zJ, 2.228_mJ_per_m2};
-const Interaction kSoft{50_nm, 0.1_N_per_m, 0.2_N_per_m, 24.5_zJ, 2.228_mJ_per_m2};
+const ContactParameters kMica{50_nm, 0.1_N_per_m, kRigid, 24.5_zJ, 2.228_mJ_per_m2};
+const ContactParameters kSoft{50_nm, 0.1_N_per_m, 0.2_N_per_m, 24.5_zJ, 2.228_mJ_per_m2};
 
-ApproachRetractModel lifted(const Interaction& interaction) {
-  ApproachRetractModel model(interaction);
+ApproachRetractModel lifted(const ContactParameters& contact) {
+  ApproachRetractModel model(contact);
   model.step(2.0 * model.figures().z_joc);
   return model;
 }
@@ -154,7 +154,7 @@ TEST(ApproachRetractModel, HangsStraightWhileFree) {
 }
 
 TEST(ApproachRetractModel, RefusesAnAdhesionThatCannotHold) {
-  Interaction weak = kMica;
+  ContactParameters weak = kMica;
   weak.mean_surface_energy = 0.2_mJ_per_m2;
   try {
     ApproachRetractModel model(weak);
@@ -269,14 +269,14 @@ TEST(ApproachRetractModel, ChangesForceNoFasterThanItsSlopeExceptAtAJump) {
   }
 }
 
-Interaction elastic_mica() {
-  Interaction interaction = kMica;
-  interaction.reduced_modulus = 51.5_GPa;
-  return interaction;
+ContactParameters elastic_mica() {
+  ContactParameters contact = kMica;
+  contact.reduced_modulus = 51.5_GPa;
+  return contact;
 }
 
 TEST(ModelOfAnyLaw, GoesInAndOutOfContactSilentlyWithoutHysteresis) {
-  Interaction stiff = elastic_mica();
+  ContactParameters stiff = elastic_mica();
   stiff.spring_constant = 10_N_per_m;
   for (const Law law : {Law::Hertz, Law::Dmt}) {
     ApproachRetractModel model(build_law_tables(law, stiff));
@@ -302,7 +302,7 @@ TEST(ModelOfAnyLaw, BalancesLeverAndTip) {
     model.step(1_um);
     for (const Length z : {20_nm, 4_nm, -1_nm, -20_nm, 3_nm, 10_nm}) {
       const TipResponse response = model.step(z);
-      EXPECT_NEAR(response.force.si, -(model.interaction().spring_constant * response.cantilever_deflection).si, 1e-20);
+      EXPECT_NEAR(response.force.si, -(model.contact().spring_constant * response.cantilever_deflection).si, 1e-20);
       EXPECT_NEAR((response.tip_height + response.cantilever_deflection).si, z.si, 1e-20);
       const Length gap = response.phase == Phase::Attached ? model.tables().contact_gap : response.tip_height;
       EXPECT_NEAR((response.tip_height - response.sample_deformation).si, gap.si, 1e-20) << name_of(law) << z.si;

@@ -23,13 +23,13 @@ using testing::HasSubstr;
 
 const Stiffness kRigid(std::numeric_limits<double>::infinity());
 
-Interaction contact(Stiffness lever, Stiffness support, Energy hamaker, SurfaceEnergy mean_surface_energy,
-                    Pressure modulus) {
+ContactParameters contact(Stiffness lever, Stiffness support, Energy hamaker, SurfaceEnergy mean_surface_energy,
+                          Pressure modulus) {
   return {50_nm, lever, support, hamaker, mean_surface_energy, modulus, 0.3_nm};
 }
 
 // Mica of the paper, mica on a soft support, polystyrene, a gel: from rigid to JKR.
-const std::vector<Interaction> kContacts{
+const std::vector<ContactParameters> kContacts{
     contact(0.1_N_per_m, kRigid, 24.5_zJ, 2.228_mJ_per_m2, 51.5_GPa),
     contact(0.1_N_per_m, 0.2_N_per_m, 24.5_zJ, 2.228_mJ_per_m2, 51.5_GPa),
     contact(2_N_per_m, kRigid, 109_zJ, 53_mJ_per_m2, 3.6_GPa),
@@ -39,8 +39,8 @@ const std::vector<Interaction> kContacts{
 
 constexpr Law kCurves[]{Law::Hao, Law::Hertz, Law::Dmt, Law::Jkr, Law::MaugisDugdale, Law::LennardJones};
 
-double compliance(const Interaction& interaction) {
-  return 1.0 / interaction.spring_constant.si + 1.0 / interaction.sample_stiffness.si;
+double compliance(const ContactParameters& contact) {
+  return 1.0 / contact.spring_constant.si + 1.0 / contact.sample_stiffness.si;
 }
 
 // A branch bent by lever and support, looked up without any table: its stable stretch by walking, Z by halving.
@@ -89,7 +89,7 @@ class ExactBranch {
 class EveryLaw : public testing::TestWithParam<std::tuple<Law, std::size_t>> {
  protected:
   const Law law_ = std::get<0>(GetParam());
-  const Interaction interaction_ = kContacts[std::get<1>(GetParam())];
+  const ContactParameters interaction_ = kContacts[std::get<1>(GetParam())];
   const std::shared_ptr<const LawTables> tables_ = build_law_tables(law_, interaction_);
   const CycleFigures& figures_ = tables_->figures;
   // what the law's forces are measured against
@@ -206,26 +206,26 @@ TEST(LawTables, OfHaoFoldWhereThePaperSaysWhateverTheSupport) {
 
 TEST(LawTables, CloseTheLoopAtTheCriticalStiffnessAndNotBelow) {
   for (const Law law : {Law::Dmt, Law::LennardJones}) {
-    Interaction interaction = kContacts[0];
-    const Stiffness critical = build_law_tables(law, interaction)->figures.critical_stiffness;
-    interaction.spring_constant = 1.0001 * critical;
-    EXPECT_FALSE(build_law_tables(law, interaction)->figures.hysteretic);
-    interaction.spring_constant = 0.9999 * critical;
-    const CycleFigures below = build_law_tables(law, interaction)->figures;
+    ContactParameters contact = kContacts[0];
+    const Stiffness critical = build_law_tables(law, contact)->figures.critical_stiffness;
+    contact.spring_constant = 1.0001 * critical;
+    EXPECT_FALSE(build_law_tables(law, contact)->figures.hysteretic);
+    contact.spring_constant = 0.9999 * critical;
+    const CycleFigures below = build_law_tables(law, contact)->figures;
     EXPECT_TRUE(below.hysteretic);
     EXPECT_GT(below.loop_energy, Energy());
     EXPECT_LT(below.z_joc - below.z_jtc, Length(1e-12));
 
     // a support adds its compliance, and one softer than the law's steepest attraction keeps the loop open for ever
-    interaction.sample_stiffness = 2.0 * critical;
-    EXPECT_NEAR(build_law_tables(law, interaction)->figures.critical_stiffness / critical, 2.0, 1e-6);
-    interaction.sample_stiffness = 0.5 * critical;
-    EXPECT_TRUE(std::isinf(build_law_tables(law, interaction)->figures.critical_stiffness.si));
+    contact.sample_stiffness = 2.0 * critical;
+    EXPECT_NEAR(build_law_tables(law, contact)->figures.critical_stiffness / critical, 2.0, 1e-6);
+    contact.sample_stiffness = 0.5 * critical;
+    EXPECT_TRUE(std::isinf(build_law_tables(law, contact)->figures.critical_stiffness.si));
   }
 }
 
 TEST(LawTables, TakeFixedGripsForAnInfiniteSpringConstant) {
-  Interaction grips = kContacts[2];
+  ContactParameters grips = kContacts[2];
   grips.spring_constant = kRigid;
   const auto jkr = build_law_tables(Law::Jkr, grips);
   EXPECT_TRUE(jkr->figures.hysteretic);
@@ -238,9 +238,9 @@ TEST(LawTables, TakeFixedGripsForAnInfiniteSpringConstant) {
   EXPECT_THROW(validate(grips), UnphysicalValue);
 }
 
-std::string refusal(Law law, const Interaction& interaction) {
+std::string refusal(Law law, const ContactParameters& contact) {
   try {
-    build_law_tables(law, interaction);
+    build_law_tables(law, contact);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -248,18 +248,18 @@ std::string refusal(Law law, const Interaction& interaction) {
 }
 
 TEST(LawTables, RefuseWhatHasNoLaw) {
-  Interaction grips = kContacts[0];
+  ContactParameters grips = kContacts[0];
   grips.spring_constant = kRigid;
   EXPECT_THAT(refusal(Law::Hao, grips), HasSubstr("hao has a rigid contact"));
-  Interaction weak = kContacts[0];
+  ContactParameters weak = kContacts[0];
   weak.mean_surface_energy = 0.2_mJ_per_m2;
   EXPECT_THAT(refusal(Law::Hao, weak), HasSubstr("adhesion is too weak: jump-off-contact at"));
-  Interaction slime = kContacts[4];
+  ContactParameters slime = kContacts[4];
   slime.spring_constant = Stiffness(1e-5);
   slime.mean_surface_energy = SurfaceEnergy(20.0);
   slime.reduced_modulus = Pressure(10.0);
   EXPECT_THAT(refusal(Law::Dmt, slime), HasSubstr("the sample is too soft: a tip that jumps to contact at"));
-  Interaction negative = kContacts[0];
+  ContactParameters negative = kContacts[0];
   negative.tip_radius = -1_nm;
   EXPECT_THAT(refusal(Law::Dmt, negative), HasSubstr("tip radius"));
   EXPECT_THAT(refusal(Law::Measured, kContacts[0]), HasSubstr("measured"));

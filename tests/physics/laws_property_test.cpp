@@ -25,9 +25,9 @@ constexpr Law kLaws[]{Law::Paper, Law::Hao, Law::Hertz, Law::Dmt, Law::Jkr, Law:
 constexpr int kMaterials = 1'500;  // a law: more than ten thousand in all
 
 // None where the paper's law or Hao's has no loop: an adhesion weaker than what the van der Waals force pulled in.
-std::shared_ptr<const LawTables> tables_of(Law law, const Interaction& interaction) {
+std::shared_ptr<const LawTables> tables_of(Law law, const ContactParameters& contact) {
   try {
-    return build_law_tables(law, interaction);
+    return build_law_tables(law, contact);
   } catch (const UnphysicalValue&) {
     throw;
   } catch (const std::invalid_argument&) {
@@ -44,9 +44,9 @@ class LawOfAnyMaterial : public testing::TestWithParam<Law> {
     RandomInteraction random(seed);
     int looked_at = 0;
     for (int i = 0; i < kMaterials && !HasFatalFailure(); ++i) {
-      Interaction interaction = random();
-      if (i % 3 == 0) interaction.sample_stiffness = Stiffness(random.between(0.01, 1e4));
-      const auto tables = tables_of(GetParam(), interaction);
+      ContactParameters contact = random();
+      if (i % 3 == 0) contact.sample_stiffness = Stiffness(random.between(0.01, 1e4));
+      const auto tables = tables_of(GetParam(), contact);
       if (tables == nullptr) continue;
       SCOPED_TRACE("material " + std::to_string(i));
       check(*tables);
@@ -64,7 +64,7 @@ void expect_ratio(double value, double reference, double ratio, double scale, co
 TEST_P(LawOfAnyMaterial, KnowsNoUnits) {
   constexpr double kLength = 1.7, kForce = 0.6;
   for_each_material(101, [&](const LawTables& tables) {
-    Interaction other = tables.interaction;
+    ContactParameters other = tables.contact;
     other.tip_radius = kLength * other.tip_radius;
     other.atomic_distance = kLength * other.atomic_distance;
     other.spring_constant = kForce / kLength * other.spring_constant;
@@ -76,7 +76,7 @@ TEST_P(LawOfAnyMaterial, KnowsNoUnits) {
     const auto scaled = build_law_tables(GetParam(), other);
     const CycleFigures& b = scaled->figures;
     // Hertz' contact has neither jump nor pull, so that only the tip's size is left to compare with
-    const Length place = std::max(abs(a.z_joc), 0.01 * tables.interaction.tip_radius);
+    const Length place = std::max(abs(a.z_joc), 0.01 * tables.contact.tip_radius);
     const double length = kLength * place.si;
     const double force = kForce * std::max(abs(a.force_before_joc), abs(tables.attached.force(-place))).si;
     ASSERT_EQ(a.hysteretic, b.hysteretic);
@@ -100,7 +100,7 @@ TEST_P(LawOfAnyMaterial, JumpsInBeforeItJumpsOffAndNeverGivesEnergy) {
     if (!figures.hysteretic) {
       ASSERT_EQ(figures.z_jtc, figures.z_joc);
       ASSERT_EQ(figures.loop_energy, Energy());
-      ASSERT_LE(figures.critical_stiffness, tables.interaction.spring_constant * (1.0 + 1e-9));
+      ASSERT_LE(figures.critical_stiffness, tables.contact.spring_constant * (1.0 + 1e-9));
       return;
     }
     ASSERT_LT(figures.z_jtc, figures.z_joc);
@@ -113,7 +113,7 @@ TEST_P(LawOfAnyMaterial, JumpsInBeforeItJumpsOffAndNeverGivesEnergy) {
     ASSERT_GE(figures.lost_at_jtc.si, -1e-9 * loop);
     ASSERT_GE(figures.lost_at_joc.si, -1e-9 * loop);
     ASSERT_NEAR((figures.lost_at_jtc + figures.lost_at_joc).si, loop, 1e-12 * loop);
-    ASSERT_GE(figures.critical_stiffness, tables.interaction.spring_constant * (1.0 - 1e-9));
+    ASSERT_GE(figures.critical_stiffness, tables.contact.spring_constant * (1.0 - 1e-9));
   });
 }
 
@@ -188,14 +188,14 @@ INSTANTIATE_TEST_SUITE_P(Laws, LawOfAnyMaterial, testing::ValuesIn(kLaws),
 TEST(LawLimits, HaoFoldsAsTheCubeRootOfHamakerTimesRadiusByStiffness) {
   RandomInteraction random(201);
   for (int i = 0; i < 500; ++i) {
-    Interaction interaction = random();
-    interaction.mean_surface_energy = SurfaceEnergy(50.0);
-    const double before = build_law_tables(Law::Hao, interaction)->figures.z_jtc.si;
+    ContactParameters contact = random();
+    contact.mean_surface_energy = SurfaceEnergy(50.0);
+    const double before = build_law_tables(Law::Hao, contact)->figures.z_jtc.si;
     const double a = random.between(0.1, 10.0), r = random.between(0.5, 2.0), k = random.between(0.1, 10.0);
-    interaction.hamaker = a * interaction.hamaker;
-    interaction.tip_radius = r * interaction.tip_radius;
-    interaction.spring_constant = k * interaction.spring_constant;
-    ASSERT_NEAR(build_law_tables(Law::Hao, interaction)->figures.z_jtc.si / before, std::cbrt(a * r / k), 1e-9) << i;
+    contact.hamaker = a * contact.hamaker;
+    contact.tip_radius = r * contact.tip_radius;
+    contact.spring_constant = k * contact.spring_constant;
+    ASSERT_NEAR(build_law_tables(Law::Hao, contact)->figures.z_jtc.si / before, std::cbrt(a * r / k), 1e-9) << i;
   }
 }
 
@@ -203,22 +203,21 @@ TEST(LawLimits, HaoFoldsAsTheCubeRootOfHamakerTimesRadiusByStiffness) {
 TEST(LawLimits, OfTheLeverAreLoadControlAndFixedGrips) {
   RandomInteraction random(202);
   for (int i = 0; i < 500; ++i) {
-    Interaction interaction = random();
-    const AdhesiveContact contact = adhesive_contact(interaction);
-    const double unit = std::numbers::pi * contact.work_of_adhesion.si * contact.tip_radius.si;
-    interaction.spring_constant = Stiffness(1e-6);
-    ASSERT_NEAR(build_law_tables(Law::Jkr, interaction)->figures.force_before_joc.si / unit, -1.5, 1e-6) << i;
-    const double lambda =
-        maugis_lambda(contact, cohesive_stress(contact.work_of_adhesion, interaction.atomic_distance));
+    ContactParameters contact = random();
+    const AdhesiveContact adhesive = adhesive_contact(contact);
+    const double unit = std::numbers::pi * adhesive.work_of_adhesion.si * adhesive.tip_radius.si;
+    contact.spring_constant = Stiffness(1e-6);
+    ASSERT_NEAR(build_law_tables(Law::Jkr, contact)->figures.force_before_joc.si / unit, -1.5, 1e-6) << i;
+    const double lambda = maugis_lambda(adhesive, cohesive_stress(adhesive.work_of_adhesion, contact.atomic_distance));
     const double held = maugis_point(lambda, maugis_pull_off(lambda)).load;
-    ASSERT_NEAR(build_law_tables(Law::MaugisDugdale, interaction)->figures.force_before_joc.si / unit, held, 1e-4) << i;
+    ASSERT_NEAR(build_law_tables(Law::MaugisDugdale, contact)->figures.force_before_joc.si / unit, held, 1e-4) << i;
 
-    interaction.spring_constant = Stiffness(std::numeric_limits<double>::infinity());
-    ASSERT_NEAR(build_law_tables(Law::Jkr, interaction)->figures.force_before_joc.si / unit, -5.0 / 6.0, 1e-9) << i;
-    const CycleFigures grips = build_law_tables(Law::Jkr, interaction)->figures;
-    const double coefficient = grips.loop_energy.si / std::cbrt(std::pow(contact.work_of_adhesion.si, 5.0) *
-                                                                std::pow(contact.tip_radius.si, 4.0) /
-                                                                std::pow(contact.reduced_modulus.si, 2.0));
+    contact.spring_constant = Stiffness(std::numeric_limits<double>::infinity());
+    ASSERT_NEAR(build_law_tables(Law::Jkr, contact)->figures.force_before_joc.si / unit, -5.0 / 6.0, 1e-9) << i;
+    const CycleFigures grips = build_law_tables(Law::Jkr, contact)->figures;
+    const double coefficient = grips.loop_energy.si / std::cbrt(std::pow(adhesive.work_of_adhesion.si, 5.0) *
+                                                                std::pow(adhesive.tip_radius.si, 4.0) /
+                                                                std::pow(adhesive.reduced_modulus.si, 2.0));
     ASSERT_NEAR(coefficient, 7.09219597186, 1e-9) << i;
   }
 }
@@ -227,11 +226,11 @@ TEST(LawLimits, ThePapersLawIsAStraightLineExactly) {
   RandomInteraction random(203);
   int looked_at = 0;
   for (int i = 0; i < 10'000; ++i) {
-    Interaction interaction = random();
-    interaction.sample_stiffness = Stiffness(random.between(0.01, 1e4));
-    const auto tables = tables_of(Law::Paper, interaction);
+    ContactParameters contact = random();
+    contact.sample_stiffness = Stiffness(random.between(0.01, 1e4));
+    const auto tables = tables_of(Law::Paper, contact);
     if (tables == nullptr) continue;
-    const double z = random.between(1e-12, 1e-3), slope = -effective_stiffness(interaction).si;
+    const double z = random.between(1e-12, 1e-3), slope = -effective_stiffness(contact).si;
     ASSERT_NEAR(tables->attached.force(Length(z)).si, slope * z, 1e-12 * std::abs(slope * z));
     ASSERT_NEAR(tables->attached.force(Length(-z)).si, -slope * z, 1e-12 * std::abs(slope * z));
     ASSERT_EQ(tables->free.force(Length(z)), Force());

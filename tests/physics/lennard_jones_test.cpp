@@ -20,12 +20,14 @@ constexpr double kRounding = 1e-13;
 constexpr double kDifferenceError = 1e-7;
 constexpr int kMaterials = 10'000;
 
-LennardJones law_of(const Interaction& m) { return {2.0 * m.mean_surface_energy, m.tip_radius, m.atomic_distance}; }
+LennardJones law_of(const ContactParameters& m) {
+  return {2.0 * m.mean_surface_energy, m.tip_radius, m.atomic_distance};
+}
 
 TEST(LennardJones, ForceIsTheSlopeOfThePotentialAndGradientThatOfTheForce) {
   RandomInteraction random(1);
   for (int i = 0; i < kMaterials; ++i) {
-    const Interaction m = random();
+    const ContactParameters m = random();
     const LennardJones law = law_of(m);
     const Length z0 = law.atomic_distance();
     const Length gap = random.between(0.5, 1e3) * z0;
@@ -43,7 +45,7 @@ TEST(LennardJones, ForceIsTheSlopeOfThePotentialAndGradientThatOfTheForce) {
 TEST(LennardJones, PullsHardestAtTheAtomicDistanceWithTwoPiRW) {
   RandomInteraction random(2);
   for (int i = 0; i < kMaterials; ++i) {
-    const Interaction m = random();
+    const ContactParameters m = random();
     const LennardJones law = law_of(m);
     EXPECT_NEAR(law.force(m.atomic_distance).si, -4.0 * pi * (m.tip_radius * m.mean_surface_energy).si,
                 kRounding * -law.force(m.atomic_distance).si);

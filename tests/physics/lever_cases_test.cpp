@@ -71,19 +71,19 @@ double thermal_value(const Case& row) {
 
 // vdW-DMT under fixed grips, or no force at all where the row knows none.
 std::shared_ptr<const TipForce> surface_of(const Case& row) {
-  Interaction interaction = elastic_mica();
+  ContactParameters contact = elastic_mica();
   Law law = Law::Hertz;
   if (row.inputs.contains("A")) {
     law = Law::Dmt;
-    interaction.hamaker = Energy(row.input("A"));
-    interaction.tip_radius = Length(row.input("R"));
+    contact.hamaker = Energy(row.input("A"));
+    contact.tip_radius = Length(row.input("R"));
     // the rows without a contact of their own end before it; mica's stands there
     const double a0 = row.input_or("a0", 3.818813079e-10);
-    interaction.mean_surface_energy =
+    contact.mean_surface_energy =
         SurfaceEnergy(row.input("A") / (24.0 * std::numbers::pi * a0 * a0));  // F_ad = A R/(6 a0^2) = 4 pi R gamma
-    interaction.reduced_modulus = Pressure(row.input_or("E_star", 5.15e10));
+    contact.reduced_modulus = Pressure(row.input_or("E_star", 5.15e10));
   }
-  return std::make_shared<const TipForce>(*fixed_grips(law, interaction), 14_nN);
+  return std::make_shared<const TipForce>(*fixed_grips(law, contact), 14_nN);
 }
 
 LeverDynamics lever_of(const Case& row) {

@@ -180,7 +180,7 @@ TEST(MaugisUnits, AreMaugisOwn) {
 // The law that joins it to van der Waals attraction.
 
 struct JoinedLaw {
-  Interaction interaction;
+  ContactParameters contact;
   ForceLaw law;
   bool single_valued() const { return law.attached.at(law.attached.last).h > 0.5_mm; }
   // where van der Waals force takes over, or the end
@@ -192,7 +192,7 @@ void for_random_laws(Check check, int materials = kMaterials) {
   RandomInteraction random(6);
   int single_valued = 0;
   for (int i = 0; i < materials; ++i) {
-    const Interaction m = random();
+    const ContactParameters m = random();
     const JoinedLaw joined{m, maugis_law(m)};
     single_valued += joined.single_valued() ? 1 : 0;
     check(joined, random);
@@ -212,7 +212,7 @@ TEST(MaugisLaw, FreeBranchEndsOnTheContactsCurve) {
     if (joined.single_valued()) {
       // one curve, so far in that no lever has a fold beyond
       EXPECT_EQ(law.attached.at(-law.free.last).force, formed.force);
-      EXPECT_NEAR(formed.dforce_ds * law.contact_gap.si / (adhesion_force(joined.interaction).si * formed.dh_ds), 0.0,
+      EXPECT_NEAR(formed.dforce_ds * law.contact_gap.si / (adhesion_force(joined.contact).si * formed.dh_ds), 0.0,
                   1e-6);
       return;
     }
@@ -239,7 +239,7 @@ TEST(MaugisLaw, ContactPullsHarderThanTheFreeTipWhereverBothAre) {
 // Whatever the lever, from one without stiffness to fixed grips.
 TEST(MaugisLaw, EveryCycleDissipatesAndEveryJumpLosesEnergy) {
   const auto check = [](const JoinedLaw& joined, RandomInteraction& random) {
-    Interaction m = joined.interaction;
+    ContactParameters m = joined.contact;
     for (const double stiffness : {0.01, random.between(0.1, 1e6), HUGE_VAL}) {
       m.spring_constant = Stiffness(stiffness);
       const auto tables = build_law_tables(Law::MaugisDugdale, joined.law, m);
@@ -274,7 +274,7 @@ TEST(MaugisLaw, BranchesAreContinuousAndTheirDerivativesTrue) {
     const LawPoint before = branch.at(s - step);
     const LawPoint here = branch.at(s);
     const LawPoint after = branch.at(s + step);
-    const double force = adhesion_force(joined.interaction).si + std::abs(here.force.si) + std::abs(here.dforce_ds);
+    const double force = adhesion_force(joined.contact).si + std::abs(here.force.si) + std::abs(here.dforce_ds);
     const double height = joined.law.contact_gap.si + std::abs(here.h.si) + std::abs(here.dh_ds);
     EXPECT_NEAR((after.force - before.force).si / (2.0 * step), here.dforce_ds, 10.0 * kDifferenceError * force);
     EXPECT_NEAR((after.h - before.h).si / (2.0 * step), here.dh_ds, 10.0 * kDifferenceError * height);
@@ -309,7 +309,7 @@ TEST(MaugisLaw, PotentialsOfBothBranchesMeetWhereContactForms) {
 }
 
 TEST(MaugisLaw, IsDmtsForAStiffContact) {
-  Interaction m = RandomInteraction(7)();
+  ContactParameters m = RandomInteraction(7)();
   m.reduced_modulus = 10000_GPa;
   m.mean_surface_energy = 0.5_mJ_per_m2;
   m.tip_radius = 10_nm;
@@ -323,7 +323,7 @@ TEST(MaugisLaw, IsDmtsForAStiffContact) {
 }
 
 TEST(MaugisLaw, IsJkrsShiftedByTheContactGapForASoftContact) {
-  Interaction m = RandomInteraction(8)();
+  ContactParameters m = RandomInteraction(8)();
   m.reduced_modulus = Pressure(1e6);
   m.mean_surface_energy = 20_mJ_per_m2;
   m.tip_radius = 1_um;

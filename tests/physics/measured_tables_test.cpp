@@ -17,8 +17,8 @@ namespace {
 using namespace literals;
 using testing::HasSubstr;
 
-const Interaction kMica{50_nm, 0.1_N_per_m, Stiffness(std::numeric_limits<double>::infinity()), 24.5_zJ,
-                        2.228_mJ_per_m2};
+const ContactParameters kMica{50_nm, 0.1_N_per_m, Stiffness(std::numeric_limits<double>::infinity()), 24.5_zJ,
+                              2.228_mJ_per_m2};
 
 struct Recording {
   std::vector<MeasuredPoint> approach;
@@ -101,7 +101,7 @@ TEST(MeasuredTables, RefuseWhatCannotBeFelt) {
 
 TEST(MeasuredTables, NeedALever) {
   const Recording good = recording_of_mica();
-  Interaction none = kMica;
+  ContactParameters none = kMica;
   none.spring_constant = Stiffness();
   EXPECT_THROW(measured_law_tables(good.approach, good.retract, none), UnphysicalValue);
 }

@@ -53,7 +53,7 @@ void for_every_wet_law(Check check) {
   for (const Law name : kLaws) {
     RandomInteraction random(static_cast<unsigned>(name));
     for (int i = 0; i < kMaterials; ++i) {
-      const Interaction m = random();
+      const ContactParameters m = random();
       LawOptions options;
       options.meniscus = at_humidity(0.02 * random.between(1.0, 49.0));
       check(name, m, *options.meniscus, force_law(name, m), force_law(name, m, options));
@@ -63,7 +63,7 @@ void for_every_wet_law(Check check) {
 
 TEST(WetLaw, PullsWithTheBridgeAddedWhileAttachedAndAsBeforeWhileFree) {
   for_every_wet_law(
-      [](Law name, const Interaction& m, const Meniscus& meniscus, const ForceLaw& dry, const ForceLaw& wet) {
+      [](Law name, const ContactParameters& m, const Meniscus& meniscus, const ForceLaw& dry, const ForceLaw& wet) {
         const double s = 0.5 * (wet.attached.first + wet.attached.last);
         const Force pull = capillary_force(meniscus, m.tip_radius);
         EXPECT_EQ(wet.attached.at(s).force, dry.attached.at(s).force - pull) << name_of(name);
@@ -75,7 +75,7 @@ TEST(WetLaw, PullsWithTheBridgeAddedWhileAttachedAndAsBeforeWhileFree) {
 
 TEST(WetLaw, BridgeFormsAndBreaksAtItsGapsOrWithTheNeck) {
   for_every_wet_law(
-      [](Law name, const Interaction& m, const Meniscus& meniscus, const ForceLaw& dry, const ForceLaw& wet) {
+      [](Law name, const ContactParameters& m, const Meniscus& meniscus, const ForceLaw& dry, const ForceLaw& wet) {
         const Length neck_end = dry.attached.at(dry.attached.last).h;
         const Length breaks = wet.attached.at(wet.attached.last).h;
         const Length forms = wet.free.at(wet.free.last).h;
@@ -92,7 +92,7 @@ TEST(WetLaw, BridgeFormsAndBreaksAtItsGapsOrWithTheNeck) {
 TEST(WetLaw, PotentialWhereTheBridgeBreaksIsTheDryLawsThere) {
   RandomInteraction random(9);
   for (int i = 0; i < kMaterials; ++i) {
-    const Interaction m = random();
+    const ContactParameters m = random();
     LawOptions options;
     options.meniscus = at_humidity(0.5);
     const ForceLaw dmt = force_law(Law::Dmt, m, options);

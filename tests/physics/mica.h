@@ -3,16 +3,16 @@
 
 #include <limits>
 
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/law_tables.h"
 
 namespace afm::physics {
 
 // The paper's mica with the contact of silicon nitride on mica (docs/physics.md), as the reference cases have it:
 // a0 = 0.3819 nm.
-inline Interaction elastic_mica() {
+inline ContactParameters elastic_mica() {
   using namespace literals;
-  Interaction mica;
+  ContactParameters mica;
   mica.tip_radius = 50_nm;
   mica.spring_constant = 0.1_N_per_m;
   mica.sample_stiffness = Stiffness(std::numeric_limits<double>::infinity());
@@ -23,9 +23,9 @@ inline Interaction elastic_mica() {
 }
 
 // The law under fixed grips.
-inline std::shared_ptr<const LawTables> fixed_grips(Law law, Interaction interaction) {
-  interaction.spring_constant = Stiffness(std::numeric_limits<double>::infinity());
-  return build_law_tables(law, interaction);
+inline std::shared_ptr<const LawTables> fixed_grips(Law law, ContactParameters contact) {
+  contact.spring_constant = Stiffness(std::numeric_limits<double>::infinity());
+  return build_law_tables(law, contact);
 }
 
 }  // namespace afm::physics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/units.h"
 
 // Compiled by tests, never linked: AFM_CASE picks one line that must be refused.
@@ -22,7 +22,7 @@ bool wrong = 1_s < 1_nm;
 #elif AFM_CASE == 4
 Length wrong = 1e-9;
 #elif AFM_CASE == 5
-Interaction wrong{50e-9, 0.1, 1e9, 2.45e-20, 2.228e-3};
+ContactParameters wrong{50e-9, 0.1, 1e9, 2.45e-20, 2.228e-3};
 #elif AFM_CASE == 6
 auto wrong = cbrt(1_nm * 1_nm);
 #endif

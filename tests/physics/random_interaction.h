@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 
 namespace afm::physics {
 
@@ -21,16 +21,16 @@ class RandomInteraction {
     return smallest * std::pow(largest / smallest, unit);
   }
 
-  Interaction operator()() {
-    Interaction interaction;
-    interaction.tip_radius = Length(between(2e-9, 5e-6));
-    interaction.spring_constant = Stiffness(between(0.005, 100.0));
-    interaction.sample_stiffness = Stiffness(HUGE_VAL);
-    interaction.hamaker = Energy(between(1e-21, 5e-19));
-    interaction.mean_surface_energy = SurfaceEnergy(between(2e-4, 0.5));
-    interaction.reduced_modulus = Pressure(between(1e5, 5e11));
-    interaction.atomic_distance = Length(between(0.15e-9, 0.5e-9));
-    return interaction;
+  ContactParameters operator()() {
+    ContactParameters contact;
+    contact.tip_radius = Length(between(2e-9, 5e-6));
+    contact.spring_constant = Stiffness(between(0.005, 100.0));
+    contact.sample_stiffness = Stiffness(HUGE_VAL);
+    contact.hamaker = Energy(between(1e-21, 5e-19));
+    contact.mean_surface_energy = SurfaceEnergy(between(2e-4, 0.5));
+    contact.reduced_modulus = Pressure(between(1e5, 5e11));
+    contact.atomic_distance = Length(between(0.15e-9, 0.5e-9));
+    return contact;
   }
 
  private:

@@ -33,7 +33,7 @@ std::array<LawOptions, 4> all_forms() { return {LawOptions{}, exact_sphere(), re
 TEST(VanDerWaals, ForceIsTheSlopeOfThePotentialAndGradientThatOfTheForce) {
   RandomInteraction random(1);
   for (int i = 0; i < kMaterials; ++i) {
-    const Interaction m = random();
+    const ContactParameters m = random();
     const Length gap(random.between(0.1e-9, 1e-5));
     const Length step = kDifferenceStep * gap;
     for (const LawOptions& form : all_forms()) {
@@ -101,7 +101,7 @@ TEST(VanDerWaals, LongWavelengthDoesNotRetard) {
 TEST(VanDerWaals, GapAtAForceIsWhereThatForceActs) {
   RandomInteraction random(2);
   for (int i = 0; i < kMaterials; ++i) {
-    const Interaction m = random();
+    const ContactParameters m = random();
     const Force attraction(-random.between(1e-12, 1e-6));
     for (const LawOptions& form : all_forms()) {
       const VanDerWaals law(m.hamaker, m.tip_radius, form);
@@ -113,7 +113,7 @@ TEST(VanDerWaals, GapAtAForceIsWhereThatForceActs) {
 TEST(ContactGap, IsWhereAttractionIsTheAdhesionInEveryForm) {
   RandomInteraction random(3);
   for (int i = 0; i < kMaterials; ++i) {
-    const Interaction m = random();
+    const ContactParameters m = random();
     const double derjaguin = std::sqrt(m.hamaker.si * m.tip_radius.si / (6.0 * adhesion_force(m).si));
     EXPECT_NEAR(contact_gap(m).si / derjaguin, 1.0, kRounding);
     for (const LawOptions& form : all_forms()) {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "render/depth_meter.h"
-#include "render/picture_saver.h"
+#include "render/screenshot_queue.h"
 #include "support/faulty_device.h"
 #include "support/scratch_folder.h"
 #include "support/vulkan_fixture.h"
@@ -43,7 +43,7 @@ class LongRun : public testing::Test {
 
   // What hours of a session bring: other modes, sizes, details and eyes, panels that come, change and go, pictures that
   // are saved and read, depth that is measured. Every round ends as it began.
-  void play_round(render::Renderer& renderer, render::PictureSaver& saver, render::DepthMeter& meter) const {
+  void play_round(render::Renderer& renderer, render::ScreenshotQueue& saver, render::DepthMeter& meter) const {
     for (int i = 0; i < kFrames; ++i) {
       render::FrameState frame = whole_;
       frame.labels.resize(static_cast<std::size_t>(i % 4));
@@ -82,7 +82,7 @@ TEST_F(LongRun, HoldsNoMoreMemoryAtItsEndThanAfterAQuarter) {
   options.eye_height = 30;
   auto renderer = render::Renderer::create(context_, test_.scene, options);
   ASSERT_TRUE(renderer) << renderer.error().message;
-  render::PictureSaver saver(context_, *renderer);
+  render::ScreenshotQueue saver(context_, *renderer);
   render::DepthMeter meter(context_, *renderer);
   std::array<Held, 2> seen{};
   for (int round = 0; round < kRounds; ++round) {

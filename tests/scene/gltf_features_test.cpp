@@ -347,7 +347,7 @@ TEST_F(GltfFeatures, NotesWhatIsNotShown) {
   document_["extensionsUsed"] = {"KHR_materials_unlit", "KHR_materials_sheen"};
   document_["asset"]["generator"] = "a test";
   primitive()["attributes"] = {{"_TEMPERATURE", 0}};
-  GltfNotes notes;
+  GltfWarnings notes;
   ASSERT_TRUE(load_gltf(write("model.glb", glb(document_.dump(), binary_)), &notes));
   EXPECT_EQ(notes.generator, "a test");
   EXPECT_THAT(notes.extensions, ElementsAre("KHR_materials_unlit"));

@@ -73,11 +73,11 @@ TEST(MaterialLibrary, HoldsThePapersThreeMaterialsFirst) {
   for (std::size_t i = 0; i < kPaperMaterials.size(); ++i) EXPECT_EQ(library->materials[i].name, kPaperMaterials[i]);
   const MaterialEntry* gold = library->find("gold");
   ASSERT_NE(gold, nullptr);
-  EXPECT_EQ(gold->interaction.tip_radius.si, 5e-8);
-  EXPECT_EQ(gold->interaction.spring_constant.si, 0.1);
-  EXPECT_TRUE(std::isinf(gold->interaction.sample_stiffness.si));
-  EXPECT_EQ(gold->interaction.hamaker.si, 1.2e-19);
-  EXPECT_EQ(gold->interaction.mean_surface_energy.si, 0.015915);
+  EXPECT_EQ(gold->contact.tip_radius.si, 5e-8);
+  EXPECT_EQ(gold->contact.spring_constant.si, 0.1);
+  EXPECT_TRUE(std::isinf(gold->contact.sample_stiffness.si));
+  EXPECT_EQ(gold->contact.hamaker.si, 1.2e-19);
+  EXPECT_EQ(gold->contact.mean_surface_energy.si, 0.015915);
   EXPECT_EQ(gold->experiment_f_ad.value().si, 1e-8);
   EXPECT_THAT(gold->note, HasSubstr("SiO2"));
 }
@@ -86,10 +86,10 @@ TEST(MaterialLibrary, HoldsThePapersThreeMaterialsFirst) {
 TEST(MaterialLibrary, MakesTheReducedModulusOfBothBodies) {
   const auto library = load_materials(kShipped);
   ASSERT_TRUE(library.has_value());
-  EXPECT_NEAR(library->find("mica")->interaction.reduced_modulus.si, 51.5e9, 0.05e9);
-  EXPECT_NEAR(library->find("gold")->interaction.reduced_modulus.si, 71.4e9, 0.05e9);
-  EXPECT_NEAR(library->find("si3n4")->interaction.reduced_modulus.si, 132e9, 0.05e9);
-  EXPECT_NEAR(library->find("pdms-air")->interaction.reduced_modulus.si, 2.667e6, 0.001e6);
+  EXPECT_NEAR(library->find("mica")->contact.reduced_modulus.si, 51.5e9, 0.05e9);
+  EXPECT_NEAR(library->find("gold")->contact.reduced_modulus.si, 71.4e9, 0.05e9);
+  EXPECT_NEAR(library->find("si3n4")->contact.reduced_modulus.si, 132e9, 0.05e9);
+  EXPECT_NEAR(library->find("pdms-air")->contact.reduced_modulus.si, 2.667e6, 0.001e6);
 }
 
 TEST(MaterialLibrary, CitesASourceForEveryNumber) {
@@ -119,8 +119,8 @@ TEST(MaterialLibrary, HasWorksOfAdhesionThatFollowFromTheHamakerConstants) {
   ASSERT_TRUE(library.has_value());
   for (const MaterialEntry& entry : library->materials) {
     if (entry.experiment_f_ad) continue;
-    const double work = entry.interaction.hamaker.si / (12.0 * std::numbers::pi * 0.165e-9 * 0.165e-9);
-    EXPECT_NEAR(2.0 * entry.interaction.mean_surface_energy.si / work, 1.0, 0.03) << entry.name;
+    const double work = entry.contact.hamaker.si / (12.0 * std::numbers::pi * 0.165e-9 * 0.165e-9);
+    EXPECT_NEAR(2.0 * entry.contact.mean_surface_energy.si / work, 1.0, 0.03) << entry.name;
   }
 }
 
@@ -202,7 +202,7 @@ TEST(MaterialFile, TakesTheWorkOfAdhesionInsteadOfTheMeanSurfaceEnergy) {
   const auto library = load_text(
       changed("mean_surface_energy = { value = \"2.228 mJ/m2\"", "work_of_adhesion = { value = \"4.456 mJ/m2\""));
   ASSERT_TRUE(library.has_value()) << library.error().message;
-  EXPECT_DOUBLE_EQ(library->materials.front().interaction.mean_surface_energy.si, 2.228e-3);
+  EXPECT_DOUBLE_EQ(library->materials.front().contact.mean_surface_energy.si, 2.228e-3);
   EXPECT_THAT(refusal(std::string(kOneMaterial) + "work_of_adhesion = { value = \"1 mJ/m2\", source = \"h\" }\n"),
               HasSubstr("not both"));
   EXPECT_THAT(refusal(changed("mean_surface_energy = { value = \"2.228 mJ/m2\", source = \"e\" }", "")),
@@ -210,11 +210,11 @@ TEST(MaterialFile, TakesTheWorkOfAdhesionInsteadOfTheMeanSurfaceEnergy) {
 }
 
 TEST(MaterialFile, IsRigidUnlessItSaysHowElastic) {
-  EXPECT_TRUE(std::isinf(load_text(kOneMaterial).value().materials.front().interaction.reduced_modulus.si));
+  EXPECT_TRUE(std::isinf(load_text(kOneMaterial).value().materials.front().contact.reduced_modulus.si));
   const std::string direct = "reduced_modulus = { value = \"51.5 GPa\", source = \"h\" }\n";
   const auto library = load_text(kOneMaterial + direct);
   ASSERT_TRUE(library.has_value()) << library.error().message;
-  EXPECT_EQ(library->materials.front().interaction.reduced_modulus.si, 5.15e10);
+  EXPECT_EQ(library->materials.front().contact.reduced_modulus.si, 5.15e10);
   const std::string tip = "tip_modulus = { value = \"250 GPa\", source = \"h\" }\n";
   EXPECT_THAT(refusal(kOneMaterial + direct + tip), HasSubstr("line 13: material.reduced_modulus"));
   EXPECT_THAT(refusal(kOneMaterial + tip), HasSubstr("material.tip_poisson_ratio: is missing"));

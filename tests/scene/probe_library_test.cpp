@@ -60,7 +60,7 @@ TEST(ProbeLibrary, HoldsProbesThatEveryMaterialAccepts) {
   EXPECT_GE(probes->probes.size(), 8U);
   for (const ProbeEntry& probe : probes->probes) {
     const MaterialEntry pdms = with_probe(material("pdms-air"), probe);
-    EXPECT_NO_THROW(physics::validate(pdms.interaction)) << probe.name;
+    EXPECT_NO_THROW(physics::validate(pdms.contact)) << probe.name;
     for (const auto& sourced : probe.sources) EXPECT_FALSE(sourced.source.empty()) << probe.name << sourced.key;
   }
 }
@@ -87,15 +87,15 @@ TEST(Probe, ReplacesLeverAndTipButNotThePairOfMaterials) {
   const ProbeEntry probe = load_text(kOneProbe).value().probes.front();
   const MaterialEntry before = material("mica-air");
   const MaterialEntry after = with_probe(before, probe);
-  EXPECT_EQ(after.interaction.tip_radius.si, 8e-9);
-  EXPECT_EQ(after.interaction.spring_constant.si, 0.2);
+  EXPECT_EQ(after.contact.tip_radius.si, 8e-9);
+  EXPECT_EQ(after.contact.spring_constant.si, 0.2);
   EXPECT_EQ(after.lever.resonance.si, 13e3);
   EXPECT_EQ(after.lever.quality_factor, 100.0);
-  EXPECT_EQ(after.interaction.hamaker, before.interaction.hamaker);
-  EXPECT_EQ(after.interaction.mean_surface_energy, before.interaction.mean_surface_energy);
+  EXPECT_EQ(after.contact.hamaker, before.contact.hamaker);
+  EXPECT_EQ(after.contact.mean_surface_energy, before.contact.mean_surface_energy);
   EXPECT_THAT(after.note, HasSubstr("those of a Si3N4 tip, the probe's is of silicon"));
   // 1/E* = (1 - 0.22^2)/165 GPa + (1 - 0.25^2)/60 GPa
-  EXPECT_NEAR(after.interaction.reduced_modulus.si, 1.0 / (0.9516 / 165e9 + 0.9375 / 60e9), 1.0);
+  EXPECT_NEAR(after.contact.reduced_modulus.si, 1.0 / (0.9516 / 165e9 + 0.9375 / 60e9), 1.0);
   EXPECT_EQ(find_source(after.sources, "tip_radius")->source, "My lever: a");
 }
 

@@ -36,7 +36,7 @@ TipState tip_state(std::uint64_t seed) {
   state.hand_position_m.fill(number(seed, 2));
   state.hand_force_n.fill(number(seed, 3));
   state.normal.fill(number(seed, 4));
-  state.ledger_damping = number(seed, 5);
+  state.observer_damping = number(seed, 5);
   state.material = static_cast<std::int32_t>(seed % 3);
   state.garbage_blocks = static_cast<std::uint32_t>(seed);
   return state;
@@ -81,7 +81,7 @@ HandScript script(std::uint64_t seed) {
 
 MaterialEdit edit(std::uint64_t seed) {
   MaterialEdit edit{.material = afm::test::paper_model().materials[0], .revision = static_cast<std::uint32_t>(seed)};
-  edit.material.interaction.tip_radius.si = 1e-9 * (1.0 + edit.revision);
+  edit.material.contact.tip_radius.si = 1e-9 * (1.0 + edit.revision);
   edit.material.lever.quality_factor = edit.revision;
   return edit;
 }

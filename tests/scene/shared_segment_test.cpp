@@ -212,11 +212,11 @@ INSTANTIATE_TEST_SUITE_P(
                     BadModel{"transform", [](SharedModel& m) { m.nodes[1].parent_from_node[3] = kNan; }},
                     BadModel{"name without an end", [](SharedModel& m) { m.nodes[0].name.fill('x'); }},
                     BadModel{"name without an end", [](SharedModel& m) { m.materials[0].name.fill('x'); }},
-                    BadModel{"material 2", [](SharedModel& m) { m.materials[2].interaction.hamaker.si = kNan; }},
-                    BadModel{"material 1", [](SharedModel& m) { m.materials[1].interaction.tip_radius.si = 0; }},
-                    BadModel{"material 0", [](SharedModel& m) { m.materials[0].interaction.spring_constant.si = -1; }},
+                    BadModel{"material 2", [](SharedModel& m) { m.materials[2].contact.hamaker.si = kNan; }},
+                    BadModel{"material 1", [](SharedModel& m) { m.materials[1].contact.tip_radius.si = 0; }},
+                    BadModel{"material 0", [](SharedModel& m) { m.materials[0].contact.spring_constant.si = -1; }},
                     BadModel{"material 0",
-                             [](SharedModel& m) { m.materials[0].interaction.sample_stiffness.si = -kInfinity; }},
+                             [](SharedModel& m) { m.materials[0].contact.sample_stiffness.si = -kInfinity; }},
                     BadModel{"law", [](SharedModel& m) { m.materials[0].law = static_cast<Law>(8); }},
                     BadModel{"option", [](SharedModel& m) { m.materials[1].exact_hamaker_sphere = 2; }},
                     BadModel{"option", [](SharedModel& m) { m.materials[1].dynamic = 7; }},
@@ -253,8 +253,8 @@ TEST(SharedModel, TakesAMaterialThatWasMeasured) {
   EXPECT_TRUE(validate(model));
 }
 
-TEST(SharedMaterial, KeepsTheOptionsOfItsLaw) {
-  SharedMaterial material = paper_model().materials[0];
+TEST(SharedContact, KeepsTheOptionsOfItsLaw) {
+  SharedContact material = paper_model().materials[0];
   EXPECT_FALSE(law_options(material).retardation_wavelength || law_options(material).meniscus);
   material.exact_hamaker_sphere = 1;
   material.retardation_wavelength_m = 100e-9;

@@ -165,9 +165,9 @@ TEST(Replay, GivesEveryBitOfEveryMaterialAgainWhateverWasFeltBefore) {
 
 TEST(Replay, GivesTheNoiseOfALeverAgain) {
   scene::SharedModel model = test::paper_model();
-  scene::SharedMaterial& mica = model.materials[test::kMica];
+  scene::SharedContact& mica = model.materials[test::kMica];
   mica.law = physics::Law::Dmt;
-  mica.interaction.reduced_modulus = physics::Pressure(51.5e9);
+  mica.contact.reduced_modulus = physics::Pressure(51.5e9);
   mica.dynamic = 1;
   mica.lever = {physics::Frequency(12e3), 2.5, physics::Temperature(298.0)};
   Recording recording(model);

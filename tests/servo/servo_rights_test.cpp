@@ -23,7 +23,7 @@ using afm::servo::ServoProcess;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr rlim_t afm::haptics::kServoPriority = 80;
+constexpr rlim_t kWantedPriority = 80;
 
 // Takes a limit, and the capability that stands above it: then root counts as a person does. Empty: both stay as they
 // are on this machine.
@@ -79,7 +79,7 @@ TEST(ServoRights, FollowFromTheTwoLimitsAlone) {
   const rlim_t priority = highest(RLIMIT_RTPRIO);
   const rlim_t locked_bytes = highest(RLIMIT_MEMLOCK);
   const Started started = start_with(priority, locked_bytes);
-  EXPECT_EQ(started.timing.policy_fifo, priority >= afm::haptics::kServoPriority ? 1U : 0U);
+  EXPECT_EQ(started.timing.policy_fifo, priority >= kWantedPriority ? 1U : 0U);
   if (locked_bytes == RLIM_INFINITY) {
     EXPECT_EQ(started.timing.pages_locked, 1U);
   }

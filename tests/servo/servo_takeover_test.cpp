@@ -18,7 +18,7 @@
 
 #include "core/clock.h"
 #include "places.h"
-#include "servo/servo_link.h"
+#include "servo/servo_client.h"
 #include "support/paper_model.h"
 
 // A renderer is killed, and another one comes. Real processes: what must happen is waited for, how long it takes
@@ -41,10 +41,10 @@ bool eventually(const std::function<bool()>& condition) {
 }
 
 auto start(double linger_s, std::uint64_t digest = kScene) {
-  return ServoLink::start(test::paper_model(), digest, {.settings = {.linger_s = linger_s}}, kProgram);
+  return ServoClient::start(test::paper_model(), digest, {.settings = {.linger_s = linger_s}}, kProgram);
 }
 
-bool until(ServoLink& link, const std::function<bool(const scene::TipState&)>& condition) {
+bool until(ServoClient& link, const std::function<bool(const scene::TipState&)>& condition) {
   return eventually([&] { return link.poll(core::MonotonicClock().now_ns()) && condition(link.tip()); });
 }
 
@@ -111,7 +111,7 @@ class Predecessor {
 TEST(ServoTakeover, GoesOnWithTheServoOfADeadRenderer) {
   Predecessor predecessor(kLong_s);
   predecessor.kill();
-  core::Result<std::unique_ptr<ServoLink>> link = start(kLong_s);
+  core::Result<std::unique_ptr<ServoClient>> link = start(kLong_s);
   // the servo needs a moment to notice; before that a successor starts its own
   EXPECT_TRUE(eventually([&] {
     if (link && (*link)->tip().tick > 0) return true;
@@ -142,7 +142,7 @@ TEST(ServoTakeover, GoesOnWithTheServoOfADeadRenderer) {
 TEST(ServoTakeover, TellsAServoOfAnotherSceneToLeaveAndStartsItsOwn) {
   Predecessor predecessor(kLong_s);
   predecessor.kill();
-  core::Result<std::unique_ptr<ServoLink>> link = start(kLong_s, kScene + 1);
+  core::Result<std::unique_ptr<ServoClient>> link = start(kLong_s, kScene + 1);
   EXPECT_TRUE(eventually([&] {
     if (const auto code = predecessor.servo_exit_code()) return code == 1;
     link = start(kLong_s, kScene + 1);

@@ -19,13 +19,13 @@ using ::testing::HasSubstr;
 RecordedSession example() {
   RecordedSession session;
   session.material = "mica";
-  session.parameters.interaction.tip_radius.si = 50e-9;
-  session.parameters.interaction.spring_constant.si = 0.1;
-  session.parameters.interaction.sample_stiffness.si = std::numeric_limits<double>::infinity();
-  session.parameters.interaction.hamaker.si = 24.5e-21;
-  session.parameters.interaction.mean_surface_energy.si = 2.228e-3;
-  session.parameters.interaction.reduced_modulus = physics::Pressure(51.5e9);
-  session.parameters.interaction.atomic_distance = physics::Length(0.3e-9);
+  session.parameters.contact.tip_radius.si = 50e-9;
+  session.parameters.contact.spring_constant.si = 0.1;
+  session.parameters.contact.sample_stiffness.si = std::numeric_limits<double>::infinity();
+  session.parameters.contact.hamaker.si = 24.5e-21;
+  session.parameters.contact.mean_surface_energy.si = 2.228e-3;
+  session.parameters.contact.reduced_modulus = physics::Pressure(51.5e9);
+  session.parameters.contact.atomic_distance = physics::Length(0.3e-9);
   session.parameters.law = physics::Law::Dmt;
   session.parameters.has_meniscus = 1;
   session.parameters.meniscus.relative_humidity = 0.35;
@@ -69,9 +69,9 @@ TEST(SessionFile, ComesBackAsItWasSaved) {
   const auto loaded = load_session(folder.file("s.afms"));
   ASSERT_TRUE(loaded.has_value()) << loaded.error().message;
   EXPECT_EQ(loaded->material, "mica");
-  EXPECT_EQ(loaded->parameters.interaction.hamaker.si, 24.5e-21);
-  EXPECT_TRUE(std::isinf(loaded->parameters.interaction.sample_stiffness.si));
-  EXPECT_EQ(loaded->parameters.interaction.reduced_modulus.si, 51.5e9);
+  EXPECT_EQ(loaded->parameters.contact.hamaker.si, 24.5e-21);
+  EXPECT_TRUE(std::isinf(loaded->parameters.contact.sample_stiffness.si));
+  EXPECT_EQ(loaded->parameters.contact.reduced_modulus.si, 51.5e9);
   EXPECT_EQ(loaded->parameters.law, physics::Law::Dmt);
   EXPECT_EQ(loaded->parameters.has_meniscus, 1U);
   EXPECT_EQ(loaded->parameters.meniscus.relative_humidity, 0.35);
@@ -172,7 +172,7 @@ TEST(SessionFile, OfADeviceThatCannotBeIsRefused) {
 TEST(SessionFile, WithParametersThatNoMicroscopeHasIsRefused) {
   const support::ScratchFolder folder;
   RecordedSession session = example();
-  session.parameters.interaction.tip_radius.si = -1.0;
+  session.parameters.contact.tip_radius.si = -1.0;
   ASSERT_TRUE(save_session(session, folder.file("bad.afms")).has_value());
   EXPECT_THAT(error_of(folder.file("bad.afms")), HasSubstr("tip radius"));
 }

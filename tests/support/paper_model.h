@@ -16,14 +16,14 @@ inline scene::Name name_of(std::string_view text) {
   return name;
 }
 
-inline scene::SharedMaterial material(std::string_view name, double spring_constant, double hamaker,
-                                      double surface_energy) {
+inline scene::SharedContact material(std::string_view name, double spring_constant, double hamaker,
+                                     double surface_energy) {
   return {.name = name_of(name),
-          .interaction = {.tip_radius = physics::Length(50e-9),
-                          .spring_constant = physics::Stiffness(spring_constant),
-                          .sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity()),
-                          .hamaker = physics::Energy(hamaker),
-                          .mean_surface_energy = physics::SurfaceEnergy(surface_energy)}};
+          .contact = {.tip_radius = physics::Length(50e-9),
+                      .spring_constant = physics::Stiffness(spring_constant),
+                      .sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity()),
+                      .hamaker = physics::Energy(hamaker),
+                      .mean_surface_energy = physics::SurfaceEnergy(surface_energy)}};
 }
 
 inline constexpr std::int32_t kMica = 0, kGold = 1, kSiliconNitride = 2;

@@ -13,6 +13,6 @@ namespace afm::curves {
 // load in units of pi W R upwards. The borders are where physics::regime_of() changes. The contact stands at its own
 // pull-off force; one that lies outside stands at the edge.
 SvgPlot adhesion_map_plot(const std::string& title, const physics::LawChoice& place,
-                          const physics::Interaction& interaction, physics::Force pull_off);
+                          const physics::ContactParameters& contact, physics::Force pull_off);
 
 }  // namespace afm::curves

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "curves/felt_material.h"
+#include "curves/sample_model.h"
 #include "physics/force_curve.h"
 
 namespace afm::curves {
@@ -14,7 +14,7 @@ namespace afm::curves {
 // How far the wall shows a cycle above and below the undeformed surface, in units of the height at which the hand's
 // stroke ends.
 inline constexpr double kReachAbove = 1.42, kReachBelow = 0.42;
-double cycle_reach_m(const FeltMaterial& material);
+double cycle_reach_m(const SampleModel& material);
 
 // A quantity of physics/quantity_text.h as people set it: "31.8 mJ/m²" for "31.8 mJ/m2".
 std::string typographic(std::string text);
@@ -27,7 +27,7 @@ class LiveParameters {
   static constexpr std::size_t kRows = 6;
 
   // `loaded` is what the servo began with; its law is no recorded curve.
-  explicit LiveParameters(const FeltMaterial& loaded);
+  explicit LiveParameters(const SampleModel& loaded);
 
   // One step down (-1) or up (+1): a factor of the fourth root of two, or the next law. Whether anything changed.
   bool step(Row row, int direction);
@@ -36,7 +36,7 @@ class LiveParameters {
   bool reset();
 
   // As it would be felt now; its parameters are what the servo is to get.
-  const FeltMaterial& felt() const { return now_; }
+  const SampleModel& felt() const { return now_; }
 
   std::string name(Row row) const;
   std::string value(Row row) const;  // with its unit
@@ -54,8 +54,8 @@ class LiveParameters {
   std::optional<physics::Law> law_after(int steps) const;  // none: the adhesion map's
   bool take(const Steps& steps);
 
-  FeltMaterial loaded_;
-  FeltMaterial now_;
+  SampleModel loaded_;
+  SampleModel now_;
   Steps steps_{};
   physics::ForceCurve curve_;
   std::string refusal_;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "curves/curve_fault.h"
+#include "curves/curve_error.h"
 
 namespace afm::curves {
 
@@ -16,7 +16,7 @@ namespace {
 void read_text(const nlohmann::json& from, const char* key, std::string& text) {
   const auto found = from.find(key);
   if (found == from.end()) return;
-  if (!found->is_string()) throw CurveFault(fmt::format("its metadata \"{}\" is not a text", key));
+  if (!found->is_string()) throw CurveError(fmt::format("its metadata \"{}\" is not a text", key));
   text = found->get<std::string>();
 }
 
@@ -24,9 +24,9 @@ template <class Q>
 void read_number(const nlohmann::json& from, const char* key, std::optional<Q>& value) {
   const auto found = from.find(key);
   if (found == from.end()) return;
-  if (!found->is_number()) throw CurveFault(fmt::format("its metadata \"{}\" is not a number", key));
+  if (!found->is_number()) throw CurveError(fmt::format("its metadata \"{}\" is not a number", key));
   const double si = found->get<double>();
-  if (!std::isfinite(si)) throw CurveFault(fmt::format("its metadata \"{}\" is not finite", key));
+  if (!std::isfinite(si)) throw CurveError(fmt::format("its metadata \"{}\" is not finite", key));
   value = Q(si);
 }
 
@@ -56,11 +56,11 @@ nlohmann::ordered_json afmformats_metadata(const RecordedCurve& curve) {
 }
 
 void read_afmformats_metadata(const nlohmann::json& from, CurveMetadata& metadata) {
-  if (!from.is_object()) throw CurveFault("its metadata is not a JSON object");
+  if (!from.is_object()) throw CurveError("its metadata is not a JSON object");
   std::string mode = "force-distance";
   read_text(from, "imaging mode", mode);
   if (mode != "force-distance") {
-    throw CurveFault(fmt::format("its imaging mode is \"{}\"; only force-distance curves are read", mode));
+    throw CurveError(fmt::format("its imaging mode is \"{}\"; only force-distance curves are read", mode));
   }
   read_number(from, "spring constant", metadata.spring_constant);
   read_number(from, "sensitivity", metadata.sensitivity_m_per_v);

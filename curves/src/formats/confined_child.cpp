@@ -15,7 +15,7 @@
 #include <string_view>
 
 #include "core/file_descriptor.h"
-#include "curves/curve_fault.h"
+#include "curves/curve_error.h"
 
 namespace afm::curves {
 
@@ -69,7 +69,7 @@ enum ChildExit : int { kDone = 0, kFault = 1, kFailed = 2 };
   try {
     confine();
     code = write_all(descriptor, work()) ? kDone : kFailed;
-  } catch (const CurveFault& fault) {
+  } catch (const CurveError& fault) {
     code = write_all(descriptor, fault.what()) ? kFault : kFailed;
   } catch (const std::exception&) {
     code = kFailed;
@@ -93,8 +93,8 @@ std::string in_confined_child(const std::function<std::string()>& work, const st
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == kDone) return bytes;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kFault) throw CurveFault(bytes);
-  throw CurveFault(on_death);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kFault) throw CurveError(bytes);
+  throw CurveError(on_death);
 }
 
 }  // namespace afm::curves

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/whole_file.h"
-#include "curves/curve_fault.h"
+#include "curves/curve_error.h"
 #include "formats/hdf5_file.h"
 #include "formats/igor_file.h"
 #include "formats/jpk_file.h"
@@ -32,7 +32,7 @@ CurveFormat format_of(std::string_view bytes) {
   if (bytes.starts_with("#") && heading.find("# BEGIN METADATA") != std::string_view::npos) return CurveFormat::Tab;
   if (heading.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos) return CurveFormat::AfmWorkshop;
   if (looks_like_igor(bytes)) return CurveFormat::IgorBinaryWave;
-  throw CurveFault(
+  throw CurveError(
       "it is no curve file of a known kind; known are TouchAFM .csv, afmformats .tab and .h5, AFM Workshop .csv, JPK "
       ".jpk-force and Igor .ibw");
 }
@@ -52,7 +52,7 @@ void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
 
 RecordedCurve read(std::string_view bytes, const CurveReading& reading) {
   const CurveFormat format = format_of(bytes);
-  if (reading.index != 0 && format != CurveFormat::Hdf5) throw CurveFault("it holds one curve alone");
+  if (reading.index != 0 && format != CurveFormat::Hdf5) throw CurveError("it holds one curve alone");
   switch (format) {
     case CurveFormat::Hdf5:
       return read_hdf5(bytes, reading.index);
@@ -74,22 +74,22 @@ RecordedCurve read(std::string_view bytes, const CurveReading& reading) {
 void check(RecordedCurve& curve) {
   constexpr double kHighest_m = 1.0, kStrongest_n = 1.0, kStiffest_n_per_m = 1e6;
   if (curve.points.size() < physics::kFewestApproachPoints) {
-    throw CurveFault(fmt::format("it has only {} points", curve.points.size()));
+    throw CurveError(fmt::format("it has only {} points", curve.points.size()));
   }
   for (const physics::CurvePoint& point : curve.points) {
     if (!(std::abs(point.z.si) <= kHighest_m) || !(std::abs(point.force.si) <= kStrongest_n)) {
-      throw CurveFault(
+      throw CurveError(
           fmt::format("a point at {} m with {} N is no force microscope's; is it in SI?", point.z.si, point.force.si));
     }
   }
   if (const auto k = curve.metadata.spring_constant; k && !(k->si > 0.0 && k->si <= kStiffest_n_per_m)) {
-    throw CurveFault(fmt::format("its spring constant of {} N/m is no lever's", k->si));
+    throw CurveError(fmt::format("its spring constant of {} N/m is no lever's", k->si));
   }
   const auto is_approach = [](const auto& point) { return point.branch == physics::Branch::Approach; };
   if (!std::is_partitioned(curve.points.begin(), curve.points.end(), is_approach)) {
-    throw CurveFault("it does not approach once and retract once");
+    throw CurveError("it does not approach once and retract once");
   }
-  if (!is_approach(curve.points.front())) throw CurveFault("it has no approach");
+  if (!is_approach(curve.points.front())) throw CurveError("it has no approach");
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ core::Result<RecordedCurve> parse_curve(std::string_view bytes, const std::strin
     recalibrate(reading, curve);
     check(curve);
     return curve;
-  } catch (const CurveFault& fault) {
+  } catch (const CurveError& fault) {
     return bad(fault.what());
   } catch (const nlohmann::json::exception&) {
     return bad("its metadata is no valid JSON");

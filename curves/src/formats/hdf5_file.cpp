@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/version.h"
-#include "curves/curve_fault.h"
+#include "curves/curve_error.h"
 #include "formats/afmformats_metadata.h"
 #include "formats/confined_child.h"
 #include "formats/tab_file.h"
@@ -118,7 +118,7 @@ std::string text_of(hid_t attribute, hid_t type) {
     return copy;
   }
   const std::size_t size = H5Tget_size(type);
-  if (size > kLongestText) throw CurveFault("one of its attributes is too long");
+  if (size > kLongestText) throw CurveError("one of its attributes is too long");
   std::string text(size + 1, '\0');
   H5Tset_size(memory.get(), text.size());
   if (H5Aread(attribute, memory.get(), text.data()) < 0) return {};
@@ -150,16 +150,16 @@ bool has(hid_t group, const char* name) { return H5Lexists(group, name, H5P_DEFA
 
 std::vector<double> column_of(hid_t group, const char* name) {
   const Handle column(H5Dopen2(group, name, H5P_DEFAULT));
-  if (!column.is_open()) throw CurveFault(fmt::format("it has no readable column \"{}\"", name));
+  if (!column.is_open()) throw CurveError(fmt::format("it has no readable column \"{}\"", name));
   const Handle space = must(H5Dget_space(column.get()), "read a space");
   hsize_t count = 0;
   if (H5Sget_simple_extent_ndims(space.get()) != 1 || H5Sget_simple_extent_dims(space.get(), &count, nullptr) != 1) {
-    throw CurveFault(fmt::format("its column \"{}\" is not a list of numbers", name));
+    throw CurveError(fmt::format("its column \"{}\" is not a list of numbers", name));
   }
-  if (count > kMostCurvePoints) throw CurveFault("it has more points than a curve may have");
+  if (count > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
   std::vector<double> values(count);
   if (H5Dread(column.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-    throw CurveFault(fmt::format("its column \"{}\" is damaged or of no numbers", name));
+    throw CurveError(fmt::format("its column \"{}\" is damaged or of no numbers", name));
   }
   return values;
 }
@@ -169,11 +169,11 @@ RecordedCurve read_here(std::string_view bytes, std::size_t index) {
   // HDF5 copies the image that it is given
   must_do(H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()), "take the file");
   const Handle file(H5Fopen("curve", H5F_ACC_RDONLY, access.get()));
-  if (!file.is_open()) throw CurveFault("it is damaged or cut short");
+  if (!file.is_open()) throw CurveError("it is damaged or cut short");
   const std::string name = std::to_string(index);
-  if (!has(file.get(), name.c_str())) throw CurveFault(fmt::format("it has no curve \"{}\"", name));
+  if (!has(file.get(), name.c_str())) throw CurveError(fmt::format("it has no curve \"{}\"", name));
   const Handle group(H5Gopen2(file.get(), name.c_str(), H5P_DEFAULT));
-  if (!group.is_open()) throw CurveFault(fmt::format("its curve \"{}\" is damaged", name));
+  if (!group.is_open()) throw CurveError(fmt::format("its curve \"{}\" is damaged", name));
 
   RecordedCurve curve;
   read_afmformats_metadata(metadata_of(group.get()), curve.metadata);
@@ -183,11 +183,11 @@ RecordedCurve read_here(std::string_view bytes, std::size_t index) {
   if (has(group.get(), "time")) curve.time_s = column_of(group.get(), "time");
   if (height.size() != force.size() || segment.size() != force.size() ||
       (!curve.time_s.empty() && curve.time_s.size() != force.size())) {
-    throw CurveFault("its columns differ in length");
+    throw CurveError("its columns differ in length");
   }
   for (std::size_t i = 0; i < force.size(); ++i) {
     if (segment[i] != 0.0 && segment[i] != 1.0) {
-      throw CurveFault(fmt::format("segment is {}; known are 0 (approach) and 1 (retract)", segment[i]));
+      throw CurveError(fmt::format("segment is {}; known are 0 (approach) and 1 (retract)", segment[i]));
     }
     curve.points.push_back({physics::Length(height[i]), physics::Force(force[i]),
                             segment[i] == 0.0 ? physics::Branch::Approach : physics::Branch::Retract});

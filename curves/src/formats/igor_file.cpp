@@ -10,7 +10,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "curves/curve_fault.h"
+#include "curves/curve_error.h"
 #include "formats/text_table.h"
 
 namespace afm::curves {
@@ -27,7 +27,7 @@ constexpr std::size_t kWaveSize = 4, kFormulaSize = 8, kNoteSize = 12, kDataUnit
 template <class T>
 T at(std::string_view bytes, std::size_t offset) {
   T value{};
-  if (offset > bytes.size() || bytes.size() - offset < sizeof(T)) throw CurveFault("it is cut short");
+  if (offset > bytes.size() || bytes.size() - offset < sizeof(T)) throw CurveError("it is cut short");
   std::memcpy(&value, bytes.data() + offset, sizeof(T));
   return value;
 }
@@ -35,12 +35,12 @@ T at(std::string_view bytes, std::size_t offset) {
 // A length in the file, which Igor holds as a signed number.
 std::size_t length_at(std::string_view bytes, std::size_t offset) {
   const auto value = at<std::int32_t>(bytes, offset);
-  if (value < 0) throw CurveFault("it is damaged: a length in its header is negative");
+  if (value < 0) throw CurveError("it is damaged: a length in its header is negative");
   return static_cast<std::size_t>(value);
 }
 
 std::string_view part(std::string_view bytes, std::size_t offset, std::size_t size) {
-  if (offset > bytes.size() || size > bytes.size() - offset) throw CurveFault("it is cut short");
+  if (offset > bytes.size() || size > bytes.size() - offset) throw CurveError("it is cut short");
   return bytes.substr(offset, size);
 }
 
@@ -60,11 +60,11 @@ struct Wave {
 
 void check_header(std::string_view bytes) {
   if (const auto version = at<std::int16_t>(bytes, 0); version != 5) {
-    throw CurveFault("it is an Igor wave of another version or byte order; only version 5, little-endian, is read");
+    throw CurveError("it is an Igor wave of another version or byte order; only version 5, little-endian, is read");
   }
   std::uint16_t sum = 0;
   for (std::size_t i = 0; i < kData; i += 2) sum = static_cast<std::uint16_t>(sum + at<std::uint16_t>(bytes, i));
-  if (sum != 0) throw CurveFault("the checksum of its header is wrong");
+  if (sum != 0) throw CurveError("the checksum of its header is wrong");
 }
 
 Wave read_wave(std::string_view bytes) {
@@ -73,7 +73,7 @@ Wave read_wave(std::string_view bytes) {
   wave.rows = length_at(bytes, kDimensions);
   wave.columns = length_at(bytes, kDimensions + 4);
   if (length_at(bytes, kDimensions + 8) > 1 || wave.rows == 0 || wave.columns == 0) {
-    throw CurveFault("its wave is no table of channels: an image or a volume");
+    throw CurveError("its wave is no table of channels: an image or a volume");
   }
   switch (at<std::int16_t>(bytes, kDataType)) {
     case 2:
@@ -83,13 +83,13 @@ Wave read_wave(std::string_view bytes) {
       wave.number_size = sizeof(double);
       break;
     default:
-      throw CurveFault("its numbers are neither 32-bit nor 64-bit floats");
+      throw CurveError("its numbers are neither 32-bit nor 64-bit floats");
   }
   // the file itself bounds both, so that the products below cannot overflow
-  if (wave.rows > bytes.size() || wave.columns > bytes.size()) throw CurveFault("it is cut short");
+  if (wave.rows > bytes.size() || wave.columns > bytes.size()) throw CurveError("it is cut short");
   const std::size_t data_size = wave.rows * wave.columns * wave.number_size;
   if (length_at(bytes, kWaveSize) != kWaveHeaderSize + data_size) {
-    throw CurveFault("it is damaged: the wave's size does not fit its dimensions");
+    throw CurveError("it is damaged: the wave's size does not fit its dimensions");
   }
   wave.data = part(bytes, kData, data_size);
 
@@ -106,7 +106,7 @@ Wave read_wave(std::string_view bytes) {
     wave.labels.push_back(label.substr(0, label.find('\0')));
   }
   if (wave.labels.size() != wave.columns)
-    throw CurveFault("its columns have no labels, so that nobody knows which is which");
+    throw CurveError("its columns have no labels, so that nobody knows which is which");
   return wave;
 }
 
@@ -131,7 +131,7 @@ std::size_t channel(const Wave& wave, std::initializer_list<std::string_view> na
     const auto found = std::find(wave.labels.begin(), wave.labels.end(), name);
     if (found != wave.labels.end()) return static_cast<std::size_t>(found - wave.labels.begin());
   }
-  throw CurveFault(fmt::format("it has no channel {}", fmt::join(names, " or ")));
+  throw CurveError(fmt::format("it has no channel {}", fmt::join(names, " or ")));
 }
 
 CurveMetadata metadata_of(std::string_view note) {
@@ -161,9 +161,9 @@ bool looks_like_igor(std::string_view bytes) {
 
 RecordedCurve read_igor(std::string_view bytes) {
   const Wave wave = read_wave(bytes);
-  if (wave.rows > kMostCurvePoints) throw CurveFault("it has more points than a curve may have");
+  if (wave.rows > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
   RecordedCurve curve{{}, {}, metadata_of(wave.note)};
-  if (!curve.metadata.spring_constant) throw CurveFault("its note has no SpringConstant");
+  if (!curve.metadata.spring_constant) throw CurveError("its note has no SpringConstant");
   const std::size_t height = channel(wave, {"ZSnsr", "ZSensor", "Raw", "Height"});
   const std::size_t deflection = channel(wave, {"Defl", "Deflection"});
   for (std::size_t row = 0; row < wave.rows; ++row) {

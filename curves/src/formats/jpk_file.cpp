@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "curves/curve_fault.h"
+#include "curves/curve_error.h"
 #include "formats/jpk_properties.h"
 #include "formats/text_table.h"
 #include "formats/zip_archive.h"
@@ -29,7 +29,7 @@ struct Linear {
 
 Linear linear_at(const JpkProperties& properties, const std::string& prefix) {
   const auto offset = properties.number(prefix + ".offset"), multiplier = properties.number(prefix + ".multiplier");
-  if (!offset || !multiplier) throw CurveFault(fmt::format("\"{}\" has no offset and multiplier", prefix));
+  if (!offset || !multiplier) throw CurveError(fmt::format("\"{}\" has no offset and multiplier", prefix));
   return {*offset, *multiplier};
 }
 
@@ -45,7 +45,7 @@ Encoding encoding_of(const std::string& type) {
   if (type == "signedinteger") return {4, true};
   if (type == "unsignedinteger") return {4, false};
   if (type == "signedlong") return {8, true};
-  throw CurveFault(fmt::format("a channel is encoded as \"{}\", which is not understood", type.substr(0, 40)));
+  throw CurveError(fmt::format("a channel is encoded as \"{}\", which is not understood", type.substr(0, 40)));
 }
 
 double big_endian(std::string_view bytes, Encoding encoding) {
@@ -73,13 +73,13 @@ class Segment {
     };
     const std::string scaling = encoder("type") + "scaling";
     const auto type = properties_.text(encoder("type") + "type");
-    if (!type) throw CurveFault(fmt::format("channel \"{}\" does not say how it is encoded", channel));
+    if (!type) throw CurveError(fmt::format("channel \"{}\" does not say how it is encoded", channel));
     const Encoding encoding = encoding_of(*type);
     std::vector<Linear> steps = conversions(prefix + ".conversion-set.conversion", base_slot(prefix), slot, reading);
     steps.push_back(linear_at(properties_, scaling));
 
     const std::string bytes = archive_.entry(data_file(channel), kMostChannelBytes);
-    if (bytes.size() % encoding.bytes != 0) throw CurveFault(fmt::format("channel \"{}\" is cut short", channel));
+    if (bytes.size() % encoding.bytes != 0) throw CurveError(fmt::format("channel \"{}\" is cut short", channel));
     std::vector<double> result;
     result.reserve(bytes.size() / encoding.bytes);
     for (std::size_t i = 0; i < bytes.size(); i += encoding.bytes) {
@@ -108,7 +108,7 @@ class Segment {
     std::vector<Linear> steps;
     constexpr std::size_t kLongestChain = 8;
     while (slot != base) {
-      if (steps.size() == kLongestChain) throw CurveFault("its conversions lead nowhere");
+      if (steps.size() == kLongestChain) throw CurveError("its conversions lead nowhere");
       const std::string conversion = fmt::format("{}.{}", prefix, slot);
       if (slot == "force" && reading.spring_constant) {
         steps.push_back({0.0, reading.spring_constant->si});
@@ -121,7 +121,7 @@ class Segment {
         slot = properties_.text(conversion + ".base-calibration-slot").value_or(base);
       } else {
         const bool force = slot == "force";
-        throw CurveFault(force || slot == "distance" ? fmt::format("its lever is not calibrated; give {}",
+        throw CurveError(force || slot == "distance" ? fmt::format("its lever is not calibrated; give {}",
                                                                    force ? "--spring-constant" : "--sensitivity")
                                                      : fmt::format("it does not say how to convert to \"{}\"", slot));
       }
@@ -141,7 +141,7 @@ std::vector<double> heights(const Segment& segment, const CurveReading& reading)
   for (const char* piezo : {"height", "head-height"}) {
     if (segment.has(piezo)) return segment.values(piezo, "calibrated", reading);
   }
-  throw CurveFault("it has no channel of the height");
+  throw CurveError("it has no channel of the height");
 }
 
 std::string style_of(const Segment& segment) {
@@ -149,13 +149,13 @@ std::string style_of(const Segment& segment) {
        {"force-segment-header.settings.segment-settings.style", "force-segment-header.settings.style"}) {
     if (const auto style = segment.properties().text(key)) return *style;
   }
-  throw CurveFault("a segment does not say whether it extends or retracts");
+  throw CurveError("a segment does not say whether it extends or retracts");
 }
 
 void add_segment(const Segment& segment, physics::Branch branch, const CurveReading& reading, RecordedCurve& curve) {
   const std::vector<double> z = heights(segment, reading), force = segment.values("vDeflection", "force", reading);
-  if (z.size() != force.size()) throw CurveFault("the channels of a segment differ in length");
-  if (curve.points.size() + z.size() > kMostCurvePoints) throw CurveFault("it has more points than a curve may have");
+  if (z.size() != force.size()) throw CurveError("the channels of a segment differ in length");
+  if (curve.points.size() + z.size() > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
   for (std::size_t i = 0; i < z.size(); ++i) {
     curve.points.push_back({physics::Length(z[i]), physics::Force(force[i]), branch});
   }
@@ -186,9 +186,9 @@ void read_metadata(const Segment& segment, const CurveReading& reading, CurveMet
 RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
   const ZipArchive archive(bytes);
   if (archive.holds_folder("index/")) {
-    throw CurveFault("it is a map or QI file of many curves; export one of them as .jpk-force or .tab");
+    throw CurveError("it is a map or QI file of many curves; export one of them as .jpk-force or .tab");
   }
-  if (!archive.holds("header.properties")) throw CurveFault("it is a zip archive, but not one of JPK's");
+  if (!archive.holds("header.properties")) throw CurveError("it is a zip archive, but not one of JPK's");
   const std::string general = archive.entry("header.properties", kMostPropertyBytes);
   JpkProperties shared;
   if (archive.holds("shared-data/header.properties")) {
@@ -199,7 +199,7 @@ RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
   for (int i = 0;; ++i) {
     const std::string folder = fmt::format("segments/{}/", i);
     if (!archive.holds(folder + "segment-header.properties")) break;
-    if (i == kMostSegments) throw CurveFault(fmt::format("it has more than {} segments", kMostSegments));
+    if (i == kMostSegments) throw CurveError(fmt::format("it has more than {} segments", kMostSegments));
     JpkProperties properties;
     properties.add(archive.entry(folder + "segment-header.properties", kMostPropertyBytes));
     properties.take_shared(shared);
@@ -207,7 +207,7 @@ RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
     const Segment segment(archive, folder, std::move(properties));
     const std::string style = style_of(segment);
     if (style == "pause") continue;
-    if (style != "extend" && style != "retract") throw CurveFault(fmt::format("segment {} is \"{}\"", i, style));
+    if (style != "extend" && style != "retract") throw CurveError(fmt::format("segment {} is \"{}\"", i, style));
     if (curve.points.empty()) read_metadata(segment, reading, curve.metadata);
     add_segment(segment, style == "extend" ? physics::Branch::Approach : physics::Branch::Retract, reading, curve);
   }

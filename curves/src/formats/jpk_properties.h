@@ -21,7 +21,7 @@ class JpkProperties {
 
   std::optional<std::string> text(std::string_view key) const;
 
-  // Throws CurveFault if it is there and no finite number.
+  // Throws CurveError if it is there and no finite number.
   std::optional<double> number(std::string_view key) const;
 
  private:

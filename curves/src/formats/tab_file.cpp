@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/version.h"
-#include "curves/curve_fault.h"
+#include "curves/curve_error.h"
 #include "formats/afmformats_metadata.h"
 #include "formats/text_table.h"
 
@@ -41,7 +41,7 @@ Heading read_heading(Lines& lines, std::string_view& first_row) {
       break;
     }
   }
-  if (!heading.has_metadata) throw CurveFault("it has no block between BEGIN METADATA and END METADATA");
+  if (!heading.has_metadata) throw CurveError("it has no block between BEGIN METADATA and END METADATA");
   return heading;
 }
 
@@ -49,7 +49,7 @@ physics::Branch branch_in(std::string_view field, const Lines& lines) {
   field = trimmed(field);
   if (field == "0" || field == "False") return physics::Branch::Approach;
   if (field == "1" || field == "True") return physics::Branch::Retract;
-  throw CurveFault(fmt::format("line {}: segment is \"{}\"; known are 0 (approach) and 1 (retract)", lines.number(),
+  throw CurveError(fmt::format("line {}: segment is \"{}\"; known are 0 (approach) and 1 (retract)", lines.number(),
                                field.substr(0, 40)));
 }
 
@@ -59,7 +59,7 @@ void check_count(const nlohmann::json& metadata, std::size_t points, std::string
   const double expected = count->get<double>();
   // a last line without its end may have lost digits
   if (static_cast<double>(points) < expected || !bytes.ends_with('\n')) {
-    throw CurveFault(fmt::format("it is cut short: {} of {} points are whole", points, expected));
+    throw CurveError(fmt::format("it is cut short: {} of {} points are whole", points, expected));
   }
 }
 
@@ -105,10 +105,10 @@ RecordedCurve read_tab(std::string_view bytes) {
     if (trimmed(line).empty() || line.starts_with('#')) continue;
     split(line, '\t', fields);
     if (fields.size() <= last_used || fields.size() > names.size()) {
-      throw CurveFault(
+      throw CurveError(
           fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), names.size()));
     }
-    if (curve.points.size() == kMostCurvePoints) throw CurveFault("it has more points than a curve may have");
+    if (curve.points.size() == kMostCurvePoints) throw CurveError("it has more points than a curve may have");
     curve.points.push_back({physics::Length(number_in(fields[height], "height", lines)),
                             physics::Force(number_in(fields[force], "force", lines)),
                             branch_in(fields[segment], lines)});

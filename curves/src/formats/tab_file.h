@@ -10,7 +10,7 @@ namespace afm::curves {
 
 // afmformats' .tab: a # header with JSON between BEGIN METADATA and END METADATA, a # line of column names, rows
 // separated by tabs. afmformats refuses a file with a metadata key that it does not know, so that only those of its
-// list are written. Reading throws CurveFault.
+// list are written. Reading throws CurveError.
 std::string tab_bytes(const RecordedCurve& curve);
 RecordedCurve read_tab(std::string_view bytes);
 

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "curves/curve_fault.h"
+#include "curves/curve_error.h"
 
 namespace afm::curves {
 
@@ -42,7 +42,7 @@ double number_in(std::string_view field, std::string_view column, const Lines& l
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
-    throw CurveFault(
+    throw CurveError(
         fmt::format("line {}: {} is \"{}\", not a finite number", lines.number(), column, field.substr(0, 40)));
   }
   return value;
@@ -50,7 +50,7 @@ double number_in(std::string_view field, std::string_view column, const Lines& l
 
 std::size_t column_in(const std::vector<std::string_view>& heading, std::string_view name) {
   const auto found = std::find(heading.begin(), heading.end(), name);
-  if (found == heading.end()) throw CurveFault(fmt::format("it has no column \"{}\"", name));
+  if (found == heading.end()) throw CurveError(fmt::format("it has no column \"{}\"", name));
   return static_cast<std::size_t>(found - heading.begin());
 }
 

@@ -26,10 +26,10 @@ std::string_view trimmed(std::string_view text);
 // The parts between the separators; of an empty text, one empty part. Reuses `parts`.
 void split(std::string_view text, char separator, std::vector<std::string_view>& parts);
 
-// A finite decimal number that fills the whole field, blanks aside. Throws CurveFault, which says where.
+// A finite decimal number that fills the whole field, blanks aside. Throws CurveError, which says where.
 double number_in(std::string_view field, std::string_view column, const Lines& lines);
 
-// The place of a column in the table's heading. Throws CurveFault if there is none.
+// The place of a column in the table's heading. Throws CurveError if there is none.
 std::size_t column_in(const std::vector<std::string_view>& heading, std::string_view name);
 
 }  // namespace afm::curves

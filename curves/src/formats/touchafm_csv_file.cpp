@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "curves/curve_fault.h"
+#include "curves/curve_error.h"
 #include "formats/text_table.h"
 
 namespace afm::curves {
@@ -37,21 +37,21 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
   while (lines.next(line)) {
     split(line, ',', fields);
     if (fields.size() != names.size()) {
-      throw CurveFault(
+      throw CurveError(
           fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), names.size()));
     }
     if (fields[branch] != "approach" && fields[branch] != "retract") {
-      throw CurveFault(fmt::format("line {}: branch is \"{}\", neither approach nor retract", lines.number(),
+      throw CurveError(fmt::format("line {}: branch is \"{}\", neither approach nor retract", lines.number(),
                                    fields[branch].substr(0, 40)));
     }
-    if (curve.points.size() == kMostCurvePoints) throw CurveFault("it has more points than a curve may have");
+    if (curve.points.size() == kMostCurvePoints) throw CurveError("it has more points than a curve may have");
     curve.points.push_back({physics::Length(number_in(fields[z], "z_m", lines)),
                             physics::Force(number_in(fields[force], "force_N", lines)),
                             fields[branch] == "approach" ? physics::Branch::Approach : physics::Branch::Retract});
   }
   // a whole cycle comes back up, and its last line is ended
   if (curve.points.empty() || curve.points.back().branch != physics::Branch::Retract || !bytes.ends_with('\n')) {
-    throw CurveFault("it is cut short");
+    throw CurveError("it is cut short");
   }
   return curve;
 }

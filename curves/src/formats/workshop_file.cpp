@@ -10,7 +10,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "curves/curve_fault.h"
+#include "curves/curve_error.h"
 #include "formats/text_table.h"
 
 namespace afm::curves {
@@ -97,7 +97,7 @@ Header read_header(Lines& lines) {
       return header;
     }
   }
-  throw CurveFault("it has no line of column names");
+  throw CurveError("it has no line of column names");
 }
 
 // One of the two branches of the table.
@@ -117,7 +117,7 @@ Columns columns_of(const Header& header, std::string_view branch) {
   const std::size_t signal = column_in(header.columns, volts);
   const CurveMetadata& made = header.metadata;
   if (!made.sensitivity_m_per_v || !made.spring_constant) {
-    throw CurveFault("its deflection is in volts; give --sensitivity and --spring-constant");
+    throw CurveError("its deflection is in volts; give --sensitivity and --spring-constant");
   }
   return {height, signal, *made.sensitivity_m_per_v * made.spring_constant->si};
 }
@@ -159,7 +159,7 @@ std::string workshop_bytes(const RecordedCurve& curve) {
   const auto turn = std::find_if(curve.points.begin(), curve.points.end(),
                                  [](const auto& point) { return point.branch == physics::Branch::Retract; });
   std::vector<physics::CurvePoint> approach(curve.points.begin(), turn), retract(turn, curve.points.end());
-  if (approach.size() < 2 || retract.size() < 2) throw CurveFault("it needs an approach and a retract");
+  if (approach.size() < 2 || retract.size() < 2) throw CurveError("it needs an approach and a retract");
   if (approach.size() != retract.size() || !evenly_spaced(approach) || !evenly_spaced(retract)) {
     const std::size_t count = std::max(approach.size(), retract.size());
     approach = resampled(approach, count);
@@ -198,10 +198,10 @@ RecordedCurve read_workshop(std::string_view bytes, const CurveReading& reading)
     if (trimmed(line).empty()) continue;
     split(line, ',', fields);
     if (fields.size() != header.columns.size()) {
-      throw CurveFault(
+      throw CurveError(
           fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), header.columns.size()));
     }
-    if (2 * retract.size() >= kMostCurvePoints) throw CurveFault("it has more points than a curve may have");
+    if (2 * retract.size() >= kMostCurvePoints) throw CurveError("it has more points than a curve may have");
     const auto point = [&](const Columns& columns, physics::Branch branch) {
       return physics::CurvePoint{
           physics::Length(-number_in(fields[columns.height], "Z-Sense", lines) / kPerNano),

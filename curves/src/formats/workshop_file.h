@@ -13,7 +13,7 @@ namespace afm::curves {
 // or, uncalibrated, in volts. Gwyddion takes the heights as evenly spaced and needs both branches equally long.
 std::string workshop_bytes(const RecordedCurve& curve);
 
-// Throws CurveFault; for volts it needs sensitivity and spring constant from the file or from `reading`.
+// Throws CurveError; for volts it needs sensitivity and spring constant from the file or from `reading`.
 RecordedCurve read_workshop(std::string_view bytes, const CurveReading& reading);
 
 }  // namespace afm::curves

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdio>
 
-#include "curves/curve_fault.h"
+#include "curves/curve_error.h"
 
 namespace afm::curves {
 
@@ -40,7 +40,7 @@ std::string name_of_entry(unzFile archive) {
 }  // namespace
 
 ZipArchive::ZipArchive(std::string_view bytes) : archive_(open_archive(bytes), &unzClose) {
-  if (!archive_) throw CurveFault("its zip archive is damaged");
+  if (!archive_) throw CurveError("its zip archive is damaged");
 }
 
 bool ZipArchive::holds(const std::string& name) const {
@@ -57,16 +57,16 @@ bool ZipArchive::holds_folder(std::string_view prefix) const {
 std::string ZipArchive::entry(const std::string& name, std::size_t most_bytes) const {
   unz_file_info64 info{};
   if (!holds(name) || unzGetCurrentFileInfo64(archive_.get(), &info, nullptr, 0, nullptr, 0, nullptr, 0) != UNZ_OK) {
-    throw CurveFault(fmt::format("its archive has no \"{}\"", name));
+    throw CurveError(fmt::format("its archive has no \"{}\"", name));
   }
-  if (info.uncompressed_size > most_bytes) throw CurveFault(fmt::format("\"{}\" in its archive is too large", name));
+  if (info.uncompressed_size > most_bytes) throw CurveError(fmt::format("\"{}\" in its archive is too large", name));
   std::string bytes(info.uncompressed_size, '\0');
   const bool opened = unzOpenCurrentFile(archive_.get()) == UNZ_OK;
   const bool whole = opened && unzReadCurrentFile(archive_.get(), bytes.data(), static_cast<unsigned>(bytes.size())) ==
                                    static_cast<int>(bytes.size());
   // closing compares the checksum
   if (!opened || unzCloseCurrentFile(archive_.get()) != UNZ_OK || !whole) {
-    throw CurveFault(fmt::format("\"{}\" in its archive is damaged", name));
+    throw CurveError(fmt::format("\"{}\" in its archive is damaged", name));
   }
   return bytes;
 }

@@ -10,7 +10,7 @@
 
 namespace afm::curves {
 
-// A zip archive in memory, to be read through minizip. The bytes must outlive it. Throws CurveFault.
+// A zip archive in memory, to be read through minizip. The bytes must outlive it. Throws CurveError.
 class ZipArchive {
  public:
   explicit ZipArchive(std::string_view bytes);

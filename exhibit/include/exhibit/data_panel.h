@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "curves/felt_material.h"
+#include "curves/sample_model.h"
 #include "render/frame.h"
 
 namespace afm::exhibit {
@@ -12,7 +12,7 @@ struct Felt;
 
 // What the wall says of the material under the tip: its numbers with their sources, the law that it is given and why,
 // what that comes to, and the two values that move. Values that are not their files' are marked.
-render::DataPanel data_panel(const curves::FeltMaterial& material, double deflection_m, double force_n);
+render::DataPanel data_panel(const curves::SampleModel& material, double deflection_m, double force_n);
 
 // What was felt on each material, when all is done.
 render::DataPanel felt_panel(std::span<const Felt> felt);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "curves/felt_material.h"
+#include "curves/sample_model.h"
 #include "exhibit/moment.h"
 #include "exhibit/wall_scene.h"
 #include "render/frame.h"
@@ -22,7 +22,7 @@ std::string stage_of_cycle(const Moment& moment, double z_jtc_m);
 class FrameBuilder {
  public:
   // `wall_scene` and `materials` must outlive it; what a material is felt with may change between two frames.
-  FrameBuilder(const WallScene& wall_scene, const std::vector<curves::FeltMaterial>& materials,
+  FrameBuilder(const WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
                const std::array<scene::EyeView, 2>& eyes);
 
   render::FrameState build(const Moment& moment) const;
@@ -32,7 +32,7 @@ class FrameBuilder {
   render::Banner banner(const Moment& moment) const;
 
   const WallScene* wall_scene_;
-  const std::vector<curves::FeltMaterial>* materials_;
+  const std::vector<curves::SampleModel>* materials_;
   std::array<scene::EyeView, 2> eyes_;
 };
 

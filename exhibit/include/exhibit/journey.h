@@ -59,7 +59,7 @@ class JourneyTravel {
   void update(std::int64_t now_ns);
 
   bool away() const { return progress_s_ > 0.0; }  // from the instrument, or about to leave
-  double veil() const;                             // 0..1: how much of what is shown has dissolved
+  double fade() const;                             // 0..1: how much of what is shown has dissolved
   std::optional<double> orders() const;            // none: the instrument is still, or again, in view
 
  private:

@@ -43,7 +43,7 @@ struct Moment {
   std::span<const CycleCurve> curves;
   bool analogy = false;                  // Millet's magnet instead of the instrument
   std::optional<double> journey_orders;  // on the journey of scale, as in app/journey.h
-  double veil = 0;                       // as in WallScene::Pose
+  double fade = 0;                       // as in WallScene::Pose
   bool compare_all = false;              // the finale: all curves together, large, and what was felt
   std::vector<Felt> felt;
 };

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/result.h"
-#include "curves/felt_material.h"
+#include "curves/sample_model.h"
 #include "scene/graph/scene.h"
 #include "scene/shared/shared_blocks.h"
 
@@ -13,7 +13,7 @@ namespace afm::exhibit {
 // The shared model of a scene: its nodes at rest and what is felt. Fails if there are more of either than the segment
 // holds. `curves` and `surfaces` are those that the materials refer to.
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
-                                              std::span<const curves::FeltMaterial> materials,
+                                              std::span<const curves::SampleModel> materials,
                                               std::span<const scene::SharedHeightField> surfaces,
                                               std::span<const scene::SharedMeasuredCurve> curves = {});
 

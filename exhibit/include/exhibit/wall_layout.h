@@ -72,7 +72,7 @@ inline constexpr double kAnalogyLabelWidth = 0.40;
 inline constexpr double kAnalogyLabelHeight = 0.075;
 inline constexpr double kAnalogyLabelGap = 0.16;
 inline constexpr glm::dvec3 kAnalogyPlateLabel(0.0, -0.382, -0.07);  // in the sample's frame, on the plate's front
-inline constexpr float kHazeBegin = 3.5F, kHazeEnd = 14.0F;          // behind the wall, on the journey
+inline constexpr float kFogBegin = 3.5F, kFogEnd = 14.0F;            // behind the wall, on the journey
 inline constexpr double kBannerHeight = 0.25;
 // of the wall below and above the contact point: the shelf is seen whole, and the banner stands over the panels
 inline constexpr double kRoomBelow = 1.20;

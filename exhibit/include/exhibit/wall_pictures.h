@@ -16,7 +16,7 @@
 namespace afm::exhibit {
 
 // What a user asks of a picture of a wall that is written to a file.
-struct PictureWish {
+struct PictureOptions {
   std::optional<scene::StereoMode> mode{};            // instead of the outputs' own
   scene::EyeOrder order = scene::EyeOrder::Straight;  // Swapped: the other way round in every output
   std::optional<double> ipd_m{};                      // instead of the viewer's
@@ -40,7 +40,7 @@ struct WallPlan {
 
 // The wall's outputs in one picture, as they stand on the desktop; those that fill a monitor follow at the right. A
 // wall without outputs has one for each screen, beside each other. WrongUsage: a size that the mode cannot have.
-core::Result<WallPlan> plan_wall(const scene::Wall& wall, const PictureWish& wish);
+core::Result<WallPlan> plan_wall(const scene::Wall& wall, const PictureOptions& options);
 
 // Two eyes before a screen. Fails as scene::off_axis_view does.
 core::Result<std::array<scene::EyeView, 2>> eyes_before(const scene::Screen& screen, const scene::HeadPose& head,
@@ -57,7 +57,7 @@ std::uint32_t affordable_samples(render::Context& context, glm::uvec2 eye_px);
 // right eye's. `build` gives the frame for these eyes before that output.
 using BuildFrame = std::function<render::FrameState(const OutputPicture&, const std::array<scene::EyeView, 2>&)>;
 core::Result<std::vector<render::Image>> draw_wall(render::Renderer& renderer, const WallPlan& plan,
-                                                   const scene::Viewer& viewer, const PictureWish& wish,
+                                                   const scene::Viewer& viewer, const PictureOptions& options,
                                                    const BuildFrame& build);
 
 // FILE.png, or FILE-left.png and FILE-right.png.

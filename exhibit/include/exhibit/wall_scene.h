@@ -14,7 +14,7 @@
 #include "exhibit/analogy.h"
 #include "exhibit/journey.h"
 #include "exhibit/jump_cue.h"
-#include "exhibit/own_models.h"
+#include "exhibit/user_models.h"
 #include "exhibit/wall_marks.h"
 #include "input/selection.h"
 #include "input/wand.h"
@@ -48,7 +48,7 @@ class WallScene {
  public:
   static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
                                       const scene::Screen& screen, const glm::dvec3& viewer_m,
-                                      const OwnModels& own = {});
+                                      const UserModels& own = {});
 
   const scene::Scene& scene() const { return scene_; }
   scene::NodeIndex sample_node() const { return sample_frame_; }
@@ -93,7 +93,7 @@ class WallScene {
     std::optional<input::WandState> wand{};
     Exhibit exhibit = Exhibit::Instrument;
     double journey_orders = 0;   // of Exhibit::Journey, as in app/journey.h
-    double veil = 0;             // 0..1: how much of everything has dissolved
+    double fade = 0;             // 0..1: how much of everything has dissolved
     glm::dmat4 navigation{1.0};  // room from room: where sample and instrument have been moved, turned and scaled to
     std::optional<JumpCue> cue{};
   };
@@ -132,7 +132,7 @@ class WallScene {
   void place_panels(const Pose& pose, render::FrameState& frame) const;
   void place_swatch_labels(const Pose& pose, render::FrameState& frame) const;
   void place_analogy_labels(const Pose& pose, render::FrameState& frame) const;
-  void place_haze(const Pose& pose, render::FrameState& frame) const;
+  void place_fog(const Pose& pose, render::FrameState& frame) const;
   void place_marks(const Pose& pose, render::FrameState& frame) const;
   std::vector<glm::dmat4> local_transforms(const Pose& pose, render::BeamBend& bend) const;
   std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;

@@ -9,19 +9,20 @@
 #include <vector>
 
 #include "haptics/device.h"
-#include "haptics/encounter_exchange.h"
+#include "haptics/model_swap.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::haptics {
 
-// Makes encounters of the edits that arrive while the servo runs, and offers them to it. One thread, which is not the
-// servo's: building allocates and takes milliseconds.
+// Makes contact models of the edits that arrive while the servo runs, and offers them to it. One thread, which is not
+// the servo's: building allocates and takes milliseconds.
 class EditBuilder {
  public:
-  // Curves and surfaces as in SharedModel; `common` as for the encounters that are there; `exchange` must outlive it.
+  // Curves and surfaces as in SharedModel; `common` as for the contact models that are there; `exchange` must outlive
+  // it.
   EditBuilder(scene::EditSide edits, std::vector<scene::SharedMeasuredCurve> curves,
               std::vector<scene::SharedHeightField> surfaces, const CommonScale& common, const DeviceSpec& device,
-              std::int64_t period_ns, EncounterExchange& exchange)
+              std::int64_t period_ns, ModelSwap& exchange)
       : edits_(edits),
         curves_(std::move(curves)),
         surfaces_(std::move(surfaces)),
@@ -37,7 +38,7 @@ class EditBuilder {
   std::uint32_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
  private:
-  core::Result<std::unique_ptr<Encounter>> encounter_of(const scene::MaterialEdit& edit) const;
+  core::Result<std::unique_ptr<ContactModel>> model_of(const scene::MaterialEdit& edit) const;
 
   scene::EditSide edits_;
   std::vector<scene::SharedMeasuredCurve> curves_;
@@ -45,7 +46,7 @@ class EditBuilder {
   CommonScale common_;
   DeviceSpec device_;
   std::int64_t period_ns_;
-  EncounterExchange& exchange_;
+  ModelSwap& exchange_;
   std::atomic<std::uint32_t> refused_{0};
 };
 

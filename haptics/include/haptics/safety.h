@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "haptics/device.h"
-#include "haptics/energy_ledger.h"
+#include "haptics/force_limiter.h"
 #include "haptics/hand_motion.h"
-#include "haptics/output_stage.h"
+#include "haptics/motor_thermal_model.h"
+#include "haptics/passivity_observer.h"
 #include "haptics/safety_states.h"
-#include "haptics/thermal_budget.h"
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::haptics {
@@ -45,12 +45,12 @@ struct GovernorInput {
   bool device_healthy = true;
   double motor_heat = 0;  // as DeviceSample has it
   RendererLink renderer = RendererLink::Absent;
-  EnergyLedger::Law law_energy;  // at this height in this phase
-  bool sample_moved = false;     // since the tick before, by another hand, whose work is not this one's
+  PassivityObserver::Law law_energy;  // at this height in this phase
+  bool sample_moved = false;          // since the tick before, by another hand, whose work is not this one's
 };
 
 // The last thing between a force law and a hand. Owns the servo's state (haptics/safety_states.h) and is the only maker
-// of ForceCommand, which goes through haptics/output_stage.h. For the servo's thread: wait-free, never throws.
+// of ForceCommand, which goes through haptics/force_limiter.h. For the servo's thread: wait-free, never throws.
 class SafetyGovernor {
  public:
   static constexpr double kSlewNPerS = 500.0;
@@ -91,19 +91,19 @@ class SafetyGovernor {
 
   double force_cap_n() const noexcept { return output_.cap_n(); }
   double slew_limit_n_per_s() const noexcept { return slew_n_per_s_; }  // in this tick
-  const ThermalBudget& motors() const noexcept { return motors_; }
-  const EnergyLedger& ledger() const noexcept { return ledger_; }
-  double ledger_damping_n_s_per_m() const noexcept { return ledger_damping_; }  // in this tick
+  const MotorThermalModel& motors() const noexcept { return motors_; }
+  const PassivityObserver& observer() const noexcept { return observer_; }
+  double observer_damping_n_s_per_m() const noexcept { return observer_damping_; }  // in this tick
   bool dead_man() const noexcept { return dead_man_; }
 
  private:
   // What the tick before left for the ledger.
-  struct Booked {
+  struct Snapshot {
     bool valid = false;
     double law_gain = 0;
     double stop_gain = 0;
     scene::ContactPhase phase = scene::ContactPhase::WaitForLift;
-    EnergyLedger::Law law;
+    PassivityObserver::Law law;
     double stop_stored_j = 0;
   };
 
@@ -121,12 +121,12 @@ class SafetyGovernor {
   SafetyState state_;
   double gain_ = 0;  // of arming
   bool fade_under_way_ = false;
-  OutputStage output_;
+  ForceLimiter output_;
   HandMotion motion_;
-  ThermalBudget motors_;
-  EnergyLedger ledger_;
-  Booked booked_;
-  double ledger_damping_ = 0;
+  MotorThermalModel motors_;
+  PassivityObserver observer_;
+  Snapshot booked_;
+  double observer_damping_ = 0;
   double slew_n_per_s_;
 
   std::int64_t guard_until_ns_ = std::numeric_limits<std::int64_t>::min();

@@ -12,7 +12,7 @@
 #include "core/result.h"
 #include "haptics/device.h"
 #include "haptics/edit_builder.h"
-#include "haptics/encounter_exchange.h"
+#include "haptics/model_swap.h"
 #include "haptics/realtime.h"
 #include "haptics/safety.h"
 #include "haptics/sample_axes.h"
@@ -72,11 +72,11 @@ class ServoLoop {
 
  private:
   ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
-            const ServoSettings& settings, std::vector<std::unique_ptr<Encounter>> encounters,
+            const ServoSettings& settings, std::vector<std::unique_ptr<ContactModel>> models,
             const CommonScale& common);
 
   void read_shared_blocks(std::int64_t now_ns) noexcept;
-  void change_encounter() noexcept;
+  void change_model() noexcept;
   void feel(std::size_t material, scene::ScaleMode mode) noexcept;
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
   void publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
@@ -88,12 +88,12 @@ class ServoLoop {
   ServoSettings settings_;
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
-  EncounterExchange exchange_;
+  ModelSwap exchange_;
   EditBuilder edits_;
   SafetyGovernor governor_;
 
-  Encounter* encounter_ = nullptr;  // of the material under the tip, null before the first choice
-  scene::Selection chosen_;         // the newest choice, perhaps not in effect yet
+  ContactModel* model_ = nullptr;  // of the material under the tip, null before the first choice
+  scene::Selection chosen_;        // the newest choice, perhaps not in effect yet
   SampleAxes sample_;
   bool sample_moved_ = false;  // in this tick
   glm::dvec3 hand_position_m_;

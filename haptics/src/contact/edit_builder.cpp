@@ -15,12 +15,12 @@ namespace {
 constexpr auto kLookEvery = std::chrono::milliseconds(5);
 }  // namespace
 
-core::Result<std::unique_ptr<Encounter>> EditBuilder::encounter_of(const scene::MaterialEdit& edit) const {
-  auto tables = felt_tables(edit.material, curves_);
+core::Result<std::unique_ptr<ContactModel>> EditBuilder::model_of(const scene::MaterialEdit& edit) const {
+  auto tables = build_tables(edit.material, curves_);
   if (!tables) return tl::unexpected(tables.error());
   const std::uint32_t surface = edit.material.height_field;
-  return Encounter::create(edit.material, edit.revision, std::move(*tables),
-                           surface < surfaces_.size() ? &surfaces_[surface] : nullptr, common_, device_, period_ns_);
+  return ContactModel::create(edit.material, edit.revision, std::move(*tables),
+                              surface < surfaces_.size() ? &surfaces_[surface] : nullptr, common_, device_, period_ns_);
 }
 
 void EditBuilder::build() {
@@ -28,11 +28,11 @@ void EditBuilder::build() {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     const auto edit = edits_.new_edit(static_cast<std::uint32_t>(i));
     if (!edit) continue;
-    auto encounter = encounter_of(*edit);
-    if (encounter) {
-      exchange_.offer(i, std::move(*encounter));
+    auto model = model_of(*edit);
+    if (model) {
+      exchange_.offer(i, std::move(*model));
     } else {
-      core::log_line(fmt::format("the material stays as it was: {}", encounter.error().message));
+      core::log_line(fmt::format("the material stays as it was: {}", model.error().message));
       refused_.store(edit->revision, std::memory_order_relaxed);
     }
   }

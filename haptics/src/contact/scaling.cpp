@@ -36,7 +36,7 @@ double faint_above_m(const physics::LawTables& tables, double faint_n) {
   const auto faint = [&](double z_m) { return !(force_n(tables.free, z_m) < -faint_n); };
   double near_m = tables.figures.z_jtc.si;
   if (faint(near_m)) return near_m;
-  double far_m = std::max(near_m, tables.interaction.atomic_distance.si);
+  double far_m = std::max(near_m, tables.contact.atomic_distance.si);
   while (!faint(far_m)) far_m *= 2.0;
   while (far_m - near_m > 1e-6 * far_m) {
     const double middle_m = 0.5 * (near_m + far_m);
@@ -56,7 +56,7 @@ Extent extent_of(const physics::LawTables& tables) {
   if (pull_n > 0.0) {
     return {std::max(tables.figures.z_joc.si, faint_above_m(tables, Scaling::kFaintShare * pull_n)), pull_n};
   }
-  const double push_m = kPushShareOfRadius * tables.interaction.tip_radius.si;
+  const double push_m = kPushShareOfRadius * tables.contact.tip_radius.si;
   return {push_m * Scaling::kStrokeM / Scaling::kPushM, force_n(tables.attached, -push_m) / kKneeShare};
 }
 
@@ -116,8 +116,8 @@ double common_stroke_m(const DeviceSpec& device) {
 double strongest_pull_n(const physics::LawTables& tables) {
   const physics::CycleFigures& figures = tables.figures;
   double strongest_n = std::max({0.0, -figures.force_before_joc.si, -figures.force_before_jtc.si});
-  const double nearest_m = 1e-4 * tables.interaction.atomic_distance.si;
-  const double farthest_m = std::max(std::abs(figures.z_joc.si), tables.interaction.tip_radius.si);
+  const double nearest_m = 1e-4 * tables.contact.atomic_distance.si;
+  const double farthest_m = std::max(std::abs(figures.z_joc.si), tables.contact.tip_radius.si);
   for (double distance_m = nearest_m; distance_m < farthest_m; distance_m *= 1.02) {
     strongest_n = std::max({strongest_n, -force_n(tables.attached, figures.z_joc.si - distance_m),
                             -force_n(tables.free, figures.z_jtc.si + distance_m)});

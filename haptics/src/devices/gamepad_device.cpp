@@ -170,10 +170,10 @@ void GamepadDevice::show(const Feeling& feeling, std::int64_t now_ns) {
   const bool silent = rumble.heavy == 0.0 && rumble.light == 0.0;
   const bool changed =
       rumble.heavy != told_.heavy || std::abs(rumble.light - told_.light) > kAudible || (silent && told_.light > 0.0);
-  if (!changed && (silent || now_ns - told_ns_ <= kRepeatNs)) return;
+  if (!changed && (silent || now_ns - logged_ns_ <= kRepeatNs)) return;
   port_->rumble(rumble);
   told_ = rumble;
-  told_ns_ = now_ns;
+  logged_ns_ = now_ns;
 }
 
 }  // namespace afm::haptics

@@ -110,7 +110,7 @@ class GamepadDevice final : public HapticDevice {
 
   // SDL's thread
   Rumble told_;
-  std::int64_t told_ns_ = 0;
+  std::int64_t logged_ns_ = 0;
   std::thread thread_;
 };
 

@@ -66,34 +66,34 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
   if (auto valid = scene::validate(shared); !valid) return tl::unexpected(valid.error());
   std::vector<std::shared_ptr<const physics::LawTables>> tables;
   for (std::uint32_t i = 0; i < shared.material_count; ++i) {
-    auto felt = felt_tables(shared.materials[i], std::span(shared.curves).first(shared.curve_count));
+    auto felt = build_tables(shared.materials[i], std::span(shared.curves).first(shared.curve_count));
     if (!felt) return tl::unexpected(felt.error());
     tables.push_back(std::move(*felt));
   }
   auto common = Scaling::common_scale(tables, device.spec());
   if (!common) return tl::unexpected(common.error());
   if (shared.common_hand_m_per_m > 0) common = CommonScale{shared.common_hand_m_per_m, shared.common_hand_n_per_n};
-  std::vector<std::unique_ptr<Encounter>> encounters;
+  std::vector<std::unique_ptr<ContactModel>> models;
   for (std::uint32_t i = 0; i < shared.material_count; ++i) {
     const std::uint32_t surface = shared.materials[i].height_field;
-    auto encounter = Encounter::create(shared.materials[i], 0, tables[i],
-                                       surface < shared.height_field_count ? &shared.height_fields[surface] : nullptr,
-                                       *common, device.spec(), period_ns);
-    if (!encounter) return tl::unexpected(encounter.error());
-    encounters.push_back(std::move(*encounter));
+    auto model = ContactModel::create(shared.materials[i], 0, tables[i],
+                                      surface < shared.height_field_count ? &shared.height_fields[surface] : nullptr,
+                                      *common, device.spec(), period_ns);
+    if (!model) return tl::unexpected(model.error());
+    models.push_back(std::move(*model));
   }
-  return std::unique_ptr<ServoLoop>(new ServoLoop(segment, shared, device, settings, std::move(encounters), *common));
+  return std::unique_ptr<ServoLoop>(new ServoLoop(segment, shared, device, settings, std::move(models), *common));
 }
 
 ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
-                     const ServoSettings& settings, std::vector<std::unique_ptr<Encounter>> encounters,
+                     const ServoSettings& settings, std::vector<std::unique_ptr<ContactModel>> models,
                      const CommonScale& common)
     : shared_(segment.servo_side()),
       device_(device),
       settings_(settings),
       period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
-      exchange_(std::move(encounters)),
+      exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
              {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count}, common,
              device.spec(), period_ns_, exchange_),
@@ -125,18 +125,18 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   if (device_healthy_) {
     hand_position_m_ = hand.position_m;
     hand_from_contact_m_ = hand.position_m - device_.spec().contact_point_m;
-  } else if (encounter_ != nullptr) {
-    encounter_->wait_for_lift();
+  } else if (model_ != nullptr) {
+    model_->wait_for_lift();
   }
   turn_on_ = hand.turn_on;
 
   touch_ = {};
   double height_m = glm::dot(hand_from_contact_m_, sample_.normal());
-  EnergyLedger::Law law_energy;
-  if (encounter_ != nullptr) {
-    touch_ = encounter_->feel(sample_.in_sample(hand_from_contact_m_));
-    height_m = encounter_->scaling().hand_height_m(touch_.z_m);
-    law_energy = encounter_->energy(touch_);
+  PassivityObserver::Law law_energy;
+  if (model_ != nullptr) {
+    touch_ = model_->feel(sample_.in_sample(hand_from_contact_m_));
+    height_m = model_->scaling().hand_height_m(touch_.z_m);
+    law_energy = model_->energy(touch_);
   }
   bool pulled_off = false;
   for (std::uint32_t i = 0; i < touch_.response.event_count; ++i) {
@@ -158,7 +158,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                       .law_energy = law_energy,
                                       .sample_moved = std::exchange(sample_moved_, false)});
   device_.write(output.command);
-  if (output.dropped && encounter_ != nullptr) encounter_->wait_for_lift();
+  if (output.dropped && model_ != nullptr) model_->wait_for_lift();
 
   const glm::dvec3& force_n = output.command.force_n();
   state_.hand_force_n = {force_n.x, force_n.y, force_n.z};
@@ -166,7 +166,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   publish_events(now_ns);
   publish(now_ns, wake_us);
   previous_ns_ = now_ns;
-  change_encounter();
+  change_model();
 }
 
 void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
@@ -188,17 +188,17 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
 // The paper's procedure: choose, lift, press Turn-On. A choice waits until the tip is off the sample, then the force is
 // taken away, and only without force does the law or its scale change. An edit of the material under the tip does the
 // same; no hand feels that of another.
-void ServoLoop::change_encounter() noexcept {
+void ServoLoop::change_model() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.take(i);
   }
   const bool valid = chosen_.material >= 0 && static_cast<std::size_t>(chosen_.material) < exchange_.size();
   const bool other = valid && chosen_.revision != state_.selection_revision &&
                      (chosen_.material != state_.material || chosen_.scale_mode != state_.scale_mode);
-  const bool edited = encounter_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
+  const bool edited = model_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
   changing_ = false;
   if (other || edited) {
-    if (encounter_ != nullptr && encounter_->phase() == physics::Phase::Attached) return;
+    if (model_ != nullptr && model_->phase() == physics::Phase::Attached) return;
     governor_.disarm();
     changing_ = true;
     if (!governor_.released()) return;
@@ -213,20 +213,20 @@ void ServoLoop::change_encounter() noexcept {
 }
 
 void ServoLoop::feel(std::size_t material, scene::ScaleMode mode) noexcept {
-  encounter_ = &exchange_.current(material);
-  encounter_->wait_for_lift();
+  model_ = &exchange_.current(material);
+  model_->wait_for_lift();
   governor_.forget_motion();
   changing_ = false;
-  encounter_->use(mode);
-  const Scaling& scaling = encounter_->scaling();
+  model_->use(mode);
+  const Scaling& scaling = model_->scaling();
   governor_.set_release_height(scaling.release_height_m());
   state_.material = static_cast<std::int32_t>(material);
   state_.scale_mode = mode;
   state_.hand_m_per_m = scaling.hand_m_per_m();
   state_.hand_n_per_n = scaling.hand_n_per_n();
   state_.release_z_m = scaling.release_z_m();
-  state_.slow_motion = encounter_->slow_motion();
-  state_.edit_revision = encounter_->edit_revision();
+  state_.slow_motion = model_->slow_motion();
+  state_.edit_revision = model_->edit_revision();
 }
 
 RendererLink ServoLoop::renderer_link(std::int64_t now_ns) const noexcept {
@@ -274,14 +274,14 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   state_.slew_limit_n_per_s = governor_.slew_limit_n_per_s();
   state_.motor_heat = governor_.motors().heat();
   state_.thermal_gain = governor_.motors().gain();
-  state_.ledger_j = governor_.ledger().excess_j();
-  state_.ledger_damping = governor_.ledger_damping_n_s_per_m();
+  state_.excess_energy_j = governor_.observer().excess_j();
+  state_.observer_damping = governor_.observer_damping_n_s_per_m();
   state_.edit_refused = edits_.refused();
   state_.garbage_blocks = shared_.refused_blocks() + refused_transforms_;
   shared_.store(state_);
 
   // without a material there is no curve to draw
-  if (encounter_ == nullptr) return;
+  if (model_ == nullptr) return;
   const glm::dvec3& normal = sample_.normal();
   const glm::dvec3 hand_force_n(state_.hand_force_n[0], state_.hand_force_n[1], state_.hand_force_n[2]);
   shared_.push(

@@ -22,7 +22,7 @@ bool is_number(const GovernorInput& input) {
   return std::isfinite(force_n.x) && std::isfinite(force_n.y) && std::isfinite(force_n.z) &&
          is_within_reach(input.hand_position_m) && std::isfinite(input.hand_height_m) &&
          std::isfinite(input.law_energy.stored_j) && std::isfinite(input.law_energy.stiffness_n_per_m) &&
-         std::isfinite(input.law_energy.swing_n);
+         std::isfinite(input.law_energy.oscillation_n);
 }
 
 }  // namespace
@@ -109,27 +109,27 @@ Findings SafetyGovernor::find(const GovernorInput& input, std::int64_t elapsed_n
                        glm::length(motion_.velocity_m_per_s()) < kArmingSpeedMPerS;
   findings.late = elapsed_ns > kLateNs;
   findings.outside = output_.stop().is_outside(input.hand_position_m);
-  findings.hot = motors_.heat() >= ThermalBudget::kHot;
-  findings.energy_exceeded = ledger_.exceeded();
+  findings.hot = motors_.heat() >= MotorThermalModel::kHot;
+  findings.energy_exceeded = observer_.exceeded();
   return findings;
 }
 
 // What has passed between the hand and its device since the tick before.
 void SafetyGovernor::book(const GovernorInput& input) noexcept {
   const bool fresh = high_and_free(input) && input.time_ns >= damping_until_ns_;
-  if (!state_.armed() || fresh) ledger_.recredit();
+  if (!state_.armed() || fresh) observer_.reset();
   if (!booked_.valid || input.phase == ContactPhase::WaitForLift || input.sample_moved) return;
   if (input.law_energy.swings && input.phase != booked_.phase) return;
   const double stop_j = output_.stop().stored_j(input.hand_position_m);
   const bool in_stop = stop_j > 0.0 || booked_.stop_stored_j > 0.0;
-  ledger_.book({.moved_m = motion_.moved_m(),
-                .wanted_n = output_.wanted_n(),
-                .commanded_n = output_.command_n(),
-                .stored_rise_j = booked_.law_gain * (input.law_energy.stored_j - booked_.law.stored_j) +
-                                 booked_.stop_gain * (stop_j - booked_.stop_stored_j),
-                .stiffness_n_per_m = booked_.law_gain * booked_.law.stiffness_n_per_m +
-                                     (in_stop ? booked_.stop_gain * WorkspaceStop::kStiffnessNPerM : 0.0),
-                .swing_n = booked_.law_gain * booked_.law.swing_n});
+  observer_.book({.moved_m = motion_.moved_m(),
+                  .wanted_n = output_.wanted_n(),
+                  .commanded_n = output_.command_n(),
+                  .stored_rise_j = booked_.law_gain * (input.law_energy.stored_j - booked_.law.stored_j) +
+                                   booked_.stop_gain * (stop_j - booked_.stop_stored_j),
+                  .stiffness_n_per_m = booked_.law_gain * booked_.law.stiffness_n_per_m +
+                                       (in_stop ? booked_.stop_gain * WorkspaceStop::kStiffnessNPerM : 0.0),
+                  .oscillation_n = booked_.law_gain * booked_.law.oscillation_n});
 }
 
 bool SafetyGovernor::high_and_free(const GovernorInput& input) const noexcept {
@@ -158,7 +158,8 @@ void SafetyGovernor::advance_gain(std::int64_t elapsed_ns) noexcept {
 
 FaultCode SafetyGovernor::give(const GovernorInput& input, std::int64_t elapsed_ns) noexcept {
   const double period_s = seconds(std::min(elapsed_ns, period_ns_));
-  ledger_damping_ = state_.armed() ? ledger_.damping_n_s_per_m(motion_.velocity_m_per_s(), seconds(period_ns_)) : 0.0;
+  observer_damping_ =
+      state_.armed() ? observer_.damping_n_s_per_m(motion_.velocity_m_per_s(), seconds(period_ns_)) : 0.0;
   const double release_damping = input.time_ns < damping_until_ns_ ? kReleaseDampingNSPerM : 0.0;
   // a fade has its own clock: it must be over in time
   const bool guarded = input.time_ns < guard_until_ns_ && state_.state != ServoState::Fading;
@@ -168,7 +169,7 @@ FaultCode SafetyGovernor::give(const GovernorInput& input, std::int64_t elapsed_
                        .velocity_m_per_s = motion_.velocity_m_per_s(),
                        .arm_gain = gain_,
                        .thermal_gain = motors_.gain(),
-                       .damping_n_s_per_m = std::max(ledger_damping_, release_damping),
+                       .damping_n_s_per_m = std::max(observer_damping_, release_damping),
                        .slew_n_per_s = slew_n_per_s_,
                        .elapsed_s = period_s,
                        .too_fast = motion_.too_fast() && state_.armed()});

@@ -25,7 +25,7 @@ struct DtrackSettings {
 };
 
 // What has come in so far.
-struct DtrackNews {
+struct DtrackUpdate {
   std::int64_t time_ns = 0;  // when the newest good packet came
   std::uint64_t good_packets = 0;
   std::uint64_t bad_packets = 0;
@@ -46,7 +46,7 @@ class DtrackSource final : public WandSource {
   WandState poll() override;
 
   // The newest, for heads and for counts; any thread, as long as this lives.
-  DtrackNews news() const { return news_.load().value_or(DtrackNews{}); }
+  DtrackUpdate newest() const { return update_.load().value_or(DtrackUpdate{}); }
 
   std::uint16_t port() const { return port_; }  // as bound: one that was free if it was asked for as 0
 
@@ -60,8 +60,8 @@ class DtrackSource final : public WandSource {
   const core::Clock& clock_;
   core::FileDescriptor socket_;
   std::uint16_t port_;
-  DtrackNews now_;
-  core::LatestValue<DtrackNews> news_;
+  DtrackUpdate now_;
+  core::LatestValue<DtrackUpdate> update_;
 };
 
 }  // namespace afm::input

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/law.h"
 
 namespace afm::physics {
@@ -16,11 +16,11 @@ enum class Regime { Rigid, Hertz, Dmt, Maugis, Jkr };
 std::string_view name_of(Regime regime);
 
 // mu = (R W^2/(E*^2 z0^3))^(1/3) (Tabor 1977); 0 for a rigid contact.
-double tabor_parameter(const Interaction& interaction);
+double tabor_parameter(const ContactParameters& contact);
 
 // lambda = 2 sigma0 (R/(pi W K^2))^(1/3) with sigma0 the peak of the Lennard-Jones traction, 16 W/(9 sqrt3 z0), and
 // K = 4 E*/3: 1.1570 mu (Maugis 1992).
-double maugis_parameter(const Interaction& interaction);
+double maugis_parameter(const ContactParameters& contact);
 
 // The regime at a Tabor parameter and a load in units of pi W R, in which DMT pulls off at -2 and JKR at -1.5. Johnson
 // & Greenwood's borders: Hertz where adhesion adds less than 5 % to the load, Rigid where the contact flattens by less
@@ -39,6 +39,6 @@ struct LawChoice {
 // By the regime at zero load, where adhesion alone presses the bodies together: JKR for JKR, Maugis-Dugdale for Maugis,
 // and DMT for the stiffer ones, Rigid included, whose pull-off is the same. (At zero load the regime is never Hertz: no
 // contact is chosen to be without adhesion.) Throws as validate() does.
-LawChoice choose_law(const Interaction& interaction);
+LawChoice choose_law(const ContactParameters& contact);
 
 }  // namespace afm::physics

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/units.h"
 
 namespace afm::physics {
@@ -15,6 +15,6 @@ struct AdhesiveContact {
 };
 
 // Throws as validate() does, and UnphysicalValue if the modulus is infinite: a rigid contact has no contact mechanics.
-AdhesiveContact adhesive_contact(const Interaction& interaction);
+AdhesiveContact adhesive_contact(const ContactParameters& contact);
 
 }  // namespace afm::physics

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/units.h"
 
 // The closed forms of Liu & Peng, section 3.2; equation numbers are theirs. They are evaluated with alpha finite in
-// general, never assumed to be 1. All take valid interactions (physics/interaction.h) and may be called from any
+// general, never assumed to be 1. All take valid interactions (physics/contact_parameters.h) and may be called from any
 // thread.
 //
 // Signs and frames, for the whole program:
@@ -18,30 +18,30 @@
 namespace afm::physics {
 
 // alpha = 1 + k_c/k_s (3.7); 1 for a rigid sample.
-double alpha(const Interaction& interaction);
+double alpha(const ContactParameters& contact);
 
 // k' = k_c k_s/(k_c + k_s) (3.1): the slope of the contact line, lever and sample in series.
-Stiffness effective_stiffness(const Interaction& interaction);
+Stiffness effective_stiffness(const ContactParameters& contact);
 
 // D_attr = cbrt(alpha A_H R/(3 k_c)) (3.8): the gap from which the tip jumps to contact.
-Length jump_to_contact_gap(const Interaction& interaction);
+Length jump_to_contact_gap(const ContactParameters& contact);
 
 // (delta_c)_attr = 1/2 cbrt(A_H R/(3 alpha^2 k_c)) (3.9): the lever's deflection just before that jump.
-Length jump_to_contact_deflection(const Interaction& interaction);
+Length jump_to_contact_deflection(const ContactParameters& contact);
 
 // Z_jtc = D_attr + alpha (delta_c)_attr (3.6), from Hao, Baro & Saenz 1991: the fold of Z(D) under van der Waals
 // attraction. It is 3/2 D_attr for every alpha.
-Length jump_to_contact_z(const Interaction& interaction);
+Length jump_to_contact_z(const ContactParameters& contact);
 
 // W_ad = 2 sqrt(gamma_s gamma_t) (3.3).
-SurfaceEnergy work_of_adhesion(const Interaction& interaction);
+SurfaceEnergy work_of_adhesion(const ContactParameters& contact);
 
 // F_ad = 2 pi R W_ad (3.2), (3.4), from Derjaguin, Muller & Toporov 1975: the pull-off force.
-Force adhesion_force(const Interaction& interaction);
+Force adhesion_force(const ContactParameters& contact);
 
 // The attraction A_H R/(6 D^2) of a sphere to a half-space at the gap D > 0 (Derjaguin's approximation, on which
 // (3.8) and (3.9) rest), as a magnitude.
-Force van_der_waals_attraction(const Interaction& interaction, Length gap);
+Force van_der_waals_attraction(const ContactParameters& contact, Length gap);
 
 // Everything that happens in one cycle, as magnitudes.
 struct ApproachRetractEvents {
@@ -60,6 +60,6 @@ struct ApproachRetractEvents {
 };
 
 // Throws std::invalid_argument as validate() does.
-ApproachRetractEvents approach_retract_events(const Interaction& interaction);
+ApproachRetractEvents approach_retract_events(const ContactParameters& contact);
 
 }  // namespace afm::physics

@@ -15,13 +15,13 @@ namespace afm::physics {
 class DirectionRuleModel {
  public:
   // Throws as build_law_tables() does for the paper's law.
-  explicit DirectionRuleModel(const Interaction& interaction);
+  explicit DirectionRuleModel(const ContactParameters& contact);
 
   // As ApproachRetractModel::step, without a wait state: the first step counts as approaching.
   TipResponse step(Length z) noexcept;
 
   Phase phase() const noexcept { return phase_; }
-  const Interaction& interaction() const noexcept { return tables_->interaction; }
+  const ContactParameters& contact() const noexcept { return tables_->contact; }
   const CycleFigures& figures() const noexcept { return tables_->figures; }
   const LawTables& tables() const noexcept { return *tables_; }
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <memory>
 
+#include "physics/contact_parameters.h"
 #include "physics/cycle_figures.h"
 #include "physics/force_model.h"
-#include "physics/interaction.h"
 #include "physics/law.h"
 #include "physics/lever_dynamics.h"
 #include "physics/tip_oscillator.h"
@@ -57,7 +57,7 @@ class DynamicModel {
   // Starts in WaitForLift. Throws std::invalid_argument (UnphysicalValue where one field is to blame) as
   // build_law_tables() and validate() do, for a law without dynamics, and for a tick period that is no time.
   // Allocates and takes some milliseconds.
-  DynamicModel(Law law, const Interaction& interaction, const LeverDynamics& lever, Time tick_period,
+  DynamicModel(Law law, const ContactParameters& contact, const LeverDynamics& lever, Time tick_period,
                const LawOptions& options = {}, std::uint64_t seed = kDefaultSeed);
 
   // The same model, waiting, whose step() simulates exactly this time in as many sub-steps as that takes: for curves.
@@ -77,7 +77,7 @@ class DynamicModel {
 
   Phase phase() const noexcept { return phase_; }
   Law law() const noexcept { return setup_->law; }
-  const Interaction& interaction() const noexcept { return setup_->interaction; }
+  const ContactParameters& contact() const noexcept { return setup_->contact; }
   const LeverDynamics& lever() const noexcept { return setup_->lever; }
 
   // Of the same law and lever without dynamics.
@@ -92,7 +92,7 @@ class DynamicModel {
  private:
   struct Setup {
     Law law;
-    Interaction interaction;
+    ContactParameters contact;
     LeverDynamics lever;
     CycleFigures figures;
     Length contact_gap;
@@ -101,7 +101,7 @@ class DynamicModel {
     Length free_above;  // the end of a jump off contact
   };
 
-  static std::shared_ptr<const Setup> build(Law law, const Interaction& interaction, const LeverDynamics& lever,
+  static std::shared_ptr<const Setup> build(Law law, const ContactParameters& contact, const LeverDynamics& lever,
                                             const LawOptions& options, std::uint64_t seed);
 
   // How a step is divided.

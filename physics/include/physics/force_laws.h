@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "physics/contact_parameters.h"
 #include "physics/force_law.h"
-#include "physics/interaction.h"
 #include "physics/law.h"
 
 // The laws of force as curves, before lever and support bend (physics/law_tables.h bends them). Each throws
@@ -12,20 +12,20 @@ namespace afm::physics {
 
 // The law of that name, with the liquid bridge of the options (physics/meniscus.h), which the ones below leave to this.
 // Throws std::invalid_argument for Paper, whose tables are closed forms, and for Measured, which is not computed.
-ForceLaw force_law(Law law, const Interaction& interaction, const LawOptions& options = {});
+ForceLaw force_law(Law law, const ContactParameters& contact, const LawOptions& options = {});
 
 // Van der Waals attraction down to a wall at h = 0, which holds with up to F_ad.
-ForceLaw hao_law(const Interaction& interaction, const LawOptions& options = {});
+ForceLaw hao_law(const ContactParameters& contact, const LawOptions& options = {});
 
 // Elastic contact from h = 0, no adhesion.
-ForceLaw hertz_law(const Interaction& interaction, const LawOptions& options = {});
+ForceLaw hertz_law(const ContactParameters& contact, const LawOptions& options = {});
 
 // Van der Waals attraction down to a0 (physics/van_der_waals.h), where it is F_ad, and from there
 // F = 4/3 E* sqrt(R) (a0 - h)^(3/2) - F_ad (Garcia & San Paulo 1999). An infinite E* makes the contact a wall at a0.
-ForceLaw dmt_law(const Interaction& interaction, const LawOptions& options = {});
+ForceLaw dmt_law(const ContactParameters& contact, const LawOptions& options = {});
 
 // No force down to h = 0, where the surfaces jump into contact; JKR's contact down to the end of its neck.
-ForceLaw jkr_law(const Interaction& interaction, const LawOptions& options = {});
+ForceLaw jkr_law(const ContactParameters& contact, const LawOptions& options = {});
 
 // Maugis-Dugdale's contact, with the cohesive stress of surfaces that attract by the 3-9 law, joined to van der Waals
 // attraction. In contact h = a0 - delta. Van der Waals force and that of the contact, which goes on as a cohesive zone
@@ -43,9 +43,9 @@ ForceLaw jkr_law(const Interaction& interaction, const LawOptions& options = {})
 // continuously with the parameters. For lambda -> 0 the contact is DMT's, with its jump from afar and its pull-off, but
 // just outside of a0 the attraction rises with Maugis' constant stress rather than van der Waals'; for
 // lambda -> infinity it is JKR's at a0.
-ForceLaw maugis_law(const Interaction& interaction, const LawOptions& options = {});
+ForceLaw maugis_law(const ContactParameters& contact, const LawOptions& options = {});
 
 // Bradley's rigid sphere with W and z0 (physics/lennard_jones.h).
-ForceLaw lennard_jones_law(const Interaction& interaction, const LawOptions& options = {});
+ForceLaw lennard_jones_law(const ContactParameters& contact, const LawOptions& options = {});
 
 }  // namespace afm::physics

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/law_tables.h"
 #include "physics/units.h"
 
@@ -64,7 +64,7 @@ class ApproachRetractModel {
   explicit ApproachRetractModel(std::shared_ptr<const LawTables> tables);
 
   // The paper's law. Throws as build_law_tables() does.
-  explicit ApproachRetractModel(const Interaction& interaction);
+  explicit ApproachRetractModel(const ContactParameters& contact);
 
   // The response at Z after the straight path from the Z of the step before, if there was one since the tip was lifted.
   TipResponse step(Length z) noexcept;
@@ -74,7 +74,7 @@ class ApproachRetractModel {
 
   Phase phase() const noexcept { return phase_; }
   Law law() const noexcept { return tables_->law; }
-  const Interaction& interaction() const noexcept { return tables_->interaction; }
+  const ContactParameters& contact() const noexcept { return tables_->contact; }
   const CycleFigures& figures() const noexcept { return tables_->figures; }
   const LawTables& tables() const noexcept { return *tables_; }
 

@@ -40,8 +40,8 @@ struct LawOptions {
   std::optional<Meniscus> meniscus;              // none: no liquid bridge
 };
 
-// Throws UnphysicalValue (physics/interaction.h) unless: retardation wavelength 1 nm to 100 um, surface tension 0.1
-// mN/m to 10 N/m, contact angle 0 to below 90 degrees, relative humidity 1 % to 99 %.
+// Throws UnphysicalValue (physics/contact_parameters.h) unless: retardation wavelength 1 nm to 100 um, surface tension
+// 0.1 mN/m to 10 N/m, contact angle 0 to below 90 degrees, relative humidity 1 % to 99 %.
 void validate(const LawOptions& options);
 
 }  // namespace afm::physics

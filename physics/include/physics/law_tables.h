@@ -5,9 +5,9 @@
 #include <span>
 
 #include "physics/branch_table.h"
+#include "physics/contact_parameters.h"
 #include "physics/cycle_figures.h"
 #include "physics/force_law.h"
-#include "physics/interaction.h"
 #include "physics/law.h"
 #include "physics/units.h"
 
@@ -17,7 +17,7 @@ namespace afm::physics {
 // Built when a material is chosen, constant afterwards, shared between threads.
 struct LawTables {
   Law law = Law::Paper;
-  Interaction interaction;
+  ContactParameters contact;
   BranchTable free;
   BranchTable attached;
   CycleFigures figures;
@@ -28,11 +28,11 @@ struct LawTables {
 // With an infinite spring constant the tables are those of fixed grips: the law itself, latched, as dynamics need it.
 // Throws std::invalid_argument (UnphysicalValue where one field is to blame) for values that have no such law. Takes
 // below 5 ms and allocates: never in the servo's tick. Not for Law::Measured.
-std::shared_ptr<const LawTables> build_law_tables(Law law, const Interaction& interaction,
+std::shared_ptr<const LawTables> build_law_tables(Law law, const ContactParameters& contact,
                                                   const LawOptions& options = {});
 
 // The same for a law that is given as its two branches.
-std::shared_ptr<const LawTables> build_law_tables(Law name, const ForceLaw& law, const Interaction& interaction);
+std::shared_ptr<const LawTables> build_law_tables(Law name, const ForceLaw& law, const ContactParameters& contact);
 
 // A recorded curve as a law: two branches of points along rising Z, smoothed by the caller. Each holds one jump, the
 // step between two neighbours at which F rises most steeply with Z. Above its jump the approach is the free branch,
@@ -50,6 +50,6 @@ struct MeasuredPoint {
 };
 std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoint> approach,
                                                      std::span<const MeasuredPoint> retract,
-                                                     const Interaction& interaction);
+                                                     const ContactParameters& contact);
 
 }  // namespace afm::physics

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/units.h"
 
 namespace afm::physics {

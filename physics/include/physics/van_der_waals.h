@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/law.h"
 #include "physics/units.h"
 
@@ -45,6 +45,6 @@ class VanDerWaals {
 // a0, the gap of two bodies in contact for which van der Waals attraction and adhesion are one: F(a0) = -F_ad, where
 // F_ad = 2 pi R W_ad; sqrt(A R/(6 F_ad)) in Derjaguin's approximation. For the paper's pairs of A_H and F_ad it is 0.32
 // to 0.38 nm.
-Length contact_gap(const Interaction& interaction, const LawOptions& options = {});
+Length contact_gap(const ContactParameters& contact, const LawOptions& options = {});
 
 }  // namespace afm::physics

@@ -68,18 +68,17 @@ std::string_view name_of(Regime regime) {
   return "unknown";
 }
 
-double tabor_parameter(const Interaction& interaction) {
-  if (!isfinite(interaction.reduced_modulus)) return 0.0;
-  const double w = work_of_adhesion(interaction).si / interaction.reduced_modulus.si;
-  const double z0 = interaction.atomic_distance.si;
-  return std::cbrt(interaction.tip_radius.si * w * w) / z0;
+double tabor_parameter(const ContactParameters& contact) {
+  if (!isfinite(contact.reduced_modulus)) return 0.0;
+  const double w = work_of_adhesion(contact).si / contact.reduced_modulus.si;
+  const double z0 = contact.atomic_distance.si;
+  return std::cbrt(contact.tip_radius.si * w * w) / z0;
 }
 
-double maugis_parameter(const Interaction& interaction) {
-  if (!isfinite(interaction.reduced_modulus)) return 0.0;
-  const SurfaceEnergy w = work_of_adhesion(interaction);
-  return maugis_lambda({interaction.tip_radius, interaction.reduced_modulus, w},
-                       cohesive_stress(w, interaction.atomic_distance));
+double maugis_parameter(const ContactParameters& contact) {
+  if (!isfinite(contact.reduced_modulus)) return 0.0;
+  const SurfaceEnergy w = work_of_adhesion(contact);
+  return maugis_lambda({contact.tip_radius, contact.reduced_modulus, w}, cohesive_stress(w, contact.atomic_distance));
 }
 
 Regime regime_of(double tabor, double load) {
@@ -89,11 +88,11 @@ Regime regime_of(double tabor, double load) {
   return tabor > kJkrAbove ? Regime::Jkr : Regime::Maugis;
 }
 
-LawChoice choose_law(const Interaction& interaction) {
-  validate(interaction);
+LawChoice choose_law(const ContactParameters& contact) {
+  validate(contact);
   LawChoice choice;
-  choice.tabor = tabor_parameter(interaction);
-  choice.maugis = maugis_parameter(interaction);
+  choice.tabor = tabor_parameter(contact);
+  choice.maugis = maugis_parameter(contact);
   choice.regime = regime_of(choice.tabor, 0.0);
   switch (choice.regime) {
     case Regime::Jkr:

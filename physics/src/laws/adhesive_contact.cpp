@@ -5,14 +5,14 @@
 
 namespace afm::physics {
 
-AdhesiveContact adhesive_contact(const Interaction& interaction) {
-  validate(interaction);
-  if (!isfinite(interaction.reduced_modulus)) {
+AdhesiveContact adhesive_contact(const ContactParameters& contact) {
+  validate(contact);
+  if (!isfinite(contact.reduced_modulus)) {
     throw UnphysicalValue("reduced_modulus",
                           "reduced modulus is infinite, and an elastic contact needs one of 1 Pa "
                           "to 10 TPa: give it, or choose a law of rigid bodies");
   }
-  return {interaction.tip_radius, interaction.reduced_modulus, work_of_adhesion(interaction)};
+  return {contact.tip_radius, contact.reduced_modulus, work_of_adhesion(contact)};
 }
 
 }  // namespace afm::physics

@@ -3,8 +3,8 @@
 
 namespace afm::physics {
 
-DirectionRuleModel::DirectionRuleModel(const Interaction& interaction)
-    : tables_(build_law_tables(Law::Paper, interaction)) {}
+DirectionRuleModel::DirectionRuleModel(const ContactParameters& contact)
+    : tables_(build_law_tables(Law::Paper, contact)) {}
 
 TipResponse DirectionRuleModel::step(Length z) noexcept {
   TipResponse response;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/quantity_text.h"
 #include "require_range.h"
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "laws/law_branches.h"
+#include "laws/branch_parametrisation.h"
 #include "physics/contact.h"
 #include "physics/hertz.h"
 #include "physics/jkr.h"
@@ -20,11 +20,11 @@ ForceAndSlope no_force(double) { return {0.0, 0.0}; }
 
 }  // namespace
 
-ForceLaw hao_law(const Interaction& interaction, const LawOptions& options) {
-  validate(interaction);
+ForceLaw hao_law(const ContactParameters& contact, const LawOptions& options) {
+  validate(contact);
   validate(options);
-  const VanDerWaals van_der_waals(interaction.hamaker, interaction.tip_radius, options);
-  const double adhesion = adhesion_force(interaction).si;
+  const VanDerWaals van_der_waals(contact.hamaker, contact.tip_radius, options);
+  const double adhesion = adhesion_force(contact).si;
 
   // the attraction grows without bound towards the wall, so that any lever jumps before it gets there: the branch ends
   // below the fold of the stiffest lever with the weakest attraction
@@ -42,15 +42,15 @@ ForceLaw hao_law(const Interaction& interaction, const LawOptions& options) {
           .attached_end_potential = std::nullopt};
 }
 
-ForceLaw hertz_law(const Interaction& interaction, const LawOptions&) {
-  const AdhesiveContact contact = adhesive_contact(interaction);
-  const Heights heights{0.0, interaction.atomic_distance.si};
-  const auto attached = [heights, contact](double s) {
+ForceLaw hertz_law(const ContactParameters& contact, const LawOptions&) {
+  const AdhesiveContact adhesive = adhesive_contact(contact);
+  const Heights heights{0.0, contact.atomic_distance.si};
+  const auto attached = [heights, adhesive](double s) {
     return heights.point(s, [&](double above) {
       if (above >= 0.0) return no_force(above);
       const Length indentation(-above);
-      const Length radius = sqrt(contact.tip_radius * indentation);
-      return ForceAndSlope{hertz_load(contact, indentation).si, -hertz_stiffness(contact, radius).si};
+      const Length radius = sqrt(adhesive.tip_radius * indentation);
+      return ForceAndSlope{hertz_load(adhesive, indentation).si, -hertz_stiffness(adhesive, radius).si};
     });
   };
   return {.free = heights.inwards(no_force),
@@ -59,12 +59,12 @@ ForceLaw hertz_law(const Interaction& interaction, const LawOptions&) {
           .attached_end_potential = Energy()};
 }
 
-ForceLaw dmt_law(const Interaction& interaction, const LawOptions& options) {
-  validate(interaction);
+ForceLaw dmt_law(const ContactParameters& contact, const LawOptions& options) {
+  validate(contact);
   validate(options);
-  const VanDerWaals van_der_waals(interaction.hamaker, interaction.tip_radius, options);
-  const Length a0 = contact_gap(interaction, options);
-  const Force adhesion = adhesion_force(interaction);
+  const VanDerWaals van_der_waals(contact.hamaker, contact.tip_radius, options);
+  const Length a0 = contact_gap(contact, options);
+  const Force adhesion = adhesion_force(contact);
   const Heights heights{a0.si, a0.si};
   const auto attraction = attraction_above(van_der_waals, a0);
   const double farthest = heights.parameter(kFarthest);
@@ -73,7 +73,7 @@ ForceLaw dmt_law(const Interaction& interaction, const LawOptions& options) {
                .contact_gap = a0,
                .attached_end_potential = van_der_waals.potential(a0 + Length(kFarthest))};
 
-  if (!isfinite(interaction.reduced_modulus)) {
+  if (!isfinite(contact.reduced_modulus)) {
     const auto rigid = [=](double s) {
       if (s >= 0.0) return heights.point(s, attraction);
       return LawPoint{a0, adhesion * (std::sinh(-s) - 1.0), 0.0, -adhesion.si * std::cosh(s)};
@@ -82,47 +82,47 @@ ForceLaw dmt_law(const Interaction& interaction, const LawOptions& options) {
     return law;
   }
 
-  const AdhesiveContact contact = adhesive_contact(interaction);
+  const AdhesiveContact adhesive = adhesive_contact(contact);
   const auto elastic = [=](double s) {
     if (s >= 0.0) return heights.point(s, attraction);
     return heights.point(s, [&](double above) {
       const Length indentation(-above);
-      const Length radius = sqrt(contact.tip_radius * indentation);
-      return ForceAndSlope{(hertz_load(contact, indentation) - adhesion).si, -hertz_stiffness(contact, radius).si};
+      const Length radius = sqrt(adhesive.tip_radius * indentation);
+      return ForceAndSlope{(hertz_load(adhesive, indentation) - adhesion).si, -hertz_stiffness(adhesive, radius).si};
     });
   };
   law.attached = {-heights.parameter(kDeepest), farthest, elastic, {0.0}};
   return law;
 }
 
-ForceLaw jkr_law(const Interaction& interaction, const LawOptions&) {
-  const AdhesiveContact contact = adhesive_contact(interaction);
-  const Heights heights{0.0, interaction.atomic_distance.si};
+ForceLaw jkr_law(const ContactParameters& contact, const LawOptions&) {
+  const AdhesiveContact adhesive = adhesive_contact(contact);
+  const Heights heights{0.0, contact.atomic_distance.si};
 
   // contact radii by equal factors, from one that lies deep inside to the end of the neck under fixed grips, where
   // dh/da = 0; a softer lever loses the contact before
-  const double end = jkr_fixed_grips_radius(contact).si;
-  const auto attached = [contact, end](double s) {
+  const double end = jkr_fixed_grips_radius(adhesive).si;
+  const auto attached = [adhesive, end](double s) {
     const Length a(end * std::exp(-s));
-    const auto& [r, e, w] = contact;
-    const Length neck = a * a / r - jkr_indentation(contact, a);
+    const auto& [r, e, w] = adhesive;
+    const Length neck = a * a / r - jkr_indentation(adhesive, a);
     const double ddelta_da = (2.0 * a / r - neck / (2.0 * a));
     const Force hertz = 4.0 / 3.0 * e * a * (a * a / r);
-    const Force load = jkr_load(contact, a);
+    const Force load = jkr_load(adhesive, a);
     const double dload_da = ((3.0 * hertz - 1.5 * (hertz - load)) / a).si;
-    return LawPoint{-jkr_indentation(contact, a), load, ddelta_da * a.si, -dload_da * a.si};
+    return LawPoint{-jkr_indentation(adhesive, a), load, ddelta_da * a.si, -dload_da * a.si};
   };
-  const double deep = 1e3 * end + std::sqrt(contact.tip_radius.si * kDeepest);
+  const double deep = 1e3 * end + std::sqrt(adhesive.tip_radius.si * kDeepest);
   return {.free = heights.inwards(no_force),
           .attached = {-std::log(deep / end), 0.0, attached, {}},
           .contact_gap = Length(),
-          .attached_end_potential = jkr_energy(contact, Length(end))};
+          .attached_end_potential = jkr_energy(adhesive, Length(end))};
 }
 
-ForceLaw lennard_jones_law(const Interaction& interaction, const LawOptions&) {
-  validate(interaction);
-  const Length z0 = interaction.atomic_distance;
-  const LennardJones surfaces(work_of_adhesion(interaction), interaction.tip_radius, z0);
+ForceLaw lennard_jones_law(const ContactParameters& contact, const LawOptions&) {
+  validate(contact);
+  const Length z0 = contact.atomic_distance;
+  const LennardJones surfaces(work_of_adhesion(contact), contact.tip_radius, z0);
 
   // gaps by equal factors of the atomic distance; free down to the minimum of the force, which lies inside of the
   // steepest attraction and so of every fold
@@ -131,7 +131,7 @@ ForceLaw lennard_jones_law(const Interaction& interaction, const LawOptions&) {
     return LawPoint{d, surfaces.force(d), d.si, (surfaces.gradient(d) * d).si};
   };
   const double farthest = std::log(kFarthest / z0.si);
-  const double hardest = std::log(kHardestPress / adhesion_force(interaction).si) / 8.0;
+  const double hardest = std::log(kHardestPress / adhesion_force(contact).si) / 8.0;
   const LawBranch attached{-hardest, farthest, outwards, {}};
   return {.free = reversed(attached, 0.0),
           .attached = attached,
@@ -141,20 +141,20 @@ ForceLaw lennard_jones_law(const Interaction& interaction, const LawOptions&) {
 
 namespace {
 
-ForceLaw dry_law(Law law, const Interaction& interaction, const LawOptions& options) {
+ForceLaw dry_law(Law law, const ContactParameters& contact, const LawOptions& options) {
   switch (law) {
     case Law::Hao:
-      return hao_law(interaction, options);
+      return hao_law(contact, options);
     case Law::Hertz:
-      return hertz_law(interaction, options);
+      return hertz_law(contact, options);
     case Law::Dmt:
-      return dmt_law(interaction, options);
+      return dmt_law(contact, options);
     case Law::Jkr:
-      return jkr_law(interaction, options);
+      return jkr_law(contact, options);
     case Law::LennardJones:
-      return lennard_jones_law(interaction, options);
+      return lennard_jones_law(contact, options);
     case Law::MaugisDugdale:
-      return maugis_law(interaction, options);
+      return maugis_law(contact, options);
     case Law::Paper:
     case Law::Measured:
       break;
@@ -164,10 +164,10 @@ ForceLaw dry_law(Law law, const Interaction& interaction, const LawOptions& opti
 
 }  // namespace
 
-ForceLaw force_law(Law law, const Interaction& interaction, const LawOptions& options) {
+ForceLaw force_law(Law law, const ContactParameters& contact, const LawOptions& options) {
   validate(options);
-  ForceLaw dry = dry_law(law, interaction, options);
-  return options.meniscus ? with_meniscus(dry, *options.meniscus, interaction.tip_radius) : dry;
+  ForceLaw dry = dry_law(law, contact, options);
+  return options.meniscus ? with_meniscus(dry, *options.meniscus, contact.tip_radius) : dry;
 }
 
 }  // namespace afm::physics

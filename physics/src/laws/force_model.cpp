@@ -15,17 +15,17 @@ double fraction_of(Length threshold, Length from, Length to) noexcept {
 }  // namespace
 
 Pose pose_of(const LawTables& tables, Phase phase, Length z, Force force) noexcept {
-  const Length deflection = -force / tables.interaction.spring_constant;
+  const Length deflection = -force / tables.contact.spring_constant;
   const Length tip_height = z - deflection;
   const Length deformation =
-      phase == Phase::Attached ? tip_height - tables.contact_gap : -force / tables.interaction.sample_stiffness;
+      phase == Phase::Attached ? tip_height - tables.contact_gap : -force / tables.contact.sample_stiffness;
   return {tip_height, deflection, deformation};
 }
 
 ApproachRetractModel::ApproachRetractModel(std::shared_ptr<const LawTables> tables) : tables_(std::move(tables)) {}
 
-ApproachRetractModel::ApproachRetractModel(const Interaction& interaction)
-    : ApproachRetractModel(build_law_tables(Law::Paper, interaction)) {}
+ApproachRetractModel::ApproachRetractModel(const ContactParameters& contact)
+    : ApproachRetractModel(build_law_tables(Law::Paper, contact)) {}
 
 void ApproachRetractModel::latch(Length z, TipResponse& response) noexcept {
   const CycleFigures& figures = tables_->figures;

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "laws/bent_branch.h"
+#include "laws/equilibrium_branch.h"
 #include "laws/paper_tables.h"
 #include "physics/force_laws.h"
 #include "physics/quantity_text.h"
@@ -17,16 +17,16 @@ namespace {
 
 // What the law itself is made of, validated. Fixed grips are a lever that no person owns: an infinite k_c is legal here
 // and nowhere else, and no law asks for it.
-Interaction without_lever(Interaction interaction) {
-  if (std::isinf(interaction.spring_constant.si) && interaction.spring_constant.si > 0.0) {
-    interaction.spring_constant = Stiffness(1.0);
+ContactParameters without_lever(ContactParameters contact) {
+  if (std::isinf(contact.spring_constant.si) && contact.spring_constant.si > 0.0) {
+    contact.spring_constant = Stiffness(1.0);
   }
-  validate(interaction);
-  return interaction;
+  validate(contact);
+  return contact;
 }
 
-double compliance(const Interaction& interaction) {
-  return 1.0 / interaction.spring_constant.si + 1.0 / interaction.sample_stiffness.si;
+double compliance(const ContactParameters& contact) {
+  return 1.0 / contact.spring_constant.si + 1.0 / contact.sample_stiffness.si;
 }
 
 // Where a tip rests, SI, and the parameter of that place on its branch.
@@ -44,15 +44,15 @@ bool is_single_valued(const ForceLaw& law) {
 
 class Builder {
  public:
-  Builder(Law name, const ForceLaw& law, const Interaction& interaction)
+  Builder(Law name, const ForceLaw& law, const ContactParameters& contact)
       : law_(law),
         single_valued_(is_single_valued(law)),
         free_curve_(single_valued_ ? reversed(law.attached) : law.free),
-        compliance_(compliance(interaction)),
-        free_(free_curve_, compliance_, BentBranch::Direction::Inwards),
-        attached_(law.attached, compliance_, BentBranch::Direction::Outwards) {
+        compliance_(compliance(contact)),
+        free_(free_curve_, compliance_, EquilibriumBranch::Direction::Inwards),
+        attached_(law.attached, compliance_, EquilibriumBranch::Direction::Outwards) {
     tables_.law = name;
-    tables_.interaction = interaction;
+    tables_.contact = contact;
     tables_.contact_gap = law.contact_gap;
   }
 
@@ -73,8 +73,8 @@ class Builder {
   }
 
  private:
-  Rest rest(const BentBranch& branch, double s) const {
-    const BentBranch::Point point = branch.at(s);
+  Rest rest(const EquilibriumBranch& branch, double s) const {
+    const EquilibriumBranch::Point point = branch.at(s);
     return {point.z, point.force, s};
   }
 
@@ -83,7 +83,7 @@ class Builder {
     if (!single_valued_) return Stiffness(kInfinity);
     const double steepest = std::max(steepest_attraction(law_.free), steepest_attraction(law_.attached));
     if (steepest <= 0.0) return Stiffness();
-    const double lever_compliance = 1.0 / steepest - 1.0 / tables_.interaction.sample_stiffness.si;
+    const double lever_compliance = 1.0 / steepest - 1.0 / tables_.contact.sample_stiffness.si;
     return Stiffness(lever_compliance > 0.0 ? 1.0 / lever_compliance : kInfinity);
   }
 
@@ -160,7 +160,7 @@ class Builder {
 
   void set_tip_heights() {
     CycleFigures& figures = tables_.figures;
-    const auto height = [this](Length z, Force force) { return z + force / tables_.interaction.spring_constant; };
+    const auto height = [this](Length z, Force force) { return z + force / tables_.contact.spring_constant; };
     figures.tip_height_before_jtc = height(figures.z_jtc, figures.force_before_jtc);
     figures.tip_height_after_jtc = height(figures.z_jtc, figures.force_after_jtc);
     figures.tip_height_before_joc = height(figures.z_joc, figures.force_before_joc);
@@ -181,27 +181,28 @@ class Builder {
   // folds, be it before contact or after
   LawBranch free_curve_;
   double compliance_;
-  BentBranch free_;
-  BentBranch attached_;
+  EquilibriumBranch free_;
+  EquilibriumBranch attached_;
   LawTables tables_;
 };
 
 }  // namespace
 
-std::shared_ptr<const LawTables> build_law_tables(Law name, const ForceLaw& law, const Interaction& interaction) {
-  without_lever(interaction);
-  return std::make_shared<const LawTables>(Builder(name, law, interaction).build());
+std::shared_ptr<const LawTables> build_law_tables(Law name, const ForceLaw& law, const ContactParameters& contact) {
+  without_lever(contact);
+  return std::make_shared<const LawTables>(Builder(name, law, contact).build());
 }
 
-std::shared_ptr<const LawTables> build_law_tables(Law law, const Interaction& interaction, const LawOptions& options) {
-  const Interaction surfaces = without_lever(interaction);
+std::shared_ptr<const LawTables> build_law_tables(Law law, const ContactParameters& contact,
+                                                  const LawOptions& options) {
+  const ContactParameters surfaces = without_lever(contact);
   const bool rigid_contact = law == Law::Paper || law == Law::Hao;
-  if (rigid_contact && compliance(interaction) == 0.0) {
+  if (rigid_contact && compliance(contact) == 0.0) {
     throw std::invalid_argument("the law " + std::string(name_of(law)) +
                                 " has a rigid contact, which has no force without a lever");
   }
-  if (law == Law::Paper) return std::make_shared<const LawTables>(paper_tables(interaction));
-  return build_law_tables(law, force_law(law, surfaces, options), interaction);
+  if (law == Law::Paper) return std::make_shared<const LawTables>(paper_tables(contact));
+  return build_law_tables(law, force_law(law, surfaces, options), contact);
 }
 
 }  // namespace afm::physics

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "laws/law_branches.h"
+#include "laws/branch_parametrisation.h"
 #include "physics/force_laws.h"
 #include "physics/maugis_dugdale.h"
 #include "physics/van_der_waals.h"
@@ -37,70 +37,70 @@ struct DimensionalContact {
 // The parameter at which van der Waals attraction is as strong as the contact's, between one where it is stronger or
 // equal and one where it is weaker. There is one at most between two such: over the height, the contact's force is
 // convex and van der Waals' concave.
-double equal_forces(const DimensionalContact& contact, const VanDerWaals& van_der_waals, double stronger,
+double equal_forces(const DimensionalContact& neck_contact, const VanDerWaals& van_der_waals, double stronger,
                     double weaker) {
   for (;;) {
     const double middle = 0.5 * (stronger + weaker);
     if (middle == stronger || middle == weaker) return weaker;
-    const LawPoint point = contact.at(middle);
+    const LawPoint point = neck_contact.at(middle);
     (van_der_waals.force(point.h) > point.force ? weaker : stronger) = middle;
   }
 }
 
 // The parameter at which the indentation is zero.
-double zero_indentation(const DimensionalContact& contact, double inner, double outer) {
+double zero_indentation(const DimensionalContact& neck_contact, double inner, double outer) {
   for (;;) {
     const double middle = 0.5 * (inner + outer);
     if (!(middle > inner && middle < outer)) return outer;
-    (contact.at(middle).h < contact.gap ? inner : outer) = middle;
+    (neck_contact.at(middle).h < neck_contact.gap ? inner : outer) = middle;
   }
 }
 
 }  // namespace
 
-ForceLaw maugis_law(const Interaction& interaction, const LawOptions& options) {
+ForceLaw maugis_law(const ContactParameters& contact, const LawOptions& options) {
   validate(options);
-  const AdhesiveContact elastic = adhesive_contact(interaction);
-  const VanDerWaals van_der_waals(interaction.hamaker, interaction.tip_radius, options);
-  const Length a0 = contact_gap(interaction, options);
-  const double lambda = maugis_lambda(elastic, cohesive_stress(elastic.work_of_adhesion, interaction.atomic_distance));
-  DimensionalContact contact{lambda, maugis_units(elastic), a0};
-  const double deepest = contact.deepest(elastic.tip_radius);
+  const AdhesiveContact elastic = adhesive_contact(contact);
+  const VanDerWaals van_der_waals(contact.hamaker, contact.tip_radius, options);
+  const Length a0 = contact_gap(contact, options);
+  const double lambda = maugis_lambda(elastic, cohesive_stress(elastic.work_of_adhesion, contact.atomic_distance));
+  DimensionalContact neck_contact{lambda, maugis_units(elastic), a0};
+  const double deepest = neck_contact.deepest(elastic.tip_radius);
   const double end = maugis_fixed_grips_end(lambda);
   const double contact_end = std::min(end, 0.0);
 
   // van der Waals force takes over from the contact at the parameter `joint`, and the law is single-valued: both
   // branches are one curve, the free one as far in as it can have a fold, to the largest attraction
   const auto joined_at = [&](double joint, std::vector<double> kinks) {
-    const Length height = contact.at(joint).h;
+    const Length height = neck_contact.at(joint).h;
     const Heights heights{height.si, a0.si};
     const auto attraction = attraction_above(van_der_waals, height);
-    const auto curve = [=](double s) { return s < joint ? contact.at(s) : heights.point(s - joint, attraction); };
+    const auto curve = [=](double s) { return s < joint ? neck_contact.at(s) : heights.point(s - joint, attraction); };
     const LawBranch attached{deepest, joint + heights.parameter(kFarthest), curve, std::move(kinks)};
     return ForceLaw{.free = reversed(attached, maugis_pull_off(lambda)),
                     .attached = attached,
-                    .contact_gap = contact.gap,
+                    .contact_gap = neck_contact.gap,
                     .attached_end_potential = van_der_waals.potential(height + Length(kFarthest))};
   };
 
-  const LawPoint neck = contact.at(contact_end);
+  const LawPoint neck = neck_contact.at(contact_end);
   const Length same_force = van_der_waals.gap_at(neck.force);
   if (same_force >= neck.h) {
-    contact.gap = contact.gap + (same_force - neck.h);
+    neck_contact.gap = neck_contact.gap + (same_force - neck.h);
     return joined_at(contact_end, {contact_end});
   }
 
-  const LawPoint last = contact.at(end);
+  const LawPoint last = neck_contact.at(end);
   if (van_der_waals.force(last.h) <= last.force) {
-    const double joint = equal_forces(contact, van_der_waals, end, contact_end);
+    const double joint = equal_forces(neck_contact, van_der_waals, end, contact_end);
     return joined_at(joint, {0.0, joint});
   }
 
-  const double touching = zero_indentation(contact, deepest, contact_end);
-  const double formed = equal_forces(contact, van_der_waals, touching, end);
-  const Length formation = contact.at(formed).h;
+  const double touching = zero_indentation(neck_contact, deepest, contact_end);
+  const double formed = equal_forces(neck_contact, van_der_waals, touching, end);
+  const Length formation = neck_contact.at(formed).h;
   const Heights heights{formation.si, a0.si};
-  LawBranch attached{deepest, end, [contact](double s) { return contact.at(s); }, {}};
+  LawBranch attached{deepest, end, [neck_contact](double s) { return neck_contact.at(s); }, {}};
   if (contact_end < end) attached.kinks = {contact_end};
   const Energy work = work_along(attached, formed, end);
   return {.free = heights.inwards(attraction_above(van_der_waals, formation)),

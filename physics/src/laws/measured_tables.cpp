@@ -96,8 +96,8 @@ Energy area(const LawTables& tables, std::size_t points) {
 
 std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoint> approach,
                                                      std::span<const MeasuredPoint> retract,
-                                                     const Interaction& interaction) {
-  validate(interaction);
+                                                     const ContactParameters& contact) {
+  validate(contact);
   check(approach, "approach");
   check(retract, "retract");
   const auto free = approach.subspan(std::min(jump_in(approach) + 1, approach.size() - 2));
@@ -112,7 +112,7 @@ std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoi
 
   LawTables tables;
   tables.law = Law::Measured;
-  tables.interaction = interaction;
+  tables.contact = contact;
   tables.free = table(free, BranchTable::Side::Above);
   tables.attached = table(attached, BranchTable::Side::Below);
   CycleFigures& figures = tables.figures;
@@ -123,10 +123,10 @@ std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoi
   figures.z_joc = off.z;
   figures.force_before_joc = off.force;
   figures.force_after_joc = tables.free.force(off.z);
-  figures.tip_height_before_jtc = in.z + figures.force_before_jtc / interaction.spring_constant;
-  figures.tip_height_after_jtc = in.z + figures.force_after_jtc / interaction.spring_constant;
-  figures.tip_height_before_joc = off.z + figures.force_before_joc / interaction.spring_constant;
-  figures.tip_height_after_joc = off.z + figures.force_after_joc / interaction.spring_constant;
+  figures.tip_height_before_jtc = in.z + figures.force_before_jtc / contact.spring_constant;
+  figures.tip_height_after_jtc = in.z + figures.force_after_jtc / contact.spring_constant;
+  figures.tip_height_before_joc = off.z + figures.force_before_joc / contact.spring_constant;
+  figures.tip_height_after_joc = off.z + figures.force_after_joc / contact.spring_constant;
   figures.loop_energy = figures.lost_at_joc = area(tables, std::max(approach.size(), retract.size()));
   figures.critical_stiffness = Stiffness(std::numeric_limits<double>::infinity());
   return std::make_shared<const LawTables>(std::move(tables));

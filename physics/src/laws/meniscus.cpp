@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "laws/law_branches.h"
+#include "laws/branch_parametrisation.h"
 
 namespace afm::physics {
 namespace {

@@ -9,11 +9,11 @@
 
 namespace afm::physics {
 
-LawTables paper_tables(const Interaction& interaction) {
-  const ApproachRetractEvents events = approach_retract_events(interaction);
+LawTables paper_tables(const ContactParameters& contact) {
+  const ApproachRetractEvents events = approach_retract_events(contact);
   if (events.z_joc <= events.z_jtc) {
     throw std::invalid_argument(
-        "mean surface energy " + format_quantity(interaction.mean_surface_energy, kSurfaceEnergyUnits) +
+        "mean surface energy " + format_quantity(contact.mean_surface_energy, kSurfaceEnergyUnits) +
         " is too weak: jump-off-contact at " + format_quantity(events.z_joc, kLengthUnits) +
         " does not lie above jump-to-contact at " + format_quantity(events.z_jtc, kLengthUnits));
   }
@@ -23,10 +23,10 @@ LawTables paper_tables(const Interaction& interaction) {
   figures.z_jtc = events.z_jtc;
   figures.force_after_jtc = -events.f_attr;
   figures.tip_height_before_jtc = events.z_jtc;
-  figures.tip_height_after_jtc = events.z_jtc - events.f_attr / interaction.spring_constant;
+  figures.tip_height_after_jtc = events.z_jtc - events.f_attr / contact.spring_constant;
   figures.z_joc = events.z_joc;
   figures.force_before_joc = -events.f_ad;
-  figures.tip_height_before_joc = events.z_joc - events.f_ad / interaction.spring_constant;
+  figures.tip_height_before_joc = events.z_joc - events.f_ad / contact.spring_constant;
   figures.tip_height_after_joc = events.z_joc;
   figures.lost_at_joc = events.loop_energy;
   figures.loop_energy = events.loop_energy;
@@ -34,7 +34,7 @@ LawTables paper_tables(const Interaction& interaction) {
 
   LawTables tables;
   tables.law = Law::Paper;
-  tables.interaction = interaction;
+  tables.contact = contact;
   tables.attached = BranchTable::straight(Force(), -events.effective_stiffness);
   tables.figures = figures;
   return tables;

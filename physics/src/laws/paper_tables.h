@@ -11,6 +11,6 @@ namespace afm::physics {
 //
 // It knows no potential of the contact. The well is taken to be as deep as the lever's energy just after the jump to
 // contact, so that this jump loses nothing and the jump off contact loses the whole loop's energy.
-LawTables paper_tables(const Interaction& interaction);
+LawTables paper_tables(const ContactParameters& contact);
 
 }  // namespace afm::physics

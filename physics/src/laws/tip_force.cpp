@@ -8,7 +8,7 @@ namespace afm::physics {
 
 TipForce::TipForce(const LawTables& grips, Force largest_load)
     : contact_height_(grips.figures.z_jtc.si), release_height_(grips.figures.z_joc.si) {
-  if (!std::isinf(grips.interaction.spring_constant.si)) {
+  if (!std::isinf(grips.contact.spring_constant.si)) {
     throw std::invalid_argument("the tip's force needs tables of fixed grips");
   }
   constexpr std::size_t kPieces = std::size_t{kOctaves} * kPiecesPerOctave;

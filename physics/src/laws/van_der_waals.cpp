@@ -78,8 +78,8 @@ Length VanDerWaals::gap_at(Force attraction) const noexcept {
   return gap;
 }
 
-Length contact_gap(const Interaction& interaction, const LawOptions& options) {
-  return VanDerWaals(interaction.hamaker, interaction.tip_radius, options).gap_at(-adhesion_force(interaction));
+Length contact_gap(const ContactParameters& contact, const LawOptions& options) {
+  return VanDerWaals(contact.hamaker, contact.tip_radius, options).gap_at(-adhesion_force(contact));
 }
 
 }  // namespace afm::physics

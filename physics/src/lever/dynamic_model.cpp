@@ -17,38 +17,38 @@ using namespace literals;
 
 // What a lever may be pressed with before the surface is taken for a spring: ten times its adhesion, or 0.1 um of
 // bending where there is none. Impacts reach some six times the adhesion.
-Force largest_load(const Interaction& interaction, const CycleFigures& figures) {
-  return std::max(10.0 * abs(figures.force_before_joc), interaction.spring_constant * 100_nm);
+Force largest_load(const ContactParameters& contact, const CycleFigures& figures) {
+  return std::max(10.0 * abs(figures.force_before_joc), contact.spring_constant * 100_nm);
 }
 
 constexpr Length kLargestDeflection = 0.1_mm;
 
 }  // namespace
 
-std::shared_ptr<const DynamicModel::Setup> DynamicModel::build(Law law, const Interaction& interaction,
+std::shared_ptr<const DynamicModel::Setup> DynamicModel::build(Law law, const ContactParameters& contact,
                                                                const LeverDynamics& lever, const LawOptions& options,
                                                                std::uint64_t seed) {
   if (!has_dynamics(law)) {
     throw std::invalid_argument("the law " + std::string(name_of(law)) +
                                 " has no dynamics: take hertz, dmt, jkr, maugis or lj");
   }
-  if (law != Law::LennardJones && std::isinf(interaction.reduced_modulus.si)) {
+  if (law != Law::LennardJones && std::isinf(contact.reduced_modulus.si)) {
     throw UnphysicalValue("reduced_modulus", "a rigid contact has no dynamics: give it a finite reduced modulus");
   }
   validate(lever);
-  Interaction fixed_grips = interaction;
+  ContactParameters fixed_grips = contact;
   fixed_grips.spring_constant = Stiffness(std::numeric_limits<double>::infinity());
 
   Setup setup;
   setup.law = law;
-  setup.interaction = interaction;
+  setup.contact = contact;
   setup.lever = lever;
   setup.seed = seed;
-  const auto resting = build_law_tables(law, interaction, options);
+  const auto resting = build_law_tables(law, contact, options);
   setup.figures = resting->figures;
   setup.contact_gap = resting->contact_gap;
   setup.surface = std::make_shared<const TipForce>(*build_law_tables(law, fixed_grips, options),
-                                                   largest_load(interaction, setup.figures));
+                                                   largest_load(contact, setup.figures));
   setup.free_above = std::max(
       {setup.surface->release_height(), setup.figures.tip_height_before_jtc, setup.figures.tip_height_before_joc});
   return std::make_shared<const Setup>(setup);
@@ -59,7 +59,7 @@ DynamicModel::Pace DynamicModel::pace_of(const Setup& setup, Time step_lasts, st
   if (!(step_lasts > Time() && isfinite(step_lasts))) {
     throw std::invalid_argument("a step of " + std::to_string(step_lasts.si) + " s has no length");
   }
-  const Time longest = TipOscillator::longest_sub_step(*setup.surface, setup.interaction.spring_constant, setup.lever);
+  const Time longest = TipOscillator::longest_sub_step(*setup.surface, setup.contact.spring_constant, setup.lever);
   const double needed = std::ceil(step_lasts / longest);
   if (needed <= static_cast<double>(most_sub_steps)) {
     return {step_lasts, step_lasts, static_cast<std::int64_t>(needed)};
@@ -70,11 +70,11 @@ DynamicModel::Pace DynamicModel::pace_of(const Setup& setup, Time step_lasts, st
 DynamicModel::DynamicModel(std::shared_ptr<const Setup> setup, const Pace& pace)
     : setup_(std::move(setup)),
       pace_(pace),
-      oscillator_(setup_->surface, setup_->interaction.spring_constant, setup_->lever, sub_step(), setup_->seed) {}
+      oscillator_(setup_->surface, setup_->contact.spring_constant, setup_->lever, sub_step(), setup_->seed) {}
 
-DynamicModel::DynamicModel(Law law, const Interaction& interaction, const LeverDynamics& lever, Time tick_period,
+DynamicModel::DynamicModel(Law law, const ContactParameters& contact, const LeverDynamics& lever, Time tick_period,
                            const LawOptions& options, std::uint64_t seed)
-    : DynamicModel(build(law, interaction, lever, options, seed), tick_period) {}
+    : DynamicModel(build(law, contact, lever, options, seed), tick_period) {}
 
 DynamicModel::DynamicModel(std::shared_ptr<const Setup> setup, Time tick_period)
     : DynamicModel(setup, pace_of(*setup, tick_period, kSubSteps)) {}
@@ -95,7 +95,7 @@ void DynamicModel::wait_for_lift() noexcept {
 }
 
 DynamicModel::Instant DynamicModel::now() const noexcept {
-  return {oscillator_.base(), oscillator_.height(), setup_->interaction.spring_constant * oscillator_.deflection()};
+  return {oscillator_.base(), oscillator_.height(), setup_->contact.spring_constant * oscillator_.deflection()};
 }
 
 DynamicModel::Jump DynamicModel::awaited_jump() const noexcept {
@@ -164,11 +164,11 @@ TipResponse DynamicModel::step(Length z) noexcept {
     return {};
   }
   response.phase = phase_;
-  response.force = setup_->interaction.spring_constant * mean;
+  response.force = setup_->contact.spring_constant * mean;
   response.tip_height = z + mean;
   response.cantilever_deflection = -mean;
   response.sample_deformation = phase_ == Phase::Attached ? response.tip_height - setup_->contact_gap
-                                                          : -(response.force / setup_->interaction.sample_stiffness);
+                                                          : -(response.force / setup_->contact.sample_stiffness);
   return response;
 }
 

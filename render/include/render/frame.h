@@ -45,8 +45,8 @@ struct ContactMark {
 
 // Dissolves what is drawn into the background: everything by `veil`, and what lies far away by its distance. With a
 // range, things may be far larger than the room: what is read, panels and what is unlit, is then drawn before all else.
-struct Haze {
-  float veil = 0.0F;                   // 0: clear, 1: nothing but the background
+struct Fog {
+  float fade = 0.0F;                   // 0: clear, 1: nothing but the background
   float begin_m = 0.0F, end_m = 0.0F;  // from the origin; equal: no range
   glm::dvec3 origin_m{0.0};
   glm::dvec3 away{0.0, 0.0, -1.0};  // unit; distances count along it
@@ -200,7 +200,7 @@ struct FrameState {
   std::vector<BeamBend> bends;
   KeyLight key_light;
   ContactMark contact;
-  Haze haze;
+  Fog fog;
   std::vector<PlacedLight> lights;  // only if the scene has lights
   ForcePanel force_panel;
   PanelPlacement force_placement;

@@ -97,7 +97,7 @@ class Renderer {
 
  private:
   friend class DepthMeter;
-  friend class PictureSaver;
+  friend class ScreenshotQueue;
   friend class Presenter;
   struct Parts;
   explicit Renderer(std::unique_ptr<Parts> parts);

@@ -65,7 +65,7 @@ struct WindowInput {
 
   // What has become of the monitor that the window fills, or of those under its rectangle: without it the window is a
   // small one on what is left.
-  enum class MonitorNews { None, Lost, Back } monitor_news = MonitorNews::None;
+  enum class MonitorChange { None, Lost, Back } monitor_change = MonitorChange::None;
   std::string monitor;  // that the news is of; empty: under the rectangle
 };
 

@@ -27,11 +27,10 @@ void write_contact(const ContactMark& mark, FrameBlock& block) {
   block.contact_ring = glm::vec4(mark.ring_color, mark.ring_radius_m / mark.shade_radius_m);
 }
 
-void write_haze(const Haze& haze, FrameBlock& block) {
-  const bool ranged = haze.end_m > haze.begin_m;
-  block.haze =
-      glm::vec4(haze.begin_m, ranged ? 1.0F / (haze.end_m - haze.begin_m) : 0.0F, haze.veil, ranged ? 1.0F : 0.0F);
-  block.haze_axis = glm::vec4(glm::vec3(haze.away), static_cast<float>(-glm::dot(haze.away, haze.origin_m)));
+void write_fog(const Fog& fog, FrameBlock& block) {
+  const bool ranged = fog.end_m > fog.begin_m;
+  block.fog = glm::vec4(fog.begin_m, ranged ? 1.0F / (fog.end_m - fog.begin_m) : 0.0F, fog.fade, ranged ? 1.0F : 0.0F);
+  block.fog_axis = glm::vec4(glm::vec3(fog.away), static_cast<float>(-glm::dot(fog.away, fog.origin_m)));
 }
 
 // The direction in the room of a place on an eye's image, in clip coordinates; as far as the near plane.
@@ -123,7 +122,7 @@ FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, cons
   block.target_size = glm::vec4(size, 1.0F / size);
   write_screen(frame.eyes, block);
   write_contact(frame.contact, block);
-  write_haze(frame.haze, block);
+  write_fog(frame.fog, block);
   write_lights(frame.lights, block);
   return block;
 }

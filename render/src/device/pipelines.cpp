@@ -43,9 +43,9 @@ vk::PipelineRasterizationStateCreateInfo raster_state(const PipelineRequest& req
 }  // namespace
 
 vk::raii::Pipeline create_pipeline(const Device& device, const PipelineRequest& request) {
-  const vk::SpecializationMapEntry look{.constantID = 0, .offset = 0, .size = sizeof(request.look)};
+  const vk::SpecializationMapEntry variant{.constantID = 0, .offset = 0, .size = sizeof(request.variant)};
   const vk::SpecializationInfo specialization{
-      .mapEntryCount = 1, .pMapEntries = &look, .dataSize = sizeof(request.look), .pData = &request.look};
+      .mapEntryCount = 1, .pMapEntries = &variant, .dataSize = sizeof(request.variant), .pData = &request.variant};
   std::vector<vk::raii::ShaderModule> modules;
   std::vector<vk::PipelineShaderStageCreateInfo> stages;
   modules.push_back(create_module(device, request.vertex_code));

@@ -130,9 +130,9 @@ bool is_exact(const EyeTargets& eyes, const Composition& composition, const Comp
 }
 
 // Of a pipeline for such a picture.
-std::uint32_t look_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
+std::uint32_t variant_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
   const bool mixed = scene::anaglyph_matrices(composition.mode).has_value();
-  return (is_exact(eyes, composition, place) ? 0U : AFM_LOOK_SCALED) | (mixed ? AFM_LOOK_MIXED : 0U);
+  return (is_exact(eyes, composition, place) ? 0U : AFM_FEATURE_SCALED) | (mixed ? AFM_FEATURE_MIXED : 0U);
 }
 
 // Whether the target shows the eyes' images beside each other, whole, and nothing else.
@@ -147,8 +147,8 @@ bool shows_eyes_alone(const EyeTargets& eyes, const Composition& composition, co
 
 }  // namespace
 
-vk::Pipeline ComposePipeline::get(std::uint32_t look) {
-  auto& pipeline = made_.at(look);
+vk::Pipeline ComposePipeline::get(std::uint32_t variant) {
+  auto& pipeline = made_.at(variant);
   if (!*pipeline) {
     pipeline = create_pipeline(*device_, {.name = "compose",
                                           .vertex_code = shaders::fullscreen_vert,
@@ -156,7 +156,7 @@ vk::Pipeline ComposePipeline::get(std::uint32_t look) {
                                           .layout = layout_,
                                           .topology = vk::PrimitiveTopology::eTriangleStrip,
                                           .color_format = format_,
-                                          .look = look});
+                                          .variant = variant});
   }
   return *pipeline;
 }
@@ -246,7 +246,7 @@ void Composer::record(const vk::raii::CommandBuffer& command, ComposePipeline& p
     record_barriers(command, {image_barrier(into.image, kColor, kCopiedTo, into.after)});
     return;
   }
-  const vk::Pipeline chosen = pipeline.get(look_of(eyes_, composition, place));
+  const vk::Pipeline chosen = pipeline.get(variant_of(eyes_, composition, place));
   const bool covered = place.area.extent == place.target;
   record_barriers(command, {image_barrier(into.image, kColor, into.before.discarded(), kDrawn)});
   for (std::uint32_t i = 0; i < into.layers.size(); ++i) {

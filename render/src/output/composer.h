@@ -41,8 +41,8 @@ class ComposePipeline {
   ComposePipeline(const Device& device, vk::PipelineLayout layout, vk::Format format)
       : device_(&device), layout_(layout), format_(format) {}
 
-  // `look`: AFM_LOOK_SCALED and AFM_LOOK_MIXED.
-  vk::Pipeline get(std::uint32_t look);
+  // `look`: AFM_FEATURE_SCALED and AFM_FEATURE_MIXED.
+  vk::Pipeline get(std::uint32_t variant);
 
  private:
   const Device* device_;

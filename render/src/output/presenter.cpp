@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "device/explained.h"
+#include "device/device_error.h"
 #include "output/window_surface.h"
 #include "passes/renderer_parts.h"
 
@@ -49,7 +49,7 @@ struct Presenter::Parts {
                 *device, {.commandPool = *pool, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1})
                 .front())),
         finished(*device, vk::FenceCreateInfo{}) {
-    if (renderer.options.time_passes && Stopwatch::works_on(device)) stopwatch.emplace(device, 2);
+    if (renderer.options.time_passes && TimestampQueries::works_on(device)) stopwatch.emplace(device, 2);
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
@@ -74,7 +74,7 @@ struct Presenter::Parts {
   vk::raii::CommandPool pool;
   vk::raii::CommandBuffer commands;
   vk::raii::Fence finished;
-  std::optional<Stopwatch> stopwatch;  // marks 0 and 1: before and after composing
+  std::optional<TimestampQueries> stopwatch;  // marks 0 and 1: before and after composing
   std::vector<Pane> panes;
   int surfaces_lost = 0;  // since a picture was shown
 };
@@ -218,17 +218,19 @@ bool Presenter::begin(std::span<const WindowPicture> pictures, const std::functi
       panes[i].taken = panes[i].surface->follow_window(quad ? 2 : 1) && panes[i].surface->acquire(while_waiting);
     }
   };
-  return explained(parts_->device, "showing a picture", [&] { return parts_->follow_surfaces(take); }) &&
+  return rethrow_as_device_failure(parts_->device, "showing a picture",
+                                   [&] { return parts_->follow_surfaces(take); }) &&
          std::any_of(panes.begin(), panes.end(), [](const Parts::Pane& pane) { return pane.taken; });
 }
 
 void Presenter::draw(std::span<const std::size_t> windows, const std::function<void()>& while_waiting) {
   AFM_CHECK(parts_->renderer.eyes_drawn);
-  explained(parts_->device, "showing a picture", [&] { parts_->draw(windows, while_waiting); });
+  rethrow_as_device_failure(parts_->device, "showing a picture", [&] { parts_->draw(windows, while_waiting); });
 }
 
 void Presenter::show() {
-  explained(parts_->device, "showing a picture", [&] { parts_->follow_surfaces([&] { parts_->show(); }); });
+  rethrow_as_device_failure(parts_->device, "showing a picture",
+                            [&] { parts_->follow_surfaces([&] { parts_->show(); }); });
 }
 
 }  // namespace afm::render

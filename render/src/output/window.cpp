@@ -162,43 +162,43 @@ WindowInput WindowHandle::poll() {
   }
   int x = 0, y = 0;
   glfwGetWindowPos(window_, &x, &y);
-  const WindowInput::MonitorNews news = follow_monitor();
+  const WindowInput::MonitorChange update = follow_monitor();
   return {.events = std::exchange(events_, {}),
           .cursor_px = picture_px(cursor_),
           .origin_px = glm::dvec2(x, y) * pixels_per_unit(),
           .close_requested = glfwWindowShouldClose(window_) == GLFW_TRUE,
-          .monitor_news = news,
-          .monitor = news == WindowInput::MonitorNews::None ? std::string() : full_on_};
+          .monitor_change = update,
+          .monitor = update == WindowInput::MonitorChange::None ? std::string() : full_on_};
 }
 
-WindowInput::MonitorNews WindowHandle::follow_monitor() {
+WindowInput::MonitorChange WindowHandle::follow_monitor() {
   if (rect_) return follow_rect();
-  if (full_on_.empty() || full_screen()) return WindowInput::MonitorNews::None;
+  if (full_on_.empty() || full_screen()) return WindowInput::MonitorChange::None;
   if (!monitor_lost_) {
     monitor_lost_ = true;
     become_small();
-    return WindowInput::MonitorNews::Lost;
+    return WindowInput::MonitorChange::Lost;
   }
   GLFWmonitor* const back = monitor_named(full_on_);
-  if (back == nullptr) return WindowInput::MonitorNews::None;
+  if (back == nullptr) return WindowInput::MonitorChange::None;
   fill(back);
-  return WindowInput::MonitorNews::Back;
+  return WindowInput::MonitorChange::Back;
 }
 
 // Asking where the monitors are takes a while: only when some have come or gone, or the window waits for one.
-WindowInput::MonitorNews WindowHandle::follow_rect() {
+WindowInput::MonitorChange WindowHandle::follow_rect() {
   const unsigned changes = WindowSystem::monitor_changes();
   const bool changed = std::exchange(monitor_changes_, changes) != changes;
-  if (!changed && !monitor_lost_) return WindowInput::MonitorNews::None;
+  if (!changed && !monitor_lost_) return WindowInput::MonitorChange::None;
   const auto monitors = list_monitors();
   const bool lost = !monitors || !is_shown(*rect_, *monitors);
-  if (std::exchange(monitor_lost_, lost) == lost) return WindowInput::MonitorNews::None;
+  if (std::exchange(monitor_lost_, lost) == lost) return WindowInput::MonitorChange::None;
   if (lost) {
     become_small();
-    return WindowInput::MonitorNews::Lost;
+    return WindowInput::MonitorChange::Lost;
   }
   take_rect();
-  return WindowInput::MonitorNews::Back;
+  return WindowInput::MonitorChange::Back;
 }
 
 // On what is left, wherever the window happened to lie when its monitor went.

@@ -34,8 +34,8 @@ class WindowHandle {
   GLFWmonitor* monitor() const;
   glm::dvec2 pixels_per_unit() const;
   void fill(GLFWmonitor* monitor);
-  WindowInput::MonitorNews follow_monitor();
-  WindowInput::MonitorNews follow_rect();
+  WindowInput::MonitorChange follow_monitor();
+  WindowInput::MonitorChange follow_rect();
   void become_small();
   void take_rect();
   glm::dvec2 picture_px(const glm::dvec2& place) const;

@@ -32,7 +32,7 @@ Canvas::Canvas(ImDrawList& list, const PanelFonts& fonts, CanvasMemory& memory, 
 
 ImVec2 Canvas::texel(glm::vec2 mm) const { return {mm.x * fonts_.texels_per_mm, mm.y * fonts_.texels_per_mm}; }
 
-void Canvas::plate(Color edge, float edge_width_mm) {
+void Canvas::panel_background(Color edge, float edge_width_mm) {
   const glm::vec2 inset(0.5F * edge_width_mm + 1.0F);
   rectangle(inset, size_mm_ - inset, palette::kPlate, kPlateRounding);
   outline(inset, size_mm_ - inset, edge_width_mm, edge, kPlateRounding);

@@ -52,7 +52,7 @@ class Canvas {
   float true_mm() const { return fonts_.true_mm; }
 
   // The panel's plate with its rounded edge.
-  void plate(Color edge = palette::kEdge, float edge_width_mm = 2.0F);
+  void panel_background(Color edge = palette::kEdge, float edge_width_mm = 2.0F);
 
   // `position` is the top of the line at its left end, middle or right end. An underscore starts a subscript that lasts
   // to the next character that is no letter or digit: "Z_jtc". `scale` makes the style smaller.

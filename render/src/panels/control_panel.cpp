@@ -28,8 +28,8 @@ glm::vec2 f(const glm::dvec2& v) { return glm::vec2(v); }
 
 // A target: bright when pointed at, with a sign or a word in its middle.
 void paint_target(Canvas& canvas, const ControlBox& box, std::string_view text, bool pointed) {
-  const Color plate = pointed ? palette::kOrange : Color{palette::kSkyBlue.srgb, 0.22F};
-  canvas.rectangle(f(box.from_mm), f(box.to_mm), plate, 12.0F);
+  const Color panel_background = pointed ? palette::kOrange : Color{palette::kSkyBlue.srgb, 0.22F};
+  canvas.rectangle(f(box.from_mm), f(box.to_mm), panel_background, 12.0F);
   canvas.outline(f(box.from_mm), f(box.to_mm), 2.5F, palette::kSkyBlue, 12.0F);
   const glm::vec2 middle = f(0.5 * (box.from_mm + box.to_mm));
   const float height = text_height_mm(TextStyle::Title);
@@ -90,7 +90,7 @@ std::optional<ControlTarget> control_at(const ControlPanel& panel, const glm::dv
 }
 
 void paint(Canvas& canvas, const ControlPanel& panel) {
-  canvas.plate();
+  canvas.panel_background();
   const glm::dvec2 size(canvas.size_mm());
   const auto width = static_cast<float>(size.x - 2.0 * kMargin);
   const float beside = static_cast<float>(static_cast<double>(panel.buttons.size()) * (kButtonWidth + kGap));

@@ -188,7 +188,7 @@ void paint_cursor(Canvas& canvas, const Plot& plot, const PlotPoint& cursor) {
 }  // namespace
 
 void paint(Canvas& canvas, const ForcePanel& panel) {
-  canvas.plate();
+  canvas.panel_background();
   paint_heading(canvas, panel);
   const float legend_y = 146.0F;
   paint_legend(canvas, panel, legend_y);

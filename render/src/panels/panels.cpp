@@ -330,7 +330,7 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
   record_barriers(command, {image_barrier(*panel.texture.image.image, kColor, drawn, sampled)});
 }
 
-void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing,
+void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
                                vk::DescriptorSet frame_set) {
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, rectangle_pipeline_.get(drawing.pass, drawing.samples));
   command.setCullMode(vk::CullModeFlagBits::eNone);

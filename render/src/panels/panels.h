@@ -36,7 +36,7 @@ class Panels {
 
   // Shows all panels, blended over what is there; inside an eye pass. What it records stays right until revision()
   // changes.
-  void record_rectangles(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing,
+  void record_rectangles(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
                          vk::DescriptorSet frame_set);
   std::uint64_t revision() const { return revision_; }
 

@@ -68,7 +68,7 @@ void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
 }  // namespace
 
 void paint(Canvas& canvas, const DataPanel& panel) {
-  canvas.plate();
+  canvas.panel_background();
   const float width = canvas.size_mm().x - 2.0F * kMargin;
   canvas.fitted_text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title, width);
   canvas.fitted_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.subtitle, width);
@@ -85,7 +85,7 @@ void paint(Canvas& canvas, const DataPanel& panel) {
 }
 
 void paint(Canvas& canvas, const Banner& banner) {
-  canvas.plate();
+  canvas.panel_background();
   // the scale may have a second line
   const std::size_t end = banner.scale.find('\n');
   const std::string_view more =
@@ -115,7 +115,7 @@ void paint(Canvas& canvas, const Banner& banner) {
 }
 
 void paint(Canvas& canvas, const Label& label) {
-  canvas.plate(label.highlighted ? palette::kOrange : palette::kEdge, label.highlighted ? 5.0F : 2.0F);
+  canvas.panel_background(label.highlighted ? palette::kOrange : palette::kEdge, label.highlighted ? 5.0F : 2.0F);
   const glm::vec2 size = canvas.size_mm();
   const float by_height = 0.66F * size.y / text_height_mm(TextStyle::Guidance);
   const float by_width = (size.x - 24.0F) / std::max(canvas.text_width_mm(TextStyle::Guidance, label.text), 1.0F);

@@ -8,7 +8,7 @@
 
 #include "core/check.h"
 #include "device/barriers.h"
-#include "device/explained.h"
+#include "device/device_error.h"
 #include "device/memory.h"
 #include "device/pipelines.h"
 #include "device/shader_interface.h"
@@ -192,7 +192,7 @@ void DepthMeter::measure() {
   Parts& parts = *parts_;
   const Renderer::Parts& drawn = *parts.renderer.parts_;
   if (parts.under_way || !drawn.eyes_drawn) return;
-  explained(parts.device, "measuring depth", [&] {
+  rethrow_as_device_failure(parts.device, "measuring depth", [&] {
     const DepthBits empty;
     std::memcpy(parts.range.mapped, &empty, sizeof(empty));
     parts.bind(drawn.eyes);

@@ -38,7 +38,7 @@ Sight sight(const scene::EyeView& eye, const glm::dmat4& room_from_node, const D
 // Whether shading by vertex is as good as by fragment: edges as long as they would be if they lay across the line of
 // sight in the box's middle.
 bool is_fine(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node, double pixels_high) {
-  if (draw.look || draw.blended || draw.double_sided || draw.index_count < 3 * kManyTriangles) {
+  if (draw.variant || draw.blended || draw.double_sided || draw.index_count < 3 * kManyTriangles) {
     return false;
   }
   const glm::dvec4 middle = eye.projection * eye.view * room_from_node * glm::dvec4(glm::dvec3(draw.center), 1.0);
@@ -54,15 +54,15 @@ bool is_fine(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room
 
 }  // namespace
 
-void DrawLister::list(const FrameState& frame, const SceneGeometry& geometry, float guard_band, double pixels_high,
-                      DrawList& list) {
+void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometry, float guard_band, double pixels_high,
+                           DrawList& list) {
   const auto& draws = geometry.draws();
   const glm::dvec3 viewer = 0.5 * (frame.eyes[0].eye_position_m + frame.eyes[1].eye_position_m);
   list.shadow.clear();
   list.mirrored.assign(draws.size(), 0);
-  list.fine.assign(draws.size(), 0);
+  list.per_vertex.assign(draws.size(), 0);
   list.clipped = false;
-  list.hazy = frame.haze.veil > 0.0F || frame.haze.end_m > frame.haze.begin_m;
+  list.hazy = frame.fog.fade > 0.0F || frame.fog.end_m > frame.fog.begin_m;
   opaque_.clear();
   blended_.clear();
   for (std::uint32_t i = 0; i < draws.size(); ++i) {
@@ -75,7 +75,7 @@ void DrawLister::list(const FrameState& frame, const SceneGeometry& geometry, fl
     }
     const auto& room_from_node = frame.room_from_node[draw.node];
     list.mirrored[i] = glm::determinant(glm::dmat3(room_from_node)) < 0.0 ? 1 : 0;
-    list.fine[i] = !list.hazy && is_fine(draw, frame.eyes[0], room_from_node, pixels_high) ? 1 : 0;
+    list.per_vertex[i] = !list.hazy && is_fine(draw, frame.eyes[0], room_from_node, pixels_high) ? 1 : 0;
     const DrawBox box = bent_box(draw, frame);
     bool seen = false;
     for (const auto& eye : frame.eyes) {

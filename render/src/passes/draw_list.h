@@ -12,19 +12,19 @@ namespace afm::render {
 
 // What a frame draws: places in SceneGeometry::draws().
 struct DrawList {
-  std::vector<std::uint32_t> shadow;   // opaque ones that are shown, seen or not
-  std::vector<std::uint32_t> opaque;   // seen by an eye, from near to far, so that what is hidden is not shaded
-  std::vector<std::uint32_t> blended;  // seen by an eye, from far to near
-  std::vector<std::uint8_t> mirrored;  // by draw, 1 where the node turns left into right
-  std::vector<std::uint8_t> fine;      // by draw, 1 where triangles are about as small as the pixels of an eye
-  bool hazy = false;                   // something dissolves into the background
-  bool clipped = false;                // an eye's near plane, or its guard band, cuts through one of those
+  std::vector<std::uint32_t> shadow;     // opaque ones that are shown, seen or not
+  std::vector<std::uint32_t> opaque;     // seen by an eye, from near to far, so that what is hidden is not shaded
+  std::vector<std::uint32_t> blended;    // seen by an eye, from far to near
+  std::vector<std::uint8_t> mirrored;    // by draw, 1 where the node turns left into right
+  std::vector<std::uint8_t> per_vertex;  // by draw, 1 where triangles are about as small as the pixels of an eye
+  bool hazy = false;                     // something dissolves into the background
+  bool clipped = false;                  // an eye's near plane, or its guard band, cuts through one of those
 
   bool operator==(const DrawList&) const = default;
 };
 
 // Makes draw lists; keeps memory for the next.
-class DrawLister {
+class DrawListBuilder {
  public:
   // By the boxes of the draws, bent as the frame says: distances are of their middles from between the eyes.
   // `guard_band` as in EyeTargets; `pixels_high` is what is drawn of an eye.

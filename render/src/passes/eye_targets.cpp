@@ -92,7 +92,7 @@ EyeTargets::Multisampled EyeTargets::create_multisampled(std::uint32_t layers) c
   return made;
 }
 
-void EyeTargets::begin_frame(const EyeDrawing& drawing) {
+void EyeTargets::begin_frame(const EyePassConfig& drawing) {
   drawing_ = drawing;
   if (resolves() && !*multisampled().color_view) {
     const bool both = drawing.pass == EyePass::Both;

@@ -19,13 +19,13 @@ inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
 inline constexpr std::uint32_t kBothEyes = 0b11;  // the view mask of a multiview pass
 
 // How the eyes of one frame are drawn.
-struct EyeDrawing {
+struct EyePassConfig {
   EyePass pass = EyePass::Both;
   std::size_t pass_count = 1;  // of single passes: 2, or 1 where both eyes see the same
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Extent2D extent{};  // drawn, from the upper left corner on
 
-  bool operator==(const EyeDrawing&) const = default;
+  bool operator==(const EyePassConfig&) const = default;
 };
 
 // The images that eyes are drawn into: colour and depth of two layers, the left eye's first. What is drawn with more
@@ -44,14 +44,14 @@ class EyeTargets {
   float guard_band() const { return guard_band_; }
 
   // To be called before a frame is recorded; from then on the getters below speak of that frame.
-  void begin_frame(const EyeDrawing& drawing);
+  void begin_frame(const EyePassConfig& drawing);
 
   // Everything between them is drawn into the eyes of that pass; viewport and scissor are set. Afterwards the eye
   // images can be sampled.
   void begin(const vk::raii::CommandBuffer& command, std::size_t pass) const;
   void end(const vk::raii::CommandBuffer& command, std::size_t pass) const;
 
-  const EyeDrawing& drawing() const { return drawing_; }
+  const EyePassConfig& drawing() const { return drawing_; }
 
   // Both eyes see the same, and it lies in the left one's images.
   bool same_eyes() const { return drawing_.pass == EyePass::Single && drawing_.pass_count == 1; }
@@ -113,7 +113,7 @@ class EyeTargets {
   Target second_color_;  // where the second of two passes resolves into
   Target second_depth_;
   std::array<Multisampled, 2> multisampled_;  // of two layers, and of one
-  EyeDrawing drawing_;
+  EyePassConfig drawing_;
 };
 
 }  // namespace afm::render

@@ -96,7 +96,7 @@ FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::D
   write_uniforms(device, *shadow_set_, uniforms_.front(), draw_blocks_);
 }
 
-bool FrameSlot::Recorded::take(const DrawList& new_draws, const EyeDrawing& new_drawing, std::uint64_t new_panels) {
+bool FrameSlot::Recorded::take(const DrawList& new_draws, const EyePassConfig& new_drawing, std::uint64_t new_panels) {
   if (anything && draws == new_draws && drawing == new_drawing && panels == new_panels) {
     return false;
   }
@@ -107,7 +107,7 @@ bool FrameSlot::Recorded::take(const DrawList& new_draws, const EyeDrawing& new_
   return true;
 }
 
-void FrameSlot::write(const FrameState& frame, const SceneGeometry& geometry, const EyeDrawing& drawing,
+void FrameSlot::write(const FrameState& frame, const SceneGeometry& geometry, const EyePassConfig& drawing,
                       float guard_band) {
   const glm::vec2 size(static_cast<float>(drawing.extent.width), static_cast<float>(drawing.extent.height));
   for (std::size_t pass = 0; pass < uniforms_.size(); ++pass) {

@@ -25,7 +25,7 @@ class FrameSlot {
             const ShadowMap& shadow_map, std::size_t draw_count);
 
   // Writes everything that the frame's shaders read.
-  void write(const FrameState& frame, const SceneGeometry& geometry, const EyeDrawing& drawing, float guard_band);
+  void write(const FrameState& frame, const SceneGeometry& geometry, const EyePassConfig& drawing, float guard_band);
 
   // The frame's set of a pass: with the left eye's view first, or the right one's.
   vk::DescriptorSet set(std::size_t pass) const { return *sets_[pass]; }
@@ -49,12 +49,12 @@ class FrameSlot {
   // All that the commands of drawing() depend on.
   struct Recorded {
     DrawList draws;
-    EyeDrawing drawing;
+    EyePassConfig drawing;
     std::uint64_t panels = 0;  // as Panels::revision()
     bool anything = false;
 
     // Whether something is another than before, and has been taken.
-    bool take(const DrawList& new_draws, const EyeDrawing& new_drawing, std::uint64_t new_panels);
+    bool take(const DrawList& new_draws, const EyePassConfig& new_drawing, std::uint64_t new_panels);
   };
   Recorded recorded;
 

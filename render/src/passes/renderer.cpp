@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "core/check.h"
-#include "device/explained.h"
+#include "device/device_error.h"
 #include "output/readback.h"
 #include "passes/renderer_parts.h"
-#include "passes/scene_look.h"
+#include "passes/shader_variant.h"
 #include "render/picture_memory.h"
 
 namespace afm::render {
@@ -74,13 +74,13 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       shadow_map(device),
       frame_set_layout(create_frame_set_layout(device, ShadowMapUse::Read)),
       shadow_set_layout(create_frame_set_layout(device, ShadowMapUse::Drawn)),
-      scene_pass(device, *frame_set_layout, *shadow_set_layout, materials, geometry.looks()),
+      scene_pass(device, *frame_set_layout, *shadow_set_layout, materials, geometry.variants()),
       panels(device, std::move(fonts), *frame_set_layout),
       composer(device, eyes),
       timeline(create_timeline(device)) {
   for (std::size_t i = 0; i < kFramesInFlight; ++i) {
     slots.emplace_back(device, *frame_set_layout, *shadow_set_layout, shadow_map, geometry.draws().size());
-    if (options.time_passes && Stopwatch::works_on(device)) {
+    if (options.time_passes && TimestampQueries::works_on(device)) {
       clocks.emplace_back(device);
     }
   }
@@ -91,12 +91,12 @@ void Renderer::Parts::wait_for(std::uint64_t value) const {
   AFM_CHECK(device->waitSemaphores(info, std::numeric_limits<std::uint64_t>::max()) == vk::Result::eSuccess);
 }
 
-EyeDrawing Renderer::Parts::choose_drawing(const FrameState& frame, const DrawList& draws) const {
+EyePassConfig Renderer::Parts::choose_drawing(const FrameState& frame, const DrawList& draws) const {
   const auto scaled = [&](std::uint32_t whole) {
     return std::max(1U, static_cast<std::uint32_t>(std::lround(detail.scale * static_cast<double>(whole))));
   };
-  EyeDrawing drawing{.samples = detail.samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
-                     .extent = {scaled(eyes.extent().width), scaled(eyes.extent().height)}};
+  EyePassConfig drawing{.samples = detail.samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
+                        .extent = {scaled(eyes.extent().width), scaled(eyes.extent().height)}};
   const bool wrong_in_one = !device.multiview() || (draws.clipped && device.clips_first_view_only());
   if (see_the_same(frame.eyes)) {
     drawing.pass = EyePass::Single;
@@ -107,7 +107,7 @@ EyeDrawing Renderer::Parts::choose_drawing(const FrameState& frame, const DrawLi
   return drawing;
 }
 
-void Renderer::Parts::mark(const vk::raii::CommandBuffer& command, std::size_t slot, PassClock::Mark mark) const {
+void Renderer::Parts::mark(const vk::raii::CommandBuffer& command, std::size_t slot, GpuTimer::Mark mark) const {
   if (!clocks.empty()) {
     clocks[slot].mark(command, mark);
   }
@@ -116,9 +116,9 @@ void Renderer::Parts::mark(const vk::raii::CommandBuffer& command, std::size_t s
 void Renderer::Parts::record_painting(std::size_t slot) {
   const auto& command = slots[slot].painting();
   command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-  mark(command, slot, PassClock::Mark::PanelsBegin);
+  mark(command, slot, GpuTimer::Mark::PanelsBegin);
   panels.record_textures(command, slot);
-  mark(command, slot, PassClock::Mark::PanelsEnd);
+  mark(command, slot, GpuTimer::Mark::PanelsEnd);
   command.end();
 }
 
@@ -127,7 +127,7 @@ void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
   const auto& command = slot.shadow();
   const ScenePass::Input input{geometry, materials, slot.draws, slot.shadow_set(), slot.draw_stride()};
   command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-  mark(command, slot_index, PassClock::Mark::ShadowBegin);
+  mark(command, slot_index, GpuTimer::Mark::ShadowBegin);
   if (step == ShadowStep::Everything) {
     shadow_map.begin(command);
     scene_pass.record_shadow(command, input, slot.draws.shadow);
@@ -141,23 +141,23 @@ void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
     scene_pass.record_shadow(command, input, shadow_casters.moving());
   }
   shadow_map.end(command);
-  mark(command, slot_index, PassClock::Mark::ShadowEnd);
+  mark(command, slot_index, GpuTimer::Mark::ShadowEnd);
   command.end();
 }
 
 void Renderer::Parts::record_drawing(std::size_t slot_index) {
   FrameSlot& slot = slots[slot_index];
-  const EyeDrawing& drawing = eyes.drawing();
+  const EyePassConfig& drawing = eyes.drawing();
   const auto& command = slot.drawing();
   command.begin({});
-  mark(command, slot_index, PassClock::Mark::EyesBegin);
+  mark(command, slot_index, GpuTimer::Mark::EyesBegin);
   for (std::size_t pass = 0; pass < drawing.pass_count; ++pass) {
     eyes.begin(command, pass);
     scene_pass.record_eyes(command, drawing, {geometry, materials, slot.draws, slot.set(pass), slot.draw_stride()});
     panels.record_rectangles(command, drawing, slot.set(pass));
     eyes.end(command, pass);
   }
-  mark(command, slot_index, PassClock::Mark::EyesEnd);
+  mark(command, slot_index, GpuTimer::Mark::EyesEnd);
   command.end();
 }
 
@@ -227,11 +227,11 @@ core::Result<Renderer> Renderer::create(Context& context, const scene::Scene& sc
                       image.width, image.height, context.device().name(), largest));
     }
   }
-  if (const std::size_t looks = count_looks(scene); looks > kMostLooks) {
+  if (const std::size_t variants = count_variants(scene); variants > kMostLooks) {
     return core::failure(core::ErrorCategory::BadInputFile,
                          fmt::format("cannot draw a scene whose materials combine their textures and extensions in {} "
                                      "ways: up to {} are drawn; make it smaller",
-                                     looks, kMostLooks));
+                                     variants, kMostLooks));
   }
   auto fonts = load_panel_fonts(options.panel_texels_per_m, options.panel_millimetre_m, largest);
   if (!fonts) {
@@ -240,33 +240,35 @@ core::Result<Renderer> Renderer::create(Context& context, const scene::Scene& sc
   try {
     return Renderer(std::make_unique<Parts>(context.device(), scene, options, std::move(*fonts)));
   } catch (const vk::SystemError& error) {
-    return core::failure(core::ErrorCategory::Failed, explain(error, context.device(), "the pictures of the eyes"));
+    return core::failure(core::ErrorCategory::Failed,
+                         describe_error(error, context.device(), "the pictures of the eyes"));
   }
 }
 
 void Renderer::render(const FrameState& frame) {
   AFM_CHECK(frame.room_from_node.size() == parts_->node_count);
   AFM_CHECK(frame.visible.empty() || frame.visible.size() == parts_->node_count);
-  explained(parts_->device, "drawing a frame", [&] { parts_->render(frame); });
+  rethrow_as_device_failure(parts_->device, "drawing a frame", [&] { parts_->render(frame); });
 }
 
 Image Renderer::read_eye(scene::Eye eye) {
   AFM_CHECK(parts_->eyes_drawn);
   const auto image = parts_->eyes.eye(eye);
-  return explained(parts_->device, "reading a picture back",
-                   [&] { return read_back(parts_->device, image.image, image.layer, parts_->eyes.drawing().extent); });
+  return rethrow_as_device_failure(parts_->device, "reading a picture back", [&] {
+    return read_back(parts_->device, image.image, image.layer, parts_->eyes.drawing().extent);
+  });
 }
 
 Image Renderer::read_composed(const Composition& composition, const ReadArea& area) {
   AFM_CHECK(parts_->eyes_drawn && !scene::has_two_pictures(composition.mode));
-  return explained(parts_->device, "reading a picture back",
-                   [&] { return std::move(parts_->composer.compose(composition, area).front()); });
+  return rethrow_as_device_failure(parts_->device, "reading a picture back",
+                                   [&] { return std::move(parts_->composer.compose(composition, area).front()); });
 }
 
 std::array<Image, 2> Renderer::read_pair(const Composition& composition, const ReadArea& area) {
   AFM_CHECK(parts_->eyes_drawn && scene::has_two_pictures(composition.mode));
-  auto pictures =
-      explained(parts_->device, "reading a picture back", [&] { return parts_->composer.compose(composition, area); });
+  auto pictures = rethrow_as_device_failure(parts_->device, "reading a picture back",
+                                            [&] { return parts_->composer.compose(composition, area); });
   return {std::move(pictures[0]), std::move(pictures[1])};
 }
 
@@ -286,7 +288,8 @@ core::Result<void> Renderer::resize(std::uint32_t eye_width, std::uint32_t eye_h
     parts_->device->waitIdle();
     parts_->eyes = std::move(eyes);
   } catch (const vk::SystemError& error) {
-    return core::failure(core::ErrorCategory::Failed, explain(error, parts_->device, "the pictures of the eyes"));
+    return core::failure(core::ErrorCategory::Failed,
+                         describe_error(error, parts_->device, "the pictures of the eyes"));
   }
   parts_->options = options;
   for (FrameSlot& slot : parts_->slots) {
@@ -319,7 +322,7 @@ std::optional<PassTimes> Renderer::pass_times() const {
 }
 
 void Renderer::wait() {
-  explained(parts_->device, "drawing a frame", [this] { parts_->wait_for(parts_->frames); });
+  rethrow_as_device_failure(parts_->device, "drawing a frame", [this] { parts_->wait_for(parts_->frames); });
 }
 
 }  // namespace afm::render

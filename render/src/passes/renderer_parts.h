@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "device/pass_clock.h"
+#include "device/gpu_timer.h"
 #include "output/composer.h"
 #include "panels/panels.h"
 #include "passes/eye_targets.h"
@@ -24,8 +24,8 @@ struct Renderer::Parts {
   ~Parts() { device.wait_idle(); }
 
   void wait_for(std::uint64_t value) const;
-  EyeDrawing choose_drawing(const FrameState& frame, const DrawList& draws) const;
-  void mark(const vk::raii::CommandBuffer& command, std::size_t slot, PassClock::Mark mark) const;
+  EyePassConfig choose_drawing(const FrameState& frame, const DrawList& draws) const;
+  void mark(const vk::raii::CommandBuffer& command, std::size_t slot, GpuTimer::Mark mark) const;
   void record_painting(std::size_t slot);
   void record_shadow(std::size_t slot, ShadowStep step);
   void record_drawing(std::size_t slot);
@@ -44,10 +44,10 @@ struct Renderer::Parts {
   ScenePass scene_pass;
   Panels panels;
   Composer composer;
-  DrawLister lister;
+  DrawListBuilder lister;
   ShadowCasters shadow_casters;
   std::vector<FrameSlot> slots;
-  std::vector<PassClock> clocks;  // one a slot, or none
+  std::vector<GpuTimer> clocks;  // one a slot, or none
   vk::raii::Semaphore timeline;
   std::uint64_t frames = 0;                // submitted
   bool eyes_drawn = false;                 // since the eye images were made

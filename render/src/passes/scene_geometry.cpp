@@ -59,22 +59,22 @@ void measure_edges(const scene::Primitive& primitive, Draw& draw) {
 // Vertices and indices of all meshes end to end, those with a look first, and where each primitive lies.
 struct Packed {
   std::vector<scene::Vertex> vertices;
-  std::vector<LookVertex> look_vertices;
+  std::vector<LookVertex> variant_vertices;
   std::vector<std::uint32_t> indices;
-  std::vector<SceneLook> looks;
+  std::vector<ShaderVariant> variants;
   std::vector<std::vector<Draw>> draws_of_mesh;
 };
 
-std::uint32_t place_of(const SceneLook& look, std::vector<SceneLook>& looks) {
-  const auto found = std::find(looks.begin(), looks.end(), look);
-  const auto place = static_cast<std::uint32_t>(found - looks.begin());
-  if (found == looks.end()) {
-    looks.push_back(look);
+std::uint32_t place_of(const ShaderVariant& variant, std::vector<ShaderVariant>& variants) {
+  const auto found = std::find(variants.begin(), variants.end(), variant);
+  const auto place = static_cast<std::uint32_t>(found - variants.begin());
+  if (found == variants.end()) {
+    variants.push_back(variant);
   }
   return place;
 }
 
-void pack_look(const scene::Primitive& primitive, const MeshOrder& order, std::vector<LookVertex>& vertices) {
+void pack_variant(const scene::Primitive& primitive, const MeshOrder& order, std::vector<LookVertex>& vertices) {
   for (const std::uint32_t i : order.vertices) {
     LookVertex& vertex = vertices.emplace_back();
     if (!primitive.tangents.empty()) {
@@ -86,8 +86,8 @@ void pack_look(const scene::Primitive& primitive, const MeshOrder& order, std::v
   }
 }
 
-void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive, const std::optional<SceneLook>& look,
-                    Packed& packed, std::vector<Draw>& draws) {
+void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive,
+                    const std::optional<ShaderVariant>& variant, Packed& packed, std::vector<Draw>& draws) {
   const auto& material = scene.materials.at(primitive.material);
   const MeshOrder order = drawing_order(primitive, material.blended);
   draws.push_back({.node = 0,
@@ -99,9 +99,9 @@ void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive
                    .casts_shadow = !material.blended && primitive.topology == scene::Topology::Triangles,
                    .material = primitive.material,
                    .block = material_block(material)});
-  if (look) {
-    draws.back().look = place_of(*look, packed.looks);
-    pack_look(primitive, order, packed.look_vertices);
+  if (variant) {
+    draws.back().variant = place_of(*variant, packed.variants);
+    pack_variant(primitive, order, packed.variant_vertices);
   }
   measure_box(primitive, draws.back());
   measure_edges(primitive, draws.back());
@@ -117,12 +117,12 @@ void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive
 Packed pack(const scene::Scene& scene) {
   Packed packed;
   packed.draws_of_mesh.resize(scene.meshes.size());
-  for (const bool with_look : {true, false}) {
+  for (const bool with_variant : {true, false}) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
       for (const auto& primitive : scene.meshes[i].primitives) {
-        const auto look = look_of(scene, primitive);
-        if (look.has_value() == with_look) {
-          pack_primitive(scene, primitive, look, packed, packed.draws_of_mesh[i]);
+        const auto variant = variant_of(scene, primitive);
+        if (variant.has_value() == with_variant) {
+          pack_primitive(scene, primitive, variant, packed, packed.draws_of_mesh[i]);
         }
       }
     }
@@ -140,7 +140,7 @@ Packed pack(const scene::Scene& scene) {
 
 SceneGeometry::SceneGeometry(const Device& device, const scene::Scene& scene) {
   const Packed packed = pack(scene);
-  looks_ = packed.looks;
+  variants_ = packed.variants;
   for (scene::NodeIndex index = 0; index < scene.nodes.size(); ++index) {
     const auto& node = scene.nodes[index];
     parents_.push_back(node.parent);
@@ -156,9 +156,9 @@ SceneGeometry::SceneGeometry(const Device& device, const scene::Scene& scene) {
       std::count_if(draws_.begin(), draws_.end(), [](const Draw& draw) { return !draw.blended; }));
   vertices_ = upload_buffer(device, "scene vertices", std::as_bytes(std::span(packed.vertices)),
                             vk::BufferUsageFlagBits::eVertexBuffer);
-  if (!looks_.empty()) {
-    look_vertices_ = upload_buffer(device, "scene look vertices", std::as_bytes(std::span(packed.look_vertices)),
-                                   vk::BufferUsageFlagBits::eVertexBuffer);
+  if (!variants_.empty()) {
+    variant_vertices_ = upload_buffer(device, "scene look vertices", std::as_bytes(std::span(packed.variant_vertices)),
+                                      vk::BufferUsageFlagBits::eVertexBuffer);
   }
   indices_ = upload_buffer(device, "scene indices", std::as_bytes(std::span(packed.indices)),
                            vk::BufferUsageFlagBits::eIndexBuffer);
@@ -166,8 +166,8 @@ SceneGeometry::SceneGeometry(const Device& device, const scene::Scene& scene) {
 
 void SceneGeometry::bind(const vk::raii::CommandBuffer& command) const {
   command.bindVertexBuffers(0, *vertices_.buffer, vk::DeviceSize{0});
-  if (!looks_.empty()) {
-    command.bindVertexBuffers(1, *look_vertices_.buffer, vk::DeviceSize{0});
+  if (!variants_.empty()) {
+    command.bindVertexBuffers(1, *variant_vertices_.buffer, vk::DeviceSize{0});
   }
   command.bindIndexBuffer(*indices_.buffer, 0, vk::IndexType::eUint32);
 }
@@ -186,13 +186,13 @@ const std::array<vk::VertexInputAttributeDescription, 3>& SceneGeometry::attribu
   return kAttributes;
 }
 
-const std::array<vk::VertexInputBindingDescription, 2>& SceneGeometry::look_bindings() {
+const std::array<vk::VertexInputBindingDescription, 2>& SceneGeometry::variant_bindings() {
   static const std::array<vk::VertexInputBindingDescription, 2> kBindings{
       {bindings()[0], {.binding = 1, .stride = sizeof(LookVertex), .inputRate = vk::VertexInputRate::eVertex}}};
   return kBindings;
 }
 
-const std::array<vk::VertexInputAttributeDescription, 5>& SceneGeometry::look_attributes() {
+const std::array<vk::VertexInputAttributeDescription, 5>& SceneGeometry::variant_attributes() {
   static const std::array<vk::VertexInputAttributeDescription, 5> kAttributes{
       {attributes()[0],
        attributes()[1],

@@ -9,7 +9,7 @@
 
 #include "device/memory.h"
 #include "device/shader_interface.h"
-#include "passes/scene_look.h"
+#include "passes/shader_variant.h"
 #include "scene/graph/scene.h"
 
 namespace afm::render {
@@ -24,7 +24,7 @@ struct Draw {
   bool double_sided = false;
   bool blended = false;
   bool casts_shadow = true;
-  std::optional<std::uint32_t> look{};  // a place in SceneGeometry::looks(); none: drawn by the plain pipelines
+  std::optional<std::uint32_t> variant{};  // a place in SceneGeometry::looks(); none: drawn by the plain pipelines
   std::uint32_t material = 0;
   glm::vec3 center{0.0F};  // of the primitive's box, in the node's frame
   glm::vec3 half_size{0.0F};
@@ -33,7 +33,7 @@ struct Draw {
   DrawBlock block{};          // with the material's constants filled in
 };
 
-// What only a SceneLook reads of a vertex.
+// What only a ShaderVariant reads of a vertex.
 struct LookVertex {
   glm::vec4 tangent{0.0F};
   glm::vec4 coordinates{0.0F};
@@ -48,22 +48,22 @@ class SceneGeometry {
   std::size_t opaque_count() const { return opaque_count_; }
   const std::vector<std::optional<scene::NodeIndex>>& parents() const { return parents_; }
 
-  const std::vector<SceneLook>& looks() const { return looks_; }
+  const std::vector<ShaderVariant>& variants() const { return variants_; }
 
   void bind(const vk::raii::CommandBuffer& command) const;
 
   static const std::array<vk::VertexInputBindingDescription, 1>& bindings();
   static const std::array<vk::VertexInputAttributeDescription, 3>& attributes();
-  static const std::array<vk::VertexInputBindingDescription, 2>& look_bindings();
-  static const std::array<vk::VertexInputAttributeDescription, 5>& look_attributes();
+  static const std::array<vk::VertexInputBindingDescription, 2>& variant_bindings();
+  static const std::array<vk::VertexInputAttributeDescription, 5>& variant_attributes();
 
  private:
   std::vector<Draw> draws_;
   std::size_t opaque_count_ = 0;
   std::vector<std::optional<scene::NodeIndex>> parents_;
-  std::vector<SceneLook> looks_;
+  std::vector<ShaderVariant> variants_;
   Buffer vertices_;
-  Buffer look_vertices_;  // of the first of them
+  Buffer variant_vertices_;  // of the first of them
   Buffer indices_;
 };
 

@@ -5,14 +5,14 @@
 
 #include "device/pipelines.h"
 #include "shaders/background_frag.h"
-#include "shaders/fine_frag.h"
-#include "shaders/fine_vert.h"
-#include "shaders/fine_vert_one_view.h"
 #include "shaders/fullscreen_vert.h"
 #include "shaders/material_frag.h"
 #include "shaders/material_frag_one_view.h"
 #include "shaders/material_vert.h"
 #include "shaders/material_vert_one_view.h"
+#include "shaders/per_vertex_frag.h"
+#include "shaders/per_vertex_vert.h"
+#include "shaders/per_vertex_vert_one_view.h"
 #include "shaders/scene_frag.h"
 #include "shaders/scene_frag_one_view.h"
 #include "shaders/scene_vert.h"
@@ -28,8 +28,8 @@ constexpr float kShadowBiasSlope = 1.5F;
 
 constexpr EyeCode kSceneVertex{shaders::scene_vert, shaders::scene_vert_one_view};
 constexpr EyeCode kSceneFragment{shaders::scene_frag, shaders::scene_frag_one_view};
-constexpr EyeCode kFineVertex{shaders::fine_vert, shaders::fine_vert_one_view};
-constexpr EyeCode kFineFragment{shaders::fine_frag, shaders::fine_frag};
+constexpr EyeCode kFineVertex{shaders::per_vertex_vert, shaders::per_vertex_vert_one_view};
+constexpr EyeCode kFineFragment{shaders::per_vertex_frag, shaders::per_vertex_frag};
 constexpr EyeCode kMaterialVertex{shaders::material_vert, shaders::material_vert_one_view};
 constexpr EyeCode kMaterialFragment{shaders::material_frag, shaders::material_frag_one_view};
 constexpr EyeCode kBackgroundVertex{shaders::fullscreen_vert, shaders::fullscreen_vert};
@@ -45,9 +45,9 @@ PipelineRequest scene_request(vk::PipelineLayout layout, Blending blending) {
           .depth = opaque ? DepthUse::TestAndWrite : DepthUse::TestOnly};
 }
 
-EyePipeline plain_pipeline(const Device& device, vk::PipelineLayout layout, Blending blending, std::uint32_t look) {
+EyePipeline plain_pipeline(const Device& device, vk::PipelineLayout layout, Blending blending, std::uint32_t variant) {
   PipelineRequest request = scene_request(layout, blending);
-  request.look = look;
+  request.variant = variant;
   return {device, request, kSceneVertex, kSceneFragment};
 }
 
@@ -70,19 +70,19 @@ vk::PrimitiveTopology topology(scene::Topology topology) {
   }
 }
 
-PipelineRequest look_request(vk::PipelineLayout layout, const SceneLook& look) {
+PipelineRequest variant_request(vk::PipelineLayout layout, const ShaderVariant& variant) {
   return {.name = "look",
           .layout = layout,
-          .bindings = SceneGeometry::look_bindings(),
-          .attributes = SceneGeometry::look_attributes(),
-          .topology = topology(look.topology),
-          .blending = look.blended ? Blending::Premultiplied : Blending::Opaque,
-          .depth = look.blended ? DepthUse::TestOnly : DepthUse::TestAndWrite,
-          .look = look.bits};
+          .bindings = SceneGeometry::variant_bindings(),
+          .attributes = SceneGeometry::variant_attributes(),
+          .topology = topology(variant.topology),
+          .blending = variant.blended ? Blending::Premultiplied : Blending::Opaque,
+          .depth = variant.blended ? DepthUse::TestOnly : DepthUse::TestAndWrite,
+          .variant = variant.bits};
 }
 
-vk::raii::PipelineLayout create_look_layout(const Device& device, vk::DescriptorSetLayout frame,
-                                            vk::DescriptorSetLayout material) {
+vk::raii::PipelineLayout create_variant_layout(const Device& device, vk::DescriptorSetLayout frame,
+                                               vk::DescriptorSetLayout material) {
   const std::array sets{frame, material};
   return create_pipeline_layout(device, {.sets = sets});
 }
@@ -104,26 +104,26 @@ vk::raii::Pipeline create_shadow_pipeline(const Device& device, vk::PipelineLayo
 
 ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout,
                      vk::DescriptorSetLayout shadow_set_layout, const SceneMaterials& materials,
-                     const std::vector<SceneLook>& looks)
+                     const std::vector<ShaderVariant>& variants)
     : layout_(create_pipeline_layout(device, {.sets = {&frame_set_layout, 1}})),
       shadow_layout_(create_pipeline_layout(device, {.sets = {&shadow_set_layout, 1}})),
-      look_layout_(create_look_layout(device, frame_set_layout, materials.layout())),
+      variant_layout_(create_variant_layout(device, frame_set_layout, materials.layout())),
       shadow_(create_shadow_pipeline(device, *shadow_layout_)),
       opaque_{plain_pipelines(device, *layout_, Blending::Opaque, 0),
-              plain_pipelines(device, *layout_, Blending::Opaque, AFM_LOOK_HAZE)},
+              plain_pipelines(device, *layout_, Blending::Opaque, AFM_FEATURE_FOG)},
       fine_(device, scene_request(*layout_, Blending::Opaque), kFineVertex, kFineFragment),
       background_(device, background_request(*layout_), kBackgroundVertex, kBackgroundFragment),
       blended_{plain_pipelines(device, *layout_, Blending::Premultiplied, 0),
-               plain_pipelines(device, *layout_, Blending::Premultiplied, AFM_LOOK_HAZE)} {
-  for (const SceneLook& look : looks) {
-    looks_.emplace_back(device, look_request(*look_layout_, look), kMaterialVertex, kMaterialFragment);
+               plain_pipelines(device, *layout_, Blending::Premultiplied, AFM_FEATURE_FOG)} {
+  for (const ShaderVariant& variant : variants) {
+    variants_.emplace_back(device, variant_request(*variant_layout_, variant), kMaterialVertex, kMaterialFragment);
   }
 }
 
 ScenePass::BothSides ScenePass::plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
-                                                std::uint32_t look) {
-  return {plain_pipeline(device, layout, blending, look),
-          plain_pipeline(device, layout, blending, look | AFM_LOOK_DOUBLE_SIDED)};
+                                                std::uint32_t variant) {
+  return {plain_pipeline(device, layout, blending, variant),
+          plain_pipeline(device, layout, blending, variant | AFM_FEATURE_DOUBLE_SIDED)};
 }
 
 void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
@@ -134,22 +134,22 @@ void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLa
   command.setFrontFace(input.draws.mirrored[i] != 0 ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
 }
 
-void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input,
+void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
                                std::span<const std::uint32_t> draws, BothSides& plain) {
   const EyePipeline* bound = nullptr;
   for (const std::uint32_t i : draws) {
     const Draw& draw = input.geometry.draws()[i];
-    EyePipeline& pipeline = draw.look                  ? looks_[*draw.look]
-                            : input.draws.fine[i] != 0 ? fine_
-                                                       : plain[draw.double_sided ? 1 : 0];
+    EyePipeline& pipeline = draw.variant                     ? variants_[*draw.variant]
+                            : input.draws.per_vertex[i] != 0 ? fine_
+                                                             : plain[draw.double_sided ? 1 : 0];
     if (&pipeline != bound) {
       command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
       bound = &pipeline;
     }
     set_state(command, *layout_, input, i);
-    if (draw.look) {
-      command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *look_layout_, 1, input.materials.set(draw.material),
-                                 nullptr);
+    if (draw.variant) {
+      command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *variant_layout_, 1,
+                                 input.materials.set(draw.material), nullptr);
     }
     command.drawIndexed(draw.index_count, 1, draw.first_index, draw.first_vertex, 0);
   }
@@ -166,17 +166,17 @@ void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Inpu
   }
 }
 
-void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input) {
+void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input) {
   input.geometry.bind(command);
-  const std::size_t haze = input.draws.hazy ? 1 : 0;
-  record_in_eyes(command, drawing, input, input.draws.opaque, opaque_[haze]);
+  const std::size_t fog = input.draws.hazy ? 1 : 0;
+  record_in_eyes(command, drawing, input, input.draws.opaque, opaque_[fog]);
 
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, background_.get(drawing.pass, drawing.samples));
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, std::uint32_t{0});
   command.setCullMode(vk::CullModeFlagBits::eNone);
   command.draw(4, 1, 0, 0);
 
-  record_in_eyes(command, drawing, input, input.draws.blended, blended_[haze]);
+  record_in_eyes(command, drawing, input, input.draws.blended, blended_[fog]);
   command.setFrontFace(vk::FrontFace::eCounterClockwise);
 }
 

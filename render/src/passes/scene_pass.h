@@ -15,7 +15,7 @@ namespace afm::render {
 class ScenePass {
  public:
   ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout, vk::DescriptorSetLayout shadow_set_layout,
-            const SceneMaterials& materials, const std::vector<SceneLook>& looks);
+            const SceneMaterials& materials, const std::vector<ShaderVariant>& variants);
 
   struct Input {
     const SceneGeometry& geometry;
@@ -27,26 +27,26 @@ class ScenePass {
   // `draws` of the input's geometry; the input's set is FrameSlot::shadow_set().
   void record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
                      std::span<const std::uint32_t> draws) const;
-  void record_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input);
+  void record_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input);
 
  private:
   using BothSides = std::array<EyePipeline, 2>;  // of single-sided materials, of double-sided ones
   static BothSides plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
-                                   std::uint32_t look);
+                                   std::uint32_t variant);
   static void set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
                         std::uint32_t draw);
-  void record_in_eyes(const vk::raii::CommandBuffer& command, const EyeDrawing& drawing, const Input& input,
+  void record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
                       std::span<const std::uint32_t> draws, BothSides& plain);
 
   vk::raii::PipelineLayout layout_;
   vk::raii::PipelineLayout shadow_layout_;
-  vk::raii::PipelineLayout look_layout_;
+  vk::raii::PipelineLayout variant_layout_;
   vk::raii::Pipeline shadow_;
   std::array<BothSides, 2> opaque_;  // without haze, and with it
   EyePipeline fine_;                 // shaded at the vertices, without haze
   EyePipeline background_;
   std::array<BothSides, 2> blended_;
-  std::vector<EyePipeline> looks_;  // as SceneGeometry::looks()
+  std::vector<EyePipeline> variants_;  // as SceneGeometry::looks()
 };
 
 }  // namespace afm::render

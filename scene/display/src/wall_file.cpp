@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "physics/quantity_text.h"
-#include "scene/config/toml_fault.h"
+#include "scene/config/toml_file.h"
 #include "scene/display/wall.h"
 #include "wall_pvx.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "gltf_fault.h"
+#include "gltf_error.h"
 
 namespace afm::scene {
 namespace {
@@ -52,7 +52,7 @@ class AccessorReader {
   }
 
  private:
-  [[noreturn]] void fail(const char* reason) const { throw GltfFault(fmt::format("/accessors/{} {}", index_, reason)); }
+  [[noreturn]] void fail(const char* reason) const { throw GltfError(fmt::format("/accessors/{} {}", index_, reason)); }
 
   // `count` elements from `offset` on, the last of which ends within the view.
   std::span<const std::uint8_t> elements(const BufferView& view, std::uint64_t offset, std::uint64_t count,
@@ -138,7 +138,7 @@ void for_each_element(const Accessor& accessor, int index, Put put) {
   for (std::size_t i = 0; i < sparse.count; ++i) {
     const std::uint32_t element = integer(sparse.indices.data() + i * size_of(sparse.index_type), sparse.index_type);
     if (element < next || element >= accessor.count) {
-      throw GltfFault(fmt::format("/accessors/{}/sparse has indices that do not rise or are out of range", index));
+      throw GltfError(fmt::format("/accessors/{}/sparse has indices that do not rise or are out of range", index));
     }
     next = std::uint64_t{element} + 1;
     put(element, sparse.values.data() + i * element_size(accessor));
@@ -161,7 +161,7 @@ std::vector<float> GltfAccessors::floats(int index) const {
   for_each_element(accessor, index, [&](std::size_t element, const std::uint8_t* bytes) {
     for (std::size_t i = 0; i < components; ++i) {
       const float value = number(bytes + i * width, accessor.type, accessor.normalized);
-      if (!std::isfinite(value)) throw GltfFault(fmt::format("/accessors/{} holds what is not a finite number", index));
+      if (!std::isfinite(value)) throw GltfError(fmt::format("/accessors/{} holds what is not a finite number", index));
       values[element * components + i] = value;
     }
   });

@@ -33,13 +33,13 @@ struct Accessor {
 
 class GltfAccessors {
  public:
-  // Throws GltfFault. `buffers` must outlive it.
+  // Throws GltfError. `buffers` must outlive it.
   GltfAccessors(const GltfBuffers& buffers, const tinygltf::Model& model);
 
   // By the file's number.
   const Accessor& operator[](int index) const { return accessors_[static_cast<std::size_t>(index)]; }
 
-  // All components of all elements; normalised integers as 0..1 or -1..1. Throws GltfFault for what is not finite.
+  // All components of all elements; normalised integers as 0..1 or -1..1. Throws GltfError for what is not finite.
   std::vector<float> floats(int index) const;
 
   // The same of unsigned integers, as they are.

@@ -22,7 +22,7 @@ std::size_t width_of(const std::string& path, std::size_t weights) {
 
 Track read_track(const std::string& path, const tinygltf::AnimationSampler& sampler, const GltfAccessors& accessors,
                  std::size_t width, GltfBudget& budget) {
-  const auto fail = [&](std::string_view reason) { throw GltfFault(fmt::format("{} {}", path, reason)); };
+  const auto fail = [&](std::string_view reason) { throw GltfError(fmt::format("{} {}", path, reason)); };
   Track track;
   track.width = width;
   if (sampler.interpolation == "STEP") track.interpolation = Interpolation::Step;
@@ -55,7 +55,7 @@ std::optional<Track>& track_of(AnimatedNode& node, const std::string& path) {
 
 AnimatedNode at_rest(const tinygltf::Model& model, std::size_t index, NodeIndex node) {
   const NodeTransform rest = read_transform(model, index);
-  if (rest.matrix) throw GltfFault(fmt::format("/nodes/{} is animated but has a matrix", index));
+  if (rest.matrix) throw GltfError(fmt::format("/nodes/{} is animated but has a matrix", index));
   AnimatedNode animated;
   animated.node = node;
   animated.translation = rest.translation;
@@ -73,7 +73,7 @@ Animation read_animation(std::size_t index, const tinygltf::Model& model, const 
   for (std::size_t i = 0; i < source.channels.size(); ++i) {
     const tinygltf::AnimationChannel& channel = source.channels[i];
     const auto fail = [&](const char* reason) {
-      throw GltfFault(fmt::format("/animations/{}/channels/{} {}", index, i, reason));
+      throw GltfError(fmt::format("/animations/{}/channels/{} {}", index, i, reason));
     };
     const auto sampler = static_cast<std::size_t>(channel.sampler);
     if (sampler >= source.samplers.size()) fail("has a sampler that does not exist");

@@ -8,7 +8,7 @@
 #include <limits>
 #include <string_view>
 
-#include "gltf_fault.h"
+#include "gltf_error.h"
 
 namespace afm::scene {
 namespace {
@@ -88,14 +88,14 @@ void check_attribute(const std::string& path, const std::string& name, const Acc
   const bool is_float = accessor.is_float() && attribute->plain != Integers::Unsigned;
   const Integers integers = quantized ? attribute->quantized : attribute->plain;
   if (accessor.matrix || !right_size || !(is_float || is_among(accessor, integers))) {
-    throw GltfFault(fmt::format("{} has {} of a type that it may not have", path, name));
+    throw GltfError(fmt::format("{} has {} of a type that it may not have", path, name));
   }
 }
 
 void check_indices(const std::string& path, const Accessor& accessor) {
   const bool is_unsigned = is_small_unsigned(accessor) || accessor.type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
   if (accessor.components != 1 || !is_unsigned || accessor.normalized) {
-    throw GltfFault(fmt::format("{} has indices of a type that they may not have", path));
+    throw GltfError(fmt::format("{} has indices of a type that they may not have", path));
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "gltf_fault.h"
+#include "gltf_error.h"
 
 namespace afm::scene {
 
@@ -13,7 +13,7 @@ class GltfBudget {
  public:
   void take(std::uint64_t count, std::uint64_t bytes_each) {
     if (count > kMostBytes / bytes_each || count * bytes_each > kMostBytes - taken_) {
-      throw GltfFault("its meshes and animations take more than 384 MiB; make it smaller");
+      throw GltfError("its meshes and animations take more than 384 MiB; make it smaller");
     }
     taken_ += count * bytes_each;
   }

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 #include <meshoptimizer.h>
 
-#include "gltf_fault.h"
+#include "gltf_error.h"
 
 namespace afm::scene {
 namespace {
@@ -52,7 +52,7 @@ void undo(Filter filter, std::vector<std::uint8_t>& bytes, std::size_t count, st
 }
 
 [[noreturn]] void fail(std::size_t view, const char* reason) {
-  throw GltfFault(fmt::format("/bufferViews/{} {}", view, reason));
+  throw GltfError(fmt::format("/bufferViews/{} {}", view, reason));
 }
 
 std::span<const std::uint8_t> range(const tinygltf::Model& model, std::size_t view, std::size_t buffer,
@@ -88,7 +88,7 @@ BufferView GltfBuffers::decompress(const tinygltf::Model& model, std::size_t vie
   }
   decompressed_bytes_ += count * stride;
   if (decompressed_bytes_ > kMostDecompressedBytes) {
-    throw GltfFault(fmt::format("its compressed buffer views make more than {} MiB of data; make it smaller",
+    throw GltfError(fmt::format("its compressed buffer views make more than {} MiB of data; make it smaller",
                                 kMostDecompressedBytes >> 20U));
   }
   auto& bytes = decompressed_.emplace_back(count * stride);

@@ -18,7 +18,7 @@ struct BufferView {
 // The views of a model's buffers, checked. `model` must outlive it.
 class GltfBuffers {
  public:
-  // Throws GltfFault.
+  // Throws GltfError.
   explicit GltfBuffers(const tinygltf::Model& model);
 
   const std::vector<BufferView>& views() const { return views_; }

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "gltf_fault.h"
+#include "gltf_error.h"
 
 namespace afm::scene {
 namespace {
@@ -28,7 +28,7 @@ struct Place {
     return element ? fmt::format("{}/{}", parent->path(), *element) : fmt::format("{}/{}", parent->path(), name);
   }
   [[noreturn]] void fail(std::string_view reason) const {
-    throw GltfFault(fmt::format("{} {}", parent == nullptr ? "its JSON text" : path(), reason));
+    throw GltfError(fmt::format("{} {}", parent == nullptr ? "its JSON text" : path(), reason));
   }
 };
 

@@ -11,7 +11,7 @@ namespace afm::scene {
 using Json = nlohmann::json;
 
 // Holds a JSON text against the schema, so that nothing behind it need ask whether a member is there, of its type,
-// within its range, or refers to what exists. A fault is thrown as GltfFault that says where it stands:
+// within its range, or refers to what exists. A fault is thrown as GltfError that says where it stands:
 // "/meshes/0/primitives/1".
 //
 // The header's check comes first and leaves the rest alone. The other one removes all that the schema does not know,

@@ -24,7 +24,7 @@ struct DracoAttribute {
   const Accessor* accessor = nullptr;
 };
 
-// Throws GltfFault: the stream is broken, or is not the `corners` indices and the attributes that were announced.
+// Throws GltfError: the stream is broken, or is not the `corners` indices and the attributes that were announced.
 DracoMesh decode_draco(std::span<const std::uint8_t> stream, std::size_t corners,
                        const std::vector<DracoAttribute>& wanted);
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "gltf_fault.h"
+#include "gltf_error.h"
 #include "gltf_uri.h"
 
 namespace afm::scene {
@@ -25,21 +25,21 @@ constexpr std::uint64_t kMostValues = 4'000'000;
 Bytes read_plain_file(const fs::path& path, std::uint64_t most_bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw GltfFault("there is no such file; check the path");
-  if (!fs::is_regular_file(status)) throw GltfFault("it is not a plain file; give the path of a .glb or .gltf file");
+  if (!fs::exists(status)) throw GltfError("there is no such file; check the path");
+  if (!fs::is_regular_file(status)) throw GltfError("it is not a plain file; give the path of a .glb or .gltf file");
   const std::uintmax_t size = fs::file_size(path, error);
-  if (error) throw GltfFault(fmt::format("its size cannot be read ({}); check the path", error.message()));
+  if (error) throw GltfError(fmt::format("its size cannot be read ({}); check the path", error.message()));
   if (size > most_bytes) {
-    throw GltfFault(
+    throw GltfError(
         fmt::format("it has {} MiB and {} MiB are left of the {} MiB that a model may take; make it smaller",
                     size >> 20U, most_bytes >> 20U, kLargestGltfBytes >> 20U));
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw GltfFault(fmt::format("it cannot be opened ({}); check its permissions", std::strerror(errno)));
+  if (!file) throw GltfError(fmt::format("it cannot be opened ({}); check its permissions", std::strerror(errno)));
   Bytes bytes(size);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   if (file.gcount() != static_cast<std::streamsize>(size)) {
-    throw GltfFault("it cannot be read to its end; copy it again");
+    throw GltfError("it cannot be read to its end; copy it again");
   }
   return bytes;
 }
@@ -62,11 +62,11 @@ void check_text(std::string_view text) {
     if (letter != '[' && letter != '{') continue;
     ++values;
     if (++depth > kDeepestNesting) {
-      throw GltfFault(fmt::format("its JSON is nested deeper than {} levels; export it again", kDeepestNesting));
+      throw GltfError(fmt::format("its JSON is nested deeper than {} levels; export it again", kDeepestNesting));
     }
   }
   if (values > kMostValues) {
-    throw GltfFault(fmt::format("its JSON has more than {} values; make it smaller", kMostValues));
+    throw GltfError(fmt::format("its JSON has more than {} values; make it smaller", kMostValues));
   }
 }
 
@@ -75,9 +75,9 @@ Json parse_text(std::string_view text) {
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const Json::parse_error& error) {
-    throw GltfFault(fmt::format("its JSON is broken at byte {}; export it again", error.byte));
+    throw GltfError(fmt::format("its JSON is broken at byte {}; export it again", error.byte));
   } catch (const Json::exception&) {  // a number that is too large for double
-    throw GltfFault("its JSON is broken: a number is out of range; export it again");
+    throw GltfError("its JSON is broken: a number is out of range; export it again");
   }
 }
 
@@ -98,23 +98,23 @@ struct Chunks {
 Chunks split(const Bytes& bytes) {
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
   constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
-  if (bytes.size() < kHeader + kChunkHeader) throw GltfFault("it ends inside its header; copy it again");
+  if (bytes.size() < kHeader + kChunkHeader) throw GltfError("it ends inside its header; copy it again");
   if (const std::uint32_t version = little_endian(bytes, 4); version != 2) {
-    throw GltfFault(fmt::format("it is binary glTF of version {}, not 2; export it as glTF 2.0", version));
+    throw GltfError(fmt::format("it is binary glTF of version {}, not 2; export it as glTF 2.0", version));
   }
   if (little_endian(bytes, 8) != bytes.size()) {
-    throw GltfFault(
+    throw GltfError(
         fmt::format("its header says {} bytes but it has {}; copy it again", little_endian(bytes, 8), bytes.size()));
   }
   Chunks chunks;
   int chunk = 0;
   for (std::size_t offset = kHeader; offset < bytes.size(); ++chunk) {
-    if (bytes.size() - offset < kChunkHeader) throw GltfFault("a chunk ends inside its header; copy it again");
+    if (bytes.size() - offset < kChunkHeader) throw GltfError("a chunk ends inside its header; copy it again");
     const std::uint32_t length = little_endian(bytes, offset);
     const std::uint32_t type = little_endian(bytes, offset + 4);
     offset += kChunkHeader;
-    if (length > bytes.size() - offset) throw GltfFault("a chunk reaches past its end; copy it again");
-    if (chunk == 0 && type != kJson) throw GltfFault("its first chunk is not JSON; export it again");
+    if (length > bytes.size() - offset) throw GltfError("a chunk reaches past its end; copy it again");
+    if (chunk == 0 && type != kJson) throw GltfError("its first chunk is not JSON; export it again");
     if (chunk == 0) chunks.text = {reinterpret_cast<const char*>(bytes.data()) + offset, length};
     if (chunk == 1 && type == kBinary) chunks.binary.emplace(offset, length);
     offset += length;
@@ -144,7 +144,7 @@ Bytes SideFiles::read(const std::string& uri) {
   if (is_data_uri(uri)) return decode_data_uri(uri);
   const std::optional<fs::path> file = resolve(decode_percent(uri));
   if (!file) {
-    throw GltfFault(fmt::format("it refers to '{}', which is not a plain file in the model's folder; put it there",
+    throw GltfError(fmt::format("it refers to '{}', which is not a plain file in the model's folder; put it there",
                                 uri.substr(0, 80)));
   }
   Bytes bytes = read_plain_file(*file, bytes_left_);
@@ -155,7 +155,7 @@ Bytes SideFiles::read(const std::string& uri) {
 GltfFile read_gltf_file(const std::string& path) {
   GltfFile file;
   Bytes bytes = read_plain_file(path, kLargestGltfBytes);
-  if (bytes.empty()) throw GltfFault("it is empty; export it again");
+  if (bytes.empty()) throw GltfError("it is empty; export it again");
   fs::path folder = fs::path(path).parent_path();
   if (folder.empty()) folder = ".";
   file.side_files = SideFiles(std::move(folder), kLargestGltfBytes - bytes.size());

@@ -20,7 +20,7 @@ class SideFiles {
   SideFiles(std::filesystem::path folder, std::uint64_t bytes_left)
       : folder_(std::move(folder)), bytes_left_(bytes_left) {}
 
-  // Throws GltfFault.
+  // Throws GltfError.
   Bytes read(const std::string& uri);
 
  private:
@@ -38,7 +38,7 @@ struct GltfFile {
   SideFiles side_files;
 };
 
-// Throws GltfFault.
+// Throws GltfError.
 GltfFile read_gltf_file(const std::string& path);
 
 }  // namespace afm::scene

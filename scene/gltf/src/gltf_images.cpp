@@ -10,7 +10,7 @@
 #include <set>
 #include <thread>
 
-#include "gltf_fault.h"
+#include "gltf_error.h"
 #include "image_decoder.h"
 
 namespace afm::scene {
@@ -90,8 +90,8 @@ void decode_all(const std::vector<EncodedImage>& encoded, std::vector<Image>& im
   for (std::size_t i = 0; i < faults.size(); ++i) {
     try {
       if (faults[i]) std::rethrow_exception(faults[i]);
-    } catch (const GltfFault& fault) {
-      throw GltfFault(fmt::format("{} cannot be decoded: {}", encoded[i].path, fault.what()));
+    } catch (const GltfError& fault) {
+      throw GltfError(fmt::format("{} cannot be decoded: {}", encoded[i].path, fault.what()));
     }
   }
 }
@@ -110,13 +110,13 @@ void measure(const std::vector<EncodedImage>& encoded, std::vector<Image>& image
       const ImageSize size = image_size(encoded[i].bytes);
       images[i].width = size.width;
       images[i].height = size.height;
-    } catch (const GltfFault& fault) {
-      throw GltfFault(fmt::format("{} cannot be decoded: {}", encoded[i].path, fault.what()));
+    } catch (const GltfError& fault) {
+      throw GltfError(fmt::format("{} cannot be decoded: {}", encoded[i].path, fault.what()));
     }
     pixels += std::uint64_t{images[i].width} * images[i].height;
   }
   if (pixels > kMostImagePixels) {
-    throw GltfFault(
+    throw GltfError(
         fmt::format("its images have {} megapixels together, more than {}", pixels >> 20U, kMostImagePixels >> 20U));
   }
 }
@@ -134,7 +134,7 @@ void renumber(const std::map<std::uint32_t, std::uint32_t>& places, Scene& scene
 
 }  // namespace
 
-void read_textures(GltfModel& model, const GltfBuffers& buffers, Scene& scene, GltfNotes& notes) {
+void read_textures(GltfModel& model, const GltfBuffers& buffers, Scene& scene, GltfWarnings& notes) {
   const std::vector<tinygltf::Texture>& textures = model.parts.textures;
   std::set<std::uint32_t> used_textures, used_images;
   for (const Material& material : scene.materials) {

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "gltf_animations.h"
-#include "gltf_fault.h"
+#include "gltf_error.h"
 #include "gltf_images.h"
 #include "gltf_materials.h"
 #include "gltf_meshes.h"
@@ -18,7 +18,7 @@
 namespace afm::scene {
 namespace {
 
-Scene read_scene(const std::string& path, GltfNotes& notes) {
+Scene read_scene(const std::string& path, GltfWarnings& notes) {
   GltfModel file = read_gltf_model(path, notes);
   const tinygltf::Model& model = file.parts;
   const GltfBuffers buffers(model);
@@ -41,23 +41,23 @@ std::string printable(std::string text) {
 
 }  // namespace
 
-void GltfNotes::ignore(const std::string& what) {
+void GltfWarnings::ignore(const std::string& what) {
   constexpr std::size_t kMostNotes = 100;
   const std::string line = printable(what);
   if (ignored.size() < kMostNotes && std::find(ignored.begin(), ignored.end(), line) == ignored.end())
     ignored.push_back(line);
 }
 
-core::Result<Scene> load_gltf(const std::string& path, GltfNotes* notes) {
+core::Result<Scene> load_gltf(const std::string& path, GltfWarnings* notes) {
   const auto refuse = [&](std::string reason) {
     if (reason.find("; ") == std::string::npos) reason += "; export it again and check it with gltf-validator";
     return core::failure(core::ErrorCategory::BadInputFile,
                          printable(fmt::format("cannot load the model '{}': {}", path, reason)));
   };
-  GltfNotes own_notes;
+  GltfWarnings own_notes;
   try {
     return read_scene(path, notes == nullptr ? own_notes : *notes);
-  } catch (const GltfFault& fault) {
+  } catch (const GltfError& fault) {
     return refuse(fault.what());
   } catch (const std::bad_alloc&) {
     return refuse("it needs more memory than there is; make it smaller");

@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include "gltf_fault.h"
+#include "gltf_error.h"
 
 namespace afm::scene {
 namespace {
@@ -28,7 +28,7 @@ glm::vec3 color(const Value& object, const char* key, glm::vec3 missing) {
 
 class MaterialReader {
  public:
-  MaterialReader(const tinygltf::Material& source, Material& material, GltfNotes& notes)
+  MaterialReader(const tinygltf::Material& source, Material& material, GltfWarnings& notes)
       : source_(source), material_(material), notes_(notes) {}
 
   void read() {
@@ -102,7 +102,7 @@ class MaterialReader {
     if (const Value* refractive = extension("KHR_materials_ior")) {
       material_.ior = number(*refractive, "ior", 1.5);
       if (material_.ior != 0.0F && material_.ior < 1.0F) {
-        throw GltfFault(fmt::format("its material '{}' has an ior between 0 and 1", material_.name.substr(0, 60)));
+        throw GltfError(fmt::format("its material '{}' has an ior between 0 and 1", material_.name.substr(0, 60)));
       }
     }
     if (const Value* specular = extension("KHR_materials_specular")) {
@@ -133,12 +133,12 @@ class MaterialReader {
 
   const tinygltf::Material& source_;
   Material& material_;
-  GltfNotes& notes_;
+  GltfWarnings& notes_;
 };
 
 }  // namespace
 
-void read_materials(const tinygltf::Model& model, Scene& scene, GltfNotes& notes) {
+void read_materials(const tinygltf::Model& model, Scene& scene, GltfWarnings& notes) {
   for (const tinygltf::Material& source : model.materials) {
     MaterialReader(source, scene.materials.emplace_back(), notes).read();
   }

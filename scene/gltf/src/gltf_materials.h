@@ -6,7 +6,7 @@
 
 namespace afm::scene {
 
-// Materials whose textures are numbered as in the file. Throws GltfFault.
-void read_materials(const tinygltf::Model& model, Scene& scene, GltfNotes& notes);
+// Materials whose textures are numbered as in the file. Throws GltfError.
+void read_materials(const tinygltf::Model& model, Scene& scene, GltfWarnings& notes);
 
 }  // namespace afm::scene

@@ -13,7 +13,7 @@
 
 #include "gltf_attributes.h"
 #include "gltf_draco.h"
-#include "gltf_fault.h"
+#include "gltf_error.h"
 #include "gltf_topology.h"
 #include "scene/graph/flat_normals.h"
 
@@ -55,7 +55,7 @@ class PrimitiveReader {
  private:
   using Attributes = std::map<std::string, int>;
 
-  [[noreturn]] void fail(std::string_view reason) const { throw GltfFault(fmt::format("{} {}", path_, reason)); }
+  [[noreturn]] void fail(std::string_view reason) const { throw GltfError(fmt::format("{} {}", path_, reason)); }
 
   // The values of an attribute, `count_` of them, out of its accessor.
   std::optional<std::vector<float>> floats(const Attributes& from, const char* name, AttributeOwner owner) {
@@ -249,11 +249,11 @@ void read_weights(std::size_t index, const tinygltf::Mesh& source, Mesh& mesh) {
   const std::size_t targets = mesh.primitives.front().targets.size();
   for (const Primitive& primitive : mesh.primitives) {
     if (primitive.targets.size() != targets) {
-      throw GltfFault(fmt::format("/meshes/{} has primitives with different numbers of morph targets", index));
+      throw GltfError(fmt::format("/meshes/{} has primitives with different numbers of morph targets", index));
     }
   }
   if (!source.weights.empty() && source.weights.size() != targets) {
-    throw GltfFault(fmt::format("/meshes/{} has not as many weights as morph targets", index));
+    throw GltfError(fmt::format("/meshes/{} has not as many weights as morph targets", index));
   }
   mesh.weights.assign(source.weights.begin(), source.weights.end());
   mesh.weights.resize(targets, 0.0F);
@@ -262,7 +262,7 @@ void read_weights(std::size_t index, const tinygltf::Mesh& source, Mesh& mesh) {
 }  // namespace
 
 void read_meshes(const tinygltf::Model& model, const GltfBuffers& buffers, const GltfAccessors& accessors,
-                 GltfBudget& budget, Scene& scene, GltfNotes& notes) {
+                 GltfBudget& budget, Scene& scene, GltfWarnings& notes) {
   const auto default_material = static_cast<std::uint32_t>(scene.materials.size());
   bool uses_default = false;
   for (std::size_t m = 0; m < model.meshes.size(); ++m) {

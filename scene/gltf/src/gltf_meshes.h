@@ -7,8 +7,8 @@
 
 namespace afm::scene {
 
-// All meshes, after the materials: a primitive without one gets a default material behind them. Throws GltfFault.
+// All meshes, after the materials: a primitive without one gets a default material behind them. Throws GltfError.
 void read_meshes(const tinygltf::Model& model, const GltfBuffers& buffers, const GltfAccessors& accessors,
-                 GltfBudget& budget, Scene& scene, GltfNotes& notes);
+                 GltfBudget& budget, Scene& scene, GltfWarnings& notes);
 
 }  // namespace afm::scene

@@ -7,7 +7,7 @@
 #include <array>
 #include <charconv>
 
-#include "gltf_fault.h"
+#include "gltf_error.h"
 
 namespace afm::scene {
 namespace {
@@ -24,11 +24,11 @@ bool is_understood(const std::string& name) {
 }
 
 // What the header says, before the rest is judged by the rules of a version that it may not have.
-void check_header(const Json& document, GltfNotes& notes) {
+void check_header(const Json& document, GltfWarnings& notes) {
   const Json& asset = document["asset"];
   const std::string version = asset["version"];
   if (version.rfind("2.", 0) != 0 || asset.value("minVersion", "2.0") != "2.0") {
-    throw GltfFault(fmt::format("it is glTF of version '{}'; export it as glTF 2.0", version.substr(0, 20)));
+    throw GltfError(fmt::format("it is glTF of version '{}'; export it as glTF 2.0", version.substr(0, 20)));
   }
   notes.generator = asset.value("generator", "");
   std::string refused;
@@ -36,7 +36,7 @@ void check_header(const Json& document, GltfNotes& notes) {
     if (!is_understood(name)) refused += fmt::format("{}'{}'", refused.empty() ? "" : ", ", name.substr(0, 80));
   }
   if (!refused.empty()) {
-    throw GltfFault(fmt::format(
+    throw GltfError(fmt::format(
         "it requires {}, which TouchAFM does not know; export it without (docs/gltf.md lists what is known)", refused));
   }
   for (const std::string name : document.value("extensionsUsed", Json::array())) {
@@ -56,7 +56,7 @@ void check_header(const Json& document, GltfNotes& notes) {
 // - an animation's channel that moves no node is left out.
 class Exchange {
  public:
-  Exchange(GltfFile& file, GltfNotes& notes) : file_(file) {
+  Exchange(GltfFile& file, GltfWarnings& notes) : file_(file) {
     Json& document = file.document;
     if (document.contains("buffers")) take_buffers(document["buffers"]);
     if (document.contains("images")) take_images(document["images"]);
@@ -121,7 +121,7 @@ class Exchange {
     for (std::size_t i = 0; i < images.size(); ++i) {
       ImageSource& source = images_.emplace_back();
       if (!images[i].contains("uri") && !images[i].contains("bufferView")) {
-        throw GltfFault(fmt::format("/images/{} has neither a uri nor a bufferView", i));
+        throw GltfError(fmt::format("/images/{} has neither a uri nor a bufferView", i));
       }
       if (images[i].contains("uri")) source.uri = std::move(images[i]["uri"].get_ref<std::string&>());
       source.view = images[i].value("bufferView", -1);
@@ -130,7 +130,7 @@ class Exchange {
     }
   }
 
-  static void leave_out_channels(Json& channels, GltfNotes& notes) {
+  static void leave_out_channels(Json& channels, GltfWarnings& notes) {
     auto& list = channels.get_ref<Json::array_t&>();
     const auto moves_no_node = [&](const Json& channel) {
       const Json& target = channel["target"];
@@ -151,7 +151,7 @@ class Exchange {
     if (source.kind == Source::Chunk) bytes = std::move(*file_.binary);
     if (source.kind == Source::Uri) bytes = file_.side_files.read(source.uri);
     if (bytes.size() < source.length) {
-      throw GltfFault(fmt::format("/buffers/{} says {} bytes but there are {}", i, source.length, bytes.size()));
+      throw GltfError(fmt::format("/buffers/{} says {} bytes but there are {}", i, source.length, bytes.size()));
     }
     bytes.resize(source.length);
     return true;
@@ -165,7 +165,7 @@ class Exchange {
 
 }  // namespace
 
-GltfModel read_gltf_model(const std::string& path, GltfNotes& notes) {
+GltfModel read_gltf_model(const std::string& path, GltfWarnings& notes) {
   GltfFile file = read_gltf_file(path);
   check_gltf_header(file.document);
   check_header(file.document, notes);
@@ -182,7 +182,7 @@ GltfModel read_gltf_model(const std::string& path, GltfNotes& notes) {
   std::string fault, warning;
   if (!reader.LoadASCIIFromString(&model.parts, &fault, &warning, text.data(), static_cast<unsigned>(text.size()),
                                   "")) {
-    throw GltfFault(fmt::format("tinygltf does not understand it ({})", fault.substr(0, fault.find('\n'))));
+    throw GltfError(fmt::format("tinygltf does not understand it ({})", fault.substr(0, fault.find('\n'))));
   }
   exchange.give_back(model.parts);
   model.side_files = std::move(file.side_files);

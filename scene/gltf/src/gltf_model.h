@@ -23,8 +23,8 @@ struct GltfModel {
   SideFiles side_files;
 };
 
-// Throws GltfFault.
-GltfModel read_gltf_model(const std::string& path, GltfNotes& notes);
+// Throws GltfError.
+GltfModel read_gltf_model(const std::string& path, GltfWarnings& notes);
 
 // The value of an extension of this name, or nothing.
 const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "gltf_fault.h"
+#include "gltf_error.h"
 #include "gltf_transform.h"
 
 namespace afm::scene {
@@ -27,7 +27,7 @@ std::vector<bool> find_parents(const std::vector<tinygltf::Node>& nodes) {
     for (const int child : nodes[i].children) {
       const auto place = static_cast<std::size_t>(child);
       if (has_parent[place]) {
-        throw GltfFault(fmt::format("/nodes/{} has the child {}, which has more than one parent", i, child));
+        throw GltfError(fmt::format("/nodes/{} has the child {}, which has more than one parent", i, child));
       }
       has_parent[place] = true;
     }
@@ -42,7 +42,7 @@ std::vector<bool> find_parents(const std::vector<tinygltf::Node>& nodes) {
     const auto& children = nodes[reached[next]].children;
     reached.insert(reached.end(), children.begin(), children.end());
   }
-  if (reached.size() != nodes.size()) throw GltfFault("its nodes form a loop");
+  if (reached.size() != nodes.size()) throw GltfError("its nodes form a loop");
   return has_parent;
 }
 
@@ -54,7 +54,7 @@ std::vector<std::size_t> shown_roots(const tinygltf::Model& model, const std::ve
     for (const int root : model.scenes[i].nodes) {
       const auto node = static_cast<std::size_t>(root);
       if (has_parent[node] || listed_by[node] == i) {
-        throw GltfFault(fmt::format("/scenes/{} has the node {}, which is not a root or listed twice", i, node));
+        throw GltfError(fmt::format("/scenes/{} has the node {}, which is not a root or listed twice", i, node));
       }
       listed_by[node] = i;
       if (i == shown) roots.push_back(node);
@@ -96,7 +96,7 @@ class NodeReader {
 
  private:
   [[noreturn]] static void fail(std::size_t index, std::string_view reason) {
-    throw GltfFault(fmt::format("/nodes/{} {}", index, reason));
+    throw GltfError(fmt::format("/nodes/{} {}", index, reason));
   }
 
   void add(std::size_t index, std::optional<NodeIndex> parent) {
@@ -134,7 +134,7 @@ class NodeReader {
     drawn_corners_ += times * corners;
     draws_ += times * scene_.meshes[mesh].primitives.size();
     if (moved_vertices_ > kMostMovedVertices) {
-      throw GltfFault(fmt::format("its skins and morph targets move more than {} vertices together; make it smaller",
+      throw GltfError(fmt::format("its skins and morph targets move more than {} vertices together; make it smaller",
                                   kMostMovedVertices));
     }
     if (drawn_corners_ > kMostDrawnCorners || draws_ > kMostDraws || scene_.nodes.size() + times > kMostNodes) {
@@ -204,7 +204,7 @@ void read_skins(const tinygltf::Model& model, const GltfAccessors& accessors, co
     for (const int joint : source.joints) {
       const auto place = places[static_cast<std::size_t>(joint)];
       if (!place && used[i]) {
-        throw GltfFault(fmt::format("/skins/{} has the joint {}, no node of the scene that is shown", i, joint));
+        throw GltfError(fmt::format("/skins/{} has the joint {}, no node of the scene that is shown", i, joint));
       }
       skin.joints.push_back(place.value_or(0));
     }
@@ -213,7 +213,7 @@ void read_skins(const tinygltf::Model& model, const GltfAccessors& accessors, co
     if (source.inverseBindMatrices < 0) continue;
     const Accessor& accessor = accessors[source.inverseBindMatrices];
     if (!accessor.matrix || accessor.components != 16 || !accessor.is_float() || accessor.count < skin.joints.size()) {
-      throw GltfFault(
+      throw GltfError(
           fmt::format("/skins/{} has inverseBindMatrices that are not one 4 x 4 matrix of floats for each joint", i));
     }
     budget.take(accessor.count, sizeof(glm::mat4));
@@ -240,7 +240,7 @@ void check_joints(const Scene& scene) {
     if (!node.skin || !node.mesh) continue;
     if (!largest[*node.mesh]) largest[*node.mesh] = largest_joint(scene.meshes[*node.mesh]);
     if (*largest[*node.mesh] >= scene.skins[*node.skin].joints.size()) {
-      throw GltfFault(fmt::format("/meshes/{} refers to joint {} of a skin that has {}", *node.mesh,
+      throw GltfError(fmt::format("/meshes/{} refers to joint {} of a skin that has {}", *node.mesh,
                                   *largest[*node.mesh], scene.skins[*node.skin].joints.size()));
     }
   }
@@ -266,7 +266,7 @@ void read_cameras(const tinygltf::Model& model, Scene& scene) {
       camera.far_m = static_cast<float>(source.orthographic.zfar);
     }
     if (camera.far_m && *camera.far_m <= camera.near_m) {
-      throw GltfFault(fmt::format("/cameras/{} has a zfar that is not beyond znear", i));
+      throw GltfError(fmt::format("/cameras/{} has a zfar that is not beyond znear", i));
     }
   }
 }
@@ -286,7 +286,7 @@ void read_lights(const tinygltf::Model& model, Scene& scene) {
     light.inner_cone_rad = static_cast<float>(source.spot.innerConeAngle);
     light.outer_cone_rad = static_cast<float>(source.spot.outerConeAngle);
     if (light.inner_cone_rad >= light.outer_cone_rad) {
-      throw GltfFault(
+      throw GltfError(
           fmt::format("/extensions/KHR_lights_punctual/lights/{} has an inner cone that is not within the "
                       "outer one",
                       i));
@@ -306,7 +306,7 @@ void read_variants(const tinygltf::Model& model, Scene& scene) {
 }  // namespace
 
 NodePlaces read_nodes(const tinygltf::Model& model, const GltfAccessors& accessors, GltfBudget& budget, Scene& scene,
-                      GltfNotes& notes) {
+                      GltfWarnings& notes) {
   read_cameras(model, scene);
   read_lights(model, scene);
   read_variants(model, scene);

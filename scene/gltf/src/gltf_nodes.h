@@ -12,8 +12,8 @@ namespace afm::scene {
 // Where the file's nodes stand in the scene; nothing for those that the scene does not show.
 using NodePlaces = std::vector<std::optional<NodeIndex>>;
 
-// Cameras, lights, skins and the nodes of the scene that is shown, after the meshes. Throws GltfFault.
+// Cameras, lights, skins and the nodes of the scene that is shown, after the meshes. Throws GltfError.
 NodePlaces read_nodes(const tinygltf::Model& model, const GltfAccessors& accessors, GltfBudget& budget, Scene& scene,
-                      GltfNotes& notes);
+                      GltfWarnings& notes);
 
 }  // namespace afm::scene

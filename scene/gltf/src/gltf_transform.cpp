@@ -6,13 +6,13 @@
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "gltf_fault.h"
+#include "gltf_error.h"
 
 namespace afm::scene {
 
 NodeTransform read_transform(const tinygltf::Model& model, std::size_t index) {
   const tinygltf::Node& node = model.nodes[index];
-  const auto fail = [&](const char* reason) { throw GltfFault(fmt::format("/nodes/{} {}", index, reason)); };
+  const auto fail = [&](const char* reason) { throw GltfError(fmt::format("/nodes/{} {}", index, reason)); };
   NodeTransform transform;
   if (!node.matrix.empty()) {
     const auto& matrix = node.matrix;

@@ -18,7 +18,7 @@ struct NodeTransform {
   std::optional<glm::dmat4> matrix{};
 };
 
-// Of the file's node of this number. Throws GltfFault.
+// Of the file's node of this number. Throws GltfError.
 NodeTransform read_transform(const tinygltf::Model& model, std::size_t node);
 
 glm::dmat4 matrix_of(const NodeTransform& transform);

@@ -10,7 +10,7 @@ namespace afm::scene {
 
 bool is_data_uri(std::string_view uri);
 
-// The bytes of "data:[type];base64,..." (RFC 2397, RFC 4648 section 4). Throws GltfFault.
+// The bytes of "data:[type];base64,..." (RFC 2397, RFC 4648 section 4). Throws GltfError.
 std::vector<std::uint8_t> decode_data_uri(std::string_view uri);
 
 // "%20" becomes a space (RFC 3986, section 2.1); what is no such triple stays as it is.

@@ -19,11 +19,11 @@ struct ImageSize {
   std::uint32_t height = 0;
 };
 
-// What the header says, before anything is decoded. Throws GltfFault for what is no PNG or JPEG, or too large.
+// What the header says, before anything is decoded. Throws GltfError for what is no PNG or JPEG, or too large.
 ImageSize image_size(std::span<const std::uint8_t> encoded);
 
 // Decodes into eight bits RGBA; colour spaces and gamma that the file names are ignored, as glTF demands. `image` has
-// the size that image_size() has given. Throws GltfFault. Any thread.
+// the size that image_size() has given. Throws GltfError. Any thread.
 void decode_image(std::span<const std::uint8_t> encoded, Image& image);
 
 }  // namespace afm::scene

@@ -12,7 +12,7 @@
 
 #include "named_entries.h"
 #include "physics/quantity_text.h"
-#include "scene/config/toml_fault.h"
+#include "scene/config/toml_file.h"
 #include "scene/shared/shared_blocks.h"
 #include "sourced_table.h"
 
@@ -60,12 +60,12 @@ class MaterialReader {
       table_.refuse("name", fmt::format("is longer than {} bytes", kNameLength - 1));
     }
 
-    physics::Interaction& interaction = entry_.interaction;
-    interaction.tip_radius = table_.quantity("tip_radius", physics::kLengthUnits);
-    interaction.spring_constant = table_.quantity("spring_constant", physics::kStiffnessUnits);
-    interaction.sample_stiffness =
+    physics::ContactParameters& contact = entry_.contact;
+    contact.tip_radius = table_.quantity("tip_radius", physics::kLengthUnits);
+    contact.spring_constant = table_.quantity("spring_constant", physics::kStiffnessUnits);
+    contact.sample_stiffness =
         table_.quantity("sample_stiffness", physics::kStiffnessUnits, physics::Infinity::Allowed);
-    interaction.hamaker = table_.quantity("hamaker", physics::kEnergyUnits);
+    contact.hamaker = table_.quantity("hamaker", physics::kEnergyUnits);
     read_adhesion();
     read_elasticity();
     read_atomic_distance();
@@ -82,7 +82,7 @@ class MaterialReader {
     if (table_.has("mean_surface_energy") == table_.has("work_of_adhesion")) {
       table_.refuse("mean_surface_energy", "is missing; give either it or work_of_adhesion, its double, and not both");
     }
-    physics::SurfaceEnergy& mean = entry_.interaction.mean_surface_energy;
+    physics::SurfaceEnergy& mean = entry_.contact.mean_surface_energy;
     if (table_.has("mean_surface_energy")) {
       mean = table_.quantity("mean_surface_energy", physics::kSurfaceEnergyUnits);
     } else {
@@ -98,7 +98,7 @@ class MaterialReader {
     if (table_.has("reduced_modulus")) {
       if (given > 0)
         table_.refuse("reduced_modulus", "is given beside the moduli of tip and sample; give one or other");
-      entry_.interaction.reduced_modulus = table_.quantity("reduced_modulus", physics::kPressureUnits);
+      entry_.contact.reduced_modulus = table_.quantity("reduced_modulus", physics::kPressureUnits);
       return;
     }
     if (given == 0) return;
@@ -109,7 +109,7 @@ class MaterialReader {
     entry_.tip_elasticity = tip;
     entry_.sample_elasticity = sample;
     try {
-      entry_.interaction.reduced_modulus = physics::reduced_modulus(tip, sample);
+      entry_.contact.reduced_modulus = physics::reduced_modulus(tip, sample);
     } catch (const physics::UnphysicalValue& error) {
       table_.refuse(error.field(), error.what());
     }
@@ -117,11 +117,11 @@ class MaterialReader {
 
   void read_atomic_distance() {
     if (table_.has("atomic_distance")) {
-      entry_.interaction.atomic_distance = table_.quantity("atomic_distance", physics::kLengthUnits);
+      entry_.contact.atomic_distance = table_.quantity("atomic_distance", physics::kLengthUnits);
       return;
     }
     table_.add_source({"atomic_distance",
-                       physics::format_quantity(entry_.interaction.atomic_distance, physics::kLengthUnits),
+                       physics::format_quantity(entry_.contact.atomic_distance, physics::kLengthUnits),
                        "default: z0 of most solids lies within 0.2 nm to 0.4 nm", true});
   }
 
@@ -157,7 +157,7 @@ class MaterialReader {
 
   void check_physics() const {
     try {
-      physics::validate(entry_.interaction);
+      physics::validate(entry_.contact);
       physics::validate(entry_.lever);
     } catch (const physics::UnphysicalValue& error) {
       const bool by_work = error.field() == "mean_surface_energy" && table_.has("work_of_adhesion");

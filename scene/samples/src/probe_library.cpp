@@ -10,9 +10,9 @@
 
 #include "named_entries.h"
 #include "physics/cantilever.h"
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/quantity_text.h"
-#include "scene/config/toml_fault.h"
+#include "scene/config/toml_file.h"
 #include "sourced_table.h"
 
 namespace afm::scene {
@@ -131,7 +131,7 @@ class ProbeReader {
   // Every value within its range, whatever sample it will meet.
   void check_physics() const {
     constexpr physics::Elasticity kAnySample{physics::Pressure(1e9), 0.3};
-    physics::Interaction any;
+    physics::ContactParameters any;
     any.tip_radius = entry_.tip_radius;
     any.spring_constant = entry_.spring_constant;
     any.sample_stiffness = physics::Stiffness(1.0);
@@ -198,14 +198,14 @@ core::Result<ProbeLibrary> load_probes(std::span<const std::string> paths) {
 }
 
 MaterialEntry with_probe(MaterialEntry material, const ProbeEntry& probe) {
-  material.interaction.tip_radius = probe.tip_radius;
-  material.interaction.spring_constant = probe.spring_constant;
+  material.contact.tip_radius = probe.tip_radius;
+  material.contact.spring_constant = probe.spring_constant;
   take_source(material, "tip_radius", probe, "tip_radius");
   take_source(material, "spring_constant", probe, "spring_constant");
 
   if (probe.tip_elasticity && material.sample_elasticity) {
     material.tip_elasticity = probe.tip_elasticity;
-    material.interaction.reduced_modulus = physics::reduced_modulus(*probe.tip_elasticity, *material.sample_elasticity);
+    material.contact.reduced_modulus = physics::reduced_modulus(*probe.tip_elasticity, *material.sample_elasticity);
     take_source(material, "tip_modulus", probe, "tip_modulus");
     take_source(material, "tip_poisson_ratio", probe, "tip_poisson_ratio");
   }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/config/toml_fault.h"
+#include "scene/config/toml_file.h"
 
 namespace afm::scene {
 

@@ -51,14 +51,14 @@ bool rising_and_sane(std::span<const physics::MeasuredPoint> branch) {
   return true;
 }
 
-bool plausible(const SharedMeasuredCurve& curve) {
+bool is_valid(const SharedMeasuredCurve& curve) {
   const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxMeasuredPoints; };
   return counted(curve.approach_count) && counted(curve.retract_count) &&
          rising_and_sane(std::span(curve.approach).first(curve.approach_count)) &&
          rising_and_sane(std::span(curve.retract).first(curve.retract_count));
 }
 
-bool plausible(const SharedHeightField& field) {
+bool is_valid(const SharedHeightField& field) {
   const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxHeightFieldSide; };
   if (!counted(field.columns) || !counted(field.rows) || !positive(field.spacing_m)) return false;
   const std::size_t count = std::size_t{field.columns} * field.rows;
@@ -68,7 +68,7 @@ bool plausible(const SharedHeightField& field) {
 
 }  // namespace
 
-physics::LawOptions law_options(const SharedMaterial& material) {
+physics::LawOptions law_options(const SharedContact& material) {
   physics::LawOptions options;
   options.exact_hamaker_sphere = material.exact_hamaker_sphere != 0;
   if (material.retardation_wavelength_m > 0) {
@@ -78,7 +78,7 @@ physics::LawOptions law_options(const SharedMaterial& material) {
   return options;
 }
 
-core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count,
+core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count,
                             std::uint32_t height_field_count) {
   if (!terminated(material.name)) return refusal("it has a name without an end");
   if (material.law > physics::Law::Measured || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
@@ -93,7 +93,7 @@ core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_
   }
   if (!(material.retardation_wavelength_m >= 0)) return refusal("its retardation wavelength is not a length");
   try {
-    physics::validate(material.interaction);
+    physics::validate(material.contact);
     physics::validate(law_options(material));
     if (material.dynamic != 0) physics::validate(material.lever);
   } catch (const std::invalid_argument& error) {
@@ -125,7 +125,7 @@ core::Result<void> validate(const SharedModel& model) {
         fmt::format("the shared scene has {} measured curves: {} fit", model.curve_count, kMaxMeasuredCurves));
   }
   for (std::uint32_t i = 0; i < model.curve_count; ++i) {
-    if (!plausible(model.curves[i])) return refusal(fmt::format("measured curve {} is not along rising Z", i));
+    if (!is_valid(model.curves[i])) return refusal(fmt::format("measured curve {} is not along rising Z", i));
   }
   const bool no_scale = model.common_hand_m_per_m == 0 && model.common_hand_n_per_n == 0;
   if (!no_scale && !(std::isnormal(model.common_hand_m_per_m) && model.common_hand_m_per_m > 0 &&
@@ -136,7 +136,7 @@ core::Result<void> validate(const SharedModel& model) {
     return refusal(fmt::format("the shared scene has {} surfaces: {} fit", model.height_field_count, kMaxHeightFields));
   }
   for (std::uint32_t i = 0; i < model.height_field_count; ++i) {
-    if (!plausible(model.height_fields[i])) return refusal(fmt::format("surface {} is no grid of heights", i));
+    if (!is_valid(model.height_fields[i])) return refusal(fmt::format("surface {} is no grid of heights", i));
   }
   for (std::uint32_t i = 0; i < model.material_count; ++i) {
     if (auto valid = validate(model.materials[i], model.curve_count, model.height_field_count); !valid) {
@@ -146,41 +146,41 @@ core::Result<void> validate(const SharedModel& model) {
   return {};
 }
 
-bool plausible(const SceneTransforms& transforms, const SharedModel& model) {
+bool is_valid(const SceneTransforms& transforms, const SharedModel& model) {
   if (transforms.count != model.node_count || transforms.count > kMaxNodes) return false;
   return std::all_of(transforms.room_from_node.begin(), transforms.room_from_node.begin() + transforms.count,
                      [](const auto& matrix) { return all_sane(matrix); });
 }
 
-bool plausible(const Selection& selection, const SharedModel& model) {
+bool is_valid(const Selection& selection, const SharedModel& model) {
   return within(selection.material, model) && known(selection.scale_mode);
 }
 
-bool plausible(const HandScript& script) {
+bool is_valid(const HandScript& script) {
   return all_sane(script.target_m) && sane(script.duration_s) && script.duration_s >= 0 && script.turn_on_pressed <= 1;
 }
 
-bool plausible(const RendererHeartbeat& heartbeat) { return heartbeat.leaving <= 1; }
+bool is_valid(const RendererHeartbeat& heartbeat) { return heartbeat.leaving <= 1; }
 
-bool plausible(const SharedDevice& device) {
+bool is_valid(const SharedDevice& device) {
   // limits may be infinite
   return terminated(device.name) && device.max_force_n > 0 && device.max_continuous_force_n > 0 &&
          device.max_stiffness_n_per_m > 0 && device.max_slew_n_per_s > 0 && device.max_speed_m_per_s > 0 &&
          all_sane(device.workspace_min_m) && all_sane(device.workspace_max_m);
 }
 
-bool plausible(const TipState& state, const SharedModel& model) {
+bool is_valid(const TipState& state, const SharedModel& model) {
   return sane(state.z_m) && sane(state.tip_height_m) && sane(state.deflection_m) && sane(state.sample_deformation_m) &&
          sane(state.force_n) && all_sane(state.hand_position_m) && all_sane(state.hand_force_n) &&
          std::isfinite(state.hand_m_per_m) && std::isfinite(state.hand_n_per_n) && sane(state.release_z_m) &&
          positive(state.slow_motion) && all_sane(state.tip_xy_m) && sane(state.surface_height_m) &&
          all_sane(state.normal) && sane(state.force_cap_n) && std::isfinite(state.slew_limit_n_per_s) &&
-         sane(state.motor_heat) && sane(state.thermal_gain) && sane(state.ledger_j) && sane(state.ledger_damping) &&
-         known(state.scale_mode) && known(state.servo_state) && known(state.phase) && known(state.fault) &&
-         within(state.material, model);
+         sane(state.motor_heat) && sane(state.thermal_gain) && sane(state.excess_energy_j) &&
+         sane(state.observer_damping) && known(state.scale_mode) && known(state.servo_state) && known(state.phase) &&
+         known(state.fault) && within(state.material, model);
 }
 
-bool plausible(const TipSample& sample, const SharedModel& model) {
+bool is_valid(const TipSample& sample, const SharedModel& model) {
   return sane(sample.z_m) && sane(sample.force_n) && sane(sample.tip_height_m) && sane(sample.deflection_m) &&
          sane(sample.sample_deformation_m) && sane(sample.hand_height_m) && sane(sample.hand_force_n) &&
          all_sane(sample.hand_from_contact_m) && all_sane(sample.sample_normal) && all_sane(sample.sample_x) &&
@@ -189,7 +189,7 @@ bool plausible(const TipSample& sample, const SharedModel& model) {
          known(sample.servo_state) && known(sample.phase) && within(sample.material, model);
 }
 
-bool plausible(const TipEvent& event, const SharedModel& model) {
+bool is_valid(const TipEvent& event, const SharedModel& model) {
   return known(event.kind) && sane(event.z_m) && sane(event.force_before_n) && sane(event.force_after_n) &&
          within(event.material, model);
 }

@@ -109,7 +109,7 @@ namespace {
 // must cost a tick nothing.
 template <class T, class Count, class... Model>
 void check(std::optional<T>& value, Count& refused, const Model&... model) noexcept {
-  if (value && !plausible(*value, model...)) {
+  if (value && !is_valid(*value, model...)) {
     ++refused;
     value.reset();
   }
@@ -119,7 +119,7 @@ void check(std::optional<T>& value, Count& refused, const Model&... model) noexc
 template <class T, std::size_t Capacity>
 std::optional<T> next(core::SpscRing<T, Capacity>& ring, std::uint64_t& refused, const SharedModel& model) noexcept {
   while (auto value = ring.pop()) {
-    if (plausible(*value, model)) return value;
+    if (is_valid(*value, model)) return value;
     ++refused;
   }
   return std::nullopt;

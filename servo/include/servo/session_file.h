@@ -18,7 +18,7 @@ namespace afm::servo {
 // replay gives the same forces bit for bit.
 struct RecordedSession {
   std::string material;                             // name in the material file
-  scene::SharedMaterial parameters;                 // what was felt; curve and surface are the only ones of a replay
+  scene::SharedContact parameters;                  // what was felt; curve and surface are the only ones of a replay
   std::optional<scene::SharedMeasuredCurve> curve;  // of Law::Measured
   std::optional<scene::SharedHeightField> surface;  // none: a plane
   std::array<double, 16> room_from_sample{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // as in SceneTransforms

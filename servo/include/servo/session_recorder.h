@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "scene/shared/shared_blocks.h"
-#include "servo/servo_link.h"
+#include "servo/servo_client.h"
 #include "servo/session_file.h"
 
 namespace afm::servo {
@@ -18,7 +18,7 @@ class SessionRecorder {
 
   // Everything new, in the order of its times. True: a session begins with this sample, and the one before is
   // finished().
-  bool add(const scene::TipSample& sample, const ServoLink& servo);
+  bool add(const scene::TipSample& sample, const ServoClient& servo);
   void add(const scene::TipEvent& event);
 
   // Forgets the session under way; the next begins as soon as the force is off.
@@ -32,7 +32,7 @@ class SessionRecorder {
 
  private:
   bool goes_on_with(const scene::TipSample& sample) const;
-  void begin(const scene::TipSample& sample, const ServoLink& servo);
+  void begin(const scene::TipSample& sample, const ServoClient& servo);
   void take_scale(const scene::TipSample& sample, const scene::TipState& tip);
 
   RecordedSession session_;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/shared/shared_blocks.h"
-#include "servo/servo_link.h"
+#include "servo/servo_client.h"
 
 namespace afm::servo {
 
@@ -14,10 +14,10 @@ class TipStream {
  public:
   // Calls `on_event` for each event and `on_sample` for each sample that belongs to a material.
   template <class OnSample, class OnEvent>
-  void take(const ServoLink::News& news, OnSample&& on_sample, OnEvent&& on_event) {
-    waiting_.insert(waiting_.end(), news.events.begin(), news.events.end());
+  void take(const ServoClient::Update& update, OnSample&& on_sample, OnEvent&& on_event) {
+    waiting_.insert(waiting_.end(), update.events.begin(), update.events.end());
     auto event = waiting_.begin();
-    for (const scene::TipSample& sample : news.samples) {
+    for (const scene::TipSample& sample : update.samples) {
       if (sample.material < 0) continue;
       for (; event != waiting_.end() && event->time_ns <= sample.time_ns; ++event) {
         if (event->material >= 0) on_event(*event);

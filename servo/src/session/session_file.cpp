@@ -79,7 +79,7 @@ bool finite(const TipEvent& e) {
   return std::isfinite(e.z_m) && std::isfinite(e.force_before_n) && std::isfinite(e.force_after_n);
 }
 
-nlohmann::json json_of(const physics::Interaction& in) {
+nlohmann::json json_of(const physics::ContactParameters& in) {
   nlohmann::json json{{"tip_radius_m", in.tip_radius.si},
                       {"spring_constant_N_per_m", in.spring_constant.si},
                       {"hamaker_J", in.hamaker.si},
@@ -91,7 +91,7 @@ nlohmann::json json_of(const physics::Interaction& in) {
   return json;
 }
 
-physics::Interaction interaction_of(const nlohmann::json& json) {
+physics::ContactParameters interaction_of(const nlohmann::json& json) {
   return {.tip_radius = physics::Length(json.at("tip_radius_m").get<double>()),
           .spring_constant = physics::Stiffness(json.at("spring_constant_N_per_m").get<double>()),
           .sample_stiffness = physics::Stiffness(json.value("sample_stiffness_N_per_m", HUGE_VAL)),
@@ -101,9 +101,9 @@ physics::Interaction interaction_of(const nlohmann::json& json) {
           .atomic_distance = physics::Length(json.at("atomic_distance_m").get<double>())};
 }
 
-nlohmann::json json_of(const scene::SharedMaterial& m) {
+nlohmann::json json_of(const scene::SharedContact& m) {
   nlohmann::json json{{"law", static_cast<std::uint32_t>(m.law)},
-                      {"interaction", json_of(m.interaction)},
+                      {"interaction", json_of(m.contact)},
                       {"exact_hamaker_sphere", m.exact_hamaker_sphere != 0},
                       {"retardation_wavelength_m", m.retardation_wavelength_m}};
   if (m.has_meniscus != 0) {
@@ -119,12 +119,12 @@ nlohmann::json json_of(const scene::SharedMaterial& m) {
   return json;
 }
 
-scene::SharedMaterial parameters_of(const nlohmann::json& json, const std::string& name) {
-  scene::SharedMaterial m;
+scene::SharedContact parameters_of(const nlohmann::json& json, const std::string& name) {
+  scene::SharedContact m;
   std::copy_n(name.begin(), std::min(name.size(), m.name.size() - 1), m.name.begin());
   m.law = static_cast<physics::Law>(json.at("law").get<std::uint32_t>());
   if (m.law == physics::Law::Measured) m.measured_curve = 0;
-  m.interaction = interaction_of(json.at("interaction"));
+  m.contact = interaction_of(json.at("interaction"));
   m.exact_hamaker_sphere = json.at("exact_hamaker_sphere").get<bool>() ? 1 : 0;
   m.retardation_wavelength_m = json.at("retardation_wavelength_m").get<double>();
   if (const auto meniscus = json.find("meniscus"); meniscus != json.end()) {
@@ -319,7 +319,7 @@ core::Result<RecordedSession> load_session(const std::string& path) {
     if (const auto valid = scene::validate(*model_of(session)); !valid) {
       return bad(valid.error().message + "; record it again");
     }
-    if (!scene::plausible(session.device)) return bad("its device has limits that cannot be; record it again");
+    if (!scene::is_valid(session.device)) return bad("its device has limits that cannot be; record it again");
     if (!(session.rate_hz > 0 && std::isfinite(session.hand_m_per_m) && std::isfinite(session.hand_n_per_n))) {
       return bad("its rate or its scale cannot be; record it again");
     }

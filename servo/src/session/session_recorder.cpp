@@ -27,7 +27,7 @@ bool SessionRecorder::goes_on_with(const TipSample& sample) const {
          session_.samples.size() < kLongestTicks;
 }
 
-bool SessionRecorder::add(const TipSample& sample, const ServoLink& servo) {
+bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
   if (!goes_on_with(sample)) finish();
   const bool begins = session_.samples.empty();
   const bool fresh = previous_ && !same_encounter(*previous_, sample) && sample.tick == previous_->tick + 1;
@@ -51,7 +51,7 @@ void SessionRecorder::finish() {
 
 std::optional<RecordedSession> SessionRecorder::take_finished() { return std::exchange(finished_, std::nullopt); }
 
-void SessionRecorder::begin(const TipSample& sample, const ServoLink& servo) {
+void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo) {
   const scene::SharedModel& model = servo.model();
   session_.parameters = servo.parameters(static_cast<std::size_t>(sample.material), sample.edit_revision);
   session_.material = session_.parameters.name.data();
@@ -68,7 +68,7 @@ void SessionRecorder::begin(const TipSample& sample, const ServoLink& servo) {
   scale_known_ = false;
 }
 
-// The newest state may still be, or already be, that of another encounter; then the next sample asks again.
+// The newest state may still be, or already be, that of another contact model; then the next sample asks again.
 void SessionRecorder::take_scale(const TipSample& sample, const scene::TipState& tip) {
   scale_known_ = tip.material == sample.material && tip.edit_revision == sample.edit_revision &&
                  tip.scale_mode == sample.scale_mode;

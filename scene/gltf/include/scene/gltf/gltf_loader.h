@@ -10,7 +10,7 @@
 namespace afm::scene {
 
 // What the loader has to say about a model that it has loaded, for a person: a line each.
-struct GltfNotes {
+struct GltfWarnings {
   std::string generator;                // the program that has written the file, as it says
   std::vector<std::string> extensions;  // those that the file uses and the loader understands
   std::vector<std::string> ignored;     // what is not shown, and why
@@ -29,6 +29,6 @@ struct GltfNotes {
 //
 // A node with negative determinant keeps its triangles as they are; whoever draws it turns the winding.
 // Errors are BadInputFile: one line that names the file, what is wrong with it, and what to do.
-core::Result<Scene> load_gltf(const std::string& path, GltfNotes* notes = nullptr);
+core::Result<Scene> load_gltf(const std::string& path, GltfWarnings* notes = nullptr);
 
 }  // namespace afm::scene

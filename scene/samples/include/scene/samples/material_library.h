@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/result.h"
+#include "physics/contact_parameters.h"
 #include "physics/elasticity.h"
-#include "physics/interaction.h"
 #include "physics/lever_dynamics.h"
 #include "physics/units.h"
 #include "scene/samples/sourced_value.h"
@@ -25,7 +25,7 @@ struct MaterialEntry {
   std::string medium;
   std::string note;  // what a reader of the numbers must know; may be empty
   std::string look;  // the material whose 3D models stand for it; its own name unless the file says otherwise
-  physics::Interaction interaction;
+  physics::ContactParameters contact;
   std::optional<physics::Elasticity> tip_elasticity;     // where the reduced modulus was made of both bodies
   std::optional<physics::Elasticity> sample_elasticity;  // the same
   physics::LeverDynamics lever;                          // in the medium, far from the sample

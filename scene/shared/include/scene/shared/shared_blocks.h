@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "physics/interaction.h"
+#include "physics/contact_parameters.h"
 #include "physics/law.h"
 #include "physics/law_tables.h"
 #include "physics/lever_dynamics.h"
@@ -38,9 +38,9 @@ struct SharedNode {
 
 // What is felt: one choice of tip, lever, sample and medium, and the law of force that they are given. The options of
 // the law lie flat, because nobody can check the bytes of a std::optional.
-struct SharedMaterial {
+struct SharedContact {
   Name name{};
-  physics::Interaction interaction{};
+  physics::ContactParameters contact{};
   physics::Law law = physics::Law::Paper;
   std::uint32_t measured_curve = kNoMeasuredCurve;  // index into SharedModel::curves, of Law::Measured alone
   std::uint32_t exact_hamaker_sphere = 0;           // 0 or 1
@@ -82,7 +82,7 @@ struct SharedModel {
   double common_hand_m_per_m = 0;
   double common_hand_n_per_n = 0;
   std::array<SharedNode, kMaxNodes> nodes{};
-  std::array<SharedMaterial, kMaxMaterials> materials{};
+  std::array<SharedContact, kMaxMaterials> materials{};
   std::array<SharedMeasuredCurve, kMaxMeasuredCurves> curves{};
   std::array<SharedHeightField, kMaxHeightFields> height_fields{};
 };
@@ -112,7 +112,7 @@ struct Selection {
 // material. It takes effect as a choice of a material does: once the tip is off the sample, without force, in the wait
 // state.
 struct MaterialEdit {
-  SharedMaterial material{};
+  SharedContact material{};
   std::uint32_t revision = 0;
   std::uint32_t padding = 0;
 };
@@ -199,10 +199,10 @@ struct TipState {
   std::array<double, 3> normal{0.0, 1.0, 0.0};  // outward normal of the surface below the tip, device frame, unit
   double force_cap_n = 0;                       // the longest force vector that may be given now
   double slew_limit_n_per_s = 0;
-  double motor_heat = 0;      // 0: cold, 1: as hot as the motors may become
-  double thermal_gain = 1;    // what is left of the force to let the motors cool
-  double ledger_j = 0;        // energy that the hand has got beyond what the model and its sampling may give
-  double ledger_damping = 0;  // N s/m that the ledger adds in this tick
+  double motor_heat = 0;        // 0: cold, 1: as hot as the motors may become
+  double thermal_gain = 1;      // what is left of the force to let the motors cool
+  double excess_energy_j = 0;   // energy that the hand has got beyond what the model and its sampling may give
+  double observer_damping = 0;  // N s/m that the ledger adds in this tick
   ScaleMode scale_mode = ScaleMode::Fit;
   std::uint32_t dead_man = 0;  // 1: the force lasts only as long as the button is held
   ServoState servo_state = ServoState::Disarmed;

@@ -29,20 +29,19 @@ core::Result<void> validate(const SharedModel& model);
 
 // A material that physics::validate() accepts, of a law and with options that are known; the counts are those of its
 // SharedModel. Whether it can be felt as well, only building it can tell.
-core::Result<void> validate(const SharedMaterial& material, std::uint32_t curve_count,
-                            std::uint32_t height_field_count);
+core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count, std::uint32_t height_field_count);
 
-physics::LawOptions law_options(const SharedMaterial& material);
+physics::LawOptions law_options(const SharedContact& material);
 
 // Whether a block is worth believing: indices within counts, enumerators known, numbers finite.
-bool plausible(const SceneTransforms& transforms, const SharedModel& model);
-bool plausible(const Selection& selection, const SharedModel& model);
-bool plausible(const HandScript& script);
-bool plausible(const RendererHeartbeat& heartbeat);
-bool plausible(const SharedDevice& device);
-bool plausible(const TipState& state, const SharedModel& model);
-bool plausible(const TipSample& sample, const SharedModel& model);
-bool plausible(const TipEvent& event, const SharedModel& model);
+bool is_valid(const SceneTransforms& transforms, const SharedModel& model);
+bool is_valid(const Selection& selection, const SharedModel& model);
+bool is_valid(const HandScript& script);
+bool is_valid(const RendererHeartbeat& heartbeat);
+bool is_valid(const SharedDevice& device);
+bool is_valid(const TipState& state, const SharedModel& model);
+bool is_valid(const TipSample& sample, const SharedModel& model);
+bool is_valid(const TipEvent& event, const SharedModel& model);
 
 // Where `node` rests, composed along its parents. `model` is valid and `node` is less than its node_count.
 glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/clock.h"
+#include "haptics/realtime.h"
+#include "scene/shared/shared_blocks.h"
+
+namespace afm::app {
+
+// How late a thread that does nothing wakes on this machine: what the servo can hope for.
+struct SchedulingLatency {
+  haptics::RealtimeGrant grant;  // what the thread was granted; its pages were not locked
+  std::uint64_t ticks = 0;       // that came
+  std::uint64_t missed = 0;      // deadlines that passed during another one's lateness
+  std::uint32_t max_us = 0;
+  std::array<std::uint32_t, scene::kHistogramBins> late_us{};  // bins of 1 us; the last holds all that is longer
+};
+
+// Sleeps to absolute deadlines at `rate_hz` for `seconds`, in a thread of its own that asks for the servo's priority.
+// The caller waits. Not for a servo tick.
+SchedulingLatency measure_wake_jitter(const core::Clock& clock, double rate_hz, double seconds);
+
+}  // namespace afm::app

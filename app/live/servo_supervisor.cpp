@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live/servo_supervisor.h"
+#include "core/percentiles.h"
+#include "servo/fault_reason.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/log.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::int64_t kMinuteNs = 60'000'000'000;
+constexpr std::size_t kMostRestarts = 3;  // a minute
+
+std::string text_of(const scene::TipEvent& event) {
+  const bool in = event.kind == scene::TipEventKind::JumpToContact;
+  return fmt::format("{} at Z = {:.3f} nm, pull {:.4f} nN", in ? "jump to contact" : "jump off contact",
+                     event.z_m * 1e9, -(in ? event.force_after_n : event.force_before_n) * 1e9);
+}
+
+}  // namespace
+
+ServoSupervisor::ServoSupervisor(Starter starter, Started started, std::size_t materials, std::string record_folder)
+    : starter_(std::move(starter)),
+      started_(std::move(started)),
+      materials_(materials),
+      record_folder_(std::move(record_folder)),
+      cycles_(materials) {}
+
+core::Result<void> ServoSupervisor::start() {
+  if (!link_ && !record_folder_.empty()) {
+    auto folder = servo::SessionFolder::open(record_folder_);
+    if (!folder) return tl::unexpected(folder.error());
+    folder_ = std::move(*folder);
+  }
+  return launch(link_ ? "the servo was started again" : nullptr);
+}
+
+core::Result<void> ServoSupervisor::launch(const char* update) {
+  const auto felt_before = link_ ? material() : std::nullopt;
+  auto servo = starter_();
+  if (!servo) {
+    if (link_) error_ = servo.error();
+    return tl::unexpected(servo.error());
+  }
+  link_ = std::move(*servo);
+  error_.reset();
+  stream_ = {};
+  logged_state_ = scene::ServoState::Disarmed;
+  if (update != nullptr) core::log_line(update);
+  started_(*link_, felt_before);
+  return {};
+}
+
+std::optional<std::size_t> ServoSupervisor::material() const {
+  const std::int32_t material = link_->tip().material;
+  return material < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(material));
+}
+
+void ServoSupervisor::take_update(std::int64_t now_ns) {
+  if (error_) return;
+  const auto update = link_->poll(now_ns);
+  if (!update) {
+    replace(update.error(), now_ns);
+    return;
+  }
+  stream_.take(
+      *update,
+      [&](const scene::TipSample& sample) {
+        cycles_.add(sample);
+        if (!folder_) return;
+        recorder_.add(sample, *link_);
+        keep_session();
+      },
+      [&](const scene::TipEvent& event) {
+        cycles_.add(event);
+        recorder_.add(event);
+        newest_event_ = event;
+        has_event_ = true;
+        core::log_line(text_of(event));
+      });
+  log_state();
+}
+
+void ServoSupervisor::log_state() {
+  const scene::TipState& tip = link_->tip();
+  if (logged_state_ == tip.servo_state) return;
+  logged_state_ = tip.servo_state;
+  if (logged_state_ == scene::ServoState::Running) core::log_line("force on");
+  const bool off = logged_state_ == scene::ServoState::Disarmed || logged_state_ == scene::ServoState::Fault;
+  const bool fault = tip.fault != scene::FaultCode::None;
+  if (off) core::log_line(fault ? std::string("force off: ") + servo::reason(tip.fault) : "force off");
+}
+
+void ServoSupervisor::replace(const core::Error& error, std::int64_t now_ns) {
+  error_ = error;
+  core::log_line(error.message);
+  while (!restarts_ns_.empty() && now_ns - restarts_ns_.front() > kMinuteNs) restarts_ns_.pop_front();
+  if (error.category != core::ErrorCategory::Failed || restarts_ns_.size() >= kMostRestarts) return;
+  restarts_ns_.push_back(now_ns);
+  if (auto started = launch("the servo was started again by itself: lift, then press Turn-On"); !started) {
+    core::log_line(started.error().message);
+  }
+}
+
+// A folder that has become full or read-only ends the recording, not the view.
+void ServoSupervisor::keep_session() {
+  const auto session = recorder_.take_finished();
+  if (!session || !folder_) return;
+  if (auto kept = folder_->keep(*session); !kept) {
+    core::log_line(kept.error().message + "; nothing more is recorded");
+    folder_.reset();
+  }
+}
+
+// How punctual the servo was, for whoever looks at the log afterwards.
+void ServoSupervisor::log_timing() const {
+  const scene::ServoTiming timing = link_->timing();
+  if (timing.ticks == 0) return;
+  const core::Percentiles wake = core::percentiles(timing.wake_us, timing.wake_max_us);
+  core::log_line(
+      fmt::format("servo: {} ticks, {} missed; wakes late by p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, most {:.0f} "
+                  "\u00b5s; {} samples lost on the way to the wall",
+                  timing.ticks, timing.missed, wake.p50, wake.p99, wake.p999, wake.max, link_->lost_samples()));
+}
+
+void ServoSupervisor::finish() {
+  log_timing();
+  recorder_.finish();
+  keep_session();
+  link_.reset();
+}
+
+}  // namespace afm::app

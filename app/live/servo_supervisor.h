@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "exhibit/cycle_history.h"
+#include "servo/servo_client.h"
+#include "servo/session_folder.h"
+#include "servo/session_recorder.h"
+#include "servo/tip_stream.h"
+
+namespace afm::app {
+
+// The servo behind a live window: starts it, takes what it tells, keeps what is felt, and replaces one that has died.
+// The main thread alone.
+class ServoSupervisor {
+ public:
+  using Starter = std::function<core::Result<std::unique_ptr<servo::ServoClient>>()>;
+
+  // Called with every servo that has been started, and the material that was under the tip of the one before it.
+  using Started = std::function<void(servo::ServoClient& servo, std::optional<std::size_t> felt_before)>;
+
+  // `record_folder`: for the sessions of what is felt; empty: none is kept.
+  ServoSupervisor(Starter starter, Started started, std::size_t materials, std::string record_folder);
+
+  // The first servo, or another after one has ended for good. Failed if it cannot be started or nothing can be kept in
+  // the folder.
+  core::Result<void> start();
+
+  // Once a frame: everything new. One that has died is replaced, without force until the hand lifts and Turn-On is
+  // pressed; one that dies again and again, or that cannot have its device, needs a person: then it has an error().
+  void take_update(std::int64_t now_ns);
+
+  // The session under way is kept, the log tells how punctual the servo was, and the hand is released.
+  void finish();
+
+  // The link to one that has ended still tells its last state.
+  servo::ServoClient& link() { return *link_; }
+  const servo::ServoClient& link() const { return *link_; }
+  const std::optional<core::Error>& error() const { return error_; }
+  bool running() const { return !error_; }
+  std::optional<std::size_t> material() const;  // the one under the tip
+
+  const exhibit::CycleHistory& cycles() const { return cycles_; }
+  // The newest jump, if there has been one.
+  std::span<const scene::TipEvent> events() const { return {&newest_event_, has_event_ ? 1U : 0U}; }
+  void forget_cycles() { cycles_ = exhibit::CycleHistory(materials_); }
+
+ private:
+  core::Result<void> launch(const char* update);
+  void replace(const core::Error& error, std::int64_t now_ns);
+  void keep_session();
+  void log_state();
+  void log_timing() const;
+
+  Starter starter_;
+  Started started_;
+  std::size_t materials_;
+  std::string record_folder_;
+  std::unique_ptr<servo::ServoClient> link_;
+  std::optional<core::Error> error_;      // the servo has ended
+  std::deque<std::int64_t> restarts_ns_;  // of servos that died, within the last minute
+  servo::TipStream stream_;
+  exhibit::CycleHistory cycles_;
+  std::optional<servo::SessionFolder> folder_;
+  servo::SessionRecorder recorder_;
+  scene::TipEvent newest_event_;
+  bool has_event_ = false;
+  scene::ServoState logged_state_ = scene::ServoState::Disarmed;
+};
+
+}  // namespace afm::app

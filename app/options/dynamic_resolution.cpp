@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/options/dynamic_resolution.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+
+#include "core/check.h"
+#include "core/log.h"
+
+namespace afm::app {
+
+namespace {
+
+// Each draws about 0.7 of the pixels of the one before.
+constexpr std::array kScales{1.0, 0.84, 0.71, 0.59, 0.5};
+constexpr std::size_t kJudgedFrames = 5;
+constexpr double kRoom = 0.85;  // of the budget: what a finer frame may be expected to take
+constexpr int kPatienceFrames = 30;
+constexpr int kMostPatienceFrames = 1920;
+constexpr double kFourSamplesCost = 2.8;  // against one, at most: see the measurements of the design
+
+}  // namespace
+
+DynamicResolution::DynamicResolution(double budget_ms, std::uint32_t samples)
+    : budget_ms_(budget_ms), patience_frames_(kPatienceFrames) {
+  AFM_CHECK(budget_ms > 0.0);
+  for (const double scale : kScales) steps_.push_back({.scale = scale, .samples = samples});
+  if (samples > 1) steps_.push_back({.scale = kScales.back(), .samples = 1});
+}
+
+bool DynamicResolution::go(std::size_t step) {
+  trying_ = step < step_;
+  step_ = step;
+  recent_ms_.clear();
+  steady_frames_ = 0;
+  return true;
+}
+
+// What the next finer step would take at most: a frame never grows faster than its pixels.
+double DynamicResolution::finer_cost() const {
+  const render::Detail& now = steps_[step_];
+  const render::Detail& finer = steps_[step_ - 1];
+  const double pixels = (finer.scale * finer.scale) / (now.scale * now.scale);
+  return typical_ms_ * pixels * (finer.samples > now.samples ? kFourSamplesCost : 1.0);
+}
+
+bool DynamicResolution::add(double frame_ms) {
+  if (recent_ms_.size() == kJudgedFrames) recent_ms_.erase(recent_ms_.begin());
+  recent_ms_.push_back(frame_ms);
+  if (recent_ms_.size() < kJudgedFrames) return false;
+  std::array<double, kJudgedFrames> sorted{};
+  std::copy(recent_ms_.begin(), recent_ms_.end(), sorted.begin());
+  std::sort(sorted.begin(), sorted.end());
+  typical_ms_ = sorted[kJudgedFrames / 2];
+
+  if (typical_ms_ > budget_ms_) {
+    steady_frames_ = 0;
+    if (step_ + 1 == steps_.size()) return false;
+    if (trying_) patience_frames_ = std::min(2 * patience_frames_, kMostPatienceFrames);
+    return go(step_ + 1);
+  }
+  ++steady_frames_;
+  if (trying_ && steady_frames_ == patience_frames_) patience_frames_ = kPatienceFrames;  // that step has held
+  if (step_ == 0 || steady_frames_ < patience_frames_ || finer_cost() > kRoom * budget_ms_) return false;
+  return go(step_ - 1);
+}
+
+std::string DynamicResolution::text() const {
+  std::string text = fmt::format("{:.0f} % of the pixels each way, {} sample{}", 100.0 * detail().scale,
+                                 detail().samples, detail().samples == 1 ? "" : "s");
+  if (step_ + 1 == steps_.size() && typical_ms_ > budget_ms_) {
+    text += fmt::format(", and still {:.0f} ms", typical_ms_);
+  }
+  return text;
+}
+
+void DynamicResolution::follow(render::Renderer& renderer) {
+  const auto times = renderer.pass_times();
+  if (!times || !add(times->total_ms())) return;
+  renderer.set_detail(detail());
+  core::log_line("to stay within the frame's budget: " + text());
+}
+
+render::DataRow DynamicResolution::row() const { return {"picture", text(), fmt::format("{} ms a frame", budget_ms_)}; }
+
+void add_frame_budget(CLI::App& command, double& budget_ms) {
+  command
+      .add_option(
+          "--frame-budget", budget_ms,
+          "what drawing a frame may take, 1 to 1000 ms: frames that take longer are drawn with fewer pixels, down "
+          "to half each way, then with one sample; default: as they are")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->type_name("MS");
+}
+
+}  // namespace afm::app

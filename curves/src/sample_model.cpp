@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves/sample_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "haptics/contact_model.h"
+#include "haptics/simulated_device.h"
+#include "scene/shared/shared_segment.h"
+
+namespace afm::curves {
+
+namespace {
+
+using physics::Law;
+
+// What the servo gets. A measured law is no model that can be asked for: its caller sets it.
+scene::SharedContact parameters_of(const ContactSetup& setup) {
+  const physics::LawOptions& options = setup.law_options;
+  const std::string& name = setup.material.name;
+  scene::SharedContact shared;
+  // names are for people; a longer one is cut
+  std::copy_n(name.begin(), std::min(name.size(), shared.name.size() - 1), shared.name.begin());
+  shared.contact = setup.material.contact;
+  shared.law = setup.law();
+  shared.exact_hamaker_sphere = options.exact_hamaker_sphere ? 1 : 0;
+  shared.retardation_wavelength_m = options.retardation_wavelength.value_or(physics::Length()).si;
+  shared.has_meniscus = options.meniscus ? 1 : 0;
+  shared.meniscus = options.meniscus.value_or(physics::Meniscus());
+  shared.dynamic = setup.model.dynamic ? 1 : 0;
+  shared.lever = setup.material.lever;
+  return shared;
+}
+
+tl::unexpected<core::Error> refusal(const scene::MaterialEntry& entry, core::ErrorCategory category,
+                                    std::string_view why) {
+  return core::failure(category, fmt::format("cannot make {} felt: {}", entry.name, why));
+}
+
+core::Result<SampleModel> felt(const ContactSetup& setup, const scene::SharedContact& parameters,
+                               std::span<const scene::SharedMeasuredCurve> curves) {
+  auto tables = haptics::build_tables(parameters, curves);
+  if (!tables) return tl::unexpected(tables.error());
+  auto scaling = haptics::Scaling::fit(**tables, haptics::SimulatedDevice().spec());
+  if (!scaling) return refusal(setup.material, scaling.error().category, scaling.error().message);
+  return SampleModel{setup, parameters, physics::choose_law(parameters.contact), std::move(*tables), *scaling};
+}
+
+}  // namespace
+
+core::Result<SampleModel> make_sample_model(const ContactSetup& setup) {
+  try {
+    return felt(setup, parameters_of(setup), {});
+  } catch (const std::invalid_argument& error) {
+    return refusal(setup.material, core::ErrorCategory::Failed, error.what());
+  }
+}
+
+core::Result<SampleModel> make_sample_model(const SampleModel& material, const ContactSetup& changed) {
+  auto felt = make_sample_model(changed);
+  if (!felt) return felt;
+  felt->setup = material.setup;
+  felt->parameters.height_field = material.parameters.height_field;
+  return felt;
+}
+
+core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry, const scene::SharedContact& parameters,
+                                            std::span<const scene::SharedMeasuredCurve> curves) {
+  ContactSetup setup{entry, scene::law_options(parameters), {}};
+  setup.model.law = parameters.law;
+  setup.model.dynamic = parameters.dynamic != 0;
+  return felt(setup, parameters, curves);
+}
+
+core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry,
+                                            std::span<const scene::SharedMeasuredCurve> curves, std::uint32_t index) {
+  scene::SharedContact parameters = parameters_of({entry, {}, {}});
+  parameters.law = Law::Measured;
+  parameters.measured_curve = index;
+  return make_sample_model(entry, parameters, curves);
+}
+
+std::string law_name(const scene::SharedContact& parameters) {
+  return fmt::format("{}{}", parameters.dynamic != 0 ? "dynamic-" : "", physics::name_of(parameters.law));
+}
+
+std::string law_reason(const SampleModel& material) {
+  const Law law = material.parameters.law;
+  if (law == Law::Measured) return "as an instrument recorded it";
+  const std::string place = fmt::format("Tabor parameter {:.2g}, regime {}", material.contact.tabor,
+                                        physics::name_of(material.contact.regime));
+  if (law == material.contact.law) return place + ": it suits";
+  return fmt::format("{}: {} would suit", place, physics::name_of(material.contact.law));
+}
+
+}  // namespace afm::curves

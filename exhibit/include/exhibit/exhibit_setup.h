@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "exhibit/guidance.h"
+#include "exhibit/wall_pictures.h"
+#include "exhibit/wall_scene.h"
+#include "render/renderer.h"
+#include "scene/display/wall.h"
+#include "scene/samples/material_library.h"
+
+namespace afm::exhibit {
+
+// What the shelf in front of the wall holds.
+inline constexpr std::size_t kMostMaterials = 9;
+
+// The files that a picture of the wall is made of.
+struct ExhibitFiles {
+  std::string assets_dir;
+  std::string wall;                         // empty: the paper's wall in the assets
+  std::string guidance;                     // empty: English, in the assets
+  std::string materials;                    // a file of the user's own; empty: none
+  std::string probe;                        // a glTF model of the user's own instead of the assets'; empty: none
+  std::string sample;                       // the same, of all materials
+  std::vector<std::string> shown;           // names; empty: those of the user's file, or the paper's three
+  std::vector<scene::MaterialEntry> added;  // shown behind those
+};
+
+// All that is loaded before anything moves.
+struct Stage {
+  scene::MaterialLibrary materials;
+  scene::Wall wall;
+  scene::Screen screen;  // that the scene stands on: the wall's only one, or the plane of tiles that lie in one
+  std::array<scene::EyeView, 2> eyes;
+  WallScene wall_scene;
+  Guidance guidance;
+
+  // Square pixels: the height follows the wall's proportions.
+  render::RendererOptions renderer_options(std::uint32_t eye_width) const;
+
+  // The largest eye images, at the wall's proportions, whose picture fits into a window.
+  glm::uvec2 eye_size_within(scene::StereoMode mode, glm::uvec2 window_px) const;
+};
+
+core::Result<Stage> load_exhibit(const ExhibitFiles& files);
+
+// Whether it ends as the name of a glTF model does.
+bool is_model_file(const std::string& name);
+
+}  // namespace afm::exhibit

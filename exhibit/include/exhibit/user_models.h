@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/result.h"
+#include "scene/graph/scene.h"
+#include "scene/samples/material_library.h"
+
+namespace afm::exhibit {
+
+// Models that stand on the wall instead of those of the assets (docs/gltf.md, "Roles"): at rest, each part of them one
+// node, so that however many nodes a file has the servo's block holds them.
+struct UserModels {
+  std::optional<scene::Scene> probe;   // "cantilever", below it "tip", below that "apex", as in the assets' probe.glb
+  std::optional<scene::Scene> sample;  // a node "surface", as in the assets' sample-*.glb
+};
+
+// Empty names are of no model. Errors name the file and what is missing in it.
+core::Result<UserModels> load_own_models(const std::string& probe_file, const std::string& sample_file);
+
+// The sample in the variant that is named like the material or its look, in any case of letters, if there is one.
+scene::Scene sample_as(const scene::Scene& sample, const scene::MaterialEntry& material);
+
+}  // namespace afm::exhibit

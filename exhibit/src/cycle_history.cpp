@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/cycle_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace afm::exhibit {
+
+namespace {
+
+// Hand's millimetres mean the same for every material: its stroke is 50 of them.
+constexpr double kTurnM = 0.001;
+constexpr double kKeptM = 0.00005;
+
+}  // namespace
+
+void CycleHistory::begin(const scene::TipSample& sample) {
+  material_ = sample.material;
+  edit_revision_ = sample.edit_revision;
+  curves_[static_cast<std::size_t>(material_)] = {};
+  next_ = {};
+  attached_ = released_ = pressed_ = false;
+  cycles_ = 0;
+  drawn_height_m_ = std::numeric_limits<double>::infinity();
+}
+
+void CycleHistory::add(const scene::TipSample& sample) {
+  if (sample.material != material_ || sample.edit_revision != edit_revision_) begin(sample);
+  CycleCurve& curve = curves_[static_cast<std::size_t>(material_)];
+
+  const double height = sample.hand_height_m;
+  turn_height_m_ = ascending_ ? std::max(turn_height_m_, height) : std::min(turn_height_m_, height);
+  if (std::abs(height - turn_height_m_) > kTurnM) {
+    ascending_ = !ascending_;
+    turn_height_m_ = height;
+  }
+
+  const bool attached = sample.phase == scene::ContactPhase::Attached;
+  if (attached && !attached_ && released_) {
+    curve = std::exchange(next_, {});
+    released_ = false;
+  }
+  if (!attached && attached_) {
+    released_ = true;
+    if (sample.phase == scene::ContactPhase::Free) ++cycles_;
+  }
+  attached_ = attached;
+  pressed_ = attached && (pressed_ || sample.z_m <= 0.0);
+
+  // a hand at rest adds nothing
+  if (std::abs(height - drawn_height_m_) < kKeptM) return;
+  drawn_height_m_ = height;
+  curve.add(sample);
+  if (released_) next_.add(sample);
+}
+
+void CycleHistory::add(const scene::TipEvent& event) {
+  if (event.material != material_) return;
+  CycleCurve& curve = curves_[static_cast<std::size_t>(material_)];
+  if (event.kind == scene::TipEventKind::JumpToContact && released_) next_.add(event);
+  curve.add(event);
+}
+
+}  // namespace afm::exhibit

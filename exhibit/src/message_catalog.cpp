@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/message_catalog.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+#include "scene/config/toml_file.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+// Of UTF-8, which the TOML parser has checked: all bytes but those that go on with a character.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+std::string phrase_of(const toml::table& table, std::string_view key) {
+  const toml::node* node = table.get(key);
+  if (node == nullptr) throw scene::Fault{table.source(), std::string(key), "is missing"};
+  const auto text = node->value_exact<std::string>();
+  const bool one_line = text && std::none_of(text->begin(), text->end(), [](char c) { return c >= 0 && c < ' '; });
+  if (!one_line || text->empty() || characters(*text) > kLongestPhrase) {
+    throw scene::Fault{node->source(), std::string(key),
+                       fmt::format("must be one line of 1 to {} characters in quotes", kLongestPhrase)};
+  }
+  return *text;
+}
+
+}  // namespace
+
+core::Result<std::vector<std::string>> load_messages(const std::string& path, std::span<const std::string_view> keys) {
+  return scene::read_toml("phrase file", path, [&](const toml::table& root) {
+    for (const auto& [key, node] : root) {
+      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
+        throw scene::Fault{node.source(), std::string(key.str()),
+                           fmt::format("unknown key; known are {}", fmt::join(keys, ", "))};
+      }
+    }
+    std::vector<std::string> phrases;
+    for (const std::string_view key : keys) phrases.push_back(phrase_of(root, key));
+    return phrases;
+  });
+}
+
+}  // namespace afm::exhibit

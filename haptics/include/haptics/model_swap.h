@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "haptics/contact_model.h"
+
+namespace afm::haptics {
+
+// The contact model of every material, and how another takes its place while the servo runs. Two threads use it: the
+// servo's, which neither waits nor frees, and the builder's, which makes contact models and buries them.
+//
+//   builder --offer()--> offered --take()--> current --take()--> retired --bury()--> freed by the builder
+class ModelSwap {
+ public:
+  explicit ModelSwap(std::vector<std::unique_ptr<ContactModel>> models);
+  ModelSwap(const ModelSwap&) = delete;
+  ModelSwap& operator=(const ModelSwap&) = delete;
+  ~ModelSwap();
+
+  std::size_t size() const noexcept { return slots_.size(); }
+
+  // ---- the servo's thread; index < size() ----
+
+  ContactModel& current(std::size_t index) noexcept { return *slots_[index].current; }
+
+  // Whether another contact model is ready and the one before the current has been buried, so that there is room for
+  // one.
+  bool has_offer(std::size_t index) const noexcept;
+
+  // Puts the offer in the place of the current one, which must not be used any more. Only after has_offer().
+  void take(std::size_t index) noexcept;
+
+  // ---- the builder's thread ----
+
+  // An offer that nobody has taken yet is replaced.
+  void offer(std::size_t index, std::unique_ptr<ContactModel> model) noexcept;
+  void bury() noexcept;
+
+ private:
+  // A contact model belongs to whoever has exchanged its pointer out.
+  struct Slot {
+    std::unique_ptr<ContactModel> current;
+    std::atomic<ContactModel*> offered{nullptr};
+    std::atomic<ContactModel*> retired{nullptr};
+  };
+
+  std::vector<Slot> slots_;  // never resized
+};
+
+}  // namespace afm::haptics

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/contact_model.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <string>
+#include <utility>
+
+#include "scene/shared/shared_segment.h"
+
+namespace afm::haptics {
+
+namespace {
+
+tl::unexpected<core::Error> refusal(const scene::SharedContact& material, core::ErrorCategory category,
+                                    std::string_view why) {
+  // a name that came without its end is cut, and nothing in it may command a terminal
+  std::string name(material.name.data(), ::strnlen(material.name.data(), material.name.size()));
+  std::replace_if(name.begin(), name.end(), [](char byte) { return byte < ' ' || byte > '~'; }, '?');
+  return core::failure(category, fmt::format("cannot make {} felt: {}", name, why));
+}
+
+std::shared_ptr<const physics::LawTables> build(const scene::SharedContact& material,
+                                                std::span<const scene::SharedMeasuredCurve> curves) {
+  if (material.law != physics::Law::Measured) {
+    return physics::build_law_tables(material.law, material.contact, scene::law_options(material));
+  }
+  const scene::SharedMeasuredCurve& curve = curves[material.measured_curve];
+  return physics::measured_law_tables(std::span(curve.approach).first(curve.approach_count),
+                                      std::span(curve.retract).first(curve.retract_count), material.contact);
+}
+
+physics::DynamicModel dynamic_model(const scene::SharedContact& material, std::int64_t period_ns) {
+  return physics::DynamicModel(material.law, material.contact, material.lever,
+                               physics::Time(1e-9 * static_cast<double>(period_ns)), scene::law_options(material));
+}
+
+// For every height at which a hand can be, however the sample is turned.
+PotentialEnergy stored_energy_of(const physics::LawTables& tables, const Scaling& scaling, const DeviceSpec& device) {
+  const auto felt = [&scaling](const physics::BranchTable& branch) {
+    return [&scaling, &branch](double height_m) {
+      return scaling.hand_force_n(branch.force(physics::Length(scaling.z_m(height_m))).si);
+    };
+  };
+  const double reach_m = glm::length(glm::max(glm::abs(device.workspace_min_m - device.contact_point_m),
+                                              glm::abs(device.workspace_max_m - device.contact_point_m)));
+  return PotentialEnergy(felt(tables.free), felt(tables.attached), scaling.hand_height_m(tables.figures.z_jtc.si),
+                         {-reach_m, reach_m});
+}
+
+// Where a surface bends, a force on it is a stiffness sideways: force times curvature, both on the hand. It gets this
+// share of what the device stands on the scale of Fit, beside the law's own stiffness. The common scale is softer.
+constexpr double kShareOfStiffness = 0.5;
+
+double largest_curvature_per_m(const Scaling& fit, const DeviceSpec& device) {
+  const double stands_n_per_m = std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
+  return kShareOfStiffness * stands_n_per_m / force_cap_n(device) * fit.hand_m_per_m();
+}
+
+double slow_motion_of(const physics::ApproachRetractModel& /*at rest at any time*/) { return 1.0; }
+double slow_motion_of(const physics::DynamicModel& model) { return model.slow_motion(); }
+
+}  // namespace
+
+core::Result<std::shared_ptr<const physics::LawTables>> build_tables(
+    const scene::SharedContact& material, std::span<const scene::SharedMeasuredCurve> curves) {
+  if (auto valid = scene::validate(material, static_cast<std::uint32_t>(curves.size()), scene::kMaxHeightFields);
+      !valid) {
+    return refusal(material, valid.error().category, valid.error().message);
+  }
+  try {
+    return build(material, curves);
+  } catch (const std::exception& error) {
+    return refusal(material, core::ErrorCategory::Failed, error.what());
+  }
+}
+
+core::Result<std::unique_ptr<ContactModel>> ContactModel::create(const scene::SharedContact& material,
+                                                                 std::uint32_t edit_revision,
+                                                                 std::shared_ptr<const physics::LawTables> tables,
+                                                                 const scene::SharedHeightField* drawn,
+                                                                 const CommonScale& common, const DeviceSpec& device,
+                                                                 std::int64_t period_ns) {
+  const auto common_scaling = Scaling::common(*tables, device, common);
+  const auto fit = Scaling::fit(*tables, device);
+  const auto compressed = Scaling::compressed(*tables, device);
+  for (const auto* scaling : {&common_scaling, &fit, &compressed}) {
+    if (!*scaling) return refusal(material, scaling->error().category, scaling->error().message);
+  }
+  try {
+    Model model(std::in_place_type<physics::ApproachRetractModel>, tables);
+    if (material.dynamic != 0) model = dynamic_model(material, period_ns);
+    const Scalings scalings{*common_scaling, *fit, *compressed};
+    SampleSurface surface;
+    if (drawn != nullptr) {
+      surface = SampleSurface(*drawn, material.contact.tip_radius.si, largest_curvature_per_m(*fit, device));
+    }
+    StoredEnergies stored_energies;
+    for (const Scaling& scaling : scalings) stored_energies.push_back(stored_energy_of(*tables, scaling, device));
+    return std::unique_ptr<ContactModel>(new ContactModel(std::move(model), std::move(surface), scalings,
+                                                          std::move(stored_energies), std::move(tables),
+                                                          force_cap_n(device), edit_revision));
+  } catch (const std::exception& error) {
+    return refusal(material, core::ErrorCategory::Failed, error.what());
+  }
+}
+
+ContactModel::ContactModel(Model model, SampleSurface surface, const Scalings& scalings, StoredEnergies stored_energies,
+                           std::shared_ptr<const physics::LawTables> tables, double force_cap_n,
+                           std::uint32_t edit_revision)
+    : model_(std::move(model)),
+      surface_(std::move(surface)),
+      steepest_slope_(surface_.steepest_slope()),
+      largest_curvature_per_m_(surface_.largest_curvature_per_m()),
+      force_cap_n_(force_cap_n),
+      scalings_(scalings),
+      stored_energies_(std::move(stored_energies)),
+      tables_(std::move(tables)),
+      slow_motion_(std::visit([](const auto& m) { return slow_motion_of(m); }, model_)),
+      edit_revision_(edit_revision) {}
+
+Touch ContactModel::feel(const glm::dvec3& hand_m) noexcept {
+  const Scaling& scale = scaling();
+  Touch touch;
+  touch.tip_xy_m = glm::dvec2(hand_m) / scale.hand_m_per_m();
+  const SampleSurface::Place below = surface_.at(touch.tip_xy_m);
+  touch.surface_height_m = below.height_m;
+  touch.z_m = scale.z_m(hand_m.z) - below.height_m;
+  touch.response = step(physics::Length(touch.z_m));
+  const glm::dvec3 gradient(-below.slope, 1.0);
+  touch.normal = glm::normalize(gradient);
+  touch.hand_force_n = scale.hand_force_n(touch.response.force.si) * gradient;
+  return touch;
+}
+
+// Of F (-slope, 1): the law's stiffness along the steepest way, and the strongest force on the most bent place.
+double ContactModel::stiffness_n_per_m() const noexcept {
+  return stored_energy().stiffness_n_per_m() * (1.0 + steepest_slope_ * steepest_slope_) +
+         force_cap_n_ * largest_curvature_per_m_ / scaling().hand_m_per_m();
+}
+
+physics::TipResponse ContactModel::step(physics::Length z) noexcept {
+  return std::visit([z](auto& model) { return model.step(z); }, model_);
+}
+
+void ContactModel::wait_for_lift() noexcept {
+  std::visit([](auto& model) { model.wait_for_lift(); }, model_);
+}
+
+physics::Phase ContactModel::phase() const noexcept {
+  return std::visit([](const auto& model) { return model.phase(); }, model_);
+}
+
+PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
+  const bool attached = touch.response.phase == physics::Phase::Attached;
+  PassivityObserver::Law law{.stiffness_n_per_m = stiffness_n_per_m(),
+                             .swings = std::holds_alternative<physics::DynamicModel>(model_)};
+  if (touch.response.phase == physics::Phase::WaitForLift) return law;
+  law.stored_j = stored_energy().at(attached ? scene::ContactPhase::Attached : scene::ContactPhase::Free,
+                                    scaling().hand_height_m(touch.z_m));
+  if (law.swings) {
+    const auto& branch = attached ? tables_->attached : tables_->free;
+    const double at_rest_n = scaling().hand_force_n(branch.force(physics::Length(touch.z_m)).si);
+    law.oscillation_n = std::abs(touch.hand_force_n.z - at_rest_n) / touch.normal.z;
+  }
+  return law;
+}
+
+}  // namespace afm::haptics

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "physics/branch_table.h"
+#include "physics/force_law.h"
+
+namespace afm::physics {
+
+// A branch of a law with lever and support in series, SI: at its parameter s the tip stands at h and the lever's base
+// at Z = h - c F, c = 1/k_c + 1/k_s. A tip can rest where Z runs the way it is moved, inwards along a free branch and
+// outwards along an attached one: until dF/dh = 1/c, where the branch folds, or until the branch ends.
+class EquilibriumBranch {
+ public:
+  enum class Direction { Inwards, Outwards };
+
+  struct Point {
+    double z = 0.0;
+    double h = 0.0;
+    double force = 0.0;
+    double dz_ds = 0.0;
+    double dforce_ds = 0.0;
+  };
+
+  // `branch` must outlive this.
+  EquilibriumBranch(const LawBranch& branch, double compliance, Direction direction);
+
+  Point at(double s) const;
+
+  // Where the stable stretch from the branch's first point ends, and whether a fold ends it and not the branch.
+  double end() const { return end_; }
+  bool folded() const { return folded_; }
+
+  // Ends the stretch before its fold or end.
+  void cut_at(double s) { end_ = s; }
+
+  // s of the place on the stable stretch that has this Z; none if the stretch does not reach it.
+  std::optional<double> at_z(double z) const;
+
+  // The stable stretch as a table from its end outwards over `reach` of Z, or as far as the branch goes.
+  BranchTable table(double reach) const;
+
+ private:
+  // Positive where the tip can rest.
+  double rate(double s) const;
+  double fold_between(double stable, double unstable) const;
+  void find_end();
+  // The table between two places without a kink in between, the first nearer to the branch's end.
+  BranchTable::Piece piece(double from, double to, double end_z, double reach) const;
+  double solve(double z, double guess, double low, double high, Point& solution) const;
+
+  const LawBranch& branch_;
+  double compliance_;
+  double sign_;  // of dZ/ds on the stable stretch
+  double end_ = 0.0;
+  bool folded_ = false;
+};
+
+// The same curve the other way.
+LawBranch reversed(const LawBranch& branch);
+
+// The largest dF/dh of a branch, above zero: the stiffness at and above which no lever folds it. Infinite if h turns
+// back along it.
+double steepest_attraction(const LawBranch& branch);
+
+// What -F dh comes to along a branch from one parameter to another: the rise of the potential.
+double potential_rise(const LawBranch& branch, double from, double to);
+
+}  // namespace afm::physics

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "device/timestamp_queries.h"
+#include "render/renderer.h"
+
+namespace afm::render {
+
+// When the passes of one frame in flight began and ended.
+class GpuTimer {
+ public:
+  explicit GpuTimer(const Device& device);
+
+  // In the order in which a frame reaches them; the first two only where panels are painted, the next two only where
+  // the shadow map is drawn.
+  enum class Mark : std::uint32_t { PanelsBegin, PanelsEnd, ShadowBegin, ShadowEnd, EyesBegin, EyesEnd };
+
+  // Outside any rendering.
+  void mark(const vk::raii::CommandBuffer& command, Mark mark) const;
+
+  // Of a frame that is finished.
+  PassTimes times(bool panels_painted, bool shadow_drawn) const;
+
+ private:
+  double between_ms(Mark begin, Mark end) const;
+
+  TimestampQueries stopwatch_;
+};
+
+}  // namespace afm::render

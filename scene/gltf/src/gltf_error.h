@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+
+namespace afm::scene {
+
+// What is wrong with a model, as the end of a sentence that begins with its name. Thrown inside the loader only:
+// load_gltf() turns it into an Error.
+struct GltfError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace afm::scene

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/result.h"
+#include "scene/shared/shared_segment.h"
+#include "servo/servo_process.h"
+
+namespace afm::servo {
+
+enum class ServoMode { Process, Thread };
+
+inline constexpr double kServoRateHz = 1000.0;
+
+// How a servo is run, and what it holds.
+struct ServoChoice {
+  ServoMode mode = ServoMode::Process;
+  std::string haptic_device = "sim";  // what parse_haptic_choice() takes
+  haptics::ServoSettings settings{.rate_hz = kServoRateHz};
+};
+
+// The frame loop's end of the servo: starts it over a segment of its own, tells it what was chosen and where things
+// are, and takes every sample and event. One thread.
+class ServoClient {
+ public:
+  // `program` is the running touchafm; touchafm-servo lies beside it. A servo that waits since its renderer died is
+  // taken over, if it is of the same scene, device and settings and if settings.linger_s, how long this one would wait,
+  // is not zero; otherwise it is told to leave first.
+  static core::Result<std::unique_ptr<ServoClient>> start(const scene::SharedModel& model, std::uint64_t scene_digest,
+                                                          const ServoChoice& choice, const std::string& program);
+
+  struct Update {
+    std::vector<scene::TipSample> samples;
+    std::vector<scene::TipEvent> events;
+  };
+
+  // Once a frame: everything new since the last call, and the newest state. Fails when the servo has ended.
+  core::Result<Update> poll(std::int64_t now_ns);
+
+  // Tells the servo that the frame loop lives; poll() does so too. A loop that is silent for 250 ms has hung for the
+  // servo.
+  void beat(std::int64_t now_ns);
+
+  const scene::TipState& tip() const { return tip_; }
+  scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
+  const haptics::ServoSettings& settings() const { return settings_; }
+  const scene::SharedDevice& device() const { return device_; }  // what the servo holds, once poll() has seen its state
+  const scene::SharedModel& model() const { return segment_.model(); }
+  const std::array<double, 16>& room_from_sample() const { return room_from_sample_; }  // as placed last
+
+  // What a material is felt with after this edit, 0 for none.
+  const scene::SharedContact& parameters(std::size_t material, std::uint32_t edit_revision) const;
+
+  std::uint64_t lost_samples() const { return side_.lost_samples(); }
+
+  // The material under the tip, and the scale on which it is felt; both take effect once the tip is off the sample,
+  // with the force taken away first. Without a mode: that of the choice before, at first Fit.
+  void choose(std::int32_t material) { choose(material, selection_.scale_mode); }
+  void choose(std::int32_t material, scene::ScaleMode mode);
+
+  // Other parameters for a material, by its index in the shared model; returns the revision of the edit. It takes
+  // effect as a choice does: once the tip is off the sample, with the force taken away first, so that the hand has to
+  // lift and Turn-On has to be pressed again. tip().edit_revision says when, tip().edit_refused if these cannot be felt
+  // (the servo's log line says why). Edits may come as fast as they like: of each material the newest counts.
+  std::uint32_t change(std::size_t material, const scene::SharedContact& parameters);
+  void place(const scene::SceneTransforms& transforms);
+  void script(const scene::HandScript& script);
+
+ private:
+  ServoClient(scene::SharedSegment segment, const haptics::ServoSettings& settings)
+      : settings_(settings), segment_(std::move(segment)), side_(segment_.renderer_side()) {}
+
+  void go_on();
+
+  haptics::ServoSettings settings_;
+  core::MonotonicClock clock_;  // of a device in a thread of this process
+  scene::SharedSegment segment_;
+  scene::RendererSide side_;
+  scene::Selection selection_;
+  std::vector<scene::SharedContact> edits_;  // all that were sent
+  std::uint32_t edit_base_ = 0;              // the predecessor's newest edit; the first of ours is the next
+  std::array<double, 16> room_from_sample_{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  scene::SharedDevice device_;
+  scene::TipState tip_;
+  std::uint32_t script_base_ = 0;  // the predecessor's newest script
+  std::uint64_t beats_ = 0;
+  std::unique_ptr<Servo> servo_;  // last: it ends before its segment goes
+};
+
+}  // namespace afm::servo

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "servo/servo_client.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "core/check.h"
+#include "core/exit_code.h"
+#include "servo/haptic_choice.h"
+#include "servo/servo_takeover.h"
+
+namespace afm::servo {
+
+namespace {
+
+// Why a servo ended that was not asked to; it has said more on stderr.
+core::Error ended(int status) {
+  switch (static_cast<core::ExitCode>(status)) {
+    case core::ExitCode::DeviceMissing:
+      return {core::ErrorCategory::DeviceMissing,
+              "the haptic device is missing: the line above says what was tried; use --haptics sim without one"};
+    case core::ExitCode::BadInputFile:
+      return {core::ErrorCategory::BadInputFile, "the servo cannot replay that session: the line above says why"};
+    default:
+      return {core::ErrorCategory::Failed,
+              fmt::format("the servo ended unexpectedly (status {}): no force reaches the hand; start again", status)};
+  }
+}
+
+}  // namespace
+
+core::Result<std::unique_ptr<ServoClient>> ServoClient::start(const scene::SharedModel& model,
+                                                              std::uint64_t scene_digest, const ServoChoice& choice,
+                                                              const std::string& program) {
+  const auto device = parse_haptic_choice(choice.haptic_device);
+  if (!device) return tl::unexpected(device.error());
+  const std::string servo = std::filesystem::path(program).replace_filename("touchafm-servo").string();
+  if (auto taken = take_waiting_servo(model, scene_digest, choice.settings, choice.haptic_device, servo)) {
+    std::unique_ptr<ServoClient> link(new ServoClient(std::move(taken->segment), choice.settings));
+    link->go_on();
+    link->servo_ = AdoptedServo::adopt(std::move(taken->servo), link->side_);
+    return link;
+  }
+  auto segment = scene::SharedSegment::create(model, scene_digest);
+  if (!segment) return tl::unexpected(segment.error());
+  std::unique_ptr<ServoClient> link(new ServoClient(std::move(*segment), choice.settings));
+
+  if (choice.mode == ServoMode::Process) {
+    auto process = ServoProcess::spawn(servo, link->segment_, link->side_, choice.settings, choice.haptic_device);
+    if (!process) return tl::unexpected(process.error());
+    link->servo_ = std::move(*process);
+  } else {
+    auto opened = open_haptic_device(*device, link->clock_);
+    if (!opened) return tl::unexpected(opened.error());
+    auto thread = ServoThread::start(link->segment_, link->side_, choice.settings, std::move(opened->device));
+    if (!thread) return tl::unexpected(thread.error());
+    link->servo_ = std::move(*thread);
+  }
+  return link;
+}
+
+void ServoClient::beat(std::int64_t now_ns) {
+  side_.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = beats_++, .leaving = 0, .padding = 0});
+}
+
+core::Result<ServoClient::Update> ServoClient::poll(std::int64_t now_ns) {
+  beat(now_ns);
+  if (const auto state = side_.tip_state()) {
+    tip_ = *state;
+    tip_.hand_revision = state->hand_revision > script_base_ ? state->hand_revision - script_base_ : 0;
+  }
+
+  Update update;
+  while (const auto sample = side_.pop_sample()) update.samples.push_back(*sample);
+  while (const auto event = side_.pop_event()) update.events.push_back(*event);
+
+  // stored before the servo's first tick
+  if (device_.name.front() == '\0') device_ = side_.device().value_or(device_);
+  if (!servo_->alive()) {
+    return tl::unexpected(ended(servo_->exit_status().value_or(-1)));
+  }
+  return update;
+}
+
+std::uint32_t ServoClient::change(std::size_t material, const scene::SharedContact& parameters) {
+  AFM_CHECK(material < segment_.model().material_count);
+  edits_.push_back(parameters);
+  const std::uint32_t revision = edit_base_ + static_cast<std::uint32_t>(edits_.size());
+  side_.store(scene::MaterialEdit{.material = parameters, .revision = revision}, static_cast<std::uint32_t>(material));
+  return revision;
+}
+
+const scene::SharedContact& ServoClient::parameters(std::size_t material, std::uint32_t edit_revision) const {
+  const std::size_t index = std::size_t{edit_revision} - edit_base_ - 1;  // huge where it is none of ours
+  return index < edits_.size() ? edits_[index] : segment_.model().materials[material];
+}
+
+void ServoClient::place(const scene::SceneTransforms& transforms) {
+  room_from_sample_ = transforms.room_from_node[segment_.model().sample_node];
+  side_.store(transforms);
+}
+
+void ServoClient::script(const scene::HandScript& script) {
+  scene::HandScript next = script;
+  next.revision += script_base_;
+  side_.store(next);
+}
+
+// Takes the place of a renderer that died: revisions go on from its own, its edits are undone, and what it left unread
+// is of the past.
+void ServoClient::go_on() {
+  tip_ = side_.tip_state().value_or(scene::TipState{});
+  selection_ = side_.last_selection().value_or(scene::Selection{.revision = tip_.selection_revision});
+  script_base_ = side_.last_hand_script().value_or(scene::HandScript{.revision = tip_.hand_revision}).revision;
+  const scene::SharedModel& model = segment_.model();
+  std::vector<std::size_t> edited;
+  for (std::uint32_t i = 0; i < model.material_count; ++i) {
+    const auto edit = side_.last_edit(i);
+    if (!edit) continue;
+    edit_base_ = std::max(edit_base_, edit->revision);
+    edited.push_back(i);
+  }
+  for (const std::size_t i : edited) change(i, model.materials[i]);
+  while (side_.pop_sample()) {
+  }
+  while (side_.pop_event()) {
+  }
+}
+
+void ServoClient::choose(std::int32_t material, scene::ScaleMode mode) {
+  selection_.material = material;
+  selection_.scale_mode = mode;
+  ++selection_.revision;
+  side_.store(selection_);
+}
+
+}  // namespace afm::servo

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "servo/renderer_monitor.h"
+
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <filesystem>
+#include <utility>
+
+#include "core/clock.h"
+#include "core/log.h"
+#include "haptics/realtime.h"
+
+namespace afm::servo {
+
+std::string executable_path() {
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? std::string() : path.string();
+}
+
+RendererMonitor::RendererMonitor(haptics::ServoLoop& loop, core::FileDescriptor lifeline,
+                                 const core::FileDescriptor& signals, Linger linger)
+    : loop_(loop),
+      lifeline_(std::move(lifeline)),
+      signals_(signals),
+      linger_(std::move(linger)),
+      done_(::eventfd(0, EFD_CLOEXEC)),
+      thread_([this] { watch(); }) {}
+
+RendererMonitor::~RendererMonitor() {
+  ::eventfd_write(done_.get(), 1);
+  thread_.join();
+}
+
+RendererMonitor::Update RendererMonitor::wait_for(int descriptor, std::optional<int> milliseconds) const {
+  std::array<pollfd, 3> watched{{{.fd = descriptor, .events = POLLIN, .revents = 0},
+                                 {.fd = signals_.get(), .events = POLLIN, .revents = 0},
+                                 {.fd = done_.get(), .events = POLLIN, .revents = 0}}};
+  while (::poll(watched.data(), watched.size(), milliseconds.value_or(-1)) < 0 && errno == EINTR) {
+  }
+  if (watched[2].revents != 0) return Update::Done;
+  if (watched[1].revents != 0) return Update::Signal;
+  return watched[0].revents != 0 ? Update::Readable : Update::Nothing;
+}
+
+void RendererMonitor::watch() {
+  // the servo's notes say already what is refused here
+  haptics::enter_realtime(haptics::kMonitorPriority, haptics::PageLock::Leave);
+  for (;;) {
+    const Update update = wait_for(lifeline_.get(), std::nullopt);
+    if (update == Update::Done) return;
+    if (update == Update::Signal) {
+      loop_.stop();
+      return;
+    }
+    // a renderer sends nothing here: whatever this is, it is the end, or a reason to let go
+    if (linger_.seconds <= 0 || !find_successor()) {
+      loop_.renderer_died();
+      return;
+    }
+    loop_.renderer_returned();
+  }
+}
+
+bool RendererMonitor::find_successor() {
+  loop_.renderer_lost();
+  const auto port = HandoverPort::open(linger_.program);
+  if (!port) {
+    core::log_line(port.error().message);
+    return false;
+  }
+  core::log_line(fmt::format("the renderer died: the servo waits {} s for another one", linger_.seconds));
+  const core::MonotonicClock clock;
+  const std::int64_t end_ns = clock.now_ns() + static_cast<std::int64_t>(1e9 * linger_.seconds);
+  for (;;) {
+    const std::int64_t left_ms = (end_ns - clock.now_ns()) / 1'000'000;
+    if (wait_for(port->descriptor(), static_cast<int>(std::max<std::int64_t>(0, left_ms))) != Update::Readable) {
+      return false;
+    }
+    switch (port->receive(linger_.segment, linger_.arguments, lifeline_)) {
+      case HandoverPort::Answer::Stay:
+        core::log_line("another renderer took the servo over");
+        return true;
+      case HandoverPort::Answer::Leave:
+        core::log_line("another renderer came and wants another servo");
+        return false;
+      case HandoverPort::Answer::Nobody:
+        break;
+    }
+  }
+}
+
+}  // namespace afm::servo

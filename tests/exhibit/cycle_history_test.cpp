@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/cycle_history.h"
+
+#include <gtest/gtest.h>
+
+namespace afm::exhibit {
+namespace {
+
+constexpr double kHandMPerM = 0.05 / 14e-9;
+
+class FeltCyclesTest : public ::testing::Test {
+ protected:
+  // The hand goes straight to `to_m`, a sample every tenth of a millimetre.
+  void move(double to_m, scene::ContactPhase phase) {
+    const double step = to_m > height_m_ ? 0.0001 : -0.0001;
+    for (; (to_m - height_m_) / step > 0.5; height_m_ += step) sample(phase);
+  }
+  void sample(scene::ContactPhase phase) {
+    scene::TipSample sample;
+    sample.material = material_;
+    sample.edit_revision = edit_revision_;
+    sample.servo_state = scene::ServoState::Running;
+    sample.phase = phase;
+    sample.hand_height_m = height_m_;
+    sample.z_m = height_m_ / kHandMPerM;
+    cycles_.add(sample);
+  }
+  void cycle() {
+    move(0.010, scene::ContactPhase::Free);
+    move(-0.010, scene::ContactPhase::Attached);
+    move(0.050, scene::ContactPhase::Attached);
+    move(0.070, scene::ContactPhase::Free);
+  }
+  std::size_t points(std::size_t material) const {
+    const auto plot = cycles_.curves()[material].plot("", {});
+    return plot.approach.size() + plot.retract.size();
+  }
+
+  CycleHistory cycles_{2};
+  std::int32_t material_ = 0;
+  std::uint32_t edit_revision_ = 0;
+  double height_m_ = 0.070;
+};
+
+TEST_F(FeltCyclesTest, AWholeCycleStaysUntilTheTipTouchesAgain) {
+  cycle();
+  const std::size_t whole = points(0);
+  EXPECT_EQ(cycles_.cycles(), 1);
+  move(0.020, scene::ContactPhase::Free);
+  EXPECT_GT(points(0), whole);
+  move(0.010, scene::ContactPhase::Attached);
+  EXPECT_LT(points(0), whole);
+  EXPECT_GT(points(0), 500U) << "the approach since the tip let go belongs to the new cycle";
+}
+
+TEST_F(FeltCyclesTest, CountsCyclesAndKnowsWhereTheHandGoes) {
+  cycle();
+  cycle();
+  EXPECT_EQ(cycles_.cycles(), 2);
+  EXPECT_TRUE(cycles_.ascending());
+  move(0.065, scene::ContactPhase::Free);
+  EXPECT_FALSE(cycles_.ascending());
+}
+
+TEST_F(FeltCyclesTest, AContactRemembersThatItWasPressedUntilItEnds) {
+  move(0.010, scene::ContactPhase::Free);
+  move(0.001, scene::ContactPhase::Attached);
+  EXPECT_FALSE(cycles_.pressed());
+  move(-0.010, scene::ContactPhase::Attached);
+  EXPECT_TRUE(cycles_.pressed());
+  move(0.050, scene::ContactPhase::Attached);
+  move(0.040, scene::ContactPhase::Attached);  // jerked down by the pull
+  EXPECT_TRUE(cycles_.pressed());
+  move(0.070, scene::ContactPhase::Free);
+  EXPECT_FALSE(cycles_.pressed());
+}
+
+TEST_F(FeltCyclesTest, TheTremorOfAHandIsNoTurn) {
+  cycle();
+  for (int i = 0; i < 1000; ++i) {
+    height_m_ += i % 2 == 0 ? -0.0005 : 0.0005;
+    sample(scene::ContactPhase::Free);
+    EXPECT_TRUE(cycles_.ascending());
+  }
+}
+
+TEST_F(FeltCyclesTest, AHandAtRestAddsNothing) {
+  cycle();
+  const std::size_t whole = points(0);
+  for (int i = 0; i < 100'000; ++i) sample(scene::ContactPhase::Free);
+  EXPECT_LE(points(0), whole + 1);
+}
+
+TEST_F(FeltCyclesTest, KeepsTheOtherMaterialAndForgetsWhatOtherParametersGave) {
+  cycle();
+  material_ = 1;
+  cycle();
+  EXPECT_GT(points(0), 100U);
+  edit_revision_ = 1;
+  sample(scene::ContactPhase::WaitForLift);
+  EXPECT_EQ(points(1), 0U);
+  EXPECT_EQ(cycles_.cycles(), 0);
+  EXPECT_GT(points(0), 100U);
+}
+
+}  // namespace
+}  // namespace afm::exhibit
