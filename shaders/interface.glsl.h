@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the shaders and render/ agree on; included by both. Only vec4 and mat4 members, so that std140, std430 and C++
-// lay the blocks out alike; render/src/shader_interface.h asserts sizes and offsets. Lengths are metres in the room.
+// Shared by the shaders and render/. Blocks hold vectors of four and 4x4 matrices only, so that std140, std430 and C++
+// lay them out alike; render/src/device/shader_interface.h asserts sizes and offsets. Lengths are metres in the room.
 #ifndef AFM_INTERFACE_GLSL_H
 #define AFM_INTERFACE_GLSL_H
 

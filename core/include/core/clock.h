@@ -5,7 +5,8 @@
 
 namespace afm::core {
 
-// Monotonic time in nanoseconds. Code that needs time takes a Clock; only app/ and the servo's main make a real one.
+// Monotonic time in nanoseconds. Code that needs time takes a Clock. The programs make the real
+// one: their mains, commands and live window, and whoever runs the servo as a thread.
 class Clock {
  public:
   Clock() = default;

@@ -134,7 +134,7 @@ struct Banner {
   std::string state_word;
   StateShape state_shape = StateShape::Circle;
   glm::vec3 state_color{1.0F};  // sRGB
-  std::string scale;            // "1 m = 33 nm, lever x 1 : 9 000"; a second line tells of hand and servo
+  std::string scale;            // "sample and motion: 1 m = 33 nm ..."; the second line: hand and servo
   std::string warning;          // "not real-time", empty for none
 
   bool operator==(const Banner&) const = default;
