@@ -189,15 +189,7 @@ void add_servo_options(CLI::App& command, ViewOptions& options) {
       ->type_name("DEVICE");
   command.add_option("--record", options.settings.record_folder, "keep what is felt in DIR, a session for each sample")
       ->type_name("DIR");
-  static const std::map<std::string, scene::ScaleMode> kScales{{"common", scene::ScaleMode::Common},
-                                                               {"fit", scene::ScaleMode::Fit},
-                                                               {"compressed", scene::ScaleMode::Compressed}};
-  command
-      .add_option("--scale", options.settings.scale,
-                  "how nm and nN become mm and N in the hand: common, fit or compressed; M does it while it runs; "
-                  "default: fit")
-      ->transform(CLI::CheckedTransformer(kScales))
-      ->type_name("MODE");
+  add_scale_option(command, options.settings.scale);
   command.add_flag("--dead-man", options.servo.settings.dead_man, "force only as long as Turn-On is held");
   command.add_option("--servo-rate", options.servo.settings.rate_hz, "of the servo, 100 Hz to 10 kHz")
       ->check(CLI::Range(100.0, 10'000.0))

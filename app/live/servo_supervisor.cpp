@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live/servo_supervisor.h"
 #include "core/percentiles.h"
-#include "servo/fault_reason.h"
 
 #include <fmt/format.h>
 
@@ -93,7 +92,7 @@ void ServoSupervisor::log_state() {
   if (logged_state_ == scene::ServoState::Running) core::log_line("force on");
   const bool off = logged_state_ == scene::ServoState::Disarmed || logged_state_ == scene::ServoState::Fault;
   const bool fault = tip.fault != scene::FaultCode::None;
-  if (off) core::log_line(fault ? std::string("force off: ") + servo::reason(tip.fault) : "force off");
+  if (off) core::log_line(fault ? std::string("force off: ") + scene::reason(tip.fault) : "force off");
 }
 
 void ServoSupervisor::replace(const core::Error& error, std::int64_t now_ns) {

@@ -14,16 +14,9 @@ constexpr double kWarmEnoughToTell = 0.5;
 
 }  // namespace
 
-const char* text_of(scene::ScaleMode mode) {
-  switch (mode) {
-    case scene::ScaleMode::Common:
-      return "common: one scale for all samples";
-    case scene::ScaleMode::Fit:
-      return "fit: each sample on its own scale";
-    case scene::ScaleMode::Compressed:
-      break;
-  }
-  return "compressed: weak forces are raised";
+std::string text_of(scene::ScaleMode mode) {
+  const scene::ScaleModeText& text = scene::text_of(mode);
+  return fmt::format("{}: {}", text.word, text.meaning);
 }
 
 std::vector<render::DataRow> servo_rows(const scene::TipState& tip, const scene::ServoTiming& timing,

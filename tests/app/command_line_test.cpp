@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "places.h"
+#include "scene/shared/scale_modes.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
@@ -87,6 +88,14 @@ TEST(CommandLine, PrintsBothEyesOfAWallAsJson) {
   EXPECT_NEAR(frusta[1]["projection"][0].get<double>(), 2.0 * 2.5 / 3.048, 1e-12);
   EXPECT_LT(frusta[1]["projection"][5].get<double>(), 0.0);
   EXPECT_NEAR(frusta[1]["projection"][11].get<double>(), 0.1, 1e-12);
+}
+
+TEST(CommandLine, ExplainsEveryScaleMode) {
+  for (const char* command : {"demo", "view"}) {
+    const std::string help = touchafm(std::string(command) + " --help").out;
+    for (const scene::ScaleModeText& scale : scene::kScaleModes) EXPECT_THAT(help, HasSubstr(scale.word)) << command;
+  }
+  expect_refusal(touchafm("demo --out x --scale logarithmic"), 2, "compressed");
 }
 
 const std::string kWalls = AFM_SOURCE_DIR "/assets/walls/";

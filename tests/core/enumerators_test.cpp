@@ -22,6 +22,7 @@ struct Row {
 TEST(Enumerators, AreCountedWithTheirGaps) {
   static_assert(kEnumerators<Law> == std::array{Law::Paper, Law::Hertz, Law::Dmt});
   static_assert(kEnumerators<Plain>.size() == 2);
+  static_assert(afm::core::index_of(Law::Dmt) == 2);
 }
 
 TEST(Enumerators, RefuseANumberWithoutAName) {

@@ -82,6 +82,17 @@ TEST(Guidance, RefusesAFileThatDoesNotSayEverythingInOneLineEach) {
   EXPECT_THAT(Guidance::load("no-such-file.toml").error().message, HasSubstr("phrase file no-such-file.toml"));
 }
 
+TEST(Guidance, GivesInEnglishTheReasonsOfTheLog) {
+  const auto guidance = Guidance::load(kFolder + "en.toml");
+  ASSERT_TRUE(guidance) << guidance.error().message;
+  scene::TipState released = tip(scene::ServoState::Disarmed, scene::ContactPhase::Free, 0.060);
+  for (const scene::FaultText& fault : scene::kFaultTexts) {
+    released.fault = fault.code;
+    const std::string reason = "Force off: " + std::string(fault.reason) + ". ";
+    if (fault.code != scene::FaultCode::None) EXPECT_THAT(guidance->line(released, true, 0), HasSubstr(reason));
+  }
+}
+
 TEST(Guidance, AsksToHoldTheButtonThatTheForceHangsOn) {
   scene::TipState lifted = tip(scene::ServoState::Disarmed, scene::ContactPhase::Free, 0.060);
   lifted.dead_man = 1;

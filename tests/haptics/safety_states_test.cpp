@@ -25,13 +25,10 @@ const char* name(ServoState state) {
 
 // Every state that the servo can be in when a tick begins; what it remembers of an earlier fault differs from any that
 // a tick could give.
+constexpr FaultCode kEarlier{7};
 std::vector<SafetyState> all_states() {
-  return {{Disarmed, FaultCode::BadSharedData, 0},
-          {Arming, FaultCode::None, 0},
-          {Running, FaultCode::None, 0},
-          {Fading, FaultCode::BadSharedData, kSlowFadeNs},
-          {Fading, FaultCode::BadSharedData, kQuickFadeNs},
-          {Fault, FaultCode::BadSharedData, 0}};
+  return {{Disarmed, kEarlier, 0},         {Arming, FaultCode::None, 0},     {Running, FaultCode::None, 0},
+          {Fading, kEarlier, kSlowFadeNs}, {Fading, kEarlier, kQuickFadeNs}, {Fault, kEarlier, 0}};
 }
 
 // Everything that a tick can find.
@@ -93,7 +90,7 @@ std::vector<Row> table() {
        Arming,
        FaultCode::None,
        0},
-      {{Fault}, "Turn-On", [](const Findings& f) { return f.turn_on_edge; }, Disarmed, FaultCode::BadSharedData, 0},
+      {{Fault}, "Turn-On", [](const Findings& f) { return f.turn_on_edge; }, Disarmed, kEarlier, 0},
       {kForce, "late", [](const Findings& f) { return f.late; }, Fading, FaultCode::LateTick, kQuickFadeNs},
       {kForce, "energy", [](const Findings& f) { return f.energy_exceeded; }, Fading, FaultCode::EnergyExceeded,
        kQuickFadeNs},

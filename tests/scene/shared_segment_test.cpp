@@ -299,6 +299,8 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   EXPECT_FALSE(renderer.tip_state());
   servo.store(TipState{.servo_state = static_cast<ServoState>(77)});
   EXPECT_FALSE(renderer.tip_state());
+  servo.store(TipState{.fault = static_cast<FaultCode>(7)});
+  EXPECT_FALSE(renderer.tip_state());
   servo.push(TipEvent{.kind = static_cast<TipEventKind>(0)});
   servo.push(TipEvent{.kind = TipEventKind::JumpToContact, .material = 3});
   EXPECT_FALSE(renderer.pop_event());
@@ -306,7 +308,21 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   servo.push(TipSample{.force_n = kNan});
   servo.push(TipSample{.tick = 8});
   EXPECT_EQ(renderer.pop_sample()->tick, 8U);
-  EXPECT_EQ(renderer.refused_blocks(), 5U);
+  EXPECT_EQ(renderer.refused_blocks(), 6U);
+}
+
+TEST(SharedBlocks, OfEveryFaultAndEveryScaleModePass) {
+  SharedSegment segment = create_segment();
+  RendererSide renderer = segment.renderer_side();
+  ServoSide servo = segment.servo_side();
+  for (const FaultText& fault : kFaultTexts) {
+    servo.store(TipState{.fault = fault.code});
+    EXPECT_TRUE(renderer.tip_state()) << fault.reason;
+  }
+  for (const ScaleModeText& scale : kScaleModes) {
+    renderer.store(Selection{.material = 0, .scale_mode = scale.mode});
+    EXPECT_TRUE(servo.new_selection()) << scale.word;
+  }
 }
 
 TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {

@@ -53,11 +53,17 @@ constexpr bool is_enumerator(Enum value) {
   return std::find(kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(), value) != kEnumerators<Enum>.end();
 }
 
+// Its place in kEnumerators and in a table that has_row_for_each(); of an enumerator alone.
+template <class Enum>
+constexpr std::size_t index_of(Enum value) {
+  return static_cast<std::size_t>(std::find(kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(), value) -
+                                  kEnumerators<Enum>.begin());
+}
+
 // Whether a table has one row for each enumerator, in their order. `key` is the member that holds it.
 template <class Rows, class Row, class Enum>
 constexpr bool has_row_for_each(const Rows& rows, Enum Row::* key) {
-  return std::equal(rows.begin(), rows.end(), kEnumerators<std::remove_const_t<Enum>>.begin(),
-                    kEnumerators<std::remove_const_t<Enum>>.end(),
+  return std::equal(rows.begin(), rows.end(), kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(),
                     [key](const Row& row, Enum value) { return row.*key == value; });
 }
 

@@ -82,7 +82,7 @@ class ContactModel {
  private:
   using Model = std::variant<physics::ApproachRetractModel, physics::DynamicModel>;
 
-  using Scalings = std::array<Scaling, 3>;  // in the order of scene::ScaleMode
+  using Scalings = std::array<Scaling, scene::kScaleModes.size()>;  // in their order
 
   using StoredEnergies = std::vector<PotentialEnergy>;  // likewise
 

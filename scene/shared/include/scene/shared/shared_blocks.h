@@ -8,6 +8,8 @@
 #include "physics/law.h"
 #include "physics/law_tables.h"
 #include "physics/lever_dynamics.h"
+#include "scene/shared/fault_codes.h"
+#include "scene/shared/scale_modes.h"
 
 // The blocks of the shared scene: trivially copyable, without pointers, SI units, and each with exactly one writer, the
 // process named in its comment. A reader believes nothing unchecked: indices are compared with counts, numbers with
@@ -96,10 +98,6 @@ struct SceneTransforms {
   std::array<std::array<double, 16>, kMaxNodes> room_from_node{};
 };
 
-// How nanometres and nanonewtons become a hand's: one scale for all materials, one that fits each (the usual), or that
-// with small forces raised by a bounded compression.
-enum class ScaleMode : std::uint32_t { Common = 0, Fit = 1, Compressed = 2 };
-
 // The material that the wand chose, and the scale on which it is to be felt. `revision` grows by one with every choice.
 struct Selection {
   std::int32_t material = -1;  // index into SharedModel::materials, -1: none yet
@@ -140,21 +138,6 @@ enum class ServoState : std::uint32_t { Disarmed = 0, Arming = 1, Running = 2, F
 // The latch of the force law (design, section 3) and its wait state: after start, a material change or a dropout no
 // force is given until the tip has been lifted above Z_joc.
 enum class ContactPhase : std::uint32_t { WaitForLift = 0, Free = 1, Attached = 2 };
-
-enum class FaultCode : std::uint32_t {
-  None = 0,
-  RendererDied = 1,
-  RendererHung = 2,
-  NotFinite = 3,
-  LateTick = 4,
-  VelocityTrip = 5,
-  DeviceError = 6,
-  BadSharedData = 7,
-  DeadManReleased = 8,
-  MotorsHot = 9,
-  EnergyExceeded = 10,
-  OutOfWorkspace = 11,
-};
 
 // What the servo saw of the process that draws.
 enum class RendererLink : std::uint32_t {
