@@ -15,7 +15,6 @@
 #include "core/log.h"
 #include "exhibit/servo_rows.h"
 #include "exhibit/wall_layout.h"
-#include "haptics/device_probe.h"
 #include "render/device_failure.h"
 
 namespace afm::app {
@@ -297,11 +296,9 @@ void LiveView::move_hand(const ViewInput& input, std::int64_t now_ns) {
   servo.script(person_.hand());
 }
 
-// The mouse moves nothing but the simulated hand, which stands in where no device was found.
+// Neither mouse nor simulated person moves a device that has a hand of its own.
 HandSource LiveView::hand() const {
-  const std::string_view device = servo_.link().device().name.data();
-  const bool another = !device.empty() && device != haptics::kSimulatedHand;
-  return settings_.hand == HandSource::Mouse && another ? HandSource::Device : settings_.hand;
+  return servo_.link().device().has_own_hand != 0 ? HandSource::Device : settings_.hand;
 }
 
 exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {

@@ -160,7 +160,7 @@ bool is_valid(const SharedDevice& device) {
   // limits may be infinite
   return terminated(device.name) && device.max_force_n > 0 && device.max_continuous_force_n > 0 &&
          device.max_stiffness_n_per_m > 0 && device.max_slew_n_per_s > 0 && device.max_speed_m_per_s > 0 &&
-         all_sane(device.workspace_min_m) && all_sane(device.workspace_max_m);
+         device.has_own_hand <= 1 && all_sane(device.workspace_min_m) && all_sane(device.workspace_max_m);
 }
 
 bool is_valid(const TipState& state, const SharedModel& model) {

@@ -155,8 +155,10 @@ struct SharedDevice {
   double max_force_n = 0;
   double max_continuous_force_n = 0;
   double max_stiffness_n_per_m = 0;
-  double max_slew_n_per_s = 0;   // infinite: no limit
-  double max_speed_m_per_s = 0;  // likewise
+  double max_slew_n_per_s = 0;     // infinite: no limit
+  double max_speed_m_per_s = 0;    // likewise
+  std::uint32_t has_own_hand = 0;  // 1: a person's, or a recorded one, which HandScript does not move
+  std::uint32_t padding = 0;
   std::array<double, 3> workspace_min_m{};
   std::array<double, 3> workspace_max_m{};
 };
