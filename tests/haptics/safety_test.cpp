@@ -29,9 +29,10 @@ constexpr double kRounding = 1e-12;
 
 const SafetyLimits kLimits{.period_ns = kPeriodNs, .force_cap_n = kCapN, .release_height_m = kReleaseHeightM};
 
-// A law of boundless stiffness may leak any energy: what a test here does to a hand is nothing for the ledger.
-constexpr double kNoLedger = 1e12;
-const GovernorInput kStart{.time_ns = 1'000'000'000, .law_energy = {.stiffness_n_per_m = kNoLedger}};
+// A law of boundless stiffness may leak any energy: what a test here does to a hand does not concern the passivity
+// observer.
+constexpr double kBoundlessStiffness = 1e12;
+const GovernorInput kStart{.time_ns = 1'000'000'000, .law_energy = {.stiffness_n_per_m = kBoundlessStiffness}};
 
 // A governor and the input of the next tick, which tests change.
 class Governor : public testing::Test {

@@ -104,7 +104,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
   const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
   std::array<double, 16> room_from_sample{};
   std::copy_n(glm::value_ptr(rest), room_from_sample.size(), room_from_sample.begin());
-  sample_.turn(room_from_sample);
+  sample_.set_orientation(room_from_sample);
   // a successor goes on with what was changed before it
   edits_.build();
 }
@@ -134,7 +134,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   double height_m = glm::dot(hand_from_contact_m_, sample_.normal());
   PassivityObserver::Law law_energy;
   if (model_ != nullptr) {
-    touch_ = model_->feel(sample_.in_sample(hand_from_contact_m_));
+    touch_ = model_->step(sample_.in_sample(hand_from_contact_m_));
     height_m = model_->scaling().hand_height_m(touch_.z_m);
     law_energy = model_->energy(touch_);
   }
@@ -178,7 +178,7 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
   }
   if (const auto transforms = shared_.new_transforms()) {
     const SampleAxes before = sample_;
-    if (!sample_.turn(transforms->room_from_node[sample_node_])) ++refused_transforms_;
+    if (!sample_.set_orientation(transforms->room_from_node[sample_node_])) ++refused_transforms_;
     sample_moved_ = sample_moved_ || sample_ != before;
   }
   if (const auto selection = shared_.new_selection()) chosen_ = *selection;
@@ -190,7 +190,7 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
 // same; no hand feels that of another.
 void ServoLoop::change_model() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
-    if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.take(i);
+    if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.adopt(i);
   }
   const bool valid = chosen_.material >= 0 && static_cast<std::size_t>(chosen_.material) < exchange_.size();
   const bool other = valid && chosen_.revision != state_.selection_revision &&
@@ -202,17 +202,17 @@ void ServoLoop::change_model() noexcept {
     governor_.disarm();
     changing_ = true;
     if (!governor_.released()) return;
-    if (edited) exchange_.take(static_cast<std::size_t>(state_.material));
+    if (edited) exchange_.adopt(static_cast<std::size_t>(state_.material));
     if (other) {
-      feel(static_cast<std::size_t>(chosen_.material), chosen_.scale_mode);
+      select_material(static_cast<std::size_t>(chosen_.material), chosen_.scale_mode);
     } else {
-      feel(static_cast<std::size_t>(state_.material), state_.scale_mode);
+      select_material(static_cast<std::size_t>(state_.material), state_.scale_mode);
     }
   }
   if (valid) state_.selection_revision = chosen_.revision;
 }
 
-void ServoLoop::feel(std::size_t material, scene::ScaleMode mode) noexcept {
+void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noexcept {
   model_ = &exchange_.current(material);
   model_->wait_for_lift();
   governor_.forget_motion();
