@@ -50,12 +50,12 @@ class ProbeLog {
 };
 
 // A device that nobody has named may be one that a person does not mean to use.
-enum class Wish { Named, BestThereIs };
+enum class DeviceChoice { ByName, Automatic };
 
 struct DeviceRequest {
   const Environment& environment;
   const core::Clock& clock;  // outlives the device
-  Wish wish = Wish::Named;
+  DeviceChoice choice = DeviceChoice::ByName;
 };
 
 // A kind of device: one row of the registry (docs/adding-a-device.md).

@@ -76,7 +76,7 @@ const DeviceKind* find_device_kind(std::string_view word) {
 core::Result<OpenedDevice> open_device(const DeviceKind& kind, const Environment& environment,
                                        const core::Clock& clock) {
   OpenedDevice opened;
-  auto device = open_kind(kind, {environment, clock, Wish::Named}, opened.lines);
+  auto device = open_kind(kind, {environment, clock, DeviceChoice::ByName}, opened.lines);
   if (!device) return tl::unexpected(device.error());
   opened.device = std::move(*device);
   return opened;
@@ -85,7 +85,7 @@ core::Result<OpenedDevice> open_device(const DeviceKind& kind, const Environment
 OpenedDevice open_best_device(const Environment& environment, const core::Clock& clock) {
   OpenedDevice opened;
   for (const DeviceKind& kind : kDevices) {
-    auto device = open_kind(kind, {environment, clock, Wish::BestThereIs}, opened.lines);
+    auto device = open_kind(kind, {environment, clock, DeviceChoice::Automatic}, opened.lines);
     if (!device) continue;
     opened.device = std::move(*device);
     break;

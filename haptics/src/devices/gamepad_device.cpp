@@ -184,8 +184,8 @@ core::Result<std::unique_ptr<HapticDevice>> open_gamepad(const DeviceRequest& re
   const auto sdl = load_sdl();
   if (!sdl) return refused(sdl.error());
   using Wanted = GamepadDevice::Wanted;
-  auto device =
-      GamepadDevice::open(*sdl, request.clock, request.wish == Wish::Named ? Wanted::Any : Wanted::ForceFeedback);
+  auto device = GamepadDevice::open(*sdl, request.clock,
+                                    request.choice == DeviceChoice::ByName ? Wanted::Any : Wanted::ForceFeedback);
   if (!device) return refused(device.error());
   log.found((*device)->spec().name);
   return std::unique_ptr<HapticDevice>(std::move(*device));
