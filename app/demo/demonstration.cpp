@@ -107,7 +107,7 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, D
     for (; events_told < events.size() && events[events_told].material == static_cast<std::int32_t>(material);
          ++events_told) {
       const scene::TipEvent& e = events[events_told];
-      const bool in = e.kind == scene::TipEventKind::JumpToContact;
+      const bool in = e.kind == physics::EventKind::JumpToContact;
       progress(fmt::format("  {:<17} Z = {:8.4f} nm   pull {:8.5f} nN", in ? "jump to contact" : "jump off contact",
                            e.z_m * 1e9, -(in ? e.force_after_n : e.force_before_n) * 1e9));
     }

@@ -175,7 +175,7 @@ void LiveView::act(ViewAction action) {
 
 // The contact comes into the wall's plane, where both eyes see it in one place.
 void LiveView::bring_to_wall() {
-  if (servo_.link().tip().phase == scene::ContactPhase::Attached) {
+  if (servo_.link().tip().phase == physics::Phase::Attached) {
     core::log_line("the scene stays while the tip touches it");
     return;
   }
@@ -304,7 +304,7 @@ HandSource LiveView::hand() const {
 exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
   const servo::ServoClient& servo = servo_.link();
   const exhibit::CycleHistory& cycles = servo_.cycles();
-  const bool touched = servo.tip().phase == scene::ContactPhase::Attached || cycles.cycles() > 0;
+  const bool touched = servo.tip().phase == physics::Phase::Attached || cycles.cycles() > 0;
   exhibit::Moment now = exhibit::moment_of(servo.tip(), touched && cycles.ascending());
   now.curves = cycles.curves();
   now.hovered = pointed.swatch;

@@ -16,7 +16,7 @@ constexpr std::int64_t kMinuteNs = 60'000'000'000;
 constexpr std::size_t kMostRestarts = 3;  // a minute
 
 std::string text_of(const scene::TipEvent& event) {
-  const bool in = event.kind == scene::TipEventKind::JumpToContact;
+  const bool in = event.kind == physics::EventKind::JumpToContact;
   return fmt::format("{} at Z = {:.3f} nm, pull {:.4f} nN", in ? "jump to contact" : "jump off contact",
                      event.z_m * 1e9, -(in ? event.force_after_n : event.force_before_n) * 1e9);
 }

@@ -30,12 +30,12 @@ constexpr auto kKeys = [] {
 
 // Where the servo accepts Turn-On.
 bool is_lifted(const scene::TipState& tip) {
-  return tip.phase == scene::ContactPhase::Free &&
+  return tip.phase == physics::Phase::Free &&
          (tip.z_m - tip.release_z_m) * tip.hand_m_per_m >= haptics::SafetyGovernor::kArmingMarginM;
 }
 
 Hint step_with_force(const scene::TipState& tip, bool ascending, int cycles) {
-  if (tip.phase == scene::ContactPhase::Attached) {
+  if (tip.phase == physics::Phase::Attached) {
     if (ascending) return Hint::MoveUp;
     return tip.z_m > 0.0 ? Hint::PressOn : Hint::Pressed;
   }
@@ -54,7 +54,7 @@ Hint next_step(const scene::TipState& tip, bool ascending, int cycles) {
     case scene::ServoState::Fault:
       return Hint::PressToGoOn;
     case scene::ServoState::Running:
-      if (tip.phase != scene::ContactPhase::WaitForLift) return step_with_force(tip, ascending, cycles);
+      if (tip.phase != physics::Phase::WaitForLift) return step_with_force(tip, ascending, cycles);
       break;
     case scene::ServoState::Disarmed:
       if (is_lifted(tip)) return tip.dead_man != 0 ? Hint::TurnOnAndHold : Hint::TurnOn;

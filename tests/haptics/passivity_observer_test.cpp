@@ -21,7 +21,7 @@ namespace {
 
 using namespace afm::haptics;
 using afm::physics::Law;
-using afm::scene::ContactPhase;
+using afm::physics::Phase;
 using afm::scene::FaultCode;
 using afm::scene::ScaleMode;
 using afm::scene::ServoState;
@@ -120,7 +120,7 @@ class Loop {
     const auto touch = model_->step(sample_.in_sample(position_m));
     const auto& response = touch.response;
     const double height_m = model_->scaling().hand_height_m(touch.z_m);
-    phase_ = static_cast<ContactPhase>(response.phase);
+    phase_ = response.phase;
     const glm::dvec3 force_n = sample_.in_device(touch.hand_force_n);
     history_[ticks_ % history_.size()] = force_n;
     glm::dvec3 wanted_n = force_n;
@@ -162,7 +162,7 @@ class Loop {
 
   SafetyGovernor& governor() { return governor_; }
   const ContactModel& model() const { return *model_; }
-  ContactPhase phase() const { return phase_; }
+  Phase phase() const { return phase_; }
   const glm::dvec3& position_m() const { return position_m_; }
   const glm::dvec3& force_n() const { return force_n_; }
 
@@ -180,7 +180,7 @@ class Loop {
   std::size_t ticks_ = 0;
   std::int64_t time_ns_ = 1'000'000'000;
   glm::dvec3 position_m_{0.0, kTopM, 0.0};
-  ContactPhase phase_ = ContactPhase::WaitForLift;
+  Phase phase_ = Phase::WaitForLift;
   glm::dvec3 force_n_{0.0};
 };
 
@@ -249,7 +249,7 @@ TEST_P(PassivityObserverOf, NeverActsOnTheIdealModel) {
       if (loop->governor().state() != ServoState::Running) loop->arm();
       if (HasFatalFailure()) return;
       wander(*loop, random);
-      attached += loop->phase() == ContactPhase::Attached ? 1 : 0;
+      attached += loop->phase() == Phase::Attached ? 1 : 0;
       armed += loop->governor().state() == ServoState::Running ? 1 : 0;
       if (random() % 16 == 0) loop->governor().disarm();
       ASSERT_EQ(loop->damped_ticks, 0) << "material " << i << ", trip " << trip << ", excess "
@@ -322,7 +322,7 @@ class PassivityObserverWithFault : public testing::TestWithParam<Fault> {
       for (; std::abs(target_m - y_m) > std::abs(step_m); y_m += step_m) loop.tick({0.0, y_m, 0.0});
       for (int i = 0; i < 50; ++i) loop.tick({0.0, y_m = target_m, 0.0});
     }
-    ASSERT_EQ(loop.phase(), ContactPhase::Attached);
+    ASSERT_EQ(loop.phase(), Phase::Attached);
     ASSERT_EQ(loop.damped_ticks, 0);
   }
 };

@@ -11,7 +11,7 @@
 namespace {
 
 using namespace afm::haptics;
-using afm::scene::ContactPhase;
+using afm::physics::Phase;
 using afm::scene::ServoState;
 
 constexpr std::int64_t kPeriodNs = 1'000'000;
@@ -55,7 +55,7 @@ TEST(GovernorFuzz, StaysFiniteWithinCapAndSlewWhateverComesIn) {
     input.wanted_force_n =
         steady ? glm::dvec3(0.0) : glm::dvec3(any_double(random), any_double(random), any_double(random));
     if (calm && !std::isfinite(glm::dot(input.wanted_force_n, glm::dvec3(1.0)))) input.wanted_force_n = glm::dvec3(0.0);
-    input.phase = calm ? ContactPhase::Free : static_cast<ContactPhase>(random() % 3);
+    input.phase = calm ? Phase::Free : static_cast<Phase>(random() % 3);
     input.pulled_off = random() % 100 == 0;
     input.turn_on = random() % 4 == 0;
     input.device_healthy = calm || random() % 100 != 0;

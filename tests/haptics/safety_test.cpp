@@ -11,7 +11,7 @@
 namespace {
 
 using namespace afm::haptics;
-using afm::scene::ContactPhase;
+using afm::physics::Phase;
 using afm::scene::FaultCode;
 using afm::scene::ServoState;
 
@@ -53,7 +53,7 @@ class Governor : public testing::Test {
   void lift() {
     input_.hand_height_m = 0.060;
     input_.hand_position_m = glm::dvec3(0.0, 0.060, 0.0);
-    input_.phase = ContactPhase::Free;
+    input_.phase = Phase::Free;
     input_.renderer = RendererLink::Alive;
     steps(100);
   }
@@ -74,7 +74,7 @@ class Governor : public testing::Test {
   // Running, with `force_n` reached.
   void hold(double force_n) {
     arm();
-    input_.phase = ContactPhase::Attached;
+    input_.phase = Phase::Attached;
     input_.hand_height_m = 0.040;
     input_.wanted_force_n = glm::dvec3(0.0, -force_n, 0.0);
     steps(20);
@@ -147,8 +147,8 @@ TEST_P(GovernorWithObstacle, DoesNotArm) {
 INSTANTIATE_TEST_SUITE_P(
     Interlock, GovernorWithObstacle,
     testing::Values(Obstacle{"TooLow", [](GovernorInput& i) { i.hand_height_m = 0.0549; }},
-                    Obstacle{"Attached", [](GovernorInput& i) { i.phase = ContactPhase::Attached; }},
-                    Obstacle{"WaitingForLift", [](GovernorInput& i) { i.phase = ContactPhase::WaitForLift; }},
+                    Obstacle{"Attached", [](GovernorInput& i) { i.phase = Phase::Attached; }},
+                    Obstacle{"WaitingForLift", [](GovernorInput& i) { i.phase = Phase::WaitForLift; }},
                     Obstacle{"Force", [](GovernorInput& i) { i.wanted_force_n.y = 0.06; }},
                     Obstacle{"Moving", [](GovernorInput& i) { i.hand_position_m.x += 0.05; }},
                     Obstacle{"NoRenderer", [](GovernorInput& i) { i.renderer = RendererLink::Absent; }},
@@ -348,7 +348,7 @@ TEST_F(Governor, GivesForceOnlyWhileTurnOnIsHeldWithADeadMan) {
   steps(501);
   ASSERT_EQ(governor_.state(), ServoState::Running);
   input_.wanted_force_n = glm::dvec3(0.0, -kCapN, 0.0);
-  input_.phase = ContactPhase::Attached;
+  input_.phase = Phase::Attached;
   steps(100);
   ASSERT_NEAR(step(), kCapN, kRounding);
   input_.turn_on = false;

@@ -96,13 +96,13 @@ TEST(SharedSegment, CarriesEveryBlockAcross) {
   servo.store(timing);
   servo.push(TipSample{.tick = 1});
   servo.push(TipSample{.tick = 2});
-  servo.push(TipEvent{.kind = TipEventKind::JumpOffContact});
+  servo.push(TipEvent{.kind = afm::physics::EventKind::JumpOffContact});
   EXPECT_EQ(renderer.tip_state()->z_m, 1e-9);
   EXPECT_EQ(renderer.servo_timing()->wake_us[kHistogramBins - 1], 8U);
   EXPECT_EQ(renderer.pop_sample()->tick, 1U);
   EXPECT_EQ(renderer.pop_sample()->tick, 2U);
   EXPECT_FALSE(renderer.pop_sample());
-  EXPECT_EQ(renderer.pop_event()->kind, TipEventKind::JumpOffContact);
+  EXPECT_EQ(renderer.pop_event()->kind, afm::physics::EventKind::JumpOffContact);
   EXPECT_EQ(renderer.refused_blocks() + servo.refused_blocks(), 1U);
 }
 
@@ -301,8 +301,8 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   EXPECT_FALSE(renderer.tip_state());
   servo.store(TipState{.fault = static_cast<FaultCode>(7)});
   EXPECT_FALSE(renderer.tip_state());
-  servo.push(TipEvent{.kind = static_cast<TipEventKind>(0)});
-  servo.push(TipEvent{.kind = TipEventKind::JumpToContact, .material = 3});
+  servo.push(TipEvent{.kind = static_cast<afm::physics::EventKind>(0)});
+  servo.push(TipEvent{.kind = afm::physics::EventKind::JumpToContact, .material = 3});
   EXPECT_FALSE(renderer.pop_event());
   // what comes after a bad sample is still found
   servo.push(TipSample{.force_n = kNan});

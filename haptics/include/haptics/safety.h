@@ -39,7 +39,7 @@ struct GovernorInput {
   glm::dvec3 hand_position_m{0.0};
   glm::dvec3 wanted_force_n{0.0};  // of the scaled model, before any limit
   double hand_height_m = 0;        // over the surface below the tip, counted as the release height
-  scene::ContactPhase phase = scene::ContactPhase::WaitForLift;
+  physics::Phase phase = physics::Phase::WaitForLift;
   bool pulled_off = false;  // in this tick
   bool turn_on = false;
   bool device_healthy = true;
@@ -102,7 +102,7 @@ class SafetyGovernor {
     bool valid = false;
     double law_gain = 0;
     double stop_gain = 0;
-    scene::ContactPhase phase = scene::ContactPhase::WaitForLift;
+    physics::Phase phase = physics::Phase::WaitForLift;
     PassivityObserver::Law law;
     double stop_stored_j = 0;
   };

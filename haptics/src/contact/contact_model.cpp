@@ -162,8 +162,7 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
   PassivityObserver::Law law{.stiffness_n_per_m = stiffness_n_per_m(),
                              .is_dynamic = std::holds_alternative<physics::DynamicModel>(model_)};
   if (touch.response.phase == physics::Phase::WaitForLift) return law;
-  law.stored_j = stored_energy().at(attached ? scene::ContactPhase::Attached : scene::ContactPhase::Free,
-                                    scaling().hand_height_m(touch.z_m));
+  law.stored_j = stored_energy().at(touch.response.phase, scaling().hand_height_m(touch.z_m));
   if (law.is_dynamic) {
     const auto& branch = attached ? tables_->attached : tables_->free;
     const double at_rest_n = scaling().hand_force_n(branch.force(physics::Length(touch.z_m)).si);

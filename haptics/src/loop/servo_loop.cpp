@@ -12,7 +12,6 @@
 
 namespace afm::haptics {
 
-using scene::ContactPhase;
 using scene::ServoState;
 
 namespace {
@@ -20,18 +19,6 @@ namespace {
 constexpr double kSlowestHz = 100.0;
 constexpr double kFastestHz = 10'000.0;
 constexpr std::uint64_t kTimingStoresPerSecond = 5;
-
-ContactPhase shared_phase(physics::Phase phase) {
-  switch (phase) {
-    case physics::Phase::Free:
-      return ContactPhase::Free;
-    case physics::Phase::Attached:
-      return ContactPhase::Attached;
-    case physics::Phase::WaitForLift:
-      break;
-  }
-  return ContactPhase::WaitForLift;
-}
 
 void count(std::array<std::uint32_t, scene::kHistogramBins>& bins, std::uint32_t& largest, std::uint32_t us) {
   ++bins[std::min<std::uint32_t>(us, scene::kHistogramBins - 1)];
@@ -149,7 +136,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                       .hand_position_m = hand.position_m - device_.spec().contact_point_m,
                                       .wanted_force_n = sample_.in_device(touch_.hand_force_n),
                                       .hand_height_m = height_m,
-                                      .phase = shared_phase(touch_.response.phase),
+                                      .phase = touch_.response.phase,
                                       .pulled_off = pulled_off,
                                       .turn_on = hand.turn_on,
                                       .device_healthy = hand.healthy,
@@ -241,9 +228,7 @@ void ServoLoop::publish_events(std::int64_t now_ns) noexcept {
   for (std::uint32_t i = 0; i < response.event_count; ++i) {
     const physics::ModelEvent& event = response.events[i];
     const double since_previous_ns = event.fraction * static_cast<double>(now_ns - previous_ns_);
-    shared_.push(scene::TipEvent{.kind = event.kind == physics::EventKind::JumpToContact
-                                             ? scene::TipEventKind::JumpToContact
-                                             : scene::TipEventKind::JumpOffContact,
+    shared_.push(scene::TipEvent{.kind = event.kind,
                                  .material = state_.material,
                                  .time_ns = previous_ns_ + std::llround(since_previous_ns),
                                  .z_m = event.z.si,
@@ -267,7 +252,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   state_.force_n = response.force.si;
   state_.hand_position_m = {hand_position_m_.x, hand_position_m_.y, hand_position_m_.z};
   state_.servo_state = governor_.state();
-  state_.phase = shared_phase(response.phase);
+  state_.phase = response.phase;
   state_.fault = governor_.fault();
   state_.dead_man = governor_.dead_man() ? 1 : 0;
   state_.force_cap_n = governor_.force_cap_n();

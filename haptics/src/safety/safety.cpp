@@ -9,7 +9,7 @@
 
 namespace afm::haptics {
 
-using scene::ContactPhase;
+using physics::Phase;
 using scene::FaultCode;
 using scene::ServoState;
 
@@ -118,7 +118,7 @@ SafetyConditions SafetyGovernor::evaluate(const GovernorInput& input, std::int64
 void SafetyGovernor::observe_energy(const GovernorInput& input) noexcept {
   const bool fresh = high_and_free(input) && input.time_ns >= damping_until_ns_;
   if (!state_.armed() || fresh) observer_.reset();
-  if (!previous_.valid || input.phase == ContactPhase::WaitForLift || input.sample_moved) return;
+  if (!previous_.valid || input.phase == Phase::WaitForLift || input.sample_moved) return;
   if (input.law_energy.is_dynamic && input.phase != previous_.phase) return;
   const double stop_j = output_.stop().stored_j(input.hand_position_m);
   const bool in_stop = stop_j > 0.0 || previous_.stop_stored_j > 0.0;
@@ -133,7 +133,7 @@ void SafetyGovernor::observe_energy(const GovernorInput& input) noexcept {
 }
 
 bool SafetyGovernor::high_and_free(const GovernorInput& input) const noexcept {
-  return input.phase == ContactPhase::Free && input.hand_height_m >= release_height_m_ + kArmingMarginM;
+  return input.phase == Phase::Free && input.hand_height_m >= release_height_m_ + kArmingMarginM;
 }
 
 void SafetyGovernor::advance_gain(std::int64_t elapsed_ns) noexcept {
@@ -176,7 +176,7 @@ FaultCode SafetyGovernor::limit_force(const GovernorInput& input, std::int64_t e
 }
 
 void SafetyGovernor::remember(const GovernorInput& input) noexcept {
-  previous_ = {.valid = state_.armed() && input.phase != ContactPhase::WaitForLift,
+  previous_ = {.valid = state_.armed() && input.phase != Phase::WaitForLift,
                .law_gain = gain_ * motors_.gain(),
                .stop_gain = gain_,
                .phase = input.phase,

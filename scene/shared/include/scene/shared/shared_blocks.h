@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "physics/contact_parameters.h"
+#include "physics/contact_phase.h"
 #include "physics/law.h"
 #include "physics/law_tables.h"
 #include "physics/lever_dynamics.h"
@@ -135,10 +136,6 @@ struct RendererHeartbeat {
 
 enum class ServoState : std::uint32_t { Disarmed = 0, Arming = 1, Running = 2, Fading = 3, Fault = 4 };
 
-// The latch of the force law (design, section 3) and its wait state: after start, a material change or a dropout no
-// force is given until the tip has been lifted above Z_joc.
-enum class ContactPhase : std::uint32_t { WaitForLift = 0, Free = 1, Attached = 2 };
-
 // What the servo saw of the process that draws.
 enum class RendererLink : std::uint32_t {
   Absent = 0,  // has not shown a sign of life yet
@@ -187,11 +184,11 @@ struct TipState {
   double motor_heat = 0;        // 0: cold, 1: as hot as the motors may become
   double thermal_gain = 1;      // what is left of the force to let the motors cool
   double excess_energy_j = 0;   // energy that the hand has got beyond what the model and its sampling may give
-  double observer_damping = 0;  // N s/m that the ledger adds in this tick
+  double observer_damping = 0;  // N s/m that the passivity observer adds in this tick
   ScaleMode scale_mode = ScaleMode::Fit;
   std::uint32_t dead_man = 0;  // 1: the force lasts only as long as the button is held
   ServoState servo_state = ServoState::Disarmed;
-  ContactPhase phase = ContactPhase::WaitForLift;
+  physics::Phase phase = physics::Phase::WaitForLift;
   FaultCode fault = FaultCode::None;
   std::int32_t material = -1;
   std::uint32_t selection_revision = 0;  // the newest Selection that took effect
@@ -214,7 +211,7 @@ struct TipSample {
   double hand_height_m = 0;  // along the sample's normal, device frame
   double hand_force_n = 0;   // along the sample's normal, positive away from the sample, after the governor
   ServoState servo_state = ServoState::Disarmed;
-  ContactPhase phase = ContactPhase::WaitForLift;
+  physics::Phase phase = physics::Phase::WaitForLift;
   std::int32_t material = -1;
   std::uint32_t wake_us = 0;        // how late this tick woke
   std::uint32_t edit_revision = 0;  // as in TipState
@@ -233,11 +230,9 @@ struct TipSample {
   std::uint32_t changing = 0;                          // 1: another choice, or an edit, has taken the force away
 };
 
-enum class TipEventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2 };
-
 // A transition of the latch, at the place where the path crossed the fold inside the tick.
 struct TipEvent {
-  TipEventKind kind = TipEventKind::JumpToContact;
+  physics::EventKind kind = physics::EventKind::JumpToContact;
   std::int32_t material = -1;
   std::int64_t time_ns = 0;  // interpolated
   double z_m = 0;
