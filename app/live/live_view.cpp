@@ -240,7 +240,7 @@ void LiveView::choose(std::size_t material) {
 // Felt once the tip is off the sample, as another material is.
 void LiveView::next_scale() {
   settings_.scale = scene::after(settings_.scale);
-  core::log_line("scale " + exhibit::text_of(settings_.scale));
+  core::log_line("scale " + exhibit::scale_text(settings_.scale));
   if (const auto current = servo_.material(); current && servo_.running()) {
     servo_.link().choose(static_cast<std::int32_t>(*current), settings_.scale);
   }

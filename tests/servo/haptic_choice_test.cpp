@@ -6,6 +6,7 @@
 namespace afm::servo {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 using Person = HapticChoice::Person;
 
@@ -31,10 +32,9 @@ TEST(HapticChoice, NamesEveryWordForOneThatIsNone) {
     const auto refused = parse_haptic_choice(none);
     ASSERT_FALSE(refused) << none;
     EXPECT_EQ(refused.error().category, core::ErrorCategory::WrongUsage);
-    for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
-      EXPECT_THAT(refused.error().message, HasSubstr(std::string(kind.word)));
-    }
-    EXPECT_THAT(refused.error().message, HasSubstr("choose auto, mouse, hdapi, haply, gamepad, sim or replay:FILE"));
+    for (const HapticWord& word : haptic_words()) EXPECT_THAT(refused.error().message, HasSubstr(word.word));
+    EXPECT_THAT(refused.error().message, HasSubstr("choose auto, mouse, hdapi, "));
+    EXPECT_THAT(refused.error().message, EndsWith(" or replay:FILE"));
   }
 }
 
