@@ -167,14 +167,14 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
       sample.force_n =
           sample.z_m < release_m ? materials[felt].tables->attached.force(physics::Length(sample.z_m)).si : 0;
       sample.servo_state = scene::ServoState::Running;
-      sample.phase = scene::ContactPhase::Attached;
+      sample.phase = physics::Phase::Attached;
       curves[felt].add(sample);
       moment.force_n = sample.force_n;
       moment.tip = {.z_m = sample.z_m, .deflection_m = -sample.force_n / stiffness};
     }
     moment.material = felt;
     moment.servo_state = scene::ServoState::Running;
-    moment.phase = scene::ContactPhase::Attached;
+    moment.phase = physics::Phase::Attached;
     moment.retracting = 2 * i > kFrames;
     moment.guidance = "One full cycle: approach and retract";
     moment.curves = curves;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -355,15 +354,7 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
       ->add_option("--measured", options->measured,
                    "a recorded curve to be felt too (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
       ->type_name("FILE");
-  static const std::map<std::string, scene::ScaleMode> kScales{{"common", scene::ScaleMode::Common},
-                                                               {"fit", scene::ScaleMode::Fit},
-                                                               {"compressed", scene::ScaleMode::Compressed}};
-  command
-      ->add_option("--scale", options->scale,
-                   "how nm and nN become mm and N in the hand: common, one scale for all samples; fit, one for each; "
-                   "compressed, fit with weak forces raised; default: fit")
-      ->transform(CLI::CheckedTransformer(kScales))
-      ->type_name("MODE");
+  add_scale_option(*command, options->scale);
   auto servo = std::make_shared<std::string>("process");
   command->add_option("--servo", *servo, "how the servo runs: process, or thread for debuggers and sanitizers")
       ->check(CLI::IsMember({"process", "thread"}))

@@ -109,7 +109,7 @@ std::vector<Row> look_for_devices(const WandPlaces& places) {
     rows.push_back({"vulkan", "any", false, devices.error().message});
   }
   look_for_monitors(rows);
-  for (const haptics::ProbeLine& line : haptics::probe_devices(servo::probe_settings())) {
+  for (const haptics::ProbeLine& line : haptics::probe_devices(servo::environment())) {
     rows.push_back({"haptic", line.subject, line.usable, line.said});
   }
   look_for_hid_wands(places.mappings, rows);

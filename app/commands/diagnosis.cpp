@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 namespace afm::app {
 
@@ -99,11 +101,17 @@ Finding haptic_port(const MachineFacts& facts) {
 }
 
 Finding haptic_device(const MachineFacts& facts) {
-  for (const haptics::ProbeLine& line : facts.haptics) {
-    if (line.subject != haptics::kHdapiDevice) continue;
-    if (line.usable) return {"haptic device", Verdict::Good, line.said, {}};
-    return {"haptic device", Verdict::Limited, line.said, "switch it on and run its maker's set-up program"};
+  std::optional<Finding> silent;
+  for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
+    const auto line = std::find_if(facts.haptics.begin(), facts.haptics.end(),
+                                   [&](const haptics::ProbeLine& tried) { return tried.subject == kind.subject; });
+    if (line == facts.haptics.end()) continue;
+    if (line->usable && kind.renders_force) return {"haptic device", Verdict::Good, line->said, {}};
+    if (!line->usable && !kind.remedy.empty() && !silent) {
+      silent = Finding{"haptic device", Verdict::Limited, line->said, std::string(kind.remedy)};
+    }
   }
+  if (silent) return *silent;
   return {
       "haptic device", Verdict::Limited, "no driver is installed: the simulated hand stands in",
       fmt::format("install the driver of the PHANTOM or Touch, or export {}=/path/to/libHD.so; touchafm devices says "

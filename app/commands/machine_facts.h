@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/bench/scheduling_latency.h"
-#include "haptics/device_probe.h"
+#include "haptics/device_registry.h"
 #include "render/context.h"
 
 namespace afm::app {

@@ -29,8 +29,8 @@ nlohmann::json json_of(const std::optional<servo::Difference>& first) {
           {"replayed", first->replayed}};
 }
 
-const char* name_of(scene::TipEventKind kind) {
-  return kind == scene::TipEventKind::JumpToContact ? "jump-to-contact" : "jump-off-contact";
+const char* name_of(physics::EventKind kind) {
+  return kind == physics::EventKind::JumpToContact ? "jump-to-contact" : "jump-off-contact";
 }
 
 std::string json(const servo::RecordedSession& session, const servo::Replay& replayed) {

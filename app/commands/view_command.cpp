@@ -76,16 +76,12 @@ core::Result<void> check_validation(render::Context& context) {
                        fmt::format("the Vulkan validation layer gave {} messages; they stand above", messages.size()));
 }
 
-// Who moves the hand, and on what a recorded one goes.
+// Who moves the hand if the device has none of its own, and on what a recorded one goes.
 core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& device, ViewSettings& settings) {
   const auto choice = servo::parse_haptic_choice(device);
   if (!choice) return tl::unexpected(choice.error());
-  if (device == "sim") settings.hand = HandSource::Simulated;
-  if (choice->device == haptics::DeviceChoice::Hdapi || choice->device == haptics::DeviceChoice::Gamepad) {
-    settings.hand = HandSource::Device;
-  }
+  if (choice->person == servo::HapticChoice::Person::Simulated) settings.hand = HandSource::Simulated;
   if (choice->replay_file.empty()) return {};
-  settings.hand = HandSource::Device;
   const auto session = servo::load_session(choice->replay_file);
   if (!session) return tl::unexpected(session.error());
   const auto& materials = stage.materials.materials;
@@ -181,23 +177,15 @@ void add_wand_options(CLI::App& command, ViewOptions& options) {
 }
 
 void add_servo_options(CLI::App& command, ViewOptions& options) {
+  std::string hands;
+  for (const servo::HapticWord& word : servo::haptic_words()) hands += fmt::format("{}, {}; ", word.word, word.meaning);
   command
-      .add_option(
-          "--haptics", options.servo.haptic_device,
-          "whose hand feels: mouse, sim for a simulated person, hdapi, haply, gamepad, replay:FILE for a recorded one, "
-          "or auto for the best device there is, else the mouse; default: mouse")
+      .add_option("--haptics", options.servo.haptic_device,
+                  fmt::format("whose hand feels: {}default: {}", hands, options.servo.haptic_device))
       ->type_name("DEVICE");
   command.add_option("--record", options.settings.record_folder, "keep what is felt in DIR, a session for each sample")
       ->type_name("DIR");
-  static const std::map<std::string, scene::ScaleMode> kScales{{"common", scene::ScaleMode::Common},
-                                                               {"fit", scene::ScaleMode::Fit},
-                                                               {"compressed", scene::ScaleMode::Compressed}};
-  command
-      .add_option("--scale", options.settings.scale,
-                  "how nm and nN become mm and N in the hand: common, fit or compressed; M does it while it runs; "
-                  "default: fit")
-      ->transform(CLI::CheckedTransformer(kScales))
-      ->type_name("MODE");
+  add_scale_option(command, options.settings.scale);
   command.add_flag("--dead-man", options.servo.settings.dead_man, "force only as long as Turn-On is held");
   command.add_option("--servo-rate", options.servo.settings.rate_hz, "of the servo, 100 Hz to 10 kHz")
       ->check(CLI::Range(100.0, 10'000.0))

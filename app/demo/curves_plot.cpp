@@ -54,7 +54,7 @@ std::optional<Window> window_of_smallest(std::span<const LabelledSession> sessio
   const scene::TipEvent* smallest = nullptr;
   double largest_m = 0.0;
   for (const LabelledSession& labelled : sessions) {
-    const scene::TipEvent* off = labelled.session->find(scene::TipEventKind::JumpOffContact);
+    const scene::TipEvent* off = labelled.session->find(physics::EventKind::JumpOffContact);
     if (off == nullptr) continue;
     if (smallest == nullptr || off->z_m < smallest->z_m) smallest = off;
     largest_m = std::max(largest_m, off->z_m);

@@ -23,7 +23,7 @@ exhibit::Felt felt_of(const Measurement& m) {
 
 // The times of the first and the last sample in contact.
 std::pair<std::int64_t, std::int64_t> contact_of(const servo::RecordedSession& session) {
-  const auto attached = [](const scene::TipSample& sample) { return sample.phase == scene::ContactPhase::Attached; };
+  const auto attached = [](const scene::TipSample& sample) { return sample.phase == physics::Phase::Attached; };
   const auto first = std::find_if(session.samples.begin(), session.samples.end(), attached);
   const auto last = std::find_if(session.samples.rbegin(), session.samples.rend(), attached);
   AFM_CHECK(first != session.samples.end());

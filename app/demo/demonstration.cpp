@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/demo/demonstration.h"
 #include "core/percentiles.h"
-#include "servo/fault_reason.h"
 #include "servo/frame_heartbeat.h"
 
 #include <fmt/format.h>
@@ -97,9 +96,9 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, D
         return core::failure(
             core::ErrorCategory::Failed,
             fmt::format("{}: the servo released the hand {} times ({}); run again, with less load on the machine",
-                        title, restarts, servo::reason(servo_.tip().fault)));
+                        title, restarts, scene::reason(servo_.tip().fault)));
       }
-      progress(fmt::format("  the servo released the hand: {}; lifting again", servo::reason(servo_.tip().fault)));
+      progress(fmt::format("  the servo released the hand: {}; lifting again", scene::reason(servo_.tip().fault)));
       recorder_.begin_again();
       forget_cycle(material);
       events_told = 0;
@@ -108,7 +107,7 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, D
     for (; events_told < events.size() && events[events_told].material == static_cast<std::int32_t>(material);
          ++events_told) {
       const scene::TipEvent& e = events[events_told];
-      const bool in = e.kind == scene::TipEventKind::JumpToContact;
+      const bool in = e.kind == physics::EventKind::JumpToContact;
       progress(fmt::format("  {:<17} Z = {:8.4f} nm   pull {:8.5f} nN", in ? "jump to contact" : "jump off contact",
                            e.z_m * 1e9, -(in ? e.force_after_n : e.force_before_n) * 1e9));
     }
@@ -128,7 +127,7 @@ core::Result<void> Demonstration::keep_patience(const std::string& title, double
                        fmt::format("{}: waited {:.0f} s for {}, in vain ({}; a frame took {:.0f} ms); run again, with "
                                    "less load on the machine or a smaller --eye-width",
                                    title, kPatienceSeconds + step_seconds, person_.waiting_for(),
-                                   servo::reason(servo_.tip().fault), core::percentiles(result.frame_ms).p50));
+                                   scene::reason(servo_.tip().fault), core::percentiles(result.frame_ms).p50));
 }
 
 void Demonstration::wait_for_renderer() {

@@ -42,8 +42,8 @@ double Measurement::worst_error() const {
 
 core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::SampleModel& material) {
   const physics::CycleFigures& figures = material.figures();
-  const scene::TipEvent* in = session.find(scene::TipEventKind::JumpToContact);
-  const scene::TipEvent* out = session.find(scene::TipEventKind::JumpOffContact);
+  const scene::TipEvent* in = session.find(physics::EventKind::JumpToContact);
+  const scene::TipEvent* out = session.find(physics::EventKind::JumpOffContact);
   if (figures.hysteretic && (in == nullptr || out == nullptr)) {
     return core::failure(core::ErrorCategory::Failed,
                          fmt::format("{}: the recorded cycle has no {}; run the demo again", session.material,
@@ -65,7 +65,7 @@ core::Result<Measurement> measure(const servo::RecordedSession& session, const c
 
   const auto first_attached =
       std::find_if(session.samples.begin(), session.samples.end(),
-                   [&](const scene::TipSample& s) { return s.phase == scene::ContactPhase::Attached; });
+                   [&](const scene::TipSample& s) { return s.phase == physics::Phase::Attached; });
   if (first_attached != session.samples.end()) m.sampled_f_attr_n = std::abs(first_attached->force_n);
   for (const scene::TipSample& s : session.samples) m.sampled_f_ad_n = std::max(m.sampled_f_ad_n, -s.force_n);
   return m;

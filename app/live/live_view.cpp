@@ -15,7 +15,6 @@
 #include "core/log.h"
 #include "exhibit/servo_rows.h"
 #include "exhibit/wall_layout.h"
-#include "haptics/device_probe.h"
 #include "render/device_failure.h"
 
 namespace afm::app {
@@ -176,7 +175,7 @@ void LiveView::act(ViewAction action) {
 
 // The contact comes into the wall's plane, where both eyes see it in one place.
 void LiveView::bring_to_wall() {
-  if (servo_.link().tip().phase == scene::ContactPhase::Attached) {
+  if (servo_.link().tip().phase == physics::Phase::Attached) {
     core::log_line("the scene stays while the tip touches it");
     return;
   }
@@ -240,12 +239,8 @@ void LiveView::choose(std::size_t material) {
 
 // Felt once the tip is off the sample, as another material is.
 void LiveView::next_scale() {
-  using scene::ScaleMode;
-  const ScaleMode now = settings_.scale;
-  settings_.scale = now == ScaleMode::Fit          ? ScaleMode::Compressed
-                    : now == ScaleMode::Compressed ? ScaleMode::Common
-                                                   : ScaleMode::Fit;
-  core::log_line(std::string("scale ") + exhibit::text_of(settings_.scale));
+  settings_.scale = scene::after(settings_.scale);
+  core::log_line("scale " + exhibit::scale_text(settings_.scale));
   if (const auto current = servo_.material(); current && servo_.running()) {
     servo_.link().choose(static_cast<std::int32_t>(*current), settings_.scale);
   }
@@ -301,17 +296,15 @@ void LiveView::move_hand(const ViewInput& input, std::int64_t now_ns) {
   servo.script(person_.hand());
 }
 
-// The mouse moves nothing but the simulated hand, which stands in where no device was found.
+// Neither mouse nor simulated person moves a device that has a hand of its own.
 HandSource LiveView::hand() const {
-  const std::string_view device = servo_.link().device().name.data();
-  const bool another = !device.empty() && device != haptics::kSimulatedHand;
-  return settings_.hand == HandSource::Mouse && another ? HandSource::Device : settings_.hand;
+  return servo_.link().device().has_own_hand != 0 ? HandSource::Device : settings_.hand;
 }
 
 exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
   const servo::ServoClient& servo = servo_.link();
   const exhibit::CycleHistory& cycles = servo_.cycles();
-  const bool touched = servo.tip().phase == scene::ContactPhase::Attached || cycles.cycles() > 0;
+  const bool touched = servo.tip().phase == physics::Phase::Attached || cycles.cycles() > 0;
   exhibit::Moment now = exhibit::moment_of(servo.tip(), touched && cycles.ascending());
   now.curves = cycles.curves();
   now.hovered = pointed.swatch;

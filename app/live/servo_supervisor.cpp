@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live/servo_supervisor.h"
 #include "core/percentiles.h"
-#include "servo/fault_reason.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +16,7 @@ constexpr std::int64_t kMinuteNs = 60'000'000'000;
 constexpr std::size_t kMostRestarts = 3;  // a minute
 
 std::string text_of(const scene::TipEvent& event) {
-  const bool in = event.kind == scene::TipEventKind::JumpToContact;
+  const bool in = event.kind == physics::EventKind::JumpToContact;
   return fmt::format("{} at Z = {:.3f} nm, pull {:.4f} nN", in ? "jump to contact" : "jump off contact",
                      event.z_m * 1e9, -(in ? event.force_after_n : event.force_before_n) * 1e9);
 }
@@ -93,7 +92,7 @@ void ServoSupervisor::log_state() {
   if (logged_state_ == scene::ServoState::Running) core::log_line("force on");
   const bool off = logged_state_ == scene::ServoState::Disarmed || logged_state_ == scene::ServoState::Fault;
   const bool fault = tip.fault != scene::FaultCode::None;
-  if (off) core::log_line(fault ? std::string("force off: ") + servo::reason(tip.fault) : "force off");
+  if (off) core::log_line(fault ? std::string("force off: ") + scene::reason(tip.fault) : "force off");
 }
 
 void ServoSupervisor::replace(const core::Error& error, std::int64_t now_ns) {

@@ -90,7 +90,7 @@ void SimulatedPerson::update(std::int64_t now_ns, const scene::TipState& tip) {
     case Step::MoveDown:
       if (tip.servo_state != scene::ServoState::Running) {
         lift_again(now_ns);
-      } else if (path_finished && tip.phase == scene::ContactPhase::Attached) {
+      } else if (path_finished && tip.phase == physics::Phase::Attached) {
         move_hand(path_.lift_m, stroke_seconds());
         enter(Step::MoveUp, now_ns);
       }
@@ -98,7 +98,7 @@ void SimulatedPerson::update(std::int64_t now_ns, const scene::TipState& tip) {
     case Step::MoveUp:
       if (tip.servo_state != scene::ServoState::Running) {
         lift_again(now_ns);
-      } else if (path_finished && tip.phase == scene::ContactPhase::Free) {
+      } else if (path_finished && tip.phase == physics::Phase::Free) {
         enter(Step::Rest, now_ns);
       }
       break;

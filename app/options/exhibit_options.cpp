@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
+#include <string>
 
 #include "physics/quantity_text.h"
 
@@ -64,6 +66,21 @@ void add_own_sample_option(CLI::App& command, exhibit::ExhibitFiles& files) {
       .add_option("--sample", files.sample,
                   "glTF model of your own sample, with a node for the role surface; it is felt as it is drawn")
       ->type_name("FILE");
+}
+
+void add_scale_option(CLI::App& command, scene::ScaleMode& mode) {
+  std::map<std::string, scene::ScaleMode> words;
+  std::string meanings;
+  for (const scene::ScaleModeText& row : scene::kScaleModes) {
+    words.emplace(row.word, row.mode);
+    meanings += fmt::format("{}, {}; ", row.word, row.meaning);
+  }
+  command
+      .add_option(
+          "--scale", mode,
+          fmt::format("how nm and nN become mm and N in the hand: {}default: {}", meanings, scene::text_of(mode).word))
+      ->transform(CLI::CheckedTransformer(words))
+      ->type_name("MODE");
 }
 
 void add_stage_options(CLI::App& command, exhibit::ExhibitFiles& files, const CommandContext& context) {

@@ -5,6 +5,7 @@
 
 #include "app/command.h"
 #include "exhibit/exhibit_setup.h"
+#include "scene/shared/scale_modes.h"
 
 namespace afm::app {
 
@@ -14,6 +15,9 @@ void add_stereo_options(CLI::App& command, exhibit::PictureOptions& options, con
 // --probe and --sample; and --sample alone, beside a --probe that knows names too.
 void add_own_model_options(CLI::App& command, exhibit::ExhibitFiles& files);
 void add_own_sample_option(CLI::App& command, exhibit::ExhibitFiles& files);
+
+// --scale.
+void add_scale_option(CLI::App& command, scene::ScaleMode& mode);
 
 // --wall, --materials and --assets.
 void add_stage_options(CLI::App& command, exhibit::ExhibitFiles& files, const app::CommandContext& context);

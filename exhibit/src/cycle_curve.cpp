@@ -13,8 +13,7 @@ constexpr double kNnPerN = 1e9;
 }  // namespace
 
 void CycleCurve::add(const scene::TipSample& sample) {
-  const bool felt =
-      sample.servo_state == scene::ServoState::Running && sample.phase != scene::ContactPhase::WaitForLift;
+  const bool felt = sample.servo_state == scene::ServoState::Running && sample.phase != physics::Phase::WaitForLift;
   if (felt) add_point({.z_nm = sample.z_m * kNmPerM, .force_nn = sample.force_n * kNnPerN});
 }
 

@@ -37,14 +37,14 @@ void CycleHistory::add(const scene::TipSample& sample) {
     turn_height_m_ = height;
   }
 
-  const bool attached = sample.phase == scene::ContactPhase::Attached;
+  const bool attached = sample.phase == physics::Phase::Attached;
   if (attached && !attached_ && released_) {
     curve = std::exchange(next_, {});
     released_ = false;
   }
   if (!attached && attached_) {
     released_ = true;
-    if (sample.phase == scene::ContactPhase::Free) ++cycles_;
+    if (sample.phase == physics::Phase::Free) ++cycles_;
   }
   attached_ = attached;
   pressed_ = attached && (pressed_ || sample.z_m <= 0.0);
@@ -59,7 +59,7 @@ void CycleHistory::add(const scene::TipSample& sample) {
 void CycleHistory::add(const scene::TipEvent& event) {
   if (event.material != material_) return;
   CycleCurve& curve = curves_[static_cast<std::size_t>(material_)];
-  if (event.kind == scene::TipEventKind::JumpToContact && released_) next_.add(event);
+  if (event.kind == physics::EventKind::JumpToContact && released_) next_.add(event);
   curve.add(event);
 }
 

@@ -125,8 +125,8 @@ core::Result<std::array<scene::EyeView, 2>> eyes_at_sweet_spot(const scene::Wall
 }
 
 std::string stage_of_cycle(const Moment& moment, double z_jtc_m) {
-  if (moment.phase == scene::ContactPhase::WaitForLift) return "lift the tip";
-  if (moment.phase == scene::ContactPhase::Free) {
+  if (moment.phase == physics::Phase::WaitForLift) return "lift the tip";
+  if (moment.phase == physics::Phase::Free) {
     if (moment.retracting) return "B \u2192 A   free again";
     return moment.tip.z_m < 2.0 * z_jtc_m ? "A \u2192 C   close to the jump" : "A \u2192 C   approach, no force";
   }
@@ -179,7 +179,7 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   const physics::CycleFigures& figures = (*materials_)[*moment.material].figures();
   if (figures.hysteretic) panel.markers = jump_markers(figures);
   panel.stage = stage_of_cycle(moment, figures.z_jtc.si);
-  if (moment.phase != scene::ContactPhase::WaitForLift) {
+  if (moment.phase != physics::Phase::WaitForLift) {
     panel.cursor = render::PlotPoint{moment.tip.z_m * kNmPerM, moment.force_n * kNnPerN};
   }
   return panel;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/guidance.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
 
+#include "core/enumerators.h"
 #include "exhibit/message_catalog.h"
 #include "haptics/safety.h"
 
@@ -12,25 +14,28 @@ namespace afm::exhibit {
 
 namespace {
 
-// In the order of Hint, then "force-off", then FaultCode without None.
-constexpr std::array<std::string_view, 25> kKeys{
-    "choose-sample",   "lift",         "turn-on",         "turn-on-and-hold",  "coming-on",  "going-off",
-    "move-down",       "press-on",     "pressed",         "move-up",           "let-go",     "press-to-go-on",
-    "servo-ended",     "force-off",    "renderer-died",   "renderer-hung",     "not-finite", "late-tick",
-    "velocity-trip",   "device-error", "bad-shared-data", "dead-man-released", "motors-hot", "energy-exceeded",
-    "out-of-workspace"};
-constexpr std::size_t kForceOff = static_cast<std::size_t>(Hint::ServoEnded) + 1;
-static_assert(kKeys[static_cast<std::size_t>(Hint::ServoEnded)] == "servo-ended" && kKeys[kForceOff] == "force-off");
-static_assert(kForceOff + static_cast<std::size_t>(scene::FaultCode::OutOfWorkspace) == kKeys.size() - 1);
+constexpr std::array<std::string_view, 13> kHintKeys{
+    "choose-sample", "lift",    "turn-on", "turn-on-and-hold", "coming-on",      "going-off",  "move-down",
+    "press-on",      "pressed", "move-up", "let-go",           "press-to-go-on", "servo-ended"};
+static_assert(kHintKeys.size() == core::kEnumerators<Hint>.size());
+
+// The hints, then the faults from None on, whose words stand before a reason.
+constexpr std::size_t kForceOff = kHintKeys.size();
+constexpr auto kKeys = [] {
+  std::array<std::string_view, kHintKeys.size() + scene::kFaultTexts.size()> keys{};
+  std::copy(kHintKeys.begin(), kHintKeys.end(), keys.begin());
+  for (std::size_t i = 0; i < scene::kFaultTexts.size(); ++i) keys[kForceOff + i] = scene::kFaultTexts[i].key;
+  return keys;
+}();
 
 // Where the servo accepts Turn-On.
 bool is_lifted(const scene::TipState& tip) {
-  return tip.phase == scene::ContactPhase::Free &&
+  return tip.phase == physics::Phase::Free &&
          (tip.z_m - tip.release_z_m) * tip.hand_m_per_m >= haptics::SafetyGovernor::kArmingMarginM;
 }
 
 Hint step_with_force(const scene::TipState& tip, bool ascending, int cycles) {
-  if (tip.phase == scene::ContactPhase::Attached) {
+  if (tip.phase == physics::Phase::Attached) {
     if (ascending) return Hint::MoveUp;
     return tip.z_m > 0.0 ? Hint::PressOn : Hint::Pressed;
   }
@@ -49,7 +54,7 @@ Hint next_step(const scene::TipState& tip, bool ascending, int cycles) {
     case scene::ServoState::Fault:
       return Hint::PressToGoOn;
     case scene::ServoState::Running:
-      if (tip.phase != scene::ContactPhase::WaitForLift) return step_with_force(tip, ascending, cycles);
+      if (tip.phase != physics::Phase::WaitForLift) return step_with_force(tip, ascending, cycles);
       break;
     case scene::ServoState::Disarmed:
       if (is_lifted(tip)) return tip.dead_man != 0 ? Hint::TurnOnAndHold : Hint::TurnOn;
@@ -66,13 +71,13 @@ core::Result<Guidance> Guidance::load(const std::string& path) {
   return guidance;
 }
 
-const std::string& Guidance::text(Hint hint) const { return phrases_[static_cast<std::size_t>(hint)]; }
+const std::string& Guidance::text(Hint hint) const { return phrases_[core::index_of(hint)]; }
 
 std::string Guidance::line(const scene::TipState& tip, bool ascending, int cycles) const {
   const std::string& step = text(next_step(tip, ascending, cycles));
   const bool off = tip.servo_state == scene::ServoState::Disarmed || tip.servo_state == scene::ServoState::Fault;
   if (tip.material < 0 || !off || tip.fault == scene::FaultCode::None) return step;
-  return phrases_[kForceOff] + ": " + phrases_[kForceOff + static_cast<std::size_t>(tip.fault)] + ". " + step;
+  return phrases_[kForceOff] + ": " + phrases_[kForceOff + core::index_of(tip.fault)] + ". " + step;
 }
 
 }  // namespace afm::exhibit

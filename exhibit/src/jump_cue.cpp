@@ -24,7 +24,7 @@ std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::in
 
 CueRing cue_ring(const JumpCue& cue) {
   const double t = std::clamp(cue.age_s / kCueSeconds, 0.0, 1.0);
-  const bool in = cue.kind == scene::TipEventKind::JumpToContact;
+  const bool in = cue.kind == physics::EventKind::JumpToContact;
   const double way = in ? 1.0 - t : t;
   const auto strength = static_cast<float>((1.0 - t) * (1.0 - t));
   return {(in ? kInColor : kOffColor) * strength, kNearRadius + (kFarRadius - kNearRadius) * way};

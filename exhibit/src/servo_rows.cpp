@@ -14,16 +14,9 @@ constexpr double kWarmEnoughToTell = 0.5;
 
 }  // namespace
 
-const char* text_of(scene::ScaleMode mode) {
-  switch (mode) {
-    case scene::ScaleMode::Common:
-      return "common: one scale for all samples";
-    case scene::ScaleMode::Fit:
-      return "fit: each sample on its own scale";
-    case scene::ScaleMode::Compressed:
-      break;
-  }
-  return "compressed: weak forces are raised";
+std::string scale_text(scene::ScaleMode mode) {
+  const scene::ScaleModeText& text = scene::text_of(mode);
+  return fmt::format("{}: {}", text.word, text.meaning);
 }
 
 std::vector<render::DataRow> servo_rows(const scene::TipState& tip, const scene::ServoTiming& timing,
@@ -33,7 +26,7 @@ std::vector<render::DataRow> servo_rows(const scene::TipState& tip, const scene:
   if (tip.hand_m_per_m > 0) {
     rows.push_back({"Scale of the hand",
                     fmt::format("{:.3g} mm/nm, {:.3g} N/nN", tip.hand_m_per_m * 1e-6, tip.hand_n_per_n * 1e-9),
-                    text_of(tip.scale_mode)});
+                    scale_text(tip.scale_mode)});
   }
   rows.push_back({"Force at most", fmt::format("{:.2g} N, {:.0f} N/s", tip.force_cap_n, tip.slew_limit_n_per_s),
                   std::string(device.name.data()) + (tip.dead_man != 0 ? ", only while Turn-On is held" : "")});

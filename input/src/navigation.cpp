@@ -45,7 +45,7 @@ double elevation(const glm::dvec3& direction) { return std::asin(std::clamp(dire
 bool navigation_locked(const scene::TipState& tip) {
   const double force_n = glm::length(glm::dvec3(tip.hand_force_n[0], tip.hand_force_n[1], tip.hand_force_n[2]));
   // what is no number locks too
-  return tip.phase == scene::ContactPhase::Attached || !(force_n <= kHeldForceN);
+  return tip.phase == physics::Phase::Attached || !(force_n <= kHeldForceN);
 }
 
 void Navigation::update(const WandState& wand, double frame_s, bool locked) {

@@ -10,7 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "haptics/device_registry.h"
 #include "places.h"
+#include "scene/shared/scale_modes.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
@@ -87,6 +89,22 @@ TEST(CommandLine, PrintsBothEyesOfAWallAsJson) {
   EXPECT_NEAR(frusta[1]["projection"][0].get<double>(), 2.0 * 2.5 / 3.048, 1e-12);
   EXPECT_LT(frusta[1]["projection"][5].get<double>(), 0.0);
   EXPECT_NEAR(frusta[1]["projection"][11].get<double>(), 0.1, 1e-12);
+}
+
+TEST(CommandLine, NamesEveryHapticDevice) {
+  const std::string help = touchafm("view --help").out;
+  for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
+    EXPECT_THAT(help, HasSubstr(std::string(kind.word) + ","));
+  }
+  expect_refusal(touchafm("view --haptics falcon"), 2, "hdapi, haply, gamepad");
+}
+
+TEST(CommandLine, ExplainsEveryScaleMode) {
+  for (const char* command : {"demo", "view"}) {
+    const std::string help = touchafm(std::string(command) + " --help").out;
+    for (const scene::ScaleModeText& scale : scene::kScaleModes) EXPECT_THAT(help, HasSubstr(scale.word)) << command;
+  }
+  expect_refusal(touchafm("demo --out x --scale logarithmic"), 2, "compressed");
 }
 
 const std::string kWalls = AFM_SOURCE_DIR "/assets/walls/";

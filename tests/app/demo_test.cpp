@@ -110,8 +110,8 @@ TEST_F(Demo, LeavesCurvesAndSessionsOfEveryMaterial) {
   for (const char* name : {"mica", "gold", "si3n4"}) {
     const auto session = servo::load_session(folder_->file(std::string("session-") + name + ".afms"));
     ASSERT_TRUE(session.has_value()) << session.error().message;
-    ASSERT_NE(session->find(scene::TipEventKind::JumpToContact), nullptr);
-    ASSERT_NE(session->find(scene::TipEventKind::JumpOffContact), nullptr);
+    ASSERT_NE(session->find(physics::EventKind::JumpToContact), nullptr);
+    ASSERT_NE(session->find(physics::EventKind::JumpOffContact), nullptr);
     const std::string csv = core::read_file(folder_->file(std::string("curve-") + name + ".csv")).value();
     EXPECT_THAT(csv, HasSubstr("# hamaker_J: "));
     EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
@@ -121,7 +121,7 @@ TEST_F(Demo, LeavesCurvesAndSessionsOfEveryMaterial) {
 
 TEST_F(Demo, TheSnapInReallyMovesTheHand) {
   const servo::RecordedSession session = servo::load_session(folder_->file("session-mica.afms")).value();
-  const scene::TipEvent* in = session.find(scene::TipEventKind::JumpToContact);
+  const scene::TipEvent* in = session.find(physics::EventKind::JumpToContact);
   // the pull of 0.34 N bends the hand's grip down: within 60 ms it is pulled with more than half of the final force
   double pull = 0;
   for (const scene::TipSample& s : session.samples) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "haptics/device_registry.h"
 #include "support/loopback_sender.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
@@ -30,6 +31,15 @@ TEST(DevicesCommand, SaysWhatWasTriedAndWhyNot) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   for (const char* name : {"libHD.so.3.4", "libHD.so.3.0", "cannot open shared object file", "simulated hand"}) {
     EXPECT_THAT(result.out, HasSubstr(name));
+  }
+}
+
+TEST(DevicesCommand, LooksForEveryHapticDevice) {
+  const auto list = nlohmann::json::parse(touchafm("devices --json", kMock).out);
+  for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
+    EXPECT_TRUE(std::any_of(list.begin(), list.end(), [&](const auto& row) {
+      return row["kind"] == "haptic" && row["device"] == std::string(kind.subject);
+    })) << kind.subject;
   }
 }
 

@@ -25,7 +25,7 @@ MachineFacts good_machine() {
   facts.render_nodes = {{"/dev/dri/renderD128", true}};
   facts.hid_nodes = {{"/dev/hidraw0", true}};
   facts.serial_nodes = {{"/dev/ttyACM0", true}};
-  facts.haptics = {{"hdapi library libHD.so.3.4", true, "loaded"}, {haptics::kHdapiDevice, true, "Touch"}};
+  facts.haptics = {{"hdapi library libHD.so.3.4", true, "loaded"}, {"hdapi device", true, "Touch"}};
   facts.servo_program = "/usr/bin/touchafm-servo";
   facts.servo_program_runs = true;
   return facts;
@@ -97,6 +97,18 @@ TEST(Diagnosis, TakesNoDeviceForNoLackOfRights) {
   facts.serial_nodes.clear();
   facts.render_nodes.clear();
   for (const Finding& f : diagnose(facts)) EXPECT_EQ(f.verdict, Verdict::Good) << f.check;
+}
+
+TEST(Diagnosis, IsContentWithAnyDeviceThatRendersForce) {
+  for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
+    MachineFacts facts = good_machine();
+    facts.haptics = {{"hdapi library libHD.so.3.4", false, "no such file"},
+                     {std::string(kind.subject), true, "the device"},
+                     {std::string(haptics::simulated_kind().subject), true, "needs no device"}};
+    const Finding found = finding(facts, "haptic device");
+    EXPECT_EQ(found.verdict, kind.renders_force ? Verdict::Good : Verdict::Limited) << kind.word;
+    if (kind.renders_force) EXPECT_EQ(found.found, "the device") << kind.word;
+  }
 }
 
 }  // namespace

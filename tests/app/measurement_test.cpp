@@ -26,10 +26,10 @@ servo::RecordedSession cycle(double error, const curves::SampleModel& material =
   session.material = "mica";
   session.samples.resize(1);
   scene::TipEvent in, out;
-  in.kind = scene::TipEventKind::JumpToContact;
+  in.kind = physics::EventKind::JumpToContact;
   in.z_m = figures.z_jtc.si;
   in.force_after_n = figures.force_after_jtc.si * (1.0 + error);
-  out.kind = scene::TipEventKind::JumpOffContact;
+  out.kind = physics::EventKind::JumpOffContact;
   out.z_m = figures.z_joc.si;
   out.force_before_n = figures.force_before_joc.si;
   session.events = {in, out};

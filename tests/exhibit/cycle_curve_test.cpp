@@ -11,7 +11,7 @@ scene::TipSample sample(std::int64_t ms, double z_nm, scene::ServoState state = 
   s.time_ns = ms * 1'000'000;
   s.z_m = z_nm * 1e-9;
   s.servo_state = state;
-  s.phase = scene::ContactPhase::Free;
+  s.phase = physics::Phase::Free;
   return s;
 }
 
@@ -51,7 +51,7 @@ TEST(CycleCurve, LeavesOutWhatIsNotFelt) {
   CycleCurve curve;
   curve.add(sample(0, 5.0, scene::ServoState::Disarmed));
   scene::TipSample waiting = sample(1, 5.0);
-  waiting.phase = scene::ContactPhase::WaitForLift;
+  waiting.phase = physics::Phase::WaitForLift;
   curve.add(waiting);
   EXPECT_TRUE(curve.empty());
 }

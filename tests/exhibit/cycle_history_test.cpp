@@ -11,11 +11,11 @@ constexpr double kHandMPerM = 0.05 / 14e-9;
 class FeltCyclesTest : public ::testing::Test {
  protected:
   // The hand goes straight to `to_m`, a sample every tenth of a millimetre.
-  void move(double to_m, scene::ContactPhase phase) {
+  void move(double to_m, physics::Phase phase) {
     const double step = to_m > height_m_ ? 0.0001 : -0.0001;
     for (; (to_m - height_m_) / step > 0.5; height_m_ += step) sample(phase);
   }
-  void sample(scene::ContactPhase phase) {
+  void sample(physics::Phase phase) {
     scene::TipSample sample;
     sample.material = material_;
     sample.edit_revision = edit_revision_;
@@ -26,10 +26,10 @@ class FeltCyclesTest : public ::testing::Test {
     cycles_.add(sample);
   }
   void cycle() {
-    move(0.010, scene::ContactPhase::Free);
-    move(-0.010, scene::ContactPhase::Attached);
-    move(0.050, scene::ContactPhase::Attached);
-    move(0.070, scene::ContactPhase::Free);
+    move(0.010, physics::Phase::Free);
+    move(-0.010, physics::Phase::Attached);
+    move(0.050, physics::Phase::Attached);
+    move(0.070, physics::Phase::Free);
   }
   std::size_t points(std::size_t material) const {
     const auto plot = cycles_.curves()[material].plot("", {});
@@ -46,9 +46,9 @@ TEST_F(FeltCyclesTest, AWholeCycleStaysUntilTheTipTouchesAgain) {
   cycle();
   const std::size_t whole = points(0);
   EXPECT_EQ(cycles_.cycles(), 1);
-  move(0.020, scene::ContactPhase::Free);
+  move(0.020, physics::Phase::Free);
   EXPECT_GT(points(0), whole);
-  move(0.010, scene::ContactPhase::Attached);
+  move(0.010, physics::Phase::Attached);
   EXPECT_LT(points(0), whole);
   EXPECT_GT(points(0), 500U) << "the approach since the tip let go belongs to the new cycle";
 }
@@ -58,20 +58,20 @@ TEST_F(FeltCyclesTest, CountsCyclesAndKnowsWhereTheHandGoes) {
   cycle();
   EXPECT_EQ(cycles_.cycles(), 2);
   EXPECT_TRUE(cycles_.ascending());
-  move(0.065, scene::ContactPhase::Free);
+  move(0.065, physics::Phase::Free);
   EXPECT_FALSE(cycles_.ascending());
 }
 
 TEST_F(FeltCyclesTest, AContactRemembersThatItWasPressedUntilItEnds) {
-  move(0.010, scene::ContactPhase::Free);
-  move(0.001, scene::ContactPhase::Attached);
+  move(0.010, physics::Phase::Free);
+  move(0.001, physics::Phase::Attached);
   EXPECT_FALSE(cycles_.pressed());
-  move(-0.010, scene::ContactPhase::Attached);
+  move(-0.010, physics::Phase::Attached);
   EXPECT_TRUE(cycles_.pressed());
-  move(0.050, scene::ContactPhase::Attached);
-  move(0.040, scene::ContactPhase::Attached);  // jerked down by the pull
+  move(0.050, physics::Phase::Attached);
+  move(0.040, physics::Phase::Attached);  // jerked down by the pull
   EXPECT_TRUE(cycles_.pressed());
-  move(0.070, scene::ContactPhase::Free);
+  move(0.070, physics::Phase::Free);
   EXPECT_FALSE(cycles_.pressed());
 }
 
@@ -79,7 +79,7 @@ TEST_F(FeltCyclesTest, TheTremorOfAHandIsNoTurn) {
   cycle();
   for (int i = 0; i < 1000; ++i) {
     height_m_ += i % 2 == 0 ? -0.0005 : 0.0005;
-    sample(scene::ContactPhase::Free);
+    sample(physics::Phase::Free);
     EXPECT_TRUE(cycles_.ascending());
   }
 }
@@ -87,7 +87,7 @@ TEST_F(FeltCyclesTest, TheTremorOfAHandIsNoTurn) {
 TEST_F(FeltCyclesTest, AHandAtRestAddsNothing) {
   cycle();
   const std::size_t whole = points(0);
-  for (int i = 0; i < 100'000; ++i) sample(scene::ContactPhase::Free);
+  for (int i = 0; i < 100'000; ++i) sample(physics::Phase::Free);
   EXPECT_LE(points(0), whole + 1);
 }
 
@@ -97,7 +97,7 @@ TEST_F(FeltCyclesTest, KeepsTheOtherMaterialAndForgetsWhatOtherParametersGave) {
   cycle();
   EXPECT_GT(points(0), 100U);
   edit_revision_ = 1;
-  sample(scene::ContactPhase::WaitForLift);
+  sample(physics::Phase::WaitForLift);
   EXPECT_EQ(points(1), 0U);
   EXPECT_EQ(cycles_.cycles(), 0);
   EXPECT_GT(points(0), 100U);

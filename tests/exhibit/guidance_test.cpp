@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 const std::string kFolder = std::string(AFM_SOURCE_DIR) + "/assets/guidance/";
 
 // Mica under the tip at this height of the hand.
-scene::TipState tip(scene::ServoState state, scene::ContactPhase phase, double hand_height_m) {
+scene::TipState tip(scene::ServoState state, physics::Phase phase, double hand_height_m) {
   constexpr double kHandMPerM = 0.05 / 14e-9;
   scene::TipState tip;
   tip.material = 0;
@@ -32,7 +32,7 @@ scene::TipState tip(scene::ServoState state, scene::ContactPhase phase, double h
 
 TEST(Guidance, LeadsThroughTheProcedureByWhatHasHappened) {
   using State = scene::ServoState;
-  using Phase = scene::ContactPhase;
+  using physics::Phase;
   EXPECT_EQ(next_step({}, false, 0), Hint::ChooseSample);
   EXPECT_EQ(next_step(tip(State::Disarmed, Phase::WaitForLift, 0.03), false, 0), Hint::Lift);
   EXPECT_EQ(next_step(tip(State::Disarmed, Phase::Free, 0.051), true, 0), Hint::Lift);
@@ -58,12 +58,12 @@ TEST(Guidance, EveryLanguageThatWeShipIsComplete) {
 }
 
 TEST(Guidance, SaysWhyTheForceWasTakenAway) {
-  scene::TipState fault = tip(scene::ServoState::Fault, scene::ContactPhase::WaitForLift, 0.0);
+  scene::TipState fault = tip(scene::ServoState::Fault, physics::Phase::WaitForLift, 0.0);
   fault.fault = scene::FaultCode::VelocityTrip;
   const Guidance english = Guidance::load(kFolder + "en.toml").value();
   EXPECT_EQ(english.line(fault, false, 0), "Force off: the hand was faster than is safe. Press Turn-On to go on");
 
-  scene::TipState released = tip(scene::ServoState::Disarmed, scene::ContactPhase::Free, 0.060);
+  scene::TipState released = tip(scene::ServoState::Disarmed, physics::Phase::Free, 0.060);
   released.fault = scene::FaultCode::LateTick;
   EXPECT_THAT(english.line(released, true, 0), AllOf(HasSubstr("20 ms late"), HasSubstr("Press Turn-On")));
 }
@@ -82,8 +82,19 @@ TEST(Guidance, RefusesAFileThatDoesNotSayEverythingInOneLineEach) {
   EXPECT_THAT(Guidance::load("no-such-file.toml").error().message, HasSubstr("phrase file no-such-file.toml"));
 }
 
+TEST(Guidance, GivesInEnglishTheReasonsOfTheLog) {
+  const auto guidance = Guidance::load(kFolder + "en.toml");
+  ASSERT_TRUE(guidance) << guidance.error().message;
+  scene::TipState released = tip(scene::ServoState::Disarmed, physics::Phase::Free, 0.060);
+  for (const scene::FaultText& fault : scene::kFaultTexts) {
+    released.fault = fault.code;
+    const std::string reason = "Force off: " + std::string(fault.reason) + ". ";
+    if (fault.code != scene::FaultCode::None) EXPECT_THAT(guidance->line(released, true, 0), HasSubstr(reason));
+  }
+}
+
 TEST(Guidance, AsksToHoldTheButtonThatTheForceHangsOn) {
-  scene::TipState lifted = tip(scene::ServoState::Disarmed, scene::ContactPhase::Free, 0.060);
+  scene::TipState lifted = tip(scene::ServoState::Disarmed, physics::Phase::Free, 0.060);
   lifted.dead_man = 1;
   EXPECT_EQ(next_step(lifted, true, 0), Hint::TurnOnAndHold);
 }

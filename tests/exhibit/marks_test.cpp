@@ -37,10 +37,10 @@ TEST(ScaleBar, SaysItsLengthInTheUnitThatFits) {
   EXPECT_EQ(scale_bar(2.2e-3, 0.46).text, "1 mm");
 }
 
-scene::TipEvent event(scene::TipEventKind kind, std::int64_t time_ns) { return {.kind = kind, .time_ns = time_ns}; }
+scene::TipEvent event(physics::EventKind kind, std::int64_t time_ns) { return {.kind = kind, .time_ns = time_ns}; }
 
 TEST(JumpCue, LastsHalfASecondFromTheNewestJump) {
-  using enum scene::TipEventKind;
+  using enum physics::EventKind;
   const std::vector<scene::TipEvent> events{event(JumpToContact, 1'000'000'000), event(JumpOffContact, 3'000'000'000)};
   EXPECT_FALSE(jump_cue(events, 999'999'999));
   ASSERT_TRUE(jump_cue(events, 1'200'000'000));
@@ -53,7 +53,7 @@ TEST(JumpCue, LastsHalfASecondFromTheNewestJump) {
 }
 
 TEST(JumpCue, ClosesInOnAJumpToContactAndSpreadsFromAJumpOff) {
-  using enum scene::TipEventKind;
+  using enum physics::EventKind;
   for (double age_s = 0.0; age_s + 0.05 <= kCueSeconds; age_s += 0.05) {
     const CueRing in = cue_ring({JumpToContact, age_s}), in_later = cue_ring({JumpToContact, age_s + 0.05});
     const CueRing off = cue_ring({JumpOffContact, age_s}), off_later = cue_ring({JumpOffContact, age_s + 0.05});

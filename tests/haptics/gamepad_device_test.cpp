@@ -52,10 +52,8 @@ int SDLCALL update_effect(SDL_Haptic*, int, SDL_HapticEffect* effect) {
 // Only a governor can make one; in a time of its own, with a hand that does not move.
 ForceCommand force_of(const glm::dvec3& wanted_n) {
   SafetyGovernor governor({.workspace_min_m = glm::dvec3(-1.0), .workspace_max_m = glm::dvec3(1.0)});
-  GovernorInput input{.hand_height_m = 0.06,
-                      .phase = afm::scene::ContactPhase::Free,
-                      .renderer = RendererLink::Alive,
-                      .law_energy = {}};
+  GovernorInput input{
+      .hand_height_m = 0.06, .phase = afm::physics::Phase::Free, .renderer = RendererLink::Alive, .law_energy = {}};
   for (int tick = 0;; ++tick) {
     input.time_ns += 1'000'000;
     input.turn_on = tick > 10;

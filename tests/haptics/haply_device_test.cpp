@@ -47,7 +47,7 @@ class Servo {
     input.hand_position_m = {0.0, 0.06, 0.0};
     input.hand_height_m = 0.06;
     input.law_energy.stiffness_n_per_m = 1e6;  // a force that no law gives
-    input.phase = afm::scene::ContactPhase::Free;
+    input.phase = afm::physics::Phase::Free;
     input.renderer = afm::scene::RendererLink::Alive;
     input.turn_on = ++ticks_ > 100;
     if (governor_.state() == afm::scene::ServoState::Running) input.wanted_force_n = {0.0, -1.0, 0.0};

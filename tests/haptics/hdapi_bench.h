@@ -108,7 +108,7 @@ class HdapiBench {
     move_to(-5);
     move_to(25);
     run(50);
-    ASSERT_EQ(state().phase, scene::ContactPhase::Attached);
+    ASSERT_EQ(state().phase, physics::Phase::Attached);
     ASSERT_GT(felt(), 0.5);
   }
 

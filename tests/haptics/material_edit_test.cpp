@@ -34,7 +34,8 @@ double pull_off_m(const SharedContact& material) {
 double pull_off_m(const ServoBench& bench, std::uint32_t revision) {
   double z_m = 0;
   for (const TipSample& sample : bench.samples) {
-    if (sample.edit_revision == revision && sample.phase == ContactPhase::Attached) z_m = std::max(z_m, sample.z_m);
+    if (sample.edit_revision == revision && sample.phase == afm::physics::Phase::Attached)
+      z_m = std::max(z_m, sample.z_m);
   }
   return z_m;
 }
@@ -69,7 +70,7 @@ TEST(MaterialEdit, TakesEffectOnlyAfterTheForceIsGone) {
   }
   EXPECT_EQ(bench.hand_force_n(), 0.0);
   bench.tick();
-  EXPECT_EQ(bench.state().phase, ContactPhase::WaitForLift);
+  EXPECT_EQ(bench.state().phase, afm::physics::Phase::WaitForLift);
 }
 
 TEST(MaterialEdit, WaitsUntilTheTipIsOff) {

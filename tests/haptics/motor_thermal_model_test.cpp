@@ -19,7 +19,7 @@ double hold(MotorThermalModel& motors, double wanted_n, double seconds) {
   double force_n = 0.0;
   for (double t = 0.0; t < seconds; t += kPeriodS) {
     force_n = motors.gain() * wanted_n;
-    motors.warm(force_n, kPeriodS, 0.0);
+    motors.update(force_n, kPeriodS, 0.0);
   }
   return force_n;
 }
@@ -66,23 +66,23 @@ TEST(MotorThermalModel, RecoversWithoutForce) {
 
 TEST(MotorThermalModel, HeatsLikeOneThermalMass) {
   MotorThermalModel motors(kRatingN, kCapN);
-  for (int i = 0; i < 30'000; ++i) motors.warm(0.5 * kRatingN, kPeriodS, 0.0);
+  for (int i = 0; i < 30'000; ++i) motors.update(0.5 * kRatingN, kPeriodS, 0.0);
   EXPECT_NEAR(motors.heat(), 0.25 * (1.0 - std::exp(-1.0)), 1e-9);
   // one long tick heats like many short ones
   MotorThermalModel other(kRatingN, kCapN);
-  other.warm(0.5 * kRatingN, 30.0, 0.0);
+  other.update(0.5 * kRatingN, 30.0, 0.0);
   EXPECT_NEAR(other.heat(), motors.heat(), 1e-9);
 }
 
 TEST(MotorThermalModel, BelievesADeviceThatMeasuresMoreAndNotWhatIsNoNumber) {
   MotorThermalModel motors(kRatingN, kCapN);
-  motors.warm(0.0, kPeriodS, 0.9);
+  motors.update(0.0, kPeriodS, 0.9);
   EXPECT_NEAR(motors.heat(), 0.9, 1e-12);
   EXPECT_LT(motors.gain(), 1.0);
-  motors.warm(0.0, kPeriodS, 7.0);
+  motors.update(0.0, kPeriodS, 7.0);
   EXPECT_EQ(motors.heat(), MotorThermalModel::kHot);
   EXPECT_NEAR(motors.gain() * kCapN, 0.9 * kRatingN, 1e-12);
-  motors.warm(0.0, kPeriodS, std::numeric_limits<double>::quiet_NaN());
+  motors.update(0.0, kPeriodS, std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(motors.gain(), 1.0);
 }
 

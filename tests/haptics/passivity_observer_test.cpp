@@ -21,7 +21,7 @@ namespace {
 
 using namespace afm::haptics;
 using afm::physics::Law;
-using afm::scene::ContactPhase;
+using afm::physics::Phase;
 using afm::scene::FaultCode;
 using afm::scene::ScaleMode;
 using afm::scene::ServoState;
@@ -47,7 +47,7 @@ TEST(PassivityObserver, SeesNothingInASpringThatIsSampled) {
   double height_m = 0.03;
   for (int i = 0; i < 10'000; ++i) {
     const double moved_m = 1e-3 * std::sin(0.1 * i);
-    observer.book(falling_spring(height_m, moved_m));
+    observer.integrate(falling_spring(height_m, moved_m));
     height_m += moved_m;
     ASSERT_LT(observer.excess_j(), 1e-12);
   }
@@ -55,7 +55,7 @@ TEST(PassivityObserver, SeesNothingInASpringThatIsSampled) {
 
 TEST(PassivityObserver, SeesASpringThatGivesMoreThanItHolds) {
   PassivityObserver observer;
-  observer.book(falling_spring(0.03, -1e-4, 1.5));
+  observer.integrate(falling_spring(0.03, -1e-4, 1.5));
   EXPECT_NEAR(observer.excess_j(), 0.5 * 40.0 * 0.03 * 1e-4, 1e-6);
 }
 
@@ -63,13 +63,13 @@ TEST(PassivityObserver, DampsByWhatPaysBackInATickAndNoMoreThanItsLimit) {
   PassivityObserver observer;
   const glm::dvec3 velocity(0.0, -0.1, 0.0);
   EXPECT_EQ(observer.damping_n_s_per_m(velocity, kPeriodS), 0.0);
-  observer.book({.moved_m = {0.0, -1e-4, 0.0}, .stored_rise_j = 2e-5});
+  observer.integrate({.moved_m = {0.0, -1e-4, 0.0}, .stored_rise_j = 2e-5});
   EXPECT_NEAR(observer.damping_n_s_per_m(velocity, kPeriodS), 2e-5 / (0.01 * kPeriodS), 1e-9);
-  observer.book({.stored_rise_j = 4e-5});
+  observer.integrate({.stored_rise_j = 4e-5});
   EXPECT_EQ(observer.damping_n_s_per_m(velocity, kPeriodS), PassivityObserver::kMostDampingNSPerM);
   EXPECT_EQ(observer.damping_n_s_per_m({}, kPeriodS), PassivityObserver::kMostDampingNSPerM);
   EXPECT_FALSE(observer.exceeded());
-  observer.book({.stored_rise_j = PassivityObserver::kLimitJ});
+  observer.integrate({.stored_rise_j = PassivityObserver::kLimitJ});
   EXPECT_TRUE(observer.exceeded());
   observer.reset();
   EXPECT_EQ(observer.excess_j(), 0.0);
@@ -77,17 +77,17 @@ TEST(PassivityObserver, DampsByWhatPaysBackInATickAndNoMoreThanItsLimit) {
 
 TEST(PassivityObserver, IsPaidBackByWhatDamps) {
   PassivityObserver observer;
-  observer.book({.stored_rise_j = 4e-5});
+  observer.integrate({.stored_rise_j = 4e-5});
   for (int i = 0; i < 10; ++i) {
     const double damping = observer.damping_n_s_per_m({0.0, 0.1, 0.0}, kPeriodS);
-    observer.book({.moved_m = {0.0, 0.1 * kPeriodS, 0.0}, .commanded_n = {0.0, -0.1 * damping, 0.0}});
+    observer.integrate({.moved_m = {0.0, 0.1 * kPeriodS, 0.0}, .commanded_n = {0.0, -0.1 * damping, 0.0}});
   }
   EXPECT_LE(observer.excess_j(), PassivityObserver::kToleranceJ);
 }
 
 TEST(PassivityObserver, BlamesNoLawForWhatTheLimitsAdd) {
   PassivityObserver observer;
-  observer.book({.moved_m = {0.0, 1e-3, 0.0}, .wanted_n = {}, .commanded_n = {0.0, 1.0, 0.0}});
+  observer.integrate({.moved_m = {0.0, 1e-3, 0.0}, .wanted_n = {}, .commanded_n = {0.0, 1.0, 0.0}});
   EXPECT_EQ(observer.excess_j(), 0.0);
 }
 
@@ -95,7 +95,7 @@ TEST(PassivityObserver, BooksAllDirectionsOfTheForce) {
   PassivityObserver observer;
   const glm::dvec3 force_n(0.3, -0.2, 0.5);
   const glm::dvec3 moved_m(1e-3, 2e-3, -1e-3);
-  observer.book({.moved_m = -moved_m, .wanted_n = force_n, .commanded_n = force_n});
+  observer.integrate({.moved_m = -moved_m, .wanted_n = force_n, .commanded_n = force_n});
   EXPECT_NEAR(observer.excess_j(), -glm::dot(force_n, moved_m), 1e-12);
 }
 
@@ -117,10 +117,10 @@ class Loop {
   void tick(const glm::dvec3& position_m, std::int64_t late_ns = 0) {
     time_ns_ += period_ns_ + late_ns;
     position_m_ = position_m;
-    const auto touch = model_->feel(sample_.in_sample(position_m));
+    const auto touch = model_->step(sample_.in_sample(position_m));
     const auto& response = touch.response;
     const double height_m = model_->scaling().hand_height_m(touch.z_m);
-    phase_ = static_cast<ContactPhase>(response.phase);
+    phase_ = response.phase;
     const glm::dvec3 force_n = sample_.in_device(touch.hand_force_n);
     history_[ticks_ % history_.size()] = force_n;
     glm::dvec3 wanted_n = force_n;
@@ -162,7 +162,7 @@ class Loop {
 
   SafetyGovernor& governor() { return governor_; }
   const ContactModel& model() const { return *model_; }
-  ContactPhase phase() const { return phase_; }
+  Phase phase() const { return phase_; }
   const glm::dvec3& position_m() const { return position_m_; }
   const glm::dvec3& force_n() const { return force_n_; }
 
@@ -180,7 +180,7 @@ class Loop {
   std::size_t ticks_ = 0;
   std::int64_t time_ns_ = 1'000'000'000;
   glm::dvec3 position_m_{0.0, kTopM, 0.0};
-  ContactPhase phase_ = ContactPhase::WaitForLift;
+  Phase phase_ = Phase::WaitForLift;
   glm::dvec3 force_n_{0.0};
 };
 
@@ -224,9 +224,9 @@ struct AnyLaw {
   Law law;
 };
 
-class EnergyLedgerOf : public testing::TestWithParam<AnyLaw> {};
+class PassivityObserverOf : public testing::TestWithParam<AnyLaw> {};
 
-TEST_P(EnergyLedgerOf, NeverActsOnTheIdealModel) {
+TEST_P(PassivityObserverOf, NeverActsOnTheIdealModel) {
   constexpr int kMaterials = 40;
   constexpr int kTrips = 400;
   std::mt19937_64 random(static_cast<std::uint64_t>(GetParam().law) + 1);
@@ -249,7 +249,7 @@ TEST_P(EnergyLedgerOf, NeverActsOnTheIdealModel) {
       if (loop->governor().state() != ServoState::Running) loop->arm();
       if (HasFatalFailure()) return;
       wander(*loop, random);
-      attached += loop->phase() == ContactPhase::Attached ? 1 : 0;
+      attached += loop->phase() == Phase::Attached ? 1 : 0;
       armed += loop->governor().state() == ServoState::Running ? 1 : 0;
       if (random() % 16 == 0) loop->governor().disarm();
       ASSERT_EQ(loop->damped_ticks, 0) << "material " << i << ", trip " << trip << ", excess "
@@ -261,17 +261,17 @@ TEST_P(EnergyLedgerOf, NeverActsOnTheIdealModel) {
   EXPECT_GT(armed, kMaterials * kTrips / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, EnergyLedgerOf,
+INSTANTIATE_TEST_SUITE_P(Laws, PassivityObserverOf,
                          testing::Values(AnyLaw{"Paper", Law::Paper}, AnyLaw{"Hao", Law::Hao},
                                          AnyLaw{"Hertz", Law::Hertz}, AnyLaw{"Dmt", Law::Dmt}, AnyLaw{"Jkr", Law::Jkr},
                                          AnyLaw{"MaugisDugdale", Law::MaugisDugdale},
                                          AnyLaw{"LennardJones", Law::LennardJones}),
                          [](const auto& test) { return test.param.name; });
 
-class EnergyLedgerOfDynamics : public testing::TestWithParam<AnyLaw> {};
+class PassivityObserverOfDynamics : public testing::TestWithParam<AnyLaw> {};
 
 // Warm levers of high and low quality: heat, ringing and jumps that take their time are no fault.
-TEST_P(EnergyLedgerOfDynamics, NeverActs) {
+TEST_P(PassivityObserverOfDynamics, NeverActs) {
   constexpr int kMaterials = 5;
   constexpr int kTrips = 50;
   std::mt19937_64 random(static_cast<std::uint64_t>(GetParam().law) + 1);
@@ -297,7 +297,7 @@ TEST_P(EnergyLedgerOfDynamics, NeverActs) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, EnergyLedgerOfDynamics,
+INSTANTIATE_TEST_SUITE_P(Laws, PassivityObserverOfDynamics,
                          testing::Values(AnyLaw{"Hertz", Law::Hertz}, AnyLaw{"Dmt", Law::Dmt}, AnyLaw{"Jkr", Law::Jkr},
                                          AnyLaw{"MaugisDugdale", Law::MaugisDugdale},
                                          AnyLaw{"LennardJones", Law::LennardJones}),
@@ -311,7 +311,7 @@ struct Fault {
   double speed_m_per_s;
 };
 
-class EnergyLedgerWithFault : public testing::TestWithParam<Fault> {
+class PassivityObserverWithFault : public testing::TestWithParam<Fault> {
  protected:
   // Attached, at rest in `height_m`.
   static void bring(Loop& loop, double height_m) {
@@ -322,12 +322,12 @@ class EnergyLedgerWithFault : public testing::TestWithParam<Fault> {
       for (; std::abs(target_m - y_m) > std::abs(step_m); y_m += step_m) loop.tick({0.0, y_m, 0.0});
       for (int i = 0; i < 50; ++i) loop.tick({0.0, y_m = target_m, 0.0});
     }
-    ASSERT_EQ(loop.phase(), ContactPhase::Attached);
+    ASSERT_EQ(loop.phase(), Phase::Attached);
     ASSERT_EQ(loop.damped_ticks, 0);
   }
 };
 
-TEST_P(EnergyLedgerWithFault, ActsWithinThreeTicks) {
+TEST_P(PassivityObserverWithFault, ActsWithinThreeTicks) {
   for (const std::int32_t material : {afm::test::kMica, afm::test::kGold, afm::test::kSiliconNitride}) {
     Loop loop(afm::test::paper_model().materials[static_cast<std::size_t>(material)]);
     bring(loop, GetParam().from_m);
@@ -342,7 +342,7 @@ TEST_P(EnergyLedgerWithFault, ActsWithinThreeTicks) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, EnergyLedgerWithFault,
+INSTANTIATE_TEST_SUITE_P(Faults, PassivityObserverWithFault,
                          testing::Values(Fault{"HalfMoreWhilePulledDown", Injected::HalfMore, 0.030, -0.05},
                                          Fault{"HalfMoreWhilePushedUp", Injected::HalfMore, -0.020, 0.05},
                                          Fault{"LateWhilePulledDown", Injected::FiveMillisecondsLate, 0.030, -0.2},
@@ -350,7 +350,7 @@ INSTANTIATE_TEST_SUITE_P(Faults, EnergyLedgerWithFault,
                                          Fault{"LateWhileLifted", Injected::FiveMillisecondsLate, 0.030, 0.2}),
                          [](const auto& test) { return test.param.name; });
 
-TEST(EnergyLedgerInTheLoop, TakesTheForceAwayWhereDampingDoesNotSuffice) {
+TEST(PassivityObserverInTheLoop, TakesTheForceAwayWhereDampingDoesNotSuffice) {
   Loop loop(afm::test::paper_model().materials[afm::test::kMica]);
   loop.arm();
   double y_m = kTopM;

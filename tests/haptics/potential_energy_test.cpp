@@ -15,7 +15,7 @@ namespace {
 using afm::haptics::ContactModel;
 using afm::haptics::PotentialEnergy;
 using afm::physics::Law;
-using afm::scene::ContactPhase;
+using afm::physics::Phase;
 
 constexpr PotentialEnergy::Range kRange{-0.12, 0.12};
 
@@ -33,18 +33,18 @@ TEST(PotentialEnergy, CreditsTheSpringThatTheTipJumpsInto) {
 TEST(PotentialEnergy, IsThatOfTheSpringAtEveryHeight) {
   const PotentialEnergy stored = spring(40.0, 0.00856);
   for (double h = -0.1; h < 0.1; h += 0.00037) {
-    EXPECT_NEAR(stored.at(ContactPhase::Attached, h), 20.0 * h * h, 1e-7);
-    EXPECT_NEAR(stored.at(ContactPhase::Free, h), stored.credit_j(), 1e-12);
-    EXPECT_EQ(stored.at(ContactPhase::WaitForLift, h), 0.0);
+    EXPECT_NEAR(stored.at(Phase::Attached, h), 20.0 * h * h, 1e-7);
+    EXPECT_NEAR(stored.at(Phase::Free, h), stored.credit_j(), 1e-12);
+    EXPECT_EQ(stored.at(Phase::WaitForLift, h), 0.0);
   }
   EXPECT_NEAR(stored.stiffness_n_per_m(), 40.0, 1e-9);
 }
 
 TEST(PotentialEnergy, GoesOnStraightBeyondItsRange) {
   const PotentialEnergy stored = spring(40.0, 0.00856);
-  const double slope = stored.at(ContactPhase::Attached, 0.13) - stored.at(ContactPhase::Attached, 0.125);
-  EXPECT_NEAR(stored.at(ContactPhase::Attached, 0.2) - stored.at(ContactPhase::Attached, 0.195), slope, 1e-9);
-  EXPECT_EQ(stored.at(ContactPhase::Attached, std::numeric_limits<double>::quiet_NaN()), 0.0);
+  const double slope = stored.at(Phase::Attached, 0.13) - stored.at(Phase::Attached, 0.125);
+  EXPECT_NEAR(stored.at(Phase::Attached, 0.2) - stored.at(Phase::Attached, 0.195), slope, 1e-9);
+  EXPECT_EQ(stored.at(Phase::Attached, std::numeric_limits<double>::quiet_NaN()), 0.0);
 }
 
 struct AnyLaw {
@@ -74,9 +74,8 @@ class StoredEnergyOf : public testing::TestWithParam<AnyLaw> {
 TEST_P(StoredEnergyOf, FallsByTheWorkOfTheForceOnBothBranches) {
   const PotentialEnergy& stored = model_->stored_energy();
   const double jump_in_m = tables_->figures.z_jtc.si * model_->scaling().hand_m_per_m();
-  for (const auto& [phase, branch, from, to] :
-       {std::tuple(ContactPhase::Free, &tables_->free, jump_in_m, 0.080),
-        std::tuple(ContactPhase::Attached, &tables_->attached, -0.030, 0.050)}) {
+  for (const auto& [phase, branch, from, to] : {std::tuple(Phase::Free, &tables_->free, jump_in_m, 0.080),
+                                                std::tuple(Phase::Attached, &tables_->attached, -0.030, 0.050)}) {
     double work_j = 0.0;
     const double step_m = 1e-6;
     for (double h = from; h < to; h += step_m) work_j += force_n(*branch, h + 0.5 * step_m) * step_m;
@@ -89,11 +88,11 @@ TEST_P(StoredEnergyOf, NeverRisesInAJumpAndIsNowhereBelowZero) {
   const auto& figures = tables_->figures;
   const double in_m = figures.z_jtc.si * model_->scaling().hand_m_per_m();
   const double off_m = figures.z_joc.si * model_->scaling().hand_m_per_m();
-  EXPECT_NEAR(stored.at(ContactPhase::Free, in_m), stored.at(ContactPhase::Attached, in_m), 1e-12);
-  EXPECT_GE(stored.at(ContactPhase::Attached, off_m), stored.at(ContactPhase::Free, off_m) - 1e-6);
+  EXPECT_NEAR(stored.at(Phase::Free, in_m), stored.at(Phase::Attached, in_m), 1e-12);
+  EXPECT_GE(stored.at(Phase::Attached, off_m), stored.at(Phase::Free, off_m) - 1e-6);
   for (double h = -0.12; h < 0.12; h += 0.0003) {
-    EXPECT_GE(stored.at(ContactPhase::Attached, h), -1e-9);
-    EXPECT_GE(stored.at(ContactPhase::Free, std::max(h, in_m)), -1e-6);
+    EXPECT_GE(stored.at(Phase::Attached, h), -1e-9);
+    EXPECT_GE(stored.at(Phase::Free, std::max(h, in_m)), -1e-6);
   }
   EXPECT_LE(stored.stiffness_n_per_m(), 400.0 * 1.05);
 }

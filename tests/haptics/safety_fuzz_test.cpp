@@ -11,7 +11,7 @@
 namespace {
 
 using namespace afm::haptics;
-using afm::scene::ContactPhase;
+using afm::physics::Phase;
 using afm::scene::ServoState;
 
 constexpr std::int64_t kPeriodNs = 1'000'000;
@@ -41,7 +41,7 @@ double any_double(std::mt19937_64& random) {
 TEST(GovernorFuzz, StaysFiniteWithinCapAndSlewWhateverComesIn) {
   std::mt19937_64 random(20240917);
   SafetyGovernor governor({.period_ns = kPeriodNs, .force_cap_n = kCapN, .release_height_m = 0.050});
-  // a law of boundless stiffness may leak any energy: the ledger has tests of its own
+  // a law of boundless stiffness may leak any energy: the passivity observer has tests of its own
   GovernorInput input{.time_ns = 1'000'000'000, .law_energy = {.stiffness_n_per_m = 1e12}};
   glm::dvec3 last_n(0.0);
   int in_force = 0;
@@ -55,7 +55,7 @@ TEST(GovernorFuzz, StaysFiniteWithinCapAndSlewWhateverComesIn) {
     input.wanted_force_n =
         steady ? glm::dvec3(0.0) : glm::dvec3(any_double(random), any_double(random), any_double(random));
     if (calm && !std::isfinite(glm::dot(input.wanted_force_n, glm::dvec3(1.0)))) input.wanted_force_n = glm::dvec3(0.0);
-    input.phase = calm ? ContactPhase::Free : static_cast<ContactPhase>(random() % 3);
+    input.phase = calm ? Phase::Free : static_cast<Phase>(random() % 3);
     input.pulled_off = random() % 100 == 0;
     input.turn_on = random() % 4 == 0;
     input.device_healthy = calm || random() % 100 != 0;

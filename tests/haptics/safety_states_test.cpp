@@ -25,18 +25,15 @@ const char* name(ServoState state) {
 
 // Every state that the servo can be in when a tick begins; what it remembers of an earlier fault differs from any that
 // a tick could give.
+constexpr FaultCode kEarlier{7};
 std::vector<SafetyState> all_states() {
-  return {{Disarmed, FaultCode::BadSharedData, 0},
-          {Arming, FaultCode::None, 0},
-          {Running, FaultCode::None, 0},
-          {Fading, FaultCode::BadSharedData, kSlowFadeNs},
-          {Fading, FaultCode::BadSharedData, kQuickFadeNs},
-          {Fault, FaultCode::BadSharedData, 0}};
+  return {{Disarmed, kEarlier, 0},         {Arming, FaultCode::None, 0},     {Running, FaultCode::None, 0},
+          {Fading, kEarlier, kSlowFadeNs}, {Fading, kEarlier, kQuickFadeNs}, {Fault, kEarlier, 0}};
 }
 
 // Everything that a tick can find.
-std::vector<Findings> all_findings() {
-  std::vector<Findings> all;
+std::vector<SafetyConditions> all_conditions() {
+  std::vector<SafetyConditions> all;
   for (const FaultCode cut : {FaultCode::None, FaultCode::DeviceError, FaultCode::NotFinite, FaultCode::VelocityTrip}) {
     for (const RendererLink renderer :
          {RendererLink::Absent, RendererLink::Alive, RendererLink::Hung, RendererLink::Leaving, RendererLink::Died}) {
@@ -64,7 +61,7 @@ std::vector<Findings> all_findings() {
 struct Row {
   std::set<ServoState> from;
   const char* when;
-  bool (*fits)(const Findings&);
+  bool (*fits)(const SafetyConditions&);
   ServoState to;
   FaultCode fault;
   std::int64_t fade_ns;
@@ -74,53 +71,59 @@ struct Row {
 const std::set<ServoState> kAny = {Disarmed, Arming, Running, Fading, Fault};
 const std::set<ServoState> kForce = {Arming, Running, Fading};
 
-bool nothing_wrong(const Findings& f) {
+bool nothing_wrong(const SafetyConditions& f) {
   return f.cut == FaultCode::None && f.renderer == RendererLink::Alive && !f.late && !f.outside && !f.hot &&
          !f.energy_exceeded;
 }
 
 std::vector<Row> table() {
   return {
-      {kAny, "device failed", [](const Findings& f) { return f.cut == FaultCode::DeviceError; }, Fault,
+      {kAny, "device failed", [](const SafetyConditions& f) { return f.cut == FaultCode::DeviceError; }, Fault,
        FaultCode::DeviceError, 0},
-      {kAny, "no number", [](const Findings& f) { return f.cut == FaultCode::NotFinite; }, Fault, FaultCode::NotFinite,
-       0},
-      {kForce, "too fast", [](const Findings& f) { return f.cut == FaultCode::VelocityTrip; }, Fault,
+      {kAny, "no number", [](const SafetyConditions& f) { return f.cut == FaultCode::NotFinite; }, Fault,
+       FaultCode::NotFinite, 0},
+      {kForce, "too fast", [](const SafetyConditions& f) { return f.cut == FaultCode::VelocityTrip; }, Fault,
        FaultCode::VelocityTrip, 0},
       {{Disarmed},
        "Turn-On",
-       [](const Findings& f) { return f.turn_on_edge && f.interlock && nothing_wrong(f); },
+       [](const SafetyConditions& f) { return f.turn_on_edge && f.interlock && nothing_wrong(f); },
        Arming,
        FaultCode::None,
        0},
-      {{Fault}, "Turn-On", [](const Findings& f) { return f.turn_on_edge; }, Disarmed, FaultCode::BadSharedData, 0},
-      {kForce, "late", [](const Findings& f) { return f.late; }, Fading, FaultCode::LateTick, kQuickFadeNs},
-      {kForce, "energy", [](const Findings& f) { return f.energy_exceeded; }, Fading, FaultCode::EnergyExceeded,
+      {{Fault}, "Turn-On", [](const SafetyConditions& f) { return f.turn_on_edge; }, Disarmed, kEarlier, 0},
+      {kForce, "late", [](const SafetyConditions& f) { return f.late; }, Fading, FaultCode::LateTick, kQuickFadeNs},
+      {kForce, "energy", [](const SafetyConditions& f) { return f.energy_exceeded; }, Fading, FaultCode::EnergyExceeded,
        kQuickFadeNs},
-      {kForce, "outside", [](const Findings& f) { return f.outside; }, Fading, FaultCode::OutOfWorkspace, kQuickFadeNs},
-      {kForce, "renderer died", [](const Findings& f) { return f.renderer == RendererLink::Died; }, Fading,
+      {kForce, "outside", [](const SafetyConditions& f) { return f.outside; }, Fading, FaultCode::OutOfWorkspace,
+       kQuickFadeNs},
+      {kForce, "renderer died", [](const SafetyConditions& f) { return f.renderer == RendererLink::Died; }, Fading,
        FaultCode::RendererDied, kQuickFadeNs},
-      {kForce, "dead-man released", [](const Findings& f) { return f.dead_man && !f.turn_on_held; }, Fading,
+      {kForce, "dead-man released", [](const SafetyConditions& f) { return f.dead_man && !f.turn_on_held; }, Fading,
        FaultCode::DeadManReleased, kQuickFadeNs},
-      {{Arming, Running}, "hot", [](const Findings& f) { return f.hot; }, Fading, FaultCode::MotorsHot, kSlowFadeNs},
+      {{Arming, Running},
+       "hot",
+       [](const SafetyConditions& f) { return f.hot; },
+       Fading,
+       FaultCode::MotorsHot,
+       kSlowFadeNs},
       {{Arming, Running},
        "renderer hung",
-       [](const Findings& f) { return f.renderer == RendererLink::Hung; },
+       [](const SafetyConditions& f) { return f.renderer == RendererLink::Hung; },
        Fading,
        FaultCode::RendererHung,
        kSlowFadeNs},
       {{Arming, Running},
        "renderer leaves",
-       [](const Findings& f) { return f.renderer == RendererLink::Leaving; },
+       [](const SafetyConditions& f) { return f.renderer == RendererLink::Leaving; },
        Fading,
        FaultCode::None,
        kSlowFadeNs},
   };
 }
 
-SafetyState expected(std::vector<Row>& rows, const SafetyState& before, const Findings& findings) {
+SafetyState expected(std::vector<Row>& rows, const SafetyState& before, const SafetyConditions& conditions) {
   for (Row& row : rows) {
-    if (row.from.count(before.state) == 0 || !row.fits(findings)) continue;
+    if (row.from.count(before.state) == 0 || !row.fits(conditions)) continue;
     const bool as_urgent = before.state == Fading && row.to == Fading && before.fade_ns <= row.fade_ns;
     if (as_urgent) return before;
     ++row.used;
@@ -133,9 +136,9 @@ TEST(SafetyStates, FollowTheTableForEveryStateAndEverythingThatATickCanFind) {
   std::vector<Row> rows = table();
   int looked = 0;
   for (const SafetyState& before : all_states()) {
-    for (const Findings& findings : all_findings()) {
-      const SafetyState wanted = expected(rows, before, findings);
-      const SafetyState got = after_findings(before, findings);
+    for (const SafetyConditions& conditions : all_conditions()) {
+      const SafetyState wanted = expected(rows, before, conditions);
+      const SafetyState got = after_conditions(before, conditions);
       ASSERT_EQ(got.state, wanted.state) << "from " << name(before.state) << " to " << name(got.state);
       ASSERT_EQ(got.fault, wanted.fault) << "from " << name(before.state) << " to " << name(got.state);
       ASSERT_EQ(got.fade_ns, wanted.fade_ns);
@@ -149,7 +152,8 @@ TEST(SafetyStates, FollowTheTableForEveryStateAndEverythingThatATickCanFind) {
 TEST(SafetyStates, TakeEveryEdgeOfTheDiagramAndNoOther) {
   std::set<std::pair<ServoState, ServoState>> taken;
   for (const SafetyState& before : all_states()) {
-    for (const Findings& findings : all_findings()) taken.emplace(before.state, after_findings(before, findings).state);
+    for (const SafetyConditions& conditions : all_conditions())
+      taken.emplace(before.state, after_conditions(before, conditions).state);
     for (const double gain : {0.0, 0.5, 1.0}) {
       for (const bool silent : {false, true}) taken.emplace(before.state, after_output(before, gain, silent).state);
     }
@@ -181,9 +185,9 @@ TEST(SafetyStates, LeaveArmingOnlyWithTheWholeGainAndFadingOnlyWithoutForce) {
 TEST(SafetyStates, GiveNoForceWithoutAPress) {
   for (const SafetyState& before : all_states()) {
     if (before.armed()) continue;
-    for (const Findings& findings : all_findings()) {
-      if (!after_findings(before, findings).armed()) continue;
-      EXPECT_TRUE(findings.turn_on_edge && findings.interlock && nothing_wrong(findings));
+    for (const SafetyConditions& conditions : all_conditions()) {
+      if (!after_conditions(before, conditions).armed()) continue;
+      EXPECT_TRUE(conditions.turn_on_edge && conditions.interlock && nothing_wrong(conditions));
     }
   }
 }

@@ -11,7 +11,7 @@
 namespace {
 
 using namespace afm::haptics;
-using afm::scene::ContactPhase;
+using afm::physics::Phase;
 using afm::scene::FaultCode;
 using afm::scene::ServoState;
 
@@ -29,9 +29,10 @@ constexpr double kRounding = 1e-12;
 
 const SafetyLimits kLimits{.period_ns = kPeriodNs, .force_cap_n = kCapN, .release_height_m = kReleaseHeightM};
 
-// A law of boundless stiffness may leak any energy: what a test here does to a hand is nothing for the ledger.
-constexpr double kNoLedger = 1e12;
-const GovernorInput kStart{.time_ns = 1'000'000'000, .law_energy = {.stiffness_n_per_m = kNoLedger}};
+// A law of boundless stiffness may leak any energy: what a test here does to a hand does not concern the passivity
+// observer.
+constexpr double kBoundlessStiffness = 1e12;
+const GovernorInput kStart{.time_ns = 1'000'000'000, .law_energy = {.stiffness_n_per_m = kBoundlessStiffness}};
 
 // A governor and the input of the next tick, which tests change.
 class Governor : public testing::Test {
@@ -52,7 +53,7 @@ class Governor : public testing::Test {
   void lift() {
     input_.hand_height_m = 0.060;
     input_.hand_position_m = glm::dvec3(0.0, 0.060, 0.0);
-    input_.phase = ContactPhase::Free;
+    input_.phase = Phase::Free;
     input_.renderer = RendererLink::Alive;
     steps(100);
   }
@@ -73,7 +74,7 @@ class Governor : public testing::Test {
   // Running, with `force_n` reached.
   void hold(double force_n) {
     arm();
-    input_.phase = ContactPhase::Attached;
+    input_.phase = Phase::Attached;
     input_.hand_height_m = 0.040;
     input_.wanted_force_n = glm::dvec3(0.0, -force_n, 0.0);
     steps(20);
@@ -146,8 +147,8 @@ TEST_P(GovernorWithObstacle, DoesNotArm) {
 INSTANTIATE_TEST_SUITE_P(
     Interlock, GovernorWithObstacle,
     testing::Values(Obstacle{"TooLow", [](GovernorInput& i) { i.hand_height_m = 0.0549; }},
-                    Obstacle{"Attached", [](GovernorInput& i) { i.phase = ContactPhase::Attached; }},
-                    Obstacle{"WaitingForLift", [](GovernorInput& i) { i.phase = ContactPhase::WaitForLift; }},
+                    Obstacle{"Attached", [](GovernorInput& i) { i.phase = Phase::Attached; }},
+                    Obstacle{"WaitingForLift", [](GovernorInput& i) { i.phase = Phase::WaitForLift; }},
                     Obstacle{"Force", [](GovernorInput& i) { i.wanted_force_n.y = 0.06; }},
                     Obstacle{"Moving", [](GovernorInput& i) { i.hand_position_m.x += 0.05; }},
                     Obstacle{"NoRenderer", [](GovernorInput& i) { i.renderer = RendererLink::Absent; }},
@@ -347,7 +348,7 @@ TEST_F(Governor, GivesForceOnlyWhileTurnOnIsHeldWithADeadMan) {
   steps(501);
   ASSERT_EQ(governor_.state(), ServoState::Running);
   input_.wanted_force_n = glm::dvec3(0.0, -kCapN, 0.0);
-  input_.phase = ContactPhase::Attached;
+  input_.phase = Phase::Attached;
   steps(100);
   ASSERT_NEAR(step(), kCapN, kRounding);
   input_.turn_on = false;

@@ -9,7 +9,7 @@
 
 namespace {
 
-using afm::scene::ContactPhase;
+using afm::physics::Phase;
 using afm::scene::ScaleMode;
 using afm::scene::ServoState;
 using afm::test::kGold;

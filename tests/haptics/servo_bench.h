@@ -105,7 +105,7 @@ class ServoBench {
     move(-0.010, 0.5);
     move(0.025, 0.5);
     run(0.5);
-    ASSERT_EQ(state().phase, scene::ContactPhase::Attached);
+    ASSERT_EQ(state().phase, physics::Phase::Attached);
     ASSERT_GT(hand_force_n(), 0.5);
   }
 

@@ -55,13 +55,13 @@ TEST_P(FullCycle, JumpsOnceEachWayWithTheForcesOfTheEquations) {
   ASSERT_EQ(bench_.events.size(), 2U);
 
   const TipEvent& in = bench_.events[0];
-  EXPECT_EQ(in.kind, TipEventKind::JumpToContact);
+  EXPECT_EQ(in.kind, afm::physics::EventKind::JumpToContact);
   EXPECT_EQ(in.material, material);
   EXPECT_NEAR(in.z_m, expected.z_jtc.si, 1e-9 * expected.z_jtc.si);
   EXPECT_NEAR(in.force_after_n, -expected.f_attr.si, 1e-9 * expected.f_attr.si);
 
   const TipEvent& off = bench_.events[1];
-  EXPECT_EQ(off.kind, TipEventKind::JumpOffContact);
+  EXPECT_EQ(off.kind, afm::physics::EventKind::JumpOffContact);
   EXPECT_NEAR(off.z_m, expected.z_joc.si, 1e-9 * expected.z_joc.si);
   EXPECT_NEAR(off.force_before_n, -expected.f_ad.si, 1e-9 * expected.f_ad.si);
   EXPECT_EQ(off.force_after_n, 0.0);
@@ -193,7 +193,7 @@ TEST(ServoLoop, BrakesTheRecoilOfARelaxedHandAtPullOff) {
   renderer.store(HandScript{.target_m = {0, 0.075, 0}, .duration_s = 4.0, .revision = 3});
   run(5000);
   ASSERT_NEAR(strongest_n, 2.0, 0.02) << "torn off at full force";
-  EXPECT_EQ(renderer.tip_state()->phase, ContactPhase::Free);
+  EXPECT_EQ(renderer.tip_state()->phase, afm::physics::Phase::Free);
   EXPECT_EQ(renderer.tip_state()->servo_state, ServoState::Running);
   EXPECT_LE(recoil_m_per_s, 0.35);
   EXPECT_GT(recoil_m_per_s, 0.1) << "there was no recoil";
@@ -309,7 +309,7 @@ TEST(ServoLoop, FadesWhenTheHeartbeatStops) {
   EXPECT_EQ(bench.state().fault, FaultCode::RendererHung);
   // a tip that stuck is not taken up again in the middle
   bench.tick();
-  EXPECT_EQ(bench.state().phase, ContactPhase::WaitForLift);
+  EXPECT_EQ(bench.state().phase, afm::physics::Phase::WaitForLift);
 }
 
 TEST(ServoLoop, ReleasesWhenTheRendererDied) {

@@ -64,7 +64,7 @@ class Topography : public testing::TestWithParam<std::tuple<std::int32_t, ScaleM
   // Attaches the tip at this place and leaves it at `height_m`.
   void attach(const glm::dvec2& xy_m, double height_m) {
     for (const double at : {height(2.0 * calculated(material_).z_joc.si), height(-5e-9), height_m}) {
-      contact_model_->feel(glm::dvec3(xy_m, at));
+      contact_model_->step(glm::dvec3(xy_m, at));
     }
     ASSERT_EQ(contact_model_->phase(), Phase::Attached);
   }
@@ -78,7 +78,7 @@ TEST_P(Topography, JumpsWithTheForcesOfTheEquationsWhereverItIs) {
     const double top = height(expected.z_joc.si) + 0.01, bottom = height(-3e-9) - 0.005;
     const double step = random(20e-6, 400e-6);
     const auto feel = [&](double at) {
-      const Touch touch = contact_model_->feel(glm::dvec3(xy, at));
+      const Touch touch = contact_model_->step(glm::dvec3(xy, at));
       for (std::uint32_t k = 0; k < touch.response.event_count; ++k) events.push_back(touch.response.events[k]);
     };
     for (double at = top; at > bottom; at -= step) feel(at);
@@ -95,7 +95,7 @@ TEST_P(Topography, PushesAlongTheNormalOfTheSurfaceBelowTheTip) {
   for (int i = 0; i < 2000; ++i) {
     const glm::dvec2 xy(random(-0.03, 0.03), random(-0.03, 0.03));
     attach(xy, height(random(-3e-9, 1e-9)));
-    const Touch touch = contact_model_->feel(glm::dvec3(xy, height(random(-3e-9, 1e-9))));
+    const Touch touch = contact_model_->step(glm::dvec3(xy, height(random(-3e-9, 1e-9))));
     const auto place = contact_model_->surface().at(touch.tip_xy_m);
     EXPECT_EQ(touch.surface_height_m, place.height_m);
     EXPECT_NEAR(glm::length(glm::cross(touch.hand_force_n, touch.normal)), 0.0, 1e-12);
@@ -123,10 +123,10 @@ TEST_P(Topography, TakesAndGivesNoEnergyOnClosedPathsOfOneBranch) {
     attach(glm::dvec2(at(0.0)), at(0.0).z);
     constexpr int kSteps = 4000;
     double work_j = 0, moved_j = 0;
-    Touch before = contact_model_->feel(at(0.0));
+    Touch before = contact_model_->step(at(0.0));
     for (int i = 1; i <= kSteps; ++i) {
       const glm::dvec3 step = at(static_cast<double>(i) / kSteps) - at((i - 1.0) / kSteps);
-      const Touch here = contact_model_->feel(at(static_cast<double>(i) / kSteps));
+      const Touch here = contact_model_->step(at(static_cast<double>(i) / kSteps));
       ASSERT_EQ(here.response.phase, Phase::Attached);
       const double part_j = glm::dot(0.5 * (before.hand_force_n + here.hand_force_n), step);
       work_j += part_j;
@@ -143,11 +143,11 @@ TEST_P(Topography, GivesAForceThatNeverJumpsOnABranch) {
   const double stiffness = 2.0 * Scaling::kMaxStiffnessNPerM;
   glm::dvec3 at(0.0, 0.0, height(-2e-9));
   attach(glm::dvec2(at), at.z);
-  Touch before = contact_model_->feel(at);
+  Touch before = contact_model_->step(at);
   for (int i = 0; i < 50'000; ++i) {
     glm::dvec3 next = at + kStepM * glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1));
     next.z = std::clamp(next.z, height(-4e-9), height(0.0));
-    const Touch here = contact_model_->feel(next);
+    const Touch here = contact_model_->step(next);
     ASSERT_EQ(here.response.phase, Phase::Attached);
     ASSERT_LE(glm::length(here.hand_force_n - before.hand_force_n), stiffness * glm::length(next - at) + 1e-12);
     at = next;
@@ -225,12 +225,12 @@ TEST(SampleAxes, TurnWhatTheHandMeetsExactly) {
   const auto contact_model = afm::test::model_of(model->materials[kMica], model->height_fields.data());
   const auto press = [&](const glm::dmat4& turn) {
     SampleAxes axes;
-    EXPECT_TRUE(axes.turn(turned(turn)));
+    EXPECT_TRUE(axes.set_orientation(turned(turn)));
     contact_model->wait_for_lift();
     glm::dvec3 force_n(0.0);
     for (const double height : {0.06, -0.02, -0.01}) {
       const glm::dvec3 hand(turn * glm::dvec4(0.007, height, 0.004, 0.0));
-      force_n = axes.in_device(contact_model->feel(axes.in_sample(hand)).hand_force_n);
+      force_n = axes.in_device(contact_model->step(axes.in_sample(hand)).hand_force_n);
     }
     return force_n;
   };
@@ -247,24 +247,24 @@ TEST(SampleAxes, TurnWhatTheHandMeetsExactly) {
 
 TEST(SampleAxes, IgnoreSizeAndPlace) {
   SampleAxes axes, small;
-  EXPECT_TRUE(axes.turn(turned(glm::dmat4(1.0))));
-  EXPECT_TRUE(small.turn(turned(glm::scale(glm::dmat4(1.0), glm::dvec3(1e-3)))));
+  EXPECT_TRUE(axes.set_orientation(turned(glm::dmat4(1.0))));
+  EXPECT_TRUE(small.set_orientation(turned(glm::scale(glm::dmat4(1.0), glm::dvec3(1e-3)))));
   EXPECT_LT(glm::length(axes.normal() - small.normal()) + glm::length(axes.x() - small.x()), 1e-15);
 }
 
 TEST(SampleAxes, StayWhereATransformIsNoUse) {
   SampleAxes axes;
-  ASSERT_TRUE(axes.turn(turned(glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(1, 1, 0)))));
+  ASSERT_TRUE(axes.set_orientation(turned(glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(1, 1, 0)))));
   const glm::dvec3 normal = axes.normal();
   std::array<double, 16> flat = turned(glm::dmat4(1.0));
   flat[8] = flat[9] = flat[10] = 0.0;
-  EXPECT_FALSE(axes.turn(flat));
+  EXPECT_FALSE(axes.set_orientation(flat));
   std::array<double, 16> sheared = turned(glm::dmat4(1.0));
   for (std::size_t i = 0; i < 3; ++i) sheared[i] = -2.0 * sheared[8 + i];
-  EXPECT_FALSE(axes.turn(sheared));
+  EXPECT_FALSE(axes.set_orientation(sheared));
   std::array<double, 16> endless = turned(glm::dmat4(1.0));
   endless[0] = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(axes.turn(endless));
+  EXPECT_FALSE(axes.set_orientation(endless));
   EXPECT_EQ(axes.normal(), normal);
 }
 

@@ -215,9 +215,9 @@ TEST(Navigation, StandsWhenTheWandIsUnpluggedOrLost) {
 TEST(NavigationLock, HoldsInContactAndWhileTheHandFeelsAForce) {
   scene::TipState tip;
   EXPECT_FALSE(navigation_locked(tip));
-  tip.phase = scene::ContactPhase::Attached;
+  tip.phase = physics::Phase::Attached;
   EXPECT_TRUE(navigation_locked(tip));
-  tip.phase = scene::ContactPhase::Free;
+  tip.phase = physics::Phase::Free;
   EXPECT_FALSE(navigation_locked(tip));
   tip.hand_force_n = {0.0, -0.2, 0.0};
   EXPECT_TRUE(navigation_locked(tip));

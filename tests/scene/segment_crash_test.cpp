@@ -58,7 +58,7 @@ TipSample sample(std::uint64_t seed) {
 }
 
 TipEvent event(std::uint64_t seed) {
-  return {.kind = TipEventKind::JumpToContact,
+  return {.kind = afm::physics::EventKind::JumpToContact,
           .material = 0,
           .time_ns = static_cast<std::int64_t>(seed),
           .z_m = number(seed, 1),

@@ -96,13 +96,13 @@ TEST(SharedSegment, CarriesEveryBlockAcross) {
   servo.store(timing);
   servo.push(TipSample{.tick = 1});
   servo.push(TipSample{.tick = 2});
-  servo.push(TipEvent{.kind = TipEventKind::JumpOffContact});
+  servo.push(TipEvent{.kind = afm::physics::EventKind::JumpOffContact});
   EXPECT_EQ(renderer.tip_state()->z_m, 1e-9);
   EXPECT_EQ(renderer.servo_timing()->wake_us[kHistogramBins - 1], 8U);
   EXPECT_EQ(renderer.pop_sample()->tick, 1U);
   EXPECT_EQ(renderer.pop_sample()->tick, 2U);
   EXPECT_FALSE(renderer.pop_sample());
-  EXPECT_EQ(renderer.pop_event()->kind, TipEventKind::JumpOffContact);
+  EXPECT_EQ(renderer.pop_event()->kind, afm::physics::EventKind::JumpOffContact);
   EXPECT_EQ(renderer.refused_blocks() + servo.refused_blocks(), 1U);
 }
 
@@ -299,14 +299,30 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   EXPECT_FALSE(renderer.tip_state());
   servo.store(TipState{.servo_state = static_cast<ServoState>(77)});
   EXPECT_FALSE(renderer.tip_state());
-  servo.push(TipEvent{.kind = static_cast<TipEventKind>(0)});
-  servo.push(TipEvent{.kind = TipEventKind::JumpToContact, .material = 3});
+  servo.store(TipState{.fault = static_cast<FaultCode>(7)});
+  EXPECT_FALSE(renderer.tip_state());
+  servo.push(TipEvent{.kind = static_cast<afm::physics::EventKind>(0)});
+  servo.push(TipEvent{.kind = afm::physics::EventKind::JumpToContact, .material = 3});
   EXPECT_FALSE(renderer.pop_event());
   // what comes after a bad sample is still found
   servo.push(TipSample{.force_n = kNan});
   servo.push(TipSample{.tick = 8});
   EXPECT_EQ(renderer.pop_sample()->tick, 8U);
-  EXPECT_EQ(renderer.refused_blocks(), 5U);
+  EXPECT_EQ(renderer.refused_blocks(), 6U);
+}
+
+TEST(SharedBlocks, OfEveryFaultAndEveryScaleModePass) {
+  SharedSegment segment = create_segment();
+  RendererSide renderer = segment.renderer_side();
+  ServoSide servo = segment.servo_side();
+  for (const FaultText& fault : kFaultTexts) {
+    servo.store(TipState{.fault = fault.code});
+    EXPECT_TRUE(renderer.tip_state()) << fault.reason;
+  }
+  for (const ScaleModeText& scale : kScaleModes) {
+    renderer.store(Selection{.material = 0, .scale_mode = scale.mode});
+    EXPECT_TRUE(servo.new_selection()) << scale.word;
+  }
 }
 
 TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {

@@ -182,9 +182,9 @@ TEST_F(ServoDevices, ReplaysASessionTickByTickToTheSameForces) {
   std::size_t compared = 0;
   for (const TipSample& played : samples) {
     const std::size_t index = played.tick - 1;  // one entry a tick
-    if (index >= session.samples.size() || played.phase == scene::ContactPhase::WaitForLift) continue;
+    if (index >= session.samples.size() || played.phase == physics::Phase::WaitForLift) continue;
     const TipSample& recorded = session.samples[index];
-    if (recorded.phase == scene::ContactPhase::WaitForLift) continue;
+    if (recorded.phase == physics::Phase::WaitForLift) continue;
     ASSERT_EQ(played.z_m, recorded.z_m) << index;
     ASSERT_EQ(played.force_n, recorded.force_n) << index;
     ++compared;

@@ -48,7 +48,7 @@ RecordedSession example() {
     session.samples.push_back(sample);
   }
   scene::TipEvent event;
-  event.kind = scene::TipEventKind::JumpOffContact;
+  event.kind = physics::EventKind::JumpOffContact;
   event.time_ns = 5'300'000'123;
   event.z_m = 14e-9;
   session.events.push_back(event);
@@ -88,8 +88,8 @@ TEST(SessionFile, ComesBackAsItWasSaved) {
   EXPECT_EQ(loaded->hand_n_per_n, 1.43e9);
   ASSERT_EQ(loaded->samples.size(), 1000U);
   EXPECT_EQ(loaded->samples[999].z_m, example().samples[999].z_m);
-  ASSERT_NE(loaded->find(scene::TipEventKind::JumpOffContact), nullptr);
-  EXPECT_EQ(loaded->find(scene::TipEventKind::JumpToContact), nullptr);
+  ASSERT_NE(loaded->find(physics::EventKind::JumpOffContact), nullptr);
+  EXPECT_EQ(loaded->find(physics::EventKind::JumpToContact), nullptr);
   EXPECT_NEAR(loaded->seconds_since_start(loaded->events[0].time_ns), 0.300000123, 1e-12);
 }
 

@@ -15,7 +15,7 @@ inline constexpr double kCueSeconds = 0.5;
 
 // A jump that has just happened.
 struct JumpCue {
-  scene::TipEventKind kind = scene::TipEventKind::JumpToContact;
+  physics::EventKind kind = physics::EventKind::JumpToContact;
   double age_s = 0;  // 0 to kCueSeconds
 };
 

@@ -29,7 +29,7 @@ struct Moment {
   TipView tip;
   double force_n = 0;
   scene::ServoState servo_state = scene::ServoState::Disarmed;
-  scene::ContactPhase phase = scene::ContactPhase::WaitForLift;
+  physics::Phase phase = physics::Phase::WaitForLift;
   bool retracting = false;  // past the deepest push of this cycle
   bool realtime = false;
   double slow_motion = 1;  // as in TipState

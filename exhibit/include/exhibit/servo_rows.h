@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "render/frame.h"
@@ -9,7 +10,7 @@
 namespace afm::exhibit {
 
 // "fit: each sample on its own scale"
-const char* text_of(scene::ScaleMode mode);
+std::string scale_text(scene::ScaleMode mode);
 
 // What the wall says of the servo: what it holds and how hard that may push, on which scale, how punctually, and how
 // warm the motors are once that matters.

@@ -61,7 +61,7 @@ class ContactModel {
                                                             std::int64_t period_ns);
 
   // `hand_m`: from the device's contact point, along the sample's axes.
-  Touch feel(const glm::dvec3& hand_m) noexcept;
+  Touch step(const glm::dvec3& hand_m) noexcept;
   void wait_for_lift() noexcept;
   physics::Phase phase() const noexcept;
   double slow_motion() const noexcept { return slow_motion_; }  // as in TipState
@@ -74,7 +74,7 @@ class ContactModel {
   // The potential of the force on the scale in use, by the height above the surface: Scaling::hand_height_m(z).
   const PotentialEnergy& stored_energy() const noexcept { return stored_energies_[static_cast<std::size_t>(mode_)]; }
 
-  // For the ledger, after the step that gave this touch.
+  // For the passivity observer, after the step that gave this touch.
   PassivityObserver::Law energy(const Touch& touch) const noexcept;
 
   std::uint32_t edit_revision() const noexcept { return edit_revision_; }
@@ -82,14 +82,14 @@ class ContactModel {
  private:
   using Model = std::variant<physics::ApproachRetractModel, physics::DynamicModel>;
 
-  using Scalings = std::array<Scaling, 3>;  // in the order of scene::ScaleMode
+  using Scalings = std::array<Scaling, scene::kScaleModes.size()>;  // in their order
 
   using StoredEnergies = std::vector<PotentialEnergy>;  // likewise
 
   ContactModel(Model model, SampleSurface surface, const Scalings& scalings, StoredEnergies stored_energies,
                std::shared_ptr<const physics::LawTables> tables, double force_cap_n, std::uint32_t edit_revision);
 
-  physics::TipResponse step(physics::Length z) noexcept;
+  physics::TipResponse step_law(physics::Length z) noexcept;
   double stiffness_n_per_m() const noexcept;
 
   Model model_;  // never without a value, so that visiting it cannot throw

@@ -19,6 +19,7 @@ struct DeviceSpec {
   double max_stiffness_n_per_m = 0;                                    // stable at the servo's rate
   double max_slew_n_per_s = std::numeric_limits<double>::infinity();   // beyond it the driver cuts the force
   double max_speed_m_per_s = std::numeric_limits<double>::infinity();  // likewise
+  bool has_own_hand = true;                                            // false: it goes where follow() says
   glm::dvec3 workspace_min_m{0.0};
   glm::dvec3 workspace_max_m{0.0};
   glm::dvec3 contact_point_m{0.0};  // where the hand is when the tip touches the undeformed sample (Z = 0)

@@ -43,7 +43,7 @@ class ForceLimiter {
 
   const glm::dvec3& command_n() const noexcept { return command_n_; }
 
-  // What law and end-stop asked for in that tick, before damping and limits: what the energy ledger holds to account.
+  // What law and end-stop asked for in that tick, before damping and limits: what the passivity observer counts.
   const glm::dvec3& wanted_n() const noexcept { return wanted_n_; }
 
   double cap_n() const noexcept { return cap_n_; }

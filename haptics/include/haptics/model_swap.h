@@ -11,9 +11,9 @@
 namespace afm::haptics {
 
 // The contact model of every material, and how another takes its place while the servo runs. Two threads use it: the
-// servo's, which neither waits nor frees, and the builder's, which makes contact models and buries them.
+// servo's, which neither waits nor frees, and the builder's, which makes and frees contact models.
 //
-//   builder --offer()--> offered --take()--> current --take()--> retired --bury()--> freed by the builder
+//   builder --offer()--> offered --adopt()--> current --adopt()--> retired --reclaim()--> freed by the builder
 class ModelSwap {
  public:
   explicit ModelSwap(std::vector<std::unique_ptr<ContactModel>> models);
@@ -27,18 +27,18 @@ class ModelSwap {
 
   ContactModel& current(std::size_t index) noexcept { return *slots_[index].current; }
 
-  // Whether another contact model is ready and the one before the current has been buried, so that there is room for
+  // Whether another contact model is ready and the one before the current has been reclaimed, so that there is room for
   // one.
   bool has_offer(std::size_t index) const noexcept;
 
   // Puts the offer in the place of the current one, which must not be used any more. Only after has_offer().
-  void take(std::size_t index) noexcept;
+  void adopt(std::size_t index) noexcept;
 
   // ---- the builder's thread ----
 
-  // An offer that nobody has taken yet is replaced.
+  // An offer that has not been adopted yet is replaced.
   void offer(std::size_t index, std::unique_ptr<ContactModel> model) noexcept;
-  void bury() noexcept;
+  void reclaim() noexcept;
 
  private:
   // A contact model belongs to whoever has exchanged its pointer out.

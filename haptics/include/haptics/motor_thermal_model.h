@@ -27,7 +27,7 @@ class MotorThermalModel {
   MotorThermalModel(double continuous_force_n, double cap_n);
 
   // `force_n` was on the motors for `elapsed_s`; `measured_heat` is the device's, 0 if it has none.
-  void warm(double force_n, double elapsed_s, double measured_heat) noexcept;
+  void update(double force_n, double elapsed_s, double measured_heat) noexcept;
 
   double heat() const noexcept;
   double gain() const noexcept;  // in (0, 1]

@@ -13,7 +13,7 @@ namespace afm::haptics {
 //
 //   F . dx + dU <= 1/2 K |dx|^2
 //
-// where the right-hand side is what a spring K that is sampled gives too much. The ledger sums left less right; a sum
+// where the right-hand side is what a spring K that is sampled gives too much. The observer sums left less right; a sum
 // above zero is energy that came from nowhere, and one below zero is forgotten: a passive law needs no surplus, and a
 // faulty one could hide behind what a jump off contact has lost. A textbook observer, which starts at zero and knows no
 // U, would take the snap-in itself for a fault; one that only compares the work with U far away would see a fault when
@@ -23,9 +23,9 @@ namespace afm::haptics {
 //   back, and what clamp, slew limit and fades do on their own account is not blamed on the law.
 // - U, force and K are taken with the gain of their tick: a gain that changes gives or takes storage, not work.
 //
-// A lever that swings and is warm (physics/dynamic_model.h) gives more or less than its table, and heat or its own
-// motion pays for it. By how much is known in every tick, before anything could spoil it; that much along the way is
-// granted, and a tick in which the branch changes is not booked.
+// A lever with dynamics and thermal noise (physics/dynamic_model.h) gives more or less than its table, and heat or its
+// own motion pays for it. By how much is known in every tick, before anything could spoil it; that much along the way
+// is granted, and a tick in which the branch changes does not count.
 //
 // The controller damps by what would pay the excess back within a tick, kMostDampingNSPerM at most. Beyond kLimitJ that
 // did not suffice, and the force has to go.
@@ -35,12 +35,12 @@ class PassivityObserver {
   static constexpr double kMostDampingNSPerM = 4.0;
   static constexpr double kLimitJ = 1e-3;  // a hand of 0.12 kg at 0.13 m/s
 
-  // What the ledger has to know of a law in one place; on the hand's scale.
+  // What the observer has to know of a law in one place; on the hand's scale.
   struct Law {
     double stored_j = 0;           // U
     double stiffness_n_per_m = 0;  // K: no spring in the law is stiffer
     double oscillation_n = 0;      // by how much the lever's own force is off its table's
-    bool swings = false;           // a lever that is never at rest
+    bool is_dynamic = false;       // a lever that is never at rest
   };
 
   // One tick that has passed; device frame.
@@ -53,7 +53,7 @@ class PassivityObserver {
     double oscillation_n = 0;      // likewise
   };
 
-  void book(const Tick& tick) noexcept;
+  void integrate(const Tick& tick) noexcept;
   void reset() noexcept { excess_j_ = 0.0; }
 
   double excess_j() const noexcept { return excess_j_; }

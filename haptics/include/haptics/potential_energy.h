@@ -35,7 +35,7 @@ class PotentialEnergy {
   PotentialEnergy(const ForceOverHeight& free_n, const ForceOverHeight& attached_n, double jump_in_m, Range range);
 
   // U; zero in WaitForLift, where there is no force.
-  double at(scene::ContactPhase phase, double height_m) const noexcept;
+  double at(physics::Phase phase, double height_m) const noexcept;
 
   // E0.
   double credit_j() const noexcept { return free_j_.back(); }

@@ -39,7 +39,7 @@ struct GovernorInput {
   glm::dvec3 hand_position_m{0.0};
   glm::dvec3 wanted_force_n{0.0};  // of the scaled model, before any limit
   double hand_height_m = 0;        // over the surface below the tip, counted as the release height
-  scene::ContactPhase phase = scene::ContactPhase::WaitForLift;
+  physics::Phase phase = physics::Phase::WaitForLift;
   bool pulled_off = false;  // in this tick
   bool turn_on = false;
   bool device_healthy = true;
@@ -97,21 +97,21 @@ class SafetyGovernor {
   bool dead_man() const noexcept { return dead_man_; }
 
  private:
-  // What the tick before left for the ledger.
+  // What the tick before left for the passivity observer.
   struct Snapshot {
     bool valid = false;
     double law_gain = 0;
     double stop_gain = 0;
-    scene::ContactPhase phase = scene::ContactPhase::WaitForLift;
+    physics::Phase phase = physics::Phase::WaitForLift;
     PassivityObserver::Law law;
     double stop_stored_j = 0;
   };
 
-  Findings find(const GovernorInput& input, std::int64_t elapsed_ns) noexcept;
-  void book(const GovernorInput& input) noexcept;
+  SafetyConditions evaluate(const GovernorInput& input, std::int64_t elapsed_ns) noexcept;
+  void observe_energy(const GovernorInput& input) noexcept;
   bool high_and_free(const GovernorInput& input) const noexcept;
   void advance_gain(std::int64_t elapsed_ns) noexcept;
-  scene::FaultCode give(const GovernorInput& input, std::int64_t elapsed_ns) noexcept;
+  scene::FaultCode limit_force(const GovernorInput& input, std::int64_t elapsed_ns) noexcept;
   void remember(const GovernorInput& input) noexcept;
 
   std::int64_t period_ns_;
@@ -125,7 +125,7 @@ class SafetyGovernor {
   HandMotion motion_;
   MotorThermalModel motors_;
   PassivityObserver observer_;
-  Snapshot booked_;
+  Snapshot previous_;
   double observer_damping_ = 0;
   double slew_n_per_s_;
 

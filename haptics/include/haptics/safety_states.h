@@ -16,7 +16,7 @@
 namespace afm::haptics {
 
 // What one tick found.
-struct Findings {
+struct SafetyConditions {
   scene::FaultCode cut = scene::FaultCode::None;  // DeviceError, NotFinite, VelocityTrip
   scene::RendererLink renderer = scene::RendererLink::Absent;
   bool turn_on_edge = false;  // pressed in this tick
@@ -41,7 +41,7 @@ inline constexpr std::int64_t kQuickFadeNs = 20'000'000;
 inline constexpr std::int64_t kSlowFadeNs = 90'000'000;
 
 // At the beginning of a tick. A fade under way changes only for a more urgent reason, one that takes less time.
-SafetyState after_findings(const SafetyState& before, const Findings& findings) noexcept;
+SafetyState after_conditions(const SafetyState& before, const SafetyConditions& conditions) noexcept;
 
 // The force is to go in this time, for `fault` or, with None, in good order. Only while Arming, Running or Fading.
 SafetyState begin_fade(const SafetyState& before, std::int64_t fade_ns, scene::FaultCode fault) noexcept;

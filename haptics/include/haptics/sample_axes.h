@@ -13,7 +13,7 @@ class SampleAxes {
  public:
   // Takes the orientation of a node's transform, column-major; its scale is left out. False, and nothing changes, if
   // its z or x axis has no direction of its own.
-  bool turn(const std::array<double, 16>& room_from_sample) noexcept;
+  bool set_orientation(const std::array<double, 16>& room_from_sample) noexcept;
 
   bool operator==(const SampleAxes&) const = default;
 

@@ -77,7 +77,7 @@ class ServoLoop {
 
   void read_shared_blocks(std::int64_t now_ns) noexcept;
   void change_model() noexcept;
-  void feel(std::size_t material, scene::ScaleMode mode) noexcept;
+  void select_material(std::size_t material, scene::ScaleMode mode) noexcept;
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
   void publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
   void publish_events(std::int64_t now_ns) noexcept;

@@ -125,14 +125,14 @@ ContactModel::ContactModel(Model model, SampleSurface surface, const Scalings& s
       slow_motion_(std::visit([](const auto& m) { return slow_motion_of(m); }, model_)),
       edit_revision_(edit_revision) {}
 
-Touch ContactModel::feel(const glm::dvec3& hand_m) noexcept {
+Touch ContactModel::step(const glm::dvec3& hand_m) noexcept {
   const Scaling& scale = scaling();
   Touch touch;
   touch.tip_xy_m = glm::dvec2(hand_m) / scale.hand_m_per_m();
   const SampleSurface::Place below = surface_.at(touch.tip_xy_m);
   touch.surface_height_m = below.height_m;
   touch.z_m = scale.z_m(hand_m.z) - below.height_m;
-  touch.response = step(physics::Length(touch.z_m));
+  touch.response = step_law(physics::Length(touch.z_m));
   const glm::dvec3 gradient(-below.slope, 1.0);
   touch.normal = glm::normalize(gradient);
   touch.hand_force_n = scale.hand_force_n(touch.response.force.si) * gradient;
@@ -145,7 +145,7 @@ double ContactModel::stiffness_n_per_m() const noexcept {
          force_cap_n_ * largest_curvature_per_m_ / scaling().hand_m_per_m();
 }
 
-physics::TipResponse ContactModel::step(physics::Length z) noexcept {
+physics::TipResponse ContactModel::step_law(physics::Length z) noexcept {
   return std::visit([z](auto& model) { return model.step(z); }, model_);
 }
 
@@ -160,11 +160,10 @@ physics::Phase ContactModel::phase() const noexcept {
 PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
   const bool attached = touch.response.phase == physics::Phase::Attached;
   PassivityObserver::Law law{.stiffness_n_per_m = stiffness_n_per_m(),
-                             .swings = std::holds_alternative<physics::DynamicModel>(model_)};
+                             .is_dynamic = std::holds_alternative<physics::DynamicModel>(model_)};
   if (touch.response.phase == physics::Phase::WaitForLift) return law;
-  law.stored_j = stored_energy().at(attached ? scene::ContactPhase::Attached : scene::ContactPhase::Free,
-                                    scaling().hand_height_m(touch.z_m));
-  if (law.swings) {
+  law.stored_j = stored_energy().at(touch.response.phase, scaling().hand_height_m(touch.z_m));
+  if (law.is_dynamic) {
     const auto& branch = attached ? tables_->attached : tables_->free;
     const double at_rest_n = scaling().hand_force_n(branch.force(physics::Length(touch.z_m)).si);
     law.oscillation_n = std::abs(touch.hand_force_n.z - at_rest_n) / touch.normal.z;

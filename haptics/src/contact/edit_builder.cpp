@@ -24,7 +24,7 @@ core::Result<std::unique_ptr<ContactModel>> EditBuilder::model_of(const scene::M
 }
 
 void EditBuilder::build() {
-  exchange_.bury();
+  exchange_.reclaim();
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     const auto edit = edits_.new_edit(static_cast<std::uint32_t>(i));
     if (!edit) continue;

@@ -22,7 +22,7 @@ bool ModelSwap::has_offer(std::size_t index) const noexcept {
          slot.retired.load(std::memory_order_relaxed) == nullptr;
 }
 
-void ModelSwap::take(std::size_t index) noexcept {
+void ModelSwap::adopt(std::size_t index) noexcept {
   Slot& slot = slots_[index];
   ContactModel* before = slot.current.release();
   slot.current.reset(slot.offered.exchange(nullptr, std::memory_order_acquire));
@@ -33,7 +33,7 @@ void ModelSwap::offer(std::size_t index, std::unique_ptr<ContactModel> model) no
   delete slots_[index].offered.exchange(model.release(), std::memory_order_acq_rel);
 }
 
-void ModelSwap::bury() noexcept {
+void ModelSwap::reclaim() noexcept {
   for (Slot& slot : slots_) delete slot.retired.exchange(nullptr, std::memory_order_acquire);
 }
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double kParallel = 1e-6;  // rad: x and z of a transform that is no use
 }  // namespace
 
-bool SampleAxes::turn(const std::array<double, 16>& room_from_sample) noexcept {
+bool SampleAxes::set_orientation(const std::array<double, 16>& room_from_sample) noexcept {
   const glm::dvec3 x_axis(room_from_sample[0], room_from_sample[1], room_from_sample[2]);
   const glm::dvec3 z_axis(room_from_sample[8], room_from_sample[9], room_from_sample[10]);
   const double x_length = glm::length(x_axis), z_length = glm::length(z_axis);

@@ -176,4 +176,32 @@ void GamepadDevice::show(const Feeling& feeling, std::int64_t now_ns) {
   logged_ns_ = now_ns;
 }
 
+core::Result<std::unique_ptr<HapticDevice>> open_gamepad(const DeviceRequest& request, ProbeLog& log) {
+  const auto refused = [&](const core::Error& error) {
+    log.missing(error.message);
+    return core::failure(error.category, "no gamepad: " + error.message);
+  };
+  const auto sdl = load_sdl();
+  if (!sdl) return refused(sdl.error());
+  using Wanted = GamepadDevice::Wanted;
+  auto device = GamepadDevice::open(*sdl, request.clock,
+                                    request.choice == DeviceChoice::ByName ? Wanted::Any : Wanted::ForceFeedback);
+  if (!device) return refused(device.error());
+  log.found((*device)->spec().name);
+  return std::unique_ptr<HapticDevice>(std::move(*device));
+}
+
+void probe_gamepads(const Environment& /*environment*/, ProbeLog& log) {
+  const auto sdl = load_sdl();
+  const auto found = sdl ? GamepadDevice::list(*sdl) : tl::unexpected(sdl.error());
+  if (!found) return log.missing(found.error().message);
+  if (found->empty()) log.missing(GamepadDevice::kNone);
+  for (const GamepadDevice::Facts& pad : *found) {
+    const char* shows = pad.force_feedback ? "force feedback"
+                        : pad.rumble       ? "rumble"
+                                           : "moves the hand, shows no force";
+    log.found(fmt::format("{}: {}", pad.name, shows));
+  }
+}
+
 }  // namespace afm::haptics

@@ -14,7 +14,7 @@
 #include "core/latest_value.h"
 #include "core/result.h"
 #include "devices/force_rumble.h"
-#include "haptics/device.h"
+#include "haptics/device_registry.h"
 #include "haptics/simulated_device.h"
 
 namespace afm::haptics {
@@ -113,5 +113,10 @@ class GamepadDevice final : public HapticDevice {
   std::int64_t logged_ns_ = 0;
   std::thread thread_;
 };
+
+// For the registry. A gamepad that lies on the desk must not take the hand away from the mouse: without a name only a
+// joystick with force feedback will do.
+core::Result<std::unique_ptr<HapticDevice>> open_gamepad(const DeviceRequest& request, ProbeLog& log);
+void probe_gamepads(const Environment& environment, ProbeLog& log);
 
 }  // namespace afm::haptics

@@ -4,8 +4,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 #include "core/log.h"
@@ -133,6 +135,39 @@ glm::dvec3 HaplyDevice::force_for(std::int64_t now_ns) {
       std::clamp<std::int64_t>(trust_ns_ + (stale ? -elapsed_ns * (kReturnNs / kReleaseNs) : elapsed_ns), 0, kReturnNs);
   if (closing_.load()) trust_ns_ = 0;
   return static_cast<double>(trust_ns_) / static_cast<double>(kReturnNs) * command_.force_n;
+}
+
+namespace {
+
+std::uint16_t service_port(const Environment& environment) {
+  const std::string text = environment(kHaplyPortVariable);
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (error == std::errc() && end == text.data() + text.size() && port > 0) return port;
+  if (!text.empty()) {
+    core::log_line(
+        fmt::format("{}: \"{}\" is no port, 1 to 65535: {} is used", kHaplyPortVariable, text, kHaplyServicePort));
+  }
+  return kHaplyServicePort;
+}
+
+}  // namespace
+
+core::Result<std::unique_ptr<HapticDevice>> open_haply(const DeviceRequest& request, ProbeLog& log) {
+  auto device = HaplyDevice::open(request.clock, service_port(request.environment));
+  if (!device) {
+    log.missing(device.error().message);
+    return tl::unexpected(device.error());
+  }
+  log.found((*device)->spec().name);
+  return std::unique_ptr<HapticDevice>(std::move(*device));
+}
+
+void probe_haply(const Environment& environment, ProbeLog& log) {
+  const std::uint16_t port = service_port(environment);
+  const auto answer = HaplyDevice::query(port);
+  if (!answer) return log.missing(answer.error().message);
+  log.found(fmt::format("its service answers at port {}", port));
 }
 
 }  // namespace afm::haptics

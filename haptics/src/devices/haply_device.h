@@ -12,12 +12,14 @@
 #include "core/clock.h"
 #include "core/latest_value.h"
 #include "core/result.h"
-#include "haptics/device.h"
-#include "haptics/device_probe.h"
+#include "haptics/device_registry.h"
 
 namespace afm::haptics {
 
 class HaplyLink;
+
+inline constexpr std::uint16_t kHaplyServicePort = 10001;  // of the maker's service on this machine
+inline constexpr const char* kHaplyPortVariable = "TOUCHAFM_HAPLY_PORT";
 
 // A Haply Inverse3, through the Inverse Service that its maker's set-up starts on this machine. One thread speaks with
 // the service, a message each way about once a millisecond; the servo finds the newest place and leaves the newest
@@ -85,5 +87,9 @@ class HaplyDevice final : public HapticDevice {
   std::int64_t trust_ns_ = 0;  // 0: the command is not believed, kReturnNs: wholly
   std::thread thread_;
 };
+
+// For the registry.
+core::Result<std::unique_ptr<HapticDevice>> open_haply(const DeviceRequest& request, ProbeLog& log);
+void probe_haply(const Environment& environment, ProbeLog& log);
 
 }  // namespace afm::haptics

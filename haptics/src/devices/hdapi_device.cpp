@@ -8,6 +8,7 @@
 #include <chrono>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "core/log.h"
 #include "devices/hdapi_numbers.h"
@@ -274,6 +275,61 @@ void HdapiDevice::raise(HdapiHealth fault, std::uint32_t error_code, std::int64_
 
 HdapiHealth HdapiDevice::own_health(std::int64_t now_ns) const noexcept {
   return now_ns < fault_until_ns_ ? fault_ : calibration_;
+}
+
+namespace {
+
+// The dynamic linker repeats the name that it was given.
+std::string without_name(const LibraryAttempt& attempt) {
+  const std::string prefix = attempt.name + ": ";
+  return attempt.refusal.starts_with(prefix) ? attempt.refusal.substr(prefix.size()) : attempt.refusal;
+}
+
+// The library, or nothing; what was tried goes to the log.
+std::optional<HdapiFunctions> find_library(const Environment& environment, ProbeLog& log) {
+  const HdapiSearch search = load_hdapi(environment(kHdLibraryVariable));
+  for (const LibraryAttempt& attempt : search.attempts) {
+    const bool taken = attempt.refusal.empty();
+    log.tried("hdapi library " + attempt.name, taken, taken ? "loaded" : without_name(attempt));
+  }
+  return search.functions;
+}
+
+std::string joined(const std::vector<ProbeLine>& lines) {
+  std::string text;
+  for (const ProbeLine& line : lines)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", line.subject, line.said);
+  return text;
+}
+
+}  // namespace
+
+core::Result<std::unique_ptr<HapticDevice>> open_hdapi(const DeviceRequest& request, ProbeLog& log) {
+  const auto functions = find_library(request.environment, log);
+  if (!functions) {
+    return core::failure(
+        core::ErrorCategory::DeviceMissing,
+        fmt::format("no hdapi device: {}; install the device's driver, or set {} to the path of its library",
+                    joined(log.lines()), kHdLibraryVariable));
+  }
+  auto device = HdapiDevice::open(*functions, request.clock, request.environment(kHdDeviceVariable));
+  if (!device) {
+    log.missing(device.error().message);
+    return tl::unexpected(device.error());
+  }
+  log.found((*device)->spec().name);
+  return std::unique_ptr<HapticDevice>(std::move(*device));
+}
+
+void probe_hdapi(const Environment& environment, ProbeLog& log) {
+  const auto functions = find_library(environment, log);
+  if (!functions) return;
+  const auto spec = HdapiDevice::query(*functions, environment(kHdDeviceVariable));
+  if (!spec) return log.missing(spec.error().message);
+  const glm::dvec3 workspace_mm = 1e3 * (spec->workspace_max_m - spec->workspace_min_m);
+  log.found(fmt::format("{}: {:.2g} N at most, {:.2g} N for ever, {:.0f} x {:.0f} x {:.0f} mm", spec->name,
+                        spec->max_force_n, spec->max_continuous_force_n, workspace_mm.x, workspace_mm.y,
+                        workspace_mm.z));
 }
 
 }  // namespace afm::haptics

@@ -14,7 +14,7 @@
 #include "core/result.h"
 #include "devices/hdapi_health.h"
 #include "devices/hdapi_library.h"
-#include "haptics/device.h"
+#include "haptics/device_registry.h"
 
 namespace afm::haptics {
 
@@ -138,5 +138,9 @@ class HdapiDevice final : public HapticDevice {
   bool cut_ = false;
   std::thread supervisor_;
 };
+
+// For the registry.
+core::Result<std::unique_ptr<HapticDevice>> open_hdapi(const DeviceRequest& request, ProbeLog& log);
+void probe_hdapi(const Environment& environment, ProbeLog& log);
 
 }  // namespace afm::haptics

@@ -12,7 +12,6 @@
 
 namespace afm::haptics {
 
-using scene::ContactPhase;
 using scene::ServoState;
 
 namespace {
@@ -20,18 +19,6 @@ namespace {
 constexpr double kSlowestHz = 100.0;
 constexpr double kFastestHz = 10'000.0;
 constexpr std::uint64_t kTimingStoresPerSecond = 5;
-
-ContactPhase shared_phase(physics::Phase phase) {
-  switch (phase) {
-    case physics::Phase::Free:
-      return ContactPhase::Free;
-    case physics::Phase::Attached:
-      return ContactPhase::Attached;
-    case physics::Phase::WaitForLift:
-      break;
-  }
-  return ContactPhase::WaitForLift;
-}
 
 void count(std::array<std::uint32_t, scene::kHistogramBins>& bins, std::uint32_t& largest, std::uint32_t us) {
   ++bins[std::min<std::uint32_t>(us, scene::kHistogramBins - 1)];
@@ -104,7 +91,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
   const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
   std::array<double, 16> room_from_sample{};
   std::copy_n(glm::value_ptr(rest), room_from_sample.size(), room_from_sample.begin());
-  sample_.turn(room_from_sample);
+  sample_.set_orientation(room_from_sample);
   // a successor goes on with what was changed before it
   edits_.build();
 }
@@ -134,7 +121,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   double height_m = glm::dot(hand_from_contact_m_, sample_.normal());
   PassivityObserver::Law law_energy;
   if (model_ != nullptr) {
-    touch_ = model_->feel(sample_.in_sample(hand_from_contact_m_));
+    touch_ = model_->step(sample_.in_sample(hand_from_contact_m_));
     height_m = model_->scaling().hand_height_m(touch_.z_m);
     law_energy = model_->energy(touch_);
   }
@@ -149,7 +136,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                       .hand_position_m = hand.position_m - device_.spec().contact_point_m,
                                       .wanted_force_n = sample_.in_device(touch_.hand_force_n),
                                       .hand_height_m = height_m,
-                                      .phase = shared_phase(touch_.response.phase),
+                                      .phase = touch_.response.phase,
                                       .pulled_off = pulled_off,
                                       .turn_on = hand.turn_on,
                                       .device_healthy = hand.healthy,
@@ -178,7 +165,7 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
   }
   if (const auto transforms = shared_.new_transforms()) {
     const SampleAxes before = sample_;
-    if (!sample_.turn(transforms->room_from_node[sample_node_])) ++refused_transforms_;
+    if (!sample_.set_orientation(transforms->room_from_node[sample_node_])) ++refused_transforms_;
     sample_moved_ = sample_moved_ || sample_ != before;
   }
   if (const auto selection = shared_.new_selection()) chosen_ = *selection;
@@ -190,7 +177,7 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
 // same; no hand feels that of another.
 void ServoLoop::change_model() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
-    if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.take(i);
+    if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.adopt(i);
   }
   const bool valid = chosen_.material >= 0 && static_cast<std::size_t>(chosen_.material) < exchange_.size();
   const bool other = valid && chosen_.revision != state_.selection_revision &&
@@ -202,17 +189,17 @@ void ServoLoop::change_model() noexcept {
     governor_.disarm();
     changing_ = true;
     if (!governor_.released()) return;
-    if (edited) exchange_.take(static_cast<std::size_t>(state_.material));
+    if (edited) exchange_.adopt(static_cast<std::size_t>(state_.material));
     if (other) {
-      feel(static_cast<std::size_t>(chosen_.material), chosen_.scale_mode);
+      select_material(static_cast<std::size_t>(chosen_.material), chosen_.scale_mode);
     } else {
-      feel(static_cast<std::size_t>(state_.material), state_.scale_mode);
+      select_material(static_cast<std::size_t>(state_.material), state_.scale_mode);
     }
   }
   if (valid) state_.selection_revision = chosen_.revision;
 }
 
-void ServoLoop::feel(std::size_t material, scene::ScaleMode mode) noexcept {
+void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noexcept {
   model_ = &exchange_.current(material);
   model_->wait_for_lift();
   governor_.forget_motion();
@@ -241,9 +228,7 @@ void ServoLoop::publish_events(std::int64_t now_ns) noexcept {
   for (std::uint32_t i = 0; i < response.event_count; ++i) {
     const physics::ModelEvent& event = response.events[i];
     const double since_previous_ns = event.fraction * static_cast<double>(now_ns - previous_ns_);
-    shared_.push(scene::TipEvent{.kind = event.kind == physics::EventKind::JumpToContact
-                                             ? scene::TipEventKind::JumpToContact
-                                             : scene::TipEventKind::JumpOffContact,
+    shared_.push(scene::TipEvent{.kind = event.kind,
                                  .material = state_.material,
                                  .time_ns = previous_ns_ + std::llround(since_previous_ns),
                                  .z_m = event.z.si,
@@ -267,7 +252,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   state_.force_n = response.force.si;
   state_.hand_position_m = {hand_position_m_.x, hand_position_m_.y, hand_position_m_.z};
   state_.servo_state = governor_.state();
-  state_.phase = shared_phase(response.phase);
+  state_.phase = response.phase;
   state_.fault = governor_.fault();
   state_.dead_man = governor_.dead_man() ? 1 : 0;
   state_.force_cap_n = governor_.force_cap_n();

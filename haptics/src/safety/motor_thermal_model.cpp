@@ -15,7 +15,7 @@ MotorThermalModel::MotorThermalModel(double continuous_force_n, double cap_n)
   rest_gain_ = continuous_force_n > 0 ? std::min(1.0, kRestShare * continuous_force_n / cap_n) : 0.5;
 }
 
-void MotorThermalModel::warm(double force_n, double elapsed_s, double measured_heat) noexcept {
+void MotorThermalModel::update(double force_n, double elapsed_s, double measured_heat) noexcept {
   // not a number is no measurement
   measured_ = measured_heat > 0 ? std::min(measured_heat, kHot) : 0.0;
   if (continuous_force_n_ <= 0 || !(elapsed_s > 0)) return;

@@ -6,7 +6,7 @@
 
 namespace afm::haptics {
 
-void PassivityObserver::book(const Tick& tick) noexcept {
+void PassivityObserver::integrate(const Tick& tick) noexcept {
   const double work_j = std::min(glm::dot(tick.commanded_n, tick.moved_m), glm::dot(tick.wanted_n, tick.moved_m));
   const double moved_m = glm::length(tick.moved_m);
   const double granted_j = (0.5 * tick.stiffness_n_per_m * moved_m + tick.oscillation_n) * moved_m;

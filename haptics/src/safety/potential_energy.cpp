@@ -9,7 +9,7 @@
 
 namespace afm::haptics {
 
-using scene::ContactPhase;
+using physics::Phase;
 
 namespace {
 
@@ -48,10 +48,10 @@ PotentialEnergy::PotentialEnergy(const ForceOverHeight& free_n, const ForceOverH
   free_j_ = std::move(free.energy_j);
   attached_j_ = std::move(attached.energy_j);
 
-  const double step_j = at(ContactPhase::Free, jump_in_m) - at(ContactPhase::Attached, jump_in_m);
+  const double step_j = at(Phase::Free, jump_in_m) - at(Phase::Attached, jump_in_m);
   for (double& energy_j : attached_j_) energy_j += step_j;
 
-  double least_j = at(ContactPhase::Free, jump_in_m);
+  double least_j = at(Phase::Free, jump_in_m);
   for (std::size_t i = 0; i < nodes; ++i) {
     least_j = std::min(least_j, attached_j_[i]);
     if (lowest_m_ + kSpacingM * static_cast<double>(i) >= jump_in_m) least_j = std::min(least_j, free_j_[i]);
@@ -60,9 +60,9 @@ PotentialEnergy::PotentialEnergy(const ForceOverHeight& free_n, const ForceOverH
   for (double& energy_j : attached_j_) energy_j -= least_j;
 }
 
-double PotentialEnergy::at(ContactPhase phase, double height_m) const noexcept {
-  if (phase == ContactPhase::WaitForLift || !std::isfinite(height_m)) return 0.0;
-  const std::vector<double>& energy_j = phase == ContactPhase::Attached ? attached_j_ : free_j_;
+double PotentialEnergy::at(Phase phase, double height_m) const noexcept {
+  if (phase == Phase::WaitForLift || !std::isfinite(height_m)) return 0.0;
+  const std::vector<double>& energy_j = phase == Phase::Attached ? attached_j_ : free_j_;
   const double place = (height_m - lowest_m_) / kSpacingM;
   const double node = std::clamp(std::floor(place), 0.0, static_cast<double>(energy_j.size() - 2));
   const auto i = static_cast<std::size_t>(node);

@@ -9,7 +9,7 @@
 
 namespace afm::haptics {
 
-using scene::ContactPhase;
+using physics::Phase;
 using scene::FaultCode;
 using scene::ServoState;
 
@@ -66,15 +66,15 @@ SafetyGovernor::Output SafetyGovernor::step(const GovernorInput& input) noexcept
   const bool armed_before = state_.armed();
   const bool in_fault_before = state_.state == ServoState::Fault;
 
-  state_ = after_findings(state_, find(input, elapsed_ns));
+  state_ = after_conditions(state_, evaluate(input, elapsed_ns));
   turn_on_before_ = input.turn_on;
   if (state_.state == ServoState::Fault) {
     output_.cut();
     gain_ = 0.0;
   } else {
     advance_gain(elapsed_ns);
-    if (const FaultCode fault = give(input, elapsed_ns); fault != FaultCode::None) {
-      state_ = after_findings(state_, {.cut = fault});
+    if (const FaultCode fault = limit_force(input, elapsed_ns); fault != FaultCode::None) {
+      state_ = after_conditions(state_, {.cut = fault});
       gain_ = 0.0;
     }
   }
@@ -86,54 +86,54 @@ SafetyGovernor::Output SafetyGovernor::step(const GovernorInput& input) noexcept
   return {.command = ForceCommand(output_.command_n()), .dropped = dropped};
 }
 
-Findings SafetyGovernor::find(const GovernorInput& input, std::int64_t elapsed_ns) noexcept {
-  Findings findings{.renderer = input.renderer,
-                    .turn_on_edge = input.turn_on && !turn_on_before_,
-                    .turn_on_held = input.turn_on,
-                    .dead_man = dead_man_};
-  motors_.warm(glm::length(output_.command_n()), seconds(elapsed_ns), input.motor_heat);
+SafetyConditions SafetyGovernor::evaluate(const GovernorInput& input, std::int64_t elapsed_ns) noexcept {
+  SafetyConditions conditions{.renderer = input.renderer,
+                              .turn_on_edge = input.turn_on && !turn_on_before_,
+                              .turn_on_held = input.turn_on,
+                              .dead_man = dead_man_};
+  motors_.update(glm::length(output_.command_n()), seconds(elapsed_ns), input.motor_heat);
   if (!input.device_healthy || !is_number(input)) {
-    findings.cut = input.device_healthy ? FaultCode::NotFinite : FaultCode::DeviceError;
+    conditions.cut = input.device_healthy ? FaultCode::NotFinite : FaultCode::DeviceError;
     motion_.forget();
-    return findings;
+    return conditions;
   }
   motion_.move(input.hand_position_m, elapsed_ns);
-  book(input);
+  observe_energy(input);
 
   // a late tick finds the hand elsewhere: the force glides to where the model now wants it
   if (elapsed_ns > 3 * period_ns_) guard_until_ns_ = input.time_ns + kGuardNs;
   if (input.pulled_off) damping_until_ns_ = input.time_ns + kReleaseDampingNs;
 
-  if (motion_.too_fast()) findings.cut = FaultCode::VelocityTrip;
-  findings.interlock = high_and_free(input) && glm::length(input.wanted_force_n) < kArmingForceN &&
-                       glm::length(motion_.velocity_m_per_s()) < kArmingSpeedMPerS;
-  findings.late = elapsed_ns > kLateNs;
-  findings.outside = output_.stop().is_outside(input.hand_position_m);
-  findings.hot = motors_.heat() >= MotorThermalModel::kHot;
-  findings.energy_exceeded = observer_.exceeded();
-  return findings;
+  if (motion_.too_fast()) conditions.cut = FaultCode::VelocityTrip;
+  conditions.interlock = high_and_free(input) && glm::length(input.wanted_force_n) < kArmingForceN &&
+                         glm::length(motion_.velocity_m_per_s()) < kArmingSpeedMPerS;
+  conditions.late = elapsed_ns > kLateNs;
+  conditions.outside = output_.stop().is_outside(input.hand_position_m);
+  conditions.hot = motors_.heat() >= MotorThermalModel::kHot;
+  conditions.energy_exceeded = observer_.exceeded();
+  return conditions;
 }
 
 // What has passed between the hand and its device since the tick before.
-void SafetyGovernor::book(const GovernorInput& input) noexcept {
+void SafetyGovernor::observe_energy(const GovernorInput& input) noexcept {
   const bool fresh = high_and_free(input) && input.time_ns >= damping_until_ns_;
   if (!state_.armed() || fresh) observer_.reset();
-  if (!booked_.valid || input.phase == ContactPhase::WaitForLift || input.sample_moved) return;
-  if (input.law_energy.swings && input.phase != booked_.phase) return;
+  if (!previous_.valid || input.phase == Phase::WaitForLift || input.sample_moved) return;
+  if (input.law_energy.is_dynamic && input.phase != previous_.phase) return;
   const double stop_j = output_.stop().stored_j(input.hand_position_m);
-  const bool in_stop = stop_j > 0.0 || booked_.stop_stored_j > 0.0;
-  observer_.book({.moved_m = motion_.moved_m(),
-                  .wanted_n = output_.wanted_n(),
-                  .commanded_n = output_.command_n(),
-                  .stored_rise_j = booked_.law_gain * (input.law_energy.stored_j - booked_.law.stored_j) +
-                                   booked_.stop_gain * (stop_j - booked_.stop_stored_j),
-                  .stiffness_n_per_m = booked_.law_gain * booked_.law.stiffness_n_per_m +
-                                       (in_stop ? booked_.stop_gain * WorkspaceStop::kStiffnessNPerM : 0.0),
-                  .oscillation_n = booked_.law_gain * booked_.law.oscillation_n});
+  const bool in_stop = stop_j > 0.0 || previous_.stop_stored_j > 0.0;
+  observer_.integrate({.moved_m = motion_.moved_m(),
+                       .wanted_n = output_.wanted_n(),
+                       .commanded_n = output_.command_n(),
+                       .stored_rise_j = previous_.law_gain * (input.law_energy.stored_j - previous_.law.stored_j) +
+                                        previous_.stop_gain * (stop_j - previous_.stop_stored_j),
+                       .stiffness_n_per_m = previous_.law_gain * previous_.law.stiffness_n_per_m +
+                                            (in_stop ? previous_.stop_gain * WorkspaceStop::kStiffnessNPerM : 0.0),
+                       .oscillation_n = previous_.law_gain * previous_.law.oscillation_n});
 }
 
 bool SafetyGovernor::high_and_free(const GovernorInput& input) const noexcept {
-  return input.phase == ContactPhase::Free && input.hand_height_m >= release_height_m_ + kArmingMarginM;
+  return input.phase == Phase::Free && input.hand_height_m >= release_height_m_ + kArmingMarginM;
 }
 
 void SafetyGovernor::advance_gain(std::int64_t elapsed_ns) noexcept {
@@ -156,7 +156,7 @@ void SafetyGovernor::advance_gain(std::int64_t elapsed_ns) noexcept {
   fade_under_way_ = state_.state == ServoState::Fading;
 }
 
-FaultCode SafetyGovernor::give(const GovernorInput& input, std::int64_t elapsed_ns) noexcept {
+FaultCode SafetyGovernor::limit_force(const GovernorInput& input, std::int64_t elapsed_ns) noexcept {
   const double period_s = seconds(std::min(elapsed_ns, period_ns_));
   observer_damping_ =
       state_.armed() ? observer_.damping_n_s_per_m(motion_.velocity_m_per_s(), seconds(period_ns_)) : 0.0;
@@ -176,12 +176,12 @@ FaultCode SafetyGovernor::give(const GovernorInput& input, std::int64_t elapsed_
 }
 
 void SafetyGovernor::remember(const GovernorInput& input) noexcept {
-  booked_ = {.valid = state_.armed() && input.phase != ContactPhase::WaitForLift,
-             .law_gain = gain_ * motors_.gain(),
-             .stop_gain = gain_,
-             .phase = input.phase,
-             .law = input.law_energy,
-             .stop_stored_j = output_.stop().stored_j(input.hand_position_m)};
+  previous_ = {.valid = state_.armed() && input.phase != Phase::WaitForLift,
+               .law_gain = gain_ * motors_.gain(),
+               .stop_gain = gain_,
+               .phase = input.phase,
+               .law = input.law_energy,
+               .stop_stored_j = output_.stop().stored_j(input.hand_position_m)};
 }
 
 }  // namespace afm::haptics

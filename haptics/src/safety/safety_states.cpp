@@ -17,15 +17,15 @@ struct Reason {
 };
 
 // The most urgent of all reasons to take the force away.
-std::optional<Reason> reason_to_fade(const Findings& findings) {
-  if (findings.late) return Reason{kQuickFadeNs, FaultCode::LateTick};
-  if (findings.energy_exceeded) return Reason{kQuickFadeNs, FaultCode::EnergyExceeded};
-  if (findings.outside) return Reason{kQuickFadeNs, FaultCode::OutOfWorkspace};
-  if (findings.renderer == RendererLink::Died) return Reason{kQuickFadeNs, FaultCode::RendererDied};
-  if (findings.dead_man && !findings.turn_on_held) return Reason{kQuickFadeNs, FaultCode::DeadManReleased};
-  if (findings.hot) return Reason{kSlowFadeNs, FaultCode::MotorsHot};
-  if (findings.renderer == RendererLink::Hung) return Reason{kSlowFadeNs, FaultCode::RendererHung};
-  if (findings.renderer == RendererLink::Leaving) return Reason{kSlowFadeNs, FaultCode::None};
+std::optional<Reason> reason_to_fade(const SafetyConditions& conditions) {
+  if (conditions.late) return Reason{kQuickFadeNs, FaultCode::LateTick};
+  if (conditions.energy_exceeded) return Reason{kQuickFadeNs, FaultCode::EnergyExceeded};
+  if (conditions.outside) return Reason{kQuickFadeNs, FaultCode::OutOfWorkspace};
+  if (conditions.renderer == RendererLink::Died) return Reason{kQuickFadeNs, FaultCode::RendererDied};
+  if (conditions.dead_man && !conditions.turn_on_held) return Reason{kQuickFadeNs, FaultCode::DeadManReleased};
+  if (conditions.hot) return Reason{kSlowFadeNs, FaultCode::MotorsHot};
+  if (conditions.renderer == RendererLink::Hung) return Reason{kSlowFadeNs, FaultCode::RendererHung};
+  if (conditions.renderer == RendererLink::Leaving) return Reason{kSlowFadeNs, FaultCode::None};
   return std::nullopt;
 }
 
@@ -37,21 +37,21 @@ SafetyState begin_fade(const SafetyState& before, std::int64_t fade_ns, FaultCod
   return {ServoState::Fading, fault, fade_ns};
 }
 
-SafetyState after_findings(const SafetyState& before, const Findings& findings) noexcept {
+SafetyState after_conditions(const SafetyState& before, const SafetyConditions& conditions) noexcept {
   // a hand may be moved as fast as it likes where it feels nothing
-  const bool cut = findings.cut != FaultCode::None && (before.armed() || findings.cut != FaultCode::VelocityTrip);
-  if (cut) return {ServoState::Fault, findings.cut, 0};
+  const bool cut = conditions.cut != FaultCode::None && (before.armed() || conditions.cut != FaultCode::VelocityTrip);
+  if (cut) return {ServoState::Fault, conditions.cut, 0};
 
-  const auto reason = reason_to_fade(findings);
+  const auto reason = reason_to_fade(conditions);
   switch (before.state) {
     case ServoState::Disarmed:
-      if (findings.turn_on_edge && findings.interlock && findings.renderer == RendererLink::Alive &&
-          findings.cut == FaultCode::None && !reason) {
+      if (conditions.turn_on_edge && conditions.interlock && conditions.renderer == RendererLink::Alive &&
+          conditions.cut == FaultCode::None && !reason) {
         return {ServoState::Arming, FaultCode::None, 0};
       }
       return before;
     case ServoState::Fault:
-      if (findings.turn_on_edge) return {ServoState::Disarmed, before.fault, 0};
+      if (conditions.turn_on_edge) return {ServoState::Disarmed, before.fault, 0};
       return before;
     case ServoState::Arming:
     case ServoState::Running:

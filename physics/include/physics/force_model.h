@@ -6,16 +6,11 @@
 #include <memory>
 
 #include "physics/contact_parameters.h"
+#include "physics/contact_phase.h"
 #include "physics/law_tables.h"
 #include "physics/units.h"
 
 namespace afm::physics {
-
-// WaitForLift: no force is given until the tip has been lifted above Z_joc, because below it nobody knows whether it
-// sticks. Free: not touching. Attached: on the surface, pressed or adhering.
-enum class Phase { WaitForLift, Free, Attached };
-
-enum class EventKind { JumpToContact, JumpOffContact };
 
 // A jump, where the path crossed its threshold.
 struct ModelEvent {

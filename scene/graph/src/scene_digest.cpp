@@ -2,20 +2,19 @@
 #include <bit>
 #include <cstring>
 
+#include "core/fnv1a.h"
 #include "scene/graph/scene.h"
 
 namespace afm::scene {
 namespace {
 
-// 64-bit FNV-1a (Fowler, Noll, Vo; draft-eastlake-fnv, section 5) over values in a fixed order and byte order.
+// FNV-1a over values in a fixed order and byte order.
 class Digest {
  public:
-  std::uint64_t value() const { return value_; }
+  std::uint64_t value() const { return hash_.value(); }
 
   void add(std::uint64_t bits) {
-    for (unsigned shift = 0; shift < 64; shift += 8) {
-      value_ = (value_ ^ ((bits >> shift) & 0xFFU)) * 0x100000001B3ULL;
-    }
+    for (unsigned shift = 0; shift < 64; shift += 8) hash_.add(static_cast<unsigned char>(bits >> shift));
   }
   void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
   void add(float number) { add(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(number))); }
@@ -40,7 +39,7 @@ class Digest {
   }
 
  private:
-  std::uint64_t value_ = 0xCBF29CE484222325ULL;
+  core::Fnv1a hash_;
 };
 
 void add_node(Digest& digest, const Node& node) {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/check.h"
+#include "core/enumerators.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::scene {
@@ -29,13 +30,6 @@ bool all_sane(const Numbers& numbers) {
 bool positive(double value) { return sane(value) && value > 0; }
 
 bool terminated(const Name& name) { return std::find(name.begin(), name.end(), '\0') != name.end(); }
-
-bool known(ServoState state) { return state <= ServoState::Fault; }
-bool known(ContactPhase phase) { return phase <= ContactPhase::Attached; }
-bool known(FaultCode code) { return code <= FaultCode::OutOfWorkspace; }
-bool known(RendererLink link) { return link <= RendererLink::Died; }
-bool known(ScaleMode mode) { return mode <= ScaleMode::Compressed; }
-bool known(TipEventKind kind) { return kind == TipEventKind::JumpToContact || kind == TipEventKind::JumpOffContact; }
 
 bool within(std::int32_t material, const SharedModel& model) {
   return material >= -1 && material < static_cast<std::int32_t>(std::min(model.material_count, kMaxMaterials));
@@ -81,7 +75,7 @@ physics::LawOptions law_options(const SharedContact& material) {
 core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count,
                             std::uint32_t height_field_count) {
   if (!terminated(material.name)) return refusal("it has a name without an end");
-  if (material.law > physics::Law::Measured || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
+  if (!core::is_enumerator(material.law) || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
       material.dynamic > 1) {
     return refusal("it has a law or an option that is not known");
   }
@@ -153,7 +147,7 @@ bool is_valid(const SceneTransforms& transforms, const SharedModel& model) {
 }
 
 bool is_valid(const Selection& selection, const SharedModel& model) {
-  return within(selection.material, model) && known(selection.scale_mode);
+  return within(selection.material, model) && core::is_enumerator(selection.scale_mode);
 }
 
 bool is_valid(const HandScript& script) {
@@ -166,7 +160,7 @@ bool is_valid(const SharedDevice& device) {
   // limits may be infinite
   return terminated(device.name) && device.max_force_n > 0 && device.max_continuous_force_n > 0 &&
          device.max_stiffness_n_per_m > 0 && device.max_slew_n_per_s > 0 && device.max_speed_m_per_s > 0 &&
-         all_sane(device.workspace_min_m) && all_sane(device.workspace_max_m);
+         device.has_own_hand <= 1 && all_sane(device.workspace_min_m) && all_sane(device.workspace_max_m);
 }
 
 bool is_valid(const TipState& state, const SharedModel& model) {
@@ -176,8 +170,9 @@ bool is_valid(const TipState& state, const SharedModel& model) {
          positive(state.slow_motion) && all_sane(state.tip_xy_m) && sane(state.surface_height_m) &&
          all_sane(state.normal) && sane(state.force_cap_n) && std::isfinite(state.slew_limit_n_per_s) &&
          sane(state.motor_heat) && sane(state.thermal_gain) && sane(state.excess_energy_j) &&
-         sane(state.observer_damping) && known(state.scale_mode) && known(state.servo_state) && known(state.phase) &&
-         known(state.fault) && within(state.material, model);
+         sane(state.observer_damping) && core::is_enumerator(state.scale_mode) &&
+         core::is_enumerator(state.servo_state) && core::is_enumerator(state.phase) &&
+         core::is_enumerator(state.fault) && within(state.material, model);
 }
 
 bool is_valid(const TipSample& sample, const SharedModel& model) {
@@ -185,13 +180,14 @@ bool is_valid(const TipSample& sample, const SharedModel& model) {
          sane(sample.sample_deformation_m) && sane(sample.hand_height_m) && sane(sample.hand_force_n) &&
          all_sane(sample.hand_from_contact_m) && all_sane(sample.sample_normal) && all_sane(sample.sample_x) &&
          all_sane(sample.tip_xy_m) && sane(sample.surface_height_m) && sane(sample.motor_heat) &&
-         sample.device_healthy <= 1 && sample.changing <= 1 && known(sample.renderer) && known(sample.scale_mode) &&
-         known(sample.servo_state) && known(sample.phase) && within(sample.material, model);
+         sample.device_healthy <= 1 && sample.changing <= 1 && core::is_enumerator(sample.renderer) &&
+         core::is_enumerator(sample.scale_mode) && core::is_enumerator(sample.servo_state) &&
+         core::is_enumerator(sample.phase) && within(sample.material, model);
 }
 
 bool is_valid(const TipEvent& event, const SharedModel& model) {
-  return known(event.kind) && sane(event.z_m) && sane(event.force_before_n) && sane(event.force_after_n) &&
-         within(event.material, model);
+  return core::is_enumerator(event.kind) && sane(event.z_m) && sane(event.force_before_n) &&
+         sane(event.force_after_n) && within(event.material, model);
 }
 
 glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node) {

@@ -3,27 +3,37 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/result.h"
-#include "haptics/device_probe.h"
+#include "haptics/device_registry.h"
 
 // What a person writes after --haptics, and the device that it stands for.
 namespace afm::servo {
 
 struct HapticChoice {
-  haptics::DeviceChoice device = haptics::DeviceChoice::Simulated;
-  std::string replay_file;  // not empty: a session whose hand is played, and no device
+  const haptics::DeviceKind* device = nullptr;  // null: the best there is
+  std::string replay_file;                      // not empty: a session whose hand is played, and no device
+  enum class Person { Mouse, Simulated };
+  Person person = Person::Mouse;  // who moves a device that has no hand of its own
 };
 
-// "auto", "sim", "mouse", "hdapi", "haply", "gamepad" or "replay:FILE"; anything else is wrong usage. A mouse is for
-// the servo the simulated hand, which the window moves.
+struct HapticWord {
+  std::string word;
+  std::string meaning;
+};
+
+// All that --haptics takes: "auto", "mouse", the words of haptics::device_kinds(), and "replay:FILE".
+std::vector<HapticWord> haptic_words();
+
+// One of those; anything else is wrong usage. A mouse is for the servo the simulated hand, which the window moves.
 core::Result<HapticChoice> parse_haptic_choice(std::string_view text);
 
-// Opens it, where the environment says (probe_settings()). DeviceMissing: it is not there. BadInputFile: the session
-// cannot be played. What was tried goes to the log, unless sim was asked for. `clock` outlives the device.
+// Opens it, where the environment says. DeviceMissing: it is not there. BadInputFile: the session cannot be played.
+// What was tried goes to the log, unless the simulated hand was asked for. `clock` outlives the device.
 core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choice, const core::Clock& clock);
 
-// What the environment says of haptic drivers: TOUCHAFM_HD_LIBRARY, TOUCHAFM_HD_DEVICE and TOUCHAFM_HAPLY_PORT.
-haptics::ProbeSettings probe_settings();
+// That of this process.
+haptics::Environment environment();
 
 }  // namespace afm::servo

@@ -33,7 +33,7 @@ struct RecordedSession {
   std::vector<scene::TipEvent> events;
 
   double seconds_since_start(std::int64_t time_ns) const;
-  const scene::TipEvent* find(scene::TipEventKind kind) const;  // the first one, or null
+  const scene::TipEvent* find(physics::EventKind kind) const;  // the first one, or null
 };
 
 // The scene of a session for a servo that is to feel it again: one node, the sample, and its material twice, because

@@ -3,10 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cstdint>
 #include <cstdlib>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,12 +15,8 @@ namespace afm::servo {
 
 namespace {
 
+constexpr const char* kMouse = "mouse";
 constexpr std::string_view kReplay = "replay:";
-
-std::string variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? std::string() : std::string(value);
-}
 
 void log_probe(const std::vector<haptics::ProbeLine>& lines) {
   for (const haptics::ProbeLine& line : lines) core::log_line(fmt::format("haptics: {}: {}", line.subject, line.said));
@@ -50,41 +43,49 @@ core::Result<haptics::OpenedDevice> open_recording(const std::string& file) {
 
 }  // namespace
 
-core::Result<HapticChoice> parse_haptic_choice(std::string_view text) {
-  if (text == "auto") return HapticChoice{haptics::DeviceChoice::Auto, {}};
-  if (text == "sim" || text == "mouse") return HapticChoice{haptics::DeviceChoice::Simulated, {}};
-  if (text == "hdapi") return HapticChoice{haptics::DeviceChoice::Hdapi, {}};
-  if (text == "haply") return HapticChoice{haptics::DeviceChoice::Haply, {}};
-  if (text == "gamepad") return HapticChoice{haptics::DeviceChoice::Gamepad, {}};
-  if (text.starts_with(kReplay) && text.size() > kReplay.size()) {
-    return HapticChoice{haptics::DeviceChoice::Simulated, std::string(text.substr(kReplay.size()))};
+std::vector<HapticWord> haptic_words() {
+  std::vector<HapticWord> words{{"auto", "the best device there is, else the mouse"}, {kMouse, "the mouse"}};
+  for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
+    words.push_back({std::string(kind.word), std::string(kind.meaning)});
   }
-  return core::failure(
-      core::ErrorCategory::WrongUsage,
-      fmt::format("there is no haptic device \"{}\": choose auto, sim, mouse, hdapi, haply, gamepad or replay:FILE",
-                  text));
+  words.push_back({std::string(kReplay) + "FILE", "a recorded session"});
+  return words;
+}
+
+core::Result<HapticChoice> parse_haptic_choice(std::string_view text) {
+  if (text == "auto") return HapticChoice{};
+  const haptics::DeviceKind& simulated = haptics::simulated_kind();
+  if (text == kMouse) return HapticChoice{&simulated, {}};
+  if (text.starts_with(kReplay) && text.size() > kReplay.size()) {
+    return HapticChoice{&simulated, std::string(text.substr(kReplay.size()))};
+  }
+  if (const haptics::DeviceKind* kind = haptics::find_device_kind(text)) {
+    using Person = HapticChoice::Person;
+    return HapticChoice{kind, {}, kind == &simulated ? Person::Simulated : Person::Mouse};
+  }
+  std::string known;
+  const std::vector<HapticWord> words = haptic_words();
+  for (const HapticWord& word : words) {
+    known += known.empty() ? "" : &word == &words.back() ? " or " : ", ";
+    known += word.word;
+  }
+  return core::failure(core::ErrorCategory::WrongUsage,
+                       fmt::format("there is no haptic device \"{}\": choose {}", text, known));
 }
 
 core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choice, const core::Clock& clock) {
   if (!choice.replay_file.empty()) return open_recording(choice.replay_file);
-  auto opened = haptics::open_device(choice.device, probe_settings(), clock);
-  if (opened && choice.device != haptics::DeviceChoice::Simulated) log_probe(opened->lines);
+  auto opened = choice.device == nullptr ? haptics::open_best_device(environment(), clock)
+                                         : haptics::open_device(*choice.device, environment(), clock);
+  if (opened && choice.device != &haptics::simulated_kind()) log_probe(opened->lines);
   return opened;
 }
 
-haptics::ProbeSettings probe_settings() {
-  haptics::ProbeSettings settings{.hd_library = variable(haptics::kHdLibraryVariable),
-                                  .hd_device = variable(haptics::kHdDeviceVariable)};
-  const std::string port = variable(haptics::kHaplyPortVariable);
-  std::uint16_t number = 0;
-  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
-  if (error == std::errc() && end == port.data() + port.size() && number > 0) {
-    settings.haply_port = number;
-  } else if (!port.empty()) {
-    core::log_line(fmt::format("{}: \"{}\" is no port, 1 to 65535: {} is used", haptics::kHaplyPortVariable, port,
-                               settings.haply_port));
-  }
-  return settings;
+haptics::Environment environment() {
+  return [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return value == nullptr ? std::string() : std::string(value);
+  };
 }
 
 }  // namespace afm::servo

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/fnv1a.h"
 #include "core/whole_file.h"
 #include "scene/shared/shared_segment.h"
 
@@ -27,12 +28,6 @@ constexpr std::uint32_t kVersion = 3;
 using scene::SharedHeightField;
 using scene::TipEvent;
 using scene::TipSample;
-
-std::uint64_t fnv1a(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
-  return hash;
-}
 
 template <class T>
 void put(std::string& bytes, const T& value) {
@@ -232,7 +227,7 @@ double RecordedSession::seconds_since_start(std::int64_t time_ns) const {
   return samples.empty() ? 0.0 : static_cast<double>(time_ns - samples.front().time_ns) * 1e-9;
 }
 
-const TipEvent* RecordedSession::find(scene::TipEventKind kind) const {
+const TipEvent* RecordedSession::find(physics::EventKind kind) const {
   const auto found = std::find_if(events.begin(), events.end(), [&](const TipEvent& e) { return e.kind == kind; });
   return found == events.end() ? nullptr : &*found;
 }
@@ -272,7 +267,7 @@ core::Result<void> save_session(const RecordedSession& session, const std::strin
   } else {
     put(bytes, std::uint64_t{0});
   }
-  put(bytes, fnv1a(bytes));
+  put(bytes, core::fnv1a(bytes));
   return core::write_file(path, bytes);
 }
 
@@ -296,7 +291,7 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::uint64_t sum = 0;
   if (bytes.size() < sum_size + kMagic.size()) return bad("it is cut short; record it again");
   std::memcpy(&sum, bytes.data() + bytes.size() - sum_size, sum_size);
-  if (sum != fnv1a(bytes.substr(0, bytes.size() - sum_size)))
+  if (sum != core::fnv1a(bytes.substr(0, bytes.size() - sum_size)))
     return bad("its checksum is wrong: it is cut short or altered; record it again");
   body.remove_suffix(sum_size);
 

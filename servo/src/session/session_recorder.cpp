@@ -17,7 +17,7 @@ bool same_encounter(const TipSample& a, const TipSample& b) {
 // A servo that starts here feels the same from here on.
 bool is_released(const TipSample& sample) {
   const bool off = sample.servo_state == ServoState::Disarmed || sample.servo_state == ServoState::Fault;
-  return off && sample.hand_force_n == 0.0 && sample.phase != scene::ContactPhase::Attached;
+  return off && sample.hand_force_n == 0.0 && sample.phase != physics::Phase::Attached;
 }
 
 }  // namespace

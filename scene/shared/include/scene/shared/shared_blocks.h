@@ -5,9 +5,12 @@
 #include <cstdint>
 
 #include "physics/contact_parameters.h"
+#include "physics/contact_phase.h"
 #include "physics/law.h"
 #include "physics/law_tables.h"
 #include "physics/lever_dynamics.h"
+#include "scene/shared/fault_codes.h"
+#include "scene/shared/scale_modes.h"
 
 // The blocks of the shared scene: trivially copyable, without pointers, SI units, and each with exactly one writer, the
 // process named in its comment. A reader believes nothing unchecked: indices are compared with counts, numbers with
@@ -96,10 +99,6 @@ struct SceneTransforms {
   std::array<std::array<double, 16>, kMaxNodes> room_from_node{};
 };
 
-// How nanometres and nanonewtons become a hand's: one scale for all materials, one that fits each (the usual), or that
-// with small forces raised by a bounded compression.
-enum class ScaleMode : std::uint32_t { Common = 0, Fit = 1, Compressed = 2 };
-
 // The material that the wand chose, and the scale on which it is to be felt. `revision` grows by one with every choice.
 struct Selection {
   std::int32_t material = -1;  // index into SharedModel::materials, -1: none yet
@@ -137,25 +136,6 @@ struct RendererHeartbeat {
 
 enum class ServoState : std::uint32_t { Disarmed = 0, Arming = 1, Running = 2, Fading = 3, Fault = 4 };
 
-// The latch of the force law (design, section 3) and its wait state: after start, a material change or a dropout no
-// force is given until the tip has been lifted above Z_joc.
-enum class ContactPhase : std::uint32_t { WaitForLift = 0, Free = 1, Attached = 2 };
-
-enum class FaultCode : std::uint32_t {
-  None = 0,
-  RendererDied = 1,
-  RendererHung = 2,
-  NotFinite = 3,
-  LateTick = 4,
-  VelocityTrip = 5,
-  DeviceError = 6,
-  BadSharedData = 7,
-  DeadManReleased = 8,
-  MotorsHot = 9,
-  EnergyExceeded = 10,
-  OutOfWorkspace = 11,
-};
-
 // What the servo saw of the process that draws.
 enum class RendererLink : std::uint32_t {
   Absent = 0,  // has not shown a sign of life yet
@@ -172,8 +152,10 @@ struct SharedDevice {
   double max_force_n = 0;
   double max_continuous_force_n = 0;
   double max_stiffness_n_per_m = 0;
-  double max_slew_n_per_s = 0;   // infinite: no limit
-  double max_speed_m_per_s = 0;  // likewise
+  double max_slew_n_per_s = 0;     // infinite: no limit
+  double max_speed_m_per_s = 0;    // likewise
+  std::uint32_t has_own_hand = 0;  // 1: a person's, or a recorded one, which HandScript does not move
+  std::uint32_t padding = 0;
   std::array<double, 3> workspace_min_m{};
   std::array<double, 3> workspace_max_m{};
 };
@@ -202,11 +184,11 @@ struct TipState {
   double motor_heat = 0;        // 0: cold, 1: as hot as the motors may become
   double thermal_gain = 1;      // what is left of the force to let the motors cool
   double excess_energy_j = 0;   // energy that the hand has got beyond what the model and its sampling may give
-  double observer_damping = 0;  // N s/m that the ledger adds in this tick
+  double observer_damping = 0;  // N s/m that the passivity observer adds in this tick
   ScaleMode scale_mode = ScaleMode::Fit;
   std::uint32_t dead_man = 0;  // 1: the force lasts only as long as the button is held
   ServoState servo_state = ServoState::Disarmed;
-  ContactPhase phase = ContactPhase::WaitForLift;
+  physics::Phase phase = physics::Phase::WaitForLift;
   FaultCode fault = FaultCode::None;
   std::int32_t material = -1;
   std::uint32_t selection_revision = 0;  // the newest Selection that took effect
@@ -229,7 +211,7 @@ struct TipSample {
   double hand_height_m = 0;  // along the sample's normal, device frame
   double hand_force_n = 0;   // along the sample's normal, positive away from the sample, after the governor
   ServoState servo_state = ServoState::Disarmed;
-  ContactPhase phase = ContactPhase::WaitForLift;
+  physics::Phase phase = physics::Phase::WaitForLift;
   std::int32_t material = -1;
   std::uint32_t wake_us = 0;        // how late this tick woke
   std::uint32_t edit_revision = 0;  // as in TipState
@@ -248,11 +230,9 @@ struct TipSample {
   std::uint32_t changing = 0;                          // 1: another choice, or an edit, has taken the force away
 };
 
-enum class TipEventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2 };
-
 // A transition of the latch, at the place where the path crossed the fold inside the tick.
 struct TipEvent {
-  TipEventKind kind = TipEventKind::JumpToContact;
+  physics::EventKind kind = physics::EventKind::JumpToContact;
   std::int32_t material = -1;
   std::int64_t time_ns = 0;  // interpolated
   double z_m = 0;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "haptics/device_probe.h"
+#include "haptics/device_registry.h"
 
 #include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
 
 #include "mock_control.h"
 
@@ -20,77 +23,86 @@ auto line(const char* subject, bool usable, const char* said) {
                Field(&ProbeLine::said, HasSubstr(said)));
 }
 
+afm::core::Result<OpenedDevice> open_word(const char* word, const Environment& environment,
+                                          const MonotonicClock& clock) {
+  return open_device(*find_device_kind(word), environment, clock);
+}
+
 constexpr unsigned kNotConnected = 0x0303;
 
-class DeviceProbe : public testing::Test {
+class DeviceRegistry : public testing::Test {
  protected:
-  DeviceProbe() {
+  DeviceRegistry() {
     mock_hd_reset();
     mock_hd_use_thread();
   }
 
   // port 1 has no service
-  const ProbeSettings mock{.hd_library = AFM_MOCK_HD, .hd_device = {}, .haply_port = 1};
-  const ProbeSettings nowhere{.hd_library = "/nowhere/libHD.so", .hd_device = {}, .haply_port = 1};
+  static Environment with_library(const std::string& library) {
+    return [library](const std::string& variable) -> std::string {
+      if (variable == "TOUCHAFM_HD_LIBRARY") return library;
+      return variable == "TOUCHAFM_HAPLY_PORT" ? "1" : "";
+    };
+  }
+
+  const Environment mock = with_library(AFM_MOCK_HD);
+  const Environment nowhere = with_library("/nowhere/libHD.so");
   const MonotonicClock clock;
 };
 
-TEST_F(DeviceProbe, TakesARealDeviceBeforeTheSimulatedHand) {
-  const auto opened = open_device(DeviceChoice::Auto, mock, clock);
-  ASSERT_TRUE(opened) << opened.error().message;
-  EXPECT_EQ(opened->device->spec().name, "Mock Touch, serial 0001");
-  EXPECT_THAT(opened->lines,
+TEST_F(DeviceRegistry, TakesARealDeviceBeforeTheSimulatedHand) {
+  const auto opened = open_best_device(mock, clock);
+  EXPECT_EQ(opened.device->spec().name, "Mock Touch, serial 0001");
+  EXPECT_THAT(opened.lines,
               ElementsAre(line("libmock_hd.so", true, "loaded"), line("hdapi device", true, "Mock Touch")));
 }
 
-TEST_F(DeviceProbe, FallsBackToTheSimulatedHandAndSaysWhy) {
-  const auto no_library = open_device(DeviceChoice::Auto, nowhere, clock);
-  ASSERT_TRUE(no_library);
-  EXPECT_EQ(no_library->device->spec().name, "simulated hand");
+TEST_F(DeviceRegistry, FallsBackToTheSimulatedHandAndSaysWhy) {
+  const auto no_library = open_best_device(nowhere, clock);
+  EXPECT_EQ(no_library.device->spec().name, "simulated hand");
   EXPECT_THAT(
-      no_library->lines,
+      no_library.lines,
       ElementsAre(line("hdapi library /nowhere/libHD.so", false, "No such file"), line("haply device", false, "port 1"),
                   line("gamepad", false, "none is plugged in"), line("simulated hand", true, "")));
 
   mock_hd_fail_init("*", kNotConnected, 100);
-  const auto no_device = open_device(DeviceChoice::Auto, mock, clock);
-  ASSERT_TRUE(no_device);
+  const auto no_device = open_best_device(mock, clock);
   EXPECT_THAT(
-      no_device->lines,
+      no_device.lines,
       ElementsAre(line("libmock_hd.so", true, "loaded"), line("hdapi device", false, "mock: not connected"),
                   line("haply device", false, "port 1"), line("gamepad", false, ""), line("simulated hand", true, "")));
 }
 
-TEST_F(DeviceProbe, DoesNotReplaceADeviceThatWasNamed) {
-  const auto no_library = open_device(DeviceChoice::Hdapi, nowhere, clock);
+TEST_F(DeviceRegistry, DoesNotReplaceADeviceThatWasNamed) {
+  const auto no_library = open_word("hdapi", nowhere, clock);
   ASSERT_FALSE(no_library);
   EXPECT_EQ(no_library.error().category, ErrorCategory::DeviceMissing);
   EXPECT_THAT(no_library.error().message, AllOf(HasSubstr("/nowhere/libHD.so"), HasSubstr("TOUCHAFM_HD_LIBRARY")));
 
   mock_hd_fail_init("*", kNotConnected, 100);
-  const auto no_device = open_device(DeviceChoice::Hdapi, mock, clock);
+  const auto no_device = open_word("hdapi", mock, clock);
   ASSERT_FALSE(no_device);
   EXPECT_EQ(no_device.error().category, ErrorCategory::DeviceMissing);
 
-  const auto no_haply = open_device(DeviceChoice::Haply, mock, clock);
+  const auto no_haply = open_word("haply", mock, clock);
   ASSERT_FALSE(no_haply);
   EXPECT_EQ(no_haply.error().category, ErrorCategory::DeviceMissing);
   EXPECT_THAT(no_haply.error().message, HasSubstr("no haply inverse service at port 1"));
 
-  const auto no_gamepad = open_device(DeviceChoice::Gamepad, mock, clock);
+  const auto no_gamepad = open_word("gamepad", mock, clock);
   ASSERT_FALSE(no_gamepad);
   EXPECT_EQ(no_gamepad.error().category, ErrorCategory::DeviceMissing);
   EXPECT_THAT(no_gamepad.error().message, HasSubstr("no gamepad: none is plugged in"));
 }
 
-TEST_F(DeviceProbe, OpensTheSimulatedHandWithoutLookingFurther) {
-  const auto opened = open_device(DeviceChoice::Simulated, mock, clock);
+TEST_F(DeviceRegistry, OpensTheSimulatedHandWithoutLookingFurther) {
+  const auto opened = open_word("sim", mock, clock);
   ASSERT_TRUE(opened);
   EXPECT_THAT(opened->lines, ElementsAre(line("simulated hand", true, "")));
   EXPECT_EQ(mock_hd_call(0), nullptr);
 }
 
-TEST_F(DeviceProbe, ListsWhatIsThereWithoutStartingIt) {
+TEST_F(DeviceRegistry, ListsWhatIsThereWithoutStartingIt) {
   EXPECT_THAT(probe_devices(mock),
               ElementsAre(line("libmock_hd.so", true, "loaded"),
                           line("hdapi device", true, "3.3 N at most, 0.88 N for ever, 160 x 120 x 70 mm"),
@@ -99,6 +111,23 @@ TEST_F(DeviceProbe, ListsWhatIsThereWithoutStartingIt) {
   EXPECT_STREQ(mock_hd_call(0), "init");
   EXPECT_STREQ(mock_hd_call(1), "disable_device");
   EXPECT_EQ(mock_hd_call(2), nullptr);
+}
+
+TEST_F(DeviceRegistry, LooksForEveryKindAndNamesItByItsWord) {
+  const auto lines = probe_devices(nowhere);
+  ASSERT_GE(device_kinds().size(), 4U);
+  for (const DeviceKind& kind : device_kinds()) {
+    EXPECT_TRUE(kind.subject.starts_with(kind.word)) << kind.word;
+    EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const ProbeLine& l) {
+      return l.subject.starts_with(kind.word);
+    })) << kind.word;
+  }
+  EXPECT_EQ(find_device_kind("falcon"), nullptr);
+}
+
+TEST_F(DeviceRegistry, KnowsWhichHandNobodyHolds) {
+  EXPECT_FALSE(open_word("sim", nowhere, clock)->device->spec().has_own_hand);
+  EXPECT_TRUE(open_word("hdapi", mock, clock)->device->spec().has_own_hand);
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+// The enumerators of an enum class, counted by the compiler, so that no bound has to be written beside the enum and a
+// table with a row for each can be tied to it. Values from 0 to kMostEnumerators - 1 are seen, gaps are allowed.
+namespace afm::core {
+
+inline constexpr std::size_t kMostEnumerators = 32;
+
+// Both compilers spell a value without a name as a cast, "(Color)7". Clang leaves the value out of a source_location.
+template <auto value>
+consteval bool has_name() {
+  const std::string_view function = __PRETTY_FUNCTION__;
+  const std::string_view spelled = function.substr(function.rfind("value = "));
+  const std::size_t bracket = spelled.rfind(')');
+  return bracket == std::string_view::npos || spelled[bracket + 1] == ':';  // "(anonymous namespace)::Color::Red"
+}
+
+template <class Enum>
+consteval auto named_values() {
+  static_assert(std::is_enum_v<Enum>);
+  return []<std::size_t... index>(std::index_sequence<index...>) {
+    return std::array<bool, kMostEnumerators>{has_name<static_cast<Enum>(index)>()...};
+  }(std::make_index_sequence<kMostEnumerators>());
+}
+
+template <class Enum>
+consteval auto find_enumerators() {
+  constexpr auto named = named_values<Enum>();
+  static_assert(!named.back(), "an enumerator may lie beyond kMostEnumerators");
+  std::array<Enum, static_cast<std::size_t>(std::count(named.begin(), named.end(), true))> found{};
+  std::size_t count = 0;
+  for (std::size_t value = 0; value < named.size(); ++value) {
+    if (named[value]) found[count++] = static_cast<Enum>(value);
+  }
+  return found;
+}
+
+// In rising order of their values.
+template <class Enum>
+inline constexpr auto kEnumerators = find_enumerators<Enum>();
+
+// False for a number from elsewhere that stands for nothing.
+template <class Enum>
+constexpr bool is_enumerator(Enum value) {
+  return std::find(kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(), value) != kEnumerators<Enum>.end();
+}
+
+// Its place in kEnumerators and in a table that has_row_for_each(); of an enumerator alone.
+template <class Enum>
+constexpr std::size_t index_of(Enum value) {
+  return static_cast<std::size_t>(std::find(kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(), value) -
+                                  kEnumerators<Enum>.begin());
+}
+
+// Whether a table has one row for each enumerator, in their order. `key` is the member that holds it.
+template <class Rows, class Row, class Enum>
+constexpr bool has_row_for_each(const Rows& rows, Enum Row::* key) {
+  return std::equal(rows.begin(), rows.end(), kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(),
+                    [key](const Row& row, Enum value) { return row.*key == value; });
+}
+
+}  // namespace afm::core

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/device_registry.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/check.h"
+#include "devices/gamepad_device.h"
+#include "devices/haply_device.h"
+#include "devices/hdapi_device.h"
+#include "haptics/simulated_device.h"
+
+namespace afm::haptics {
+
+namespace {
+
+void probe_simulated(const Environment& /*environment*/, ProbeLog& log) { log.found("needs no device"); }
+
+core::Result<std::unique_ptr<HapticDevice>> open_simulated(const DeviceRequest& request, ProbeLog& log) {
+  probe_simulated(request.environment, log);
+  return std::make_unique<SimulatedDevice>();
+}
+
+constexpr std::array kDevices{
+    DeviceKind{.word = "hdapi",
+               .subject = "hdapi device",
+               .meaning = "a PHANTOM or Touch through its maker's library",
+               .renders_force = true,
+               .remedy = "switch it on and run its maker's set-up program",
+               .open = open_hdapi,
+               .probe = probe_hdapi},
+    DeviceKind{.word = "haply",
+               .subject = "haply device",
+               .meaning = "an Inverse3 through its maker's service",
+               .renders_force = true,
+               .remedy = {},
+               .open = open_haply,
+               .probe = probe_haply},
+    DeviceKind{.word = "gamepad",
+               .subject = "gamepad",
+               .meaning = "a game controller or a joystick",
+               .renders_force = false,
+               .remedy = {},
+               .open = open_gamepad,
+               .probe = probe_gamepads},
+    DeviceKind{.word = "sim",
+               .subject = "simulated hand",
+               .meaning = "a simulated person",
+               .renders_force = false,
+               .remedy = {},
+               .open = open_simulated,
+               .probe = probe_simulated},
+};
+
+core::Result<std::unique_ptr<HapticDevice>> open_kind(const DeviceKind& kind, const DeviceRequest& request,
+                                                      std::vector<ProbeLine>& lines) {
+  ProbeLog log(kind.subject);
+  auto device = kind.open(request, log);
+  lines.insert(lines.end(), log.lines().begin(), log.lines().end());
+  return device;
+}
+
+}  // namespace
+
+std::span<const DeviceKind> device_kinds() { return kDevices; }
+
+const DeviceKind& simulated_kind() { return kDevices.back(); }
+
+const DeviceKind* find_device_kind(std::string_view word) {
+  const auto found =
+      std::find_if(kDevices.begin(), kDevices.end(), [&](const DeviceKind& kind) { return kind.word == word; });
+  return found == kDevices.end() ? nullptr : &*found;
+}
+
+core::Result<OpenedDevice> open_device(const DeviceKind& kind, const Environment& environment,
+                                       const core::Clock& clock) {
+  OpenedDevice opened;
+  auto device = open_kind(kind, {environment, clock, DeviceChoice::ByName}, opened.lines);
+  if (!device) return tl::unexpected(device.error());
+  opened.device = std::move(*device);
+  return opened;
+}
+
+OpenedDevice open_best_device(const Environment& environment, const core::Clock& clock) {
+  OpenedDevice opened;
+  for (const DeviceKind& kind : kDevices) {
+    auto device = open_kind(kind, {environment, clock, DeviceChoice::Automatic}, opened.lines);
+    if (!device) continue;
+    opened.device = std::move(*device);
+    break;
+  }
+  AFM_CHECK(opened.device != nullptr);
+  return opened;
+}
+
+std::vector<ProbeLine> probe_devices(const Environment& environment) {
+  std::vector<ProbeLine> lines;
+  for (const DeviceKind& kind : kDevices) {
+    ProbeLog log(kind.subject);
+    kind.probe(environment, log);
+    lines.insert(lines.end(), log.lines().begin(), log.lines().end());
+  }
+  return lines;
+}
+
+}  // namespace afm::haptics

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/enumerators.h"
+
+namespace afm::scene {
+
+// Why the servo took the force away. 7 was never given by a servo; the other numbers stay as they were.
+enum class FaultCode : std::uint32_t {
+  None = 0,
+  RendererDied = 1,
+  RendererHung = 2,
+  NotFinite = 3,
+  LateTick = 4,
+  VelocityTrip = 5,
+  DeviceError = 6,
+  DeadManReleased = 8,
+  MotorsHot = 9,
+  EnergyExceeded = 10,
+  OutOfWorkspace = 11,
+};
+
+struct FaultText {
+  FaultCode code;
+  const char* key;     // in the files of assets/guidance; None's says that the force is off, and a reason follows
+  const char* reason;  // for the log, in English
+};
+
+inline constexpr std::array kFaultTexts{
+    FaultText{FaultCode::None, "force-off", "no fault"},
+    FaultText{FaultCode::RendererDied, "renderer-died", "the renderer died"},
+    FaultText{FaultCode::RendererHung, "renderer-hung", "the renderer gave no frame for 250 ms"},
+    FaultText{FaultCode::NotFinite, "not-finite", "a position or force was not finite"},
+    FaultText{FaultCode::LateTick, "late-tick", "a servo tick came more than 20 ms late"},
+    FaultText{FaultCode::VelocityTrip, "velocity-trip", "the hand was faster than is safe"},
+    FaultText{FaultCode::DeviceError, "device-error", "the haptic device failed"},
+    FaultText{FaultCode::DeadManReleased, "dead-man-released", "the Turn-On button was let go"},
+    FaultText{FaultCode::MotorsHot, "motors-hot", "the device's motors are hot"},
+    FaultText{FaultCode::EnergyExceeded, "energy-exceeded", "the hand was given more energy than the model holds"},
+    FaultText{FaultCode::OutOfWorkspace, "out-of-workspace", "the hand left the device's workspace"}};
+static_assert(core::has_row_for_each(kFaultTexts, &FaultText::code));
+
+// "the renderer gave no frame for 250 ms"
+constexpr const char* reason(FaultCode code) { return kFaultTexts[core::index_of(code)].reason; }
+
+}  // namespace afm::scene

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/enumerators.h"
+
+namespace afm::scene {
+
+// How nanometres and nanonewtons become a hand's: one scale for all materials, one that fits each (the usual), or that
+// with small forces raised by a bounded compression.
+enum class ScaleMode : std::uint32_t { Common = 0, Fit = 1, Compressed = 2 };
+
+struct ScaleModeText {
+  ScaleMode mode;
+  const char* word;     // after --scale
+  const char* meaning;  // in the help and on the wall
+};
+
+inline constexpr std::array kScaleModes{ScaleModeText{ScaleMode::Common, "common", "one scale for all samples"},
+                                        ScaleModeText{ScaleMode::Fit, "fit", "each sample on its own scale"},
+                                        ScaleModeText{ScaleMode::Compressed, "compressed", "weak forces are raised"}};
+static_assert(core::has_row_for_each(kScaleModes, &ScaleModeText::mode));
+
+constexpr const ScaleModeText& text_of(ScaleMode mode) { return kScaleModes[core::index_of(mode)]; }
+
+// The next one in their order; the first one after the last.
+constexpr ScaleMode after(ScaleMode mode) { return kScaleModes[(core::index_of(mode) + 1) % kScaleModes.size()].mode; }
+
+}  // namespace afm::scene
