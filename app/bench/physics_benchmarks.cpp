@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "physics/dynamic_model.h"
 #include "physics/force_model.h"
@@ -25,8 +26,6 @@ constexpr double kTickBar_s = 50e-9;
 constexpr double kTablesBar_s = 5e-3;
 constexpr double kSubStepBar_s = 20e-9;
 constexpr double kCurveBar_s = 10e-3;
-
-constexpr std::array kLaws{Law::Paper, Law::Hao, Law::Hertz, Law::Dmt, Law::Jkr, Law::MaugisDugdale, Law::LennardJones};
 
 // Mica under a silicon nitride tip, as docs/physics.md has it.
 physics::ContactParameters mica() {
@@ -110,12 +109,13 @@ void whole_curve(benchmark::State& state, const std::string& program) {
 
 std::vector<BenchmarkCase> physics_benchmarks(const std::string& program) {
   std::vector<BenchmarkCase> cases;
-  for (const Law law : kLaws) {
+  const std::vector<Law> laws = physics::laws_with(&physics::LawTraits::computed);
+  for (const Law law : laws) {
     cases.push_back({.name = "tick " + std::string(name_of(law)),
                      .bar_s = kTickBar_s,
                      .run = [law](benchmark::State& state) { tick(state, law); }});
   }
-  for (const Law law : kLaws) {
+  for (const Law law : laws) {
     cases.push_back({.name = "tables " + std::string(name_of(law)),
                      .bar_s = kTablesBar_s,
                      .run = [law](benchmark::State& state) { tables(state, law); }});

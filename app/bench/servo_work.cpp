@@ -5,10 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include "app/interruption.h"
@@ -34,7 +33,7 @@ constexpr std::size_t kHalfCycle = 600;     // ticks
 constexpr double kTop_m = 0.060, kBottom_m = -0.015, kSideways_m = 0.03;
 
 struct Felt {
-  const char* name;
+  std::string name;
   physics::Law law;
   bool dynamic;
   bool topography;
@@ -42,16 +41,17 @@ struct Felt {
   double p99_bar_us;
 };
 
-using physics::Law;
-constexpr std::array kFelt{Felt{"paper on a plane", Law::Paper, false, false, 0, kFieldP99_us},
-                           Felt{"paper on a surface", Law::Paper, false, true, kFieldP50_us, kFieldP99_us},
-                           Felt{"dmt", Law::Dmt, false, true, 0, kDearestBar_us},
-                           Felt{"jkr", Law::Jkr, false, true, 0, kDearestBar_us},
-                           Felt{"maugis", Law::MaugisDugdale, false, true, 0, kDearestBar_us},
-                           Felt{"lj", Law::LennardJones, false, true, 0, kDearestBar_us},
-                           Felt{"dynamic-dmt", Law::Dmt, true, true, 0, kDearestBar_us}};
-
-void set_name(scene::Name& name, std::string_view text) { std::copy(text.begin(), text.end(), name.begin()); }
+// The paper's law against CHAI3D's, every other one, and a lever with mass.
+std::vector<Felt> all_felt() {
+  using physics::Law;
+  std::vector<Felt> all{{"paper on a plane", Law::Paper, false, false, 0, kFieldP99_us},
+                        {"paper on a surface", Law::Paper, false, true, kFieldP50_us, kFieldP99_us}};
+  for (const Law law : physics::laws_with(&physics::LawTraits::computed)) {
+    if (law != Law::Paper) all.push_back({std::string(name_of(law)), law, false, true, 0, kDearestBar_us});
+  }
+  all.push_back({"dynamic-dmt", Law::Dmt, true, true, 0, kDearestBar_us});
+  return all;
+}
 
 // Waves and steps, as steep as a cleaved face.
 scene::SharedHeightField rough_surface() {
@@ -153,11 +153,11 @@ core::Result<WorkFigure> measure(const Felt& felt, std::size_t ticks) {
 scene::SharedModel mica_alone() {
   scene::SharedModel model;
   model.node_count = 1;
-  set_name(model.nodes[0].name, "sample");
+  model.nodes[0].name = scene::to_name("sample");
   model.nodes[0].parent_from_node = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};  // +z is up
   model.material_count = 1;
   scene::SharedContact& mica = model.materials[0];
-  set_name(mica.name, "mica");
+  mica.name = scene::to_name("mica");
   mica.contact = {.tip_radius = physics::Length(50e-9),
                   .spring_constant = physics::Stiffness(0.1),
                   .sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity()),
@@ -170,8 +170,9 @@ scene::SharedModel mica_alone() {
 
 core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks) {
   std::vector<WorkFigure> figures;
-  for (const Felt& felt : kFelt) {
-    core::log_line(fmt::format("measuring a tick: {} ({} of {})", felt.name, figures.size() + 1, kFelt.size()));
+  const std::vector<Felt> all = all_felt();
+  for (const Felt& felt : all) {
+    core::log_line(fmt::format("measuring a tick: {} ({} of {})", felt.name, figures.size() + 1, all.size()));
     auto figure = measure(felt, ticks);
     if (!figure) return tl::unexpected(figure.error());
     figures.push_back(std::move(*figure));

@@ -21,9 +21,7 @@ namespace afm::app {
 
 namespace {
 
-tl::unexpected<core::Error> wrong_usage(std::string message) {
-  return core::failure(core::ErrorCategory::WrongUsage, std::move(message));
-}
+using core::wrong_usage;
 
 core::Result<curves::CurveReading> reading_of(const AnalyseOptions& options) {
   curves::CurveReading reading;

@@ -19,9 +19,7 @@
 namespace afm::app {
 namespace {
 
-tl::unexpected<core::Error> wrong_usage(std::string message) {
-  return core::failure(core::ErrorCategory::WrongUsage, std::move(message));
-}
+using core::wrong_usage;
 
 constexpr const char* kFormats = "csv, json, svg, tab, h5, afm-workshop";
 

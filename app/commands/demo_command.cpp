@@ -329,9 +329,9 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
       ->type_name("NAME");
   auto model = std::make_shared<std::string>("paper");
   command
-      ->add_option("--model", *model,
-                   "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- "
-                   "before one that can move a mass")
+      ->add_option(
+          "--model", *model,
+          "law of force: auto (by the Tabor parameter), or one of " + curves::known_models(curves::ModelUse::Device))
       ->capture_default_str()
       ->type_name("NAME");
   command
@@ -372,7 +372,7 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
       if (!name || name->direction_rule) {
         return core::failure(core::ErrorCategory::WrongUsage,
                              fmt::format("unknown model \"{}\" to feel; known are {} (paper-rule is for curves alone)",
-                                         *model, curves::known_models()));
+                                         *model, curves::known_models(curves::ModelUse::Device)));
       }
       options->model = *name;
       options->servo.mode = *servo == "thread" ? servo::ServoMode::Thread : servo::ServoMode::Process;

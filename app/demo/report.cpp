@@ -193,16 +193,13 @@ std::string report_html(const DemoResult& result, const std::vector<ReportPictur
 
 std::string session_csv(const servo::RecordedSession& session) {
   const scene::SharedContact& m = session.parameters;
-  const physics::ContactParameters& in = m.contact;
   fmt::memory_buffer csv;
   const auto out = std::back_inserter(csv);
   fmt::format_to(out, "# TouchAFM {}: one approach-retract cycle as the servo recorded it\n", core::kVersion);
   fmt::format_to(out, "# material: {}\n# model: {}\n", session.material, curves::law_name(m));
-  fmt::format_to(out, "# tip_radius_m: {}\n# spring_constant_N_per_m: {}\n", in.tip_radius.si, in.spring_constant.si);
-  fmt::format_to(out, "# sample_stiffness_N_per_m: {}\n# hamaker_J: {}\n", in.sample_stiffness.si, in.hamaker.si);
-  fmt::format_to(out, "# mean_surface_energy_J_per_m2: {}\n", in.mean_surface_energy.si);
-  fmt::format_to(out, "# reduced_modulus_Pa: {}\n# atomic_distance_m: {}\n", in.reduced_modulus.si,
-                 in.atomic_distance.si);
+  for (const physics::ContactField& field : physics::kContactFields) {
+    fmt::format_to(out, "# {}: {}\n", field.json_key, field.get(m.contact));
+  }
   if (m.dynamic != 0) {
     fmt::format_to(out, "# resonance_Hz: {}\n# quality_factor: {}\n# temperature_K: {}\n# slow_motion: {}\n",
                    m.lever.resonance.si, m.lever.quality_factor, m.lever.temperature.si, session.slow_motion);

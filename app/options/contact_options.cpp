@@ -10,9 +10,7 @@
 namespace afm::app {
 namespace {
 
-tl::unexpected<core::Error> wrong_usage(std::string message) {
-  return core::failure(core::ErrorCategory::WrongUsage, std::move(message));
-}
+using core::wrong_usage;
 
 std::vector<std::string> with_built_in(const std::string& built_in, const std::vector<std::string>& own) {
   std::vector<std::string> files{built_in};
@@ -42,14 +40,10 @@ scene::MaterialEntry nameless_material() {
 // What a model cannot do without, by the options' names.
 std::vector<const char*> needed_options(const curves::ModelName& model) {
   std::vector<const char*> needed{"tip-radius", "spring-constant"};
-  using physics::Law;
-  const Law law = model.law;
-  if (model.automatic || (law != Law::Hertz && law != Law::Jkr && law != Law::LennardJones))
-    needed.push_back("hamaker");
-  if (model.automatic || law != Law::Hertz) needed.push_back("work-of-adhesion");
-  if (model.automatic || law == Law::Hertz || law == Law::Jkr || law == Law::MaugisDugdale) {
-    needed.push_back("reduced-modulus");
-  }
+  const physics::LawTraits& law = physics::traits_of(model.law);
+  if (model.automatic || law.van_der_waals) needed.push_back("hamaker");
+  if (model.automatic || law.adhesion) needed.push_back("work-of-adhesion");
+  if (model.automatic || law.modulus == physics::ModulusUse::Needed) needed.push_back("reduced-modulus");
   return needed;
 }
 
@@ -121,7 +115,8 @@ void add_contact_options(CLI::App& command, ContactOptions& options, const Comma
       ->allow_extra_args(false);
   command
       .add_option("--model", options.model,
-                  "auto (the law that suits the contact, by its Tabor parameter), or one of " + curves::known_models())
+                  "auto (the law that suits the contact, by its Tabor parameter), or one of " +
+                      curves::known_models(curves::ModelUse::Curve))
       ->type_name("NAME")
       ->capture_default_str();
   for (const curves::ContactParameter& parameter : curves::contact_parameters()) {
@@ -143,7 +138,8 @@ core::Result<scene::ProbeLibrary> load_probes(const ContactOptions& options) {
 core::Result<curves::ContactSetup> contact_setup(const ContactOptions& options) {
   const auto model = curves::ModelName::parse(options.model);
   if (!model) {
-    return wrong_usage(fmt::format("unknown model \"{}\"; known are {}", options.model, curves::known_models()));
+    return wrong_usage(fmt::format("unknown model \"{}\"; known are {}", options.model,
+                                   curves::known_models(curves::ModelUse::Curve)));
   }
   const auto material = base_material(options, *model);
   if (!material) return tl::unexpected(material.error());

@@ -7,22 +7,16 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace afm::curves {
 namespace {
 
 using physics::Law;
+using physics::LawTraits;
 
 constexpr std::string_view kDynamicPrefix = "dynamic-";
-constexpr std::array kStaticLaws{Law::Paper, Law::Hao,           Law::Hertz,       Law::Dmt,
-                                 Law::Jkr,   Law::MaugisDugdale, Law::LennardJones};
-
-bool can_be_dynamic(Law law) { return law != Law::Paper && law != Law::Hao; }
-
-// The forces that a law is made of.
-bool has_van_der_waals(Law law) {
-  return law == Law::Paper || law == Law::Hao || law == Law::Dmt || law == Law::MaugisDugdale;
-}
 
 constexpr std::array<physics::Unit, 1> kPercent{physics::Unit{"%", 1e2, true}};
 
@@ -43,89 +37,104 @@ constexpr std::array<std::string_view, 1> kTemperature{"temperature"};
 using Number = std::optional<double>;
 
 // A row whose number has units.
-template <class Q>
 ContactParameter row(std::string_view option, std::string_view json_key, std::span<const std::string_view> keys,
-                     std::string_view help, const physics::UnitList<Q>& units, Number (*get)(const ContactSetup&),
+                     std::string help, const physics::Units& units, Number (*get)(const ContactSetup&),
                      void (*set)(ContactSetup&, double), physics::Infinity infinity = physics::Infinity::Refused) {
-  return {option, json_key, keys, help, units.sort, units.units, infinity, get, set};
+  return {option, json_key, keys, std::move(help), units.sort, units.units, infinity, get, set};
+}
+
+std::string help_of(std::string_view meaning, const std::string& range, const physics::Units& units) {
+  return fmt::format("{}, {}: {}", meaning, range, physics::list_units(units.units));
+}
+
+using physics::ContactParameters;
+
+// A row whose number is one of ContactParameters.
+template <auto Member>
+ContactParameter row(std::string_view option, std::span<const std::string_view> keys,
+                     const physics::ContactField& field) {
+  return row(
+      option, field.json_key, keys, help_of(field.meaning, field.range(), *field.units), *field.units,
+      [](const ContactSetup& s) { return Number((s.material.contact.*Member).si); },
+      [](ContactSetup& s, double si) { (s.material.contact.*Member).si = si; },
+      field.largest < std::numeric_limits<double>::infinity() ? physics::Infinity::Refused
+                                                              : physics::Infinity::Allowed);
+}
+
+// W is twice what the laws are given (3.3).
+ContactParameter work_of_adhesion() {
+  constexpr const physics::ContactField& kMean = physics::contact_field("mean_surface_energy");
+  return row(
+      "work-of-adhesion", "work_of_adhesion_J_per_m2", kWorkOfAdhesion,
+      help_of("W = 2 sqrt(gamma_s gamma_t)",
+              physics::range_text(2.0 * kMean.smallest, 2.0 * kMean.largest, *kMean.units), *kMean.units),
+      *kMean.units,
+      [](const ContactSetup& s) {
+        return s.has_work_of_adhesion() ? Number(2.0 * s.material.contact.mean_surface_energy.si) : Number();
+      },
+      [](ContactSetup& s, double si) { s.material.contact.mean_surface_energy = physics::SurfaceEnergy(0.5 * si); });
+}
+
+// E* as it is given replaces the moduli of the two bodies.
+ContactParameter reduced_modulus() {
+  ContactParameter parameter = row<&ContactParameters::reduced_modulus>("reduced-modulus", kReducedModulus,
+                                                                        physics::contact_field("reduced_modulus"));
+  parameter.set = [](ContactSetup& s, double si) {
+    s.material.contact.reduced_modulus = physics::Pressure(si);
+    s.material.tip_elasticity.reset();
+    s.material.sample_elasticity.reset();
+  };
+  return parameter;
 }
 
 std::array<ContactParameter, 12> make_parameters() {
   using namespace physics;
   using Setup = ContactSetup;
-  return {row(
-              "tip-radius", "tip_radius_m", kTipRadius, "R, 0.1nm to 1mm: m, mm, um, nm, pm", kLengthUnits,
-              [](const Setup& s) { return Number(s.material.contact.tip_radius.si); },
-              [](Setup& s, double si) { s.material.contact.tip_radius = Length(si); }),
-          row(
-              "spring-constant", "spring_constant_N_per_m", kSpringConstant, "k_c, 1e-6N/m to 1e6N/m: N/m, mN/m",
-              kStiffnessUnits, [](const Setup& s) { return Number(s.material.contact.spring_constant.si); },
-              [](Setup& s, double si) { s.material.contact.spring_constant = Stiffness(si); }),
-          row(
-              "sample-stiffness", "sample_stiffness_N_per_m", kSampleStiffness,
-              "k_s of an elastic support, 1e-6N/m to \"inf N/m\": N/m, mN/m", kStiffnessUnits,
-              [](const Setup& s) { return Number(s.material.contact.sample_stiffness.si); },
-              [](Setup& s, double si) { s.material.contact.sample_stiffness = Stiffness(si); }, Infinity::Allowed),
-          row(
-              "hamaker", "hamaker_J", kHamaker, "A_H, 1e-24J to 1e-16J: J, aJ, zJ", kEnergyUnits,
-              [](const Setup& s) { return Number(s.material.contact.hamaker.si); },
-              [](Setup& s, double si) { s.material.contact.hamaker = Energy(si); }),
-          row(
-              "work-of-adhesion", "work_of_adhesion_J_per_m2", kWorkOfAdhesion,
-              "W = 2 sqrt(gamma_s gamma_t), 2e-9J/m2 to 200J/m2: J/m2, mJ/m2", kSurfaceEnergyUnits,
-              [](const Setup& s) {
-                return s.has_work_of_adhesion() ? Number(2.0 * s.material.contact.mean_surface_energy.si) : Number();
-              },
-              // (3.3)
-              [](Setup& s, double si) { s.material.contact.mean_surface_energy = SurfaceEnergy(0.5 * si); }),
-          row(
-              "reduced-modulus", "reduced_modulus_Pa", kReducedModulus, "E*, 1Pa to 10TPa: TPa, GPa, MPa, kPa, Pa",
-              kPressureUnits, [](const Setup& s) { return Number(s.material.contact.reduced_modulus.si); },
-              [](Setup& s, double si) {
-                s.material.contact.reduced_modulus = Pressure(si);
-                s.material.tip_elasticity.reset();
-                s.material.sample_elasticity.reset();
-              }),
-          row(
-              "atomic-distance", "atomic_distance_m", kAtomicDistance, "z0, 0.05nm to 5nm: m, mm, um, nm, pm",
-              kLengthUnits, [](const Setup& s) { return Number(s.material.contact.atomic_distance.si); },
-              [](Setup& s, double si) { s.material.contact.atomic_distance = Length(si); }),
-          row(
-              "retardation", "retardation_wavelength_m", kRetardation,
-              "wavelength of retardation of the van der Waals force, about 100nm; default: not retarded", kLengthUnits,
-              [](const Setup& s) {
-                const auto& wavelength = s.law_options.retardation_wavelength;
-                return wavelength ? Number(wavelength->si) : Number();
-              },
-              [](Setup& s, double si) { s.law_options.retardation_wavelength = Length(si); }),
-          {"humidity", "relative_humidity", kHumidity,
-           "relative humidity of the air, which condenses a bridge of water: 1% to 99%; default: none", "a humidity",
-           kPercent, Infinity::Refused,
-           [](const Setup& s) {
-             const auto& meniscus = s.law_options.meniscus;
-             return meniscus ? Number(meniscus->relative_humidity) : Number();
-           },
-           [](Setup& s, double si) {
-             if (!s.law_options.meniscus) s.law_options.meniscus.emplace();
-             s.law_options.meniscus->relative_humidity = si;
-           }},
-          row(
-              "resonance", "resonance_Hz", kResonance, "f0 of the lever in the medium, 1Hz to 100MHz: MHz, kHz, Hz",
-              kFrequencyUnits, [](const Setup& s) { return Number(s.material.lever.resonance.si); },
-              [](Setup& s, double si) { s.material.lever.resonance = Frequency(si); }),
-          {"quality-factor",
-           "quality_factor",
-           kQualityFactor,
-           "Q of the lever in the medium, 0.01 to 1e7: a plain number",
-           "a quality factor",
-           {},
-           Infinity::Refused,
-           [](const Setup& s) { return Number(s.material.lever.quality_factor); },
-           [](Setup& s, double si) { s.material.lever.quality_factor = si; }},
-          row(
-              "temperature", "temperature_K", kTemperature, "0K (no thermal noise) to 2000K: K", kTemperatureUnits,
-              [](const Setup& s) { return Number(s.material.lever.temperature.si); },
-              [](Setup& s, double si) { s.material.lever.temperature = Temperature(si); })};
+  return {
+      row<&ContactParameters::tip_radius>("tip-radius", kTipRadius, contact_field("tip_radius")),
+      row<&ContactParameters::spring_constant>("spring-constant", kSpringConstant, contact_field("spring_constant")),
+      row<&ContactParameters::sample_stiffness>("sample-stiffness", kSampleStiffness,
+                                                contact_field("sample_stiffness")),
+      row<&ContactParameters::hamaker>("hamaker", kHamaker, contact_field("hamaker")),
+      work_of_adhesion(),
+      reduced_modulus(),
+      row<&ContactParameters::atomic_distance>("atomic-distance", kAtomicDistance, contact_field("atomic_distance")),
+      row(
+          "retardation", "retardation_wavelength_m", kRetardation,
+          "wavelength of retardation of the van der Waals force, about 100nm; default: not retarded", kLengthUnits,
+          [](const Setup& s) {
+            const auto& wavelength = s.law_options.retardation_wavelength;
+            return wavelength ? Number(wavelength->si) : Number();
+          },
+          [](Setup& s, double si) { s.law_options.retardation_wavelength = Length(si); }),
+      {"humidity", "relative_humidity", kHumidity,
+       "relative humidity of the air, which condenses a bridge of water: 1% to 99%; default: none", "a humidity",
+       kPercent, Infinity::Refused,
+       [](const Setup& s) {
+         const auto& meniscus = s.law_options.meniscus;
+         return meniscus ? Number(meniscus->relative_humidity) : Number();
+       },
+       [](Setup& s, double si) {
+         if (!s.law_options.meniscus) s.law_options.meniscus.emplace();
+         s.law_options.meniscus->relative_humidity = si;
+       }},
+      row(
+          "resonance", "resonance_Hz", kResonance, "f0 of the lever in the medium, 1Hz to 100MHz: MHz, kHz, Hz",
+          kFrequencyUnits, [](const Setup& s) { return Number(s.material.lever.resonance.si); },
+          [](Setup& s, double si) { s.material.lever.resonance = Frequency(si); }),
+      {"quality-factor",
+       "quality_factor",
+       kQualityFactor,
+       "Q of the lever in the medium, 0.01 to 1e7: a plain number",
+       "a quality factor",
+       {},
+       Infinity::Refused,
+       [](const Setup& s) { return Number(s.material.lever.quality_factor); },
+       [](Setup& s, double si) { s.material.lever.quality_factor = si; }},
+      row(
+          "temperature", "temperature_K", kTemperature, "0K (no thermal noise) to 2000K: K", kTemperatureUnits,
+          [](const Setup& s) { return Number(s.material.lever.temperature.si); },
+          [](Setup& s, double si) { s.material.lever.temperature = Temperature(si); })};
 }
 
 }  // namespace
@@ -144,18 +153,17 @@ std::optional<ModelName> ModelName::parse(std::string_view text) {
   name.dynamic = text.starts_with(kDynamicPrefix);
   if (name.dynamic) text.remove_prefix(kDynamicPrefix.size());
   const auto law = physics::law_of(text);
-  if (!law || *law == Law::Measured || (name.dynamic && !can_be_dynamic(*law))) return std::nullopt;
+  if (!law || !physics::traits_of(*law).computed) return std::nullopt;
+  if (name.dynamic && !physics::has_dynamics(*law)) return std::nullopt;
   name.law = *law;
   return name;
 }
 
-std::string known_models() {
-  std::string text = "auto, paper, paper-rule";
-  for (const Law law : kStaticLaws) {
-    if (law != Law::Paper) text += fmt::format(", {}", physics::name_of(law));
-  }
-  for (const Law law : kStaticLaws) {
-    if (can_be_dynamic(law)) text += fmt::format(", {}{}", kDynamicPrefix, physics::name_of(law));
+std::string known_models(ModelUse use) {
+  std::string text = use == ModelUse::Curve ? "auto, paper-rule" : "auto";
+  for (const Law law : physics::laws_with(&LawTraits::computed)) text += fmt::format(", {}", physics::name_of(law));
+  for (const Law law : physics::laws_with(&LawTraits::dynamic)) {
+    text += fmt::format(", {}{}", kDynamicPrefix, physics::name_of(law));
   }
   return text;
 }
@@ -193,12 +201,12 @@ const ContactParameter* find_contact_parameter(std::string_view option) {
 
 bool acts(const ContactParameter& parameter, const ModelName& model) {
   const std::string_view option = parameter.option;
-  const bool any_contact_law = model.automatic;
-  if (option == "resonance" || option == "quality-factor" || option == "temperature") return model.dynamic;
-  if (option == "hamaker") return any_contact_law || has_van_der_waals(model.law);
-  const bool closed_form = !any_contact_law && model.law == Law::Paper;
-  if (option == "retardation") return any_contact_law || (has_van_der_waals(model.law) && !closed_form);
-  if (option == "humidity") return !closed_form;
+  if (model.automatic) return true;
+  const LawTraits& law = physics::traits_of(model.law);
+  if (option == "hamaker") return law.van_der_waals;
+  // a closed form has no place for them
+  if (option == "retardation") return law.van_der_waals && law.curve != nullptr;
+  if (option == "humidity") return law.curve != nullptr;
   // the others give the force or the place on the adhesion map
   return true;
 }

@@ -19,9 +19,7 @@
 namespace afm::curves {
 namespace {
 
-tl::unexpected<core::Error> wrong_usage(std::string message) {
-  return core::failure(core::ErrorCategory::WrongUsage, std::move(message));
-}
+using core::wrong_usage;
 
 template <class Q>
 core::Result<Q> parse_option(const char* option, const std::string& text, const physics::UnitList<Q>& units) {

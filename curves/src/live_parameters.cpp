@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "physics/adhesion_map.h"
 #include "physics/force_model.h"
@@ -24,8 +26,14 @@ constexpr int kDigits = 3;
 constexpr double kPointsOfCycle = 400.0;
 
 // In the order in which the panel goes through them; none stands for the adhesion map's choice.
-constexpr std::array<std::optional<Law>, 8> kLaws{std::nullopt,       Law::Paper, Law::Hao,          Law::Dmt,
-                                                  Law::MaugisDugdale, Law::Jkr,   Law::LennardJones, Law::Hertz};
+std::span<const std::optional<Law>> choices_of_law() {
+  static const auto choices = [] {
+    std::vector<std::optional<Law>> all{std::nullopt};
+    for (const Law law : physics::laws_with(&physics::LawTraits::computed)) all.emplace_back(law);
+    return all;
+  }();
+  return choices;
+}
 
 // One cycle as far as the force panel shows.
 physics::ForceCurve predict(const SampleModel& material) {
@@ -43,8 +51,9 @@ LiveParameters::LiveParameters(const SampleModel& loaded) : loaded_(loaded), now
 
 std::optional<Law> LiveParameters::law_after(int steps) const {
   const std::optional<Law> first = loaded_.setup.model.automatic ? std::nullopt : std::optional(loaded_.parameters.law);
-  const auto place = std::find(kLaws.begin(), kLaws.end(), first) - kLaws.begin();
-  return kLaws[static_cast<std::size_t>(place + steps) % kLaws.size()];
+  const auto choices = choices_of_law();
+  const auto place = std::find(choices.begin(), choices.end(), first) - choices.begin();
+  return choices[static_cast<std::size_t>(place + steps) % choices.size()];
 }
 
 bool LiveParameters::take(const Steps& steps) {
@@ -88,7 +97,7 @@ bool LiveParameters::step(Row row, int direction) {
     return !(row == Row::ReducedModulus && stiffer_than_rigid) && take(next);
   }
   // the next law that these parameters have
-  const auto count = static_cast<int>(kLaws.size());
+  const auto count = static_cast<int>(choices_of_law().size());
   for (int tries = 1; tries < count; ++tries) {
     steps = (steps + direction + count) % count;
     if (take(next)) return true;

@@ -21,10 +21,8 @@ using physics::Law;
 // What the servo gets. A measured law is no model that can be asked for: its caller sets it.
 scene::SharedContact parameters_of(const ContactSetup& setup) {
   const physics::LawOptions& options = setup.law_options;
-  const std::string& name = setup.material.name;
   scene::SharedContact shared;
-  // names are for people; a longer one is cut
-  std::copy_n(name.begin(), std::min(name.size(), shared.name.size() - 1), shared.name.begin());
+  shared.name = scene::to_name(setup.material.name);
   shared.contact = setup.material.contact;
   shared.law = setup.law();
   shared.exact_hamaker_sphere = options.exact_hamaker_sphere ? 1 : 0;

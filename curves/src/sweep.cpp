@@ -27,8 +27,8 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-tl::unexpected<core::Error> wrong_usage(const std::string& text, const std::string& why) {
-  return core::failure(core::ErrorCategory::WrongUsage, fmt::format("{}: {}", text.substr(0, 80), why));
+tl::unexpected<core::Error> wrong_axis(const std::string& text, const std::string& why) {
+  return core::wrong_usage(fmt::format("{}: {}", text.substr(0, 80), why));
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -145,34 +145,34 @@ core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelNam
   const std::size_t equals = text.find('=');
   const auto parts = equals == std::string::npos ? std::vector<std::string>() : split(text.substr(equals + 1), ':');
   if (parts.size() != 3 && !(parts.size() == 4 && parts[3] == "log")) {
-    return wrong_usage(text,
-                       "write key=from:to:count, as in spring-constant=0.01N/m:1N/m:50, with :log for equal ratios");
+    return wrong_axis(text,
+                      "write key=from:to:count, as in spring-constant=0.01N/m:1N/m:50, with :log for equal ratios");
   }
   SweepAxis axis;
   axis.parameter = find_contact_parameter(text.substr(0, equals));
   if (axis.parameter == nullptr || !acts(*axis.parameter, model)) {
-    return wrong_usage(text,
-                       fmt::format("\"{}\" is no number of the model {}; it has {}",
-                                   text.substr(0, std::min<std::size_t>(equals, 40)), model.text, sweepable(model)));
+    return wrong_axis(text,
+                      fmt::format("\"{}\" is no number of the model {}; it has {}",
+                                  text.substr(0, std::min<std::size_t>(equals, 40)), model.text, sweepable(model)));
   }
   const auto from = parse_parameter(*axis.parameter, parts[0]);
-  if (!from) return wrong_usage(text, from.error().message);
+  if (!from) return wrong_axis(text, from.error().message);
   const auto to = parse_parameter(*axis.parameter, parts[1]);
-  if (!to) return wrong_usage(text, to.error().message);
+  if (!to) return wrong_axis(text, to.error().message);
   axis.from = *from;
   axis.to = *to;
   axis.logarithmic = parts.size() == 4;
-  if (!std::isfinite(axis.from) || !std::isfinite(axis.to)) return wrong_usage(text, "both ends must be finite");
+  if (!std::isfinite(axis.from) || !std::isfinite(axis.to)) return wrong_axis(text, "both ends must be finite");
   if (axis.logarithmic && !(axis.from > 0.0 && axis.to > 0.0)) {
-    return wrong_usage(text, "equal ratios need two positive ends");
+    return wrong_axis(text, "equal ratios need two positive ends");
   }
   const std::string& count = parts[2];
   const auto [end, status] = std::from_chars(count.data(), count.data() + count.size(), axis.count);
   if (status == std::errc::result_out_of_range) axis.count = std::numeric_limits<std::uint64_t>::max();
   if (status == std::errc::invalid_argument || end != count.data() + count.size() || axis.count < 2 ||
       axis.count > kLargestParameterSweep) {
-    return wrong_usage(text, fmt::format("the count \"{}\" is no whole number within 2 to {}", count.substr(0, 40),
-                                         kLargestParameterSweep));
+    return wrong_axis(text, fmt::format("the count \"{}\" is no whole number within 2 to {}", count.substr(0, 40),
+                                        kLargestParameterSweep));
   }
   return axis;
 }

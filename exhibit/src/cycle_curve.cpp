@@ -3,14 +3,11 @@
 
 #include <utility>
 
+#include "plot_units.h"
+
 namespace afm::exhibit {
 
-namespace {
-
-constexpr double kNmPerM = 1e9;
-constexpr double kNnPerN = 1e9;
-
-}  // namespace
+namespace {}  // namespace
 
 void CycleCurve::add(const scene::TipSample& sample) {
   const bool felt = sample.servo_state == scene::ServoState::Running && sample.phase != physics::Phase::WaitForLift;

@@ -9,6 +9,7 @@
 
 #include "exhibit/frame_builder.h"
 #include "physics/quantity_text.h"
+#include "plot_units.h"
 
 namespace afm::exhibit {
 
@@ -17,9 +18,6 @@ namespace {
 using physics::format_quantity;
 using physics::Law;
 
-constexpr double kNmPerM = 1e9;
-constexpr double kNnPerN = 1e9;
-constexpr double kAjPerJ = 1e18;
 constexpr int kDigits = 3;
 
 // With a typographic minus, and no sign on what rounds to zero.
@@ -58,9 +56,6 @@ std::string pressure_text(physics::Pressure q) {
   return physics::isfinite(q) ? format_quantity(q, physics::kPressureUnits, kDigits) : "rigid";
 }
 
-bool indents(Law law) { return law == Law::Hertz || law == Law::Dmt || law == Law::Jkr || law == Law::MaugisDugdale; }
-bool attracts_from_afar(Law law) { return law != Law::Hertz && law != Law::Jkr && law != Law::Measured; }
-
 std::string hysteresis_text(const physics::CycleFigures& figures) {
   const physics::Stiffness critical = figures.critical_stiffness;
   if (!physics::isfinite(critical)) return "hysteresis with any lever";
@@ -82,16 +77,21 @@ render::DataPanel data_panel(const curves::SampleModel& material, double deflect
   panel.rows = {
       row(material, "Tip radius R", "tip-radius", &ContactParameters::tip_radius, length_text),
       row(material, "Spring constant k", "spring-constant", &ContactParameters::spring_constant, stiffness_text)};
-  if (attracts_from_afar(law)) {
+  const physics::LawTraits& traits = physics::traits_of(law);
+  if (traits.van_der_waals) {
     panel.rows.push_back(row(material, "Hamaker constant A", "hamaker", &ContactParameters::hamaker, energy_text));
   }
-  if (law != Law::Hertz && law != Law::Measured) {
+  if (traits.adhesion) {
     panel.rows.push_back(row(material, "Surface energy \u221a(\u03b3\u03b3)", "work-of-adhesion",
                              &ContactParameters::mean_surface_energy, surface_energy_text));
   }
-  if (indents(law)) {
+  if (traits.modulus != physics::ModulusUse::Unused) {
     panel.rows.push_back(
         row(material, "Reduced modulus E*", "reduced-modulus", &ContactParameters::reduced_modulus, pressure_text));
+  }
+  if (traits.atomic_distance) {
+    panel.rows.push_back(
+        row(material, "Atomic distance z0", "atomic-distance", &ContactParameters::atomic_distance, length_text));
   }
   panel.rows.push_back({"Law of force", curves::law_name(material.parameters), curves::law_reason(material)});
   if (figures.hysteretic) {

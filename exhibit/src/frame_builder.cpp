@@ -10,15 +10,13 @@
 #include "exhibit/data_panel.h"
 #include "haptics/scaling.h"
 #include "physics/quantity_text.h"
+#include "plot_units.h"
 
 namespace afm::exhibit {
 
 namespace {
 
 using physics::format_quantity;
-
-constexpr double kNmPerM = 1e9;
-constexpr double kNnPerN = 1e9;
 
 // Axes around the loop, in units of the reach of the pull and of its strength.
 constexpr double kAxisBelow = 0.42, kAxisAbove = 1.42;

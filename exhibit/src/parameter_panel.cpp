@@ -7,13 +7,12 @@
 #include <cmath>
 
 #include "physics/quantity_text.h"
+#include "plot_units.h"
 
 namespace afm::exhibit {
 
 namespace {
 
-constexpr double kNmPerM = 1e9;
-constexpr double kNnPerN = 1e9;
 constexpr double kForceAbove = 0.52, kForceBelow = 1.22;  // of the axis, in units of the strongest pull
 constexpr glm::vec3 kPredictionColor{0.80F, 0.82F, 0.86F};
 constexpr int kDigits = 3;

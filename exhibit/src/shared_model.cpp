@@ -8,14 +8,7 @@
 
 namespace afm::exhibit {
 
-namespace {
-
-// Names are for people; a longer one is cut.
-void set_name(scene::Name& name, std::string_view text) {
-  std::copy_n(text.begin(), std::min(text.size(), name.size() - 1), name.begin());
-}
-
-}  // namespace
+namespace {}  // namespace
 
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
                                               std::span<const curves::SampleModel> materials,
@@ -38,7 +31,7 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
   model.sample_node = sample_node;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     scene::SharedNode& node = model.nodes[i];
-    set_name(node.name, scene.nodes[i].name);
+    node.name = scene::to_name(scene.nodes[i].name);
     node.parent = scene.nodes[i].parent.value_or(scene::kNoParent);
     for (int column = 0; column < 4; ++column) {
       for (int row = 0; row < 4; ++row) {

@@ -51,6 +51,24 @@ std::string quoted(std::string_view text) {
   return result;
 }
 
+std::string refusal(std::string_view text, std::string_view sort, std::span<const Unit> units, std::string_view why) {
+  return "cannot read " + quoted(text) + " as " + std::string(sort) + ": " + std::string(why) +
+         "; write a number and one of the units " + list_units(units);
+}
+
+}  // namespace
+
+constinit const UnitList<Length> kLengthUnits{{"a length", kLengths}};
+constinit const UnitList<Force> kForceUnits{{"a force", kForces}};
+constinit const UnitList<Velocity> kVelocityUnits{{"a velocity", kVelocities}};
+constinit const UnitList<Energy> kEnergyUnits{{"an energy", kEnergies}};
+constinit const UnitList<Stiffness> kStiffnessUnits{{"a stiffness", kStiffnesses}};
+constinit const UnitList<SurfaceEnergy> kSurfaceEnergyUnits{{"a surface energy", kSurfaceEnergies}};
+constinit const UnitList<Pressure> kPressureUnits{{"a pressure", kPressures}};
+constinit const UnitList<Frequency> kFrequencyUnits{{"a frequency", kFrequencies}};
+constinit const UnitList<Temperature> kTemperatureUnits{{"a temperature", kTemperatures}};
+constinit const UnitList<Density> kDensityUnits{{"a density", kDensities}};
+
 std::string list_units(std::span<const Unit> units) {
   std::string list;
   for (const Unit& unit : units) {
@@ -60,24 +78,6 @@ std::string list_units(std::span<const Unit> units) {
   }
   return list;
 }
-
-std::string refusal(std::string_view text, std::string_view sort, std::span<const Unit> units, std::string_view why) {
-  return "cannot read " + quoted(text) + " as " + std::string(sort) + ": " + std::string(why) +
-         "; write a number and one of the units " + list_units(units);
-}
-
-}  // namespace
-
-constinit const UnitList<Length> kLengthUnits{"a length", kLengths};
-constinit const UnitList<Force> kForceUnits{"a force", kForces};
-constinit const UnitList<Velocity> kVelocityUnits{"a velocity", kVelocities};
-constinit const UnitList<Energy> kEnergyUnits{"an energy", kEnergies};
-constinit const UnitList<Stiffness> kStiffnessUnits{"a stiffness", kStiffnesses};
-constinit const UnitList<SurfaceEnergy> kSurfaceEnergyUnits{"a surface energy", kSurfaceEnergies};
-constinit const UnitList<Pressure> kPressureUnits{"a pressure", kPressures};
-constinit const UnitList<Frequency> kFrequencyUnits{"a frequency", kFrequencies};
-constinit const UnitList<Temperature> kTemperatureUnits{"a temperature", kTemperatures};
-constinit const UnitList<Density> kDensityUnits{"a density", kDensities};
 
 std::variant<double, std::string> parse_si(std::string_view text, std::string_view sort, std::span<const Unit> units,
                                            Infinity infinity) {
@@ -113,6 +113,10 @@ std::string format_si(double si, std::span<const Unit> units, int digits) {
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), si * chosen->per_si,
                                     std::chars_format::general, precision);
   return std::string(buffer.data(), result.ptr) + " " + std::string(chosen->symbol);
+}
+
+std::string range_text(double smallest, double largest, const Units& units) {
+  return format_si(smallest, units.units) + " to " + format_si(largest, units.units);
 }
 
 }  // namespace afm::physics

@@ -9,15 +9,19 @@
 
 namespace afm::physics {
 
-// Throws UnphysicalValue unless smallest <= value <= largest; NaN fails. `field` is the member's name; with blanks for
-// underscores it is what a person reads.
-template <class Q>
-void require_range(const std::string& field, Q value, Q smallest, Q largest, const UnitList<Q>& units) {
+// Throws UnphysicalValue unless smallest <= value <= largest, SI; NaN fails. `field` is the member's name; with blanks
+// for underscores it is what a person reads.
+inline void require_range(const std::string& field, double value, double smallest, double largest, const Units& units) {
   if (value >= smallest && value <= largest) return;
   std::string words = field;
   std::replace(words.begin(), words.end(), '_', ' ');
-  throw UnphysicalValue(field, words + " " + format_quantity(value, units) + " is not within " +
-                                   format_quantity(smallest, units) + " to " + format_quantity(largest, units));
+  throw UnphysicalValue(
+      field, words + " " + format_si(value, units.units) + " is not within " + range_text(smallest, largest, units));
+}
+
+template <class Q>
+void require_range(const std::string& field, Q value, Q smallest, Q largest, const UnitList<Q>& units) {
+  require_range(field, value.si, smallest.si, largest.si, units);
 }
 
 }  // namespace afm::physics

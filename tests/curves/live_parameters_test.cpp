@@ -69,6 +69,21 @@ TEST_F(LiveParametersTest, TheLawGoesRoundThroughAllThatTheseParametersHave) {
   EXPECT_TRUE(seen.contains("auto: dmt"));
 }
 
+TEST_F(LiveParametersTest, ALeverWithMassGoesRoundTheLawsThatMoveOne) {
+  ContactSetup setup = mica_.setup;
+  setup.model.law = physics::Law::Dmt;
+  setup.model.dynamic = true;
+  LiveParameters parameters(make_sample_model(setup).value());
+  std::set<physics::Law> seen;
+  for (int i = 0; i < 8; ++i) {
+    ASSERT_TRUE(parameters.step(Row::Law, 1));
+    EXPECT_TRUE(physics::has_dynamics(parameters.felt().parameters.law)) << parameters.value(Row::Law);
+    seen.insert(parameters.felt().parameters.law);
+  }
+  const auto all = physics::laws_with(&physics::LawTraits::dynamic);
+  EXPECT_EQ(seen, std::set<physics::Law>(all.begin(), all.end()));
+}
+
 TEST_F(LiveParametersTest, AStepBeyondWhatIsPhysicalChangesNothingAndSaysWhy) {
   int steps = 0;
   while (parameters_.step(Row::TipRadius, 1)) ASSERT_LT(++steps, 200);

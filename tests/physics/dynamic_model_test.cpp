@@ -81,7 +81,7 @@ TEST(DynamicModel, PosesTheLeverAsItsForceSays) {
 
 // A slow ramp of a damped lever is the law at rest.
 TEST(DynamicModel, AtRestIsTheLawAtRest) {
-  for (const Law law : {Law::Hertz, Law::Dmt, Law::Jkr, Law::MaugisDugdale, Law::LennardJones}) {
+  for (const Law law : laws_with(&LawTraits::dynamic)) {
     const DynamicModel model = mica({12_kHz, 0.5, 0_K}, law);
     ApproachRetractModel resting(build_law_tables(law, elastic_mica()));
     const Length top = std::max(2_nm, 1.2 * model.figures().z_joc);
@@ -212,7 +212,7 @@ TEST(DynamicModel, DoesNotAllocateInAStep) {
 
 TEST(DynamicModel, StaysFiniteWhateverTheHandDoes) {
   std::mt19937_64 random(4);
-  for (const Law law : {Law::Hertz, Law::Dmt, Law::Jkr, Law::MaugisDugdale, Law::LennardJones}) {
+  for (const Law law : laws_with(&LawTraits::dynamic)) {
     DynamicModel model = mica(kWarm, law);
     for (int i = 0; i < 2000; ++i) {
       const double scale = std::pow(10.0, -10.0 + 6.0 * static_cast<double>(random() % 1000) / 1000.0);
@@ -236,7 +236,7 @@ TEST(DynamicModel, RefusesWhatHasNoDynamics) {
     return "";
   };
   EXPECT_EQ(message(Law::Paper, elastic_mica(), kCold, kTick),
-            "the law paper has no dynamics: take hertz, dmt, jkr, maugis or lj");
+            "the law paper has no dynamics: take one of hertz, dmt, jkr, maugis, lj");
   ContactParameters rigid = elastic_mica();
   rigid.reduced_modulus = Pressure(std::numeric_limits<double>::infinity());
   EXPECT_EQ(message(Law::Dmt, rigid, kCold, kTick),

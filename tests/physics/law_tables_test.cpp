@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "curve_laws.h"
 #include "physics/contact.h"
 #include "physics/force_laws.h"
 
@@ -36,8 +37,6 @@ const std::vector<ContactParameters> kContacts{
     contact(40_N_per_m, kRigid, 109_zJ, 53_mJ_per_m2, 3.6_GPa),
     contact(0.05_N_per_m, kRigid, 40_zJ, 20_mJ_per_m2, 0.001_GPa),
 };
-
-constexpr Law kCurves[]{Law::Hao, Law::Hertz, Law::Dmt, Law::Jkr, Law::MaugisDugdale, Law::LennardJones};
 
 double compliance(const ContactParameters& contact) {
   return 1.0 / contact.spring_constant.si + 1.0 / contact.sample_stiffness.si;
@@ -180,7 +179,8 @@ std::string name_of_case(const testing::TestParamInfo<std::tuple<Law, std::size_
   return std::string(name_of(std::get<0>(test.param))) + "_" + std::to_string(std::get<1>(test.param));
 }
 INSTANTIATE_TEST_SUITE_P(LawTables, EveryLaw,
-                         testing::Combine(testing::ValuesIn(kCurves), testing::Range<std::size_t>(0, 5)), name_of_case);
+                         testing::Combine(testing::ValuesIn(curve_laws()), testing::Range<std::size_t>(0, 5)),
+                         name_of_case);
 
 TEST(LawTables, OfThePaperAreTheClosedForms) {
   const auto tables = build_law_tables(Law::Paper, kContacts[1]);

@@ -174,6 +174,11 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A loop of ten points a branch.
+void make_dynamic(SharedContact& contact) {
+  contact.dynamic = 1;
+  contact.lever = {physics::Frequency(12e3), 2.5, physics::Temperature(298.0)};
+}
+
 void add_measured_curve(SharedModel& model) {
   SharedMeasuredCurve& curve = model.curves[model.curve_count++];
   curve.approach_count = curve.retract_count = 10;
@@ -217,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadModel{"material 0", [](SharedModel& m) { m.materials[0].contact.spring_constant.si = -1; }},
                     BadModel{"material 0",
                              [](SharedModel& m) { m.materials[0].contact.sample_stiffness.si = -kInfinity; }},
-                    BadModel{"law", [](SharedModel& m) { m.materials[0].law = static_cast<Law>(8); }},
+                    BadModel{"law", [](SharedModel& m) { m.materials[0].law = Law::Count; }},
                     BadModel{"option", [](SharedModel& m) { m.materials[1].exact_hamaker_sphere = 2; }},
                     BadModel{"option", [](SharedModel& m) { m.materials[1].dynamic = 7; }},
                     BadModel{"retardation", [](SharedModel& m) { m.materials[0].retardation_wavelength_m = kNan; }},
@@ -226,7 +231,19 @@ INSTANTIATE_TEST_SUITE_P(
                                m.materials[0].has_meniscus = 1;
                                m.materials[0].meniscus.relative_humidity = 1.5;
                              }},
-                    BadModel{"resonance", [](SharedModel& m) { m.materials[0].dynamic = 1; }},
+                    BadModel{"resonance",
+                             [](SharedModel& m) {
+                               m.materials[0].law = Law::Dmt;
+                               m.materials[0].dynamic = 1;
+                             }},
+                    BadModel{"the law paper has no dynamics", [](SharedModel& m) { make_dynamic(m.materials[0]); }},
+                    BadModel{"the law measured has no dynamics",
+                             [](SharedModel& m) {
+                               add_measured_curve(m);
+                               m.materials[0].law = Law::Measured;
+                               m.materials[0].measured_curve = 0;
+                               make_dynamic(m.materials[0]);
+                             }},
                     BadModel{"no measured curve", [](SharedModel& m) { m.materials[0].law = Law::Measured; }},
                     BadModel{"5 measured curves", [](SharedModel& m) { m.curve_count = 5; }},
                     BadModel{"measured curve 0", [](SharedModel& m) { m.curve_count = 1; }},

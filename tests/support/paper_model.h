@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstring>
 #include <limits>
 #include <string_view>
 
@@ -10,15 +9,9 @@
 // The three materials of Liu & Peng, Table 1, on a sample whose +z points up, for tests that need no files.
 namespace afm::test {
 
-inline scene::Name name_of(std::string_view text) {
-  scene::Name name{};
-  std::memcpy(name.data(), text.data(), text.size());
-  return name;
-}
-
 inline scene::SharedContact material(std::string_view name, double spring_constant, double hamaker,
                                      double surface_energy) {
-  return {.name = name_of(name),
+  return {.name = scene::to_name(name),
           .contact = {.tip_radius = physics::Length(50e-9),
                       .spring_constant = physics::Stiffness(spring_constant),
                       .sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity()),
@@ -31,9 +24,9 @@ inline constexpr std::int32_t kMica = 0, kGold = 1, kSiliconNitride = 2;
 inline scene::SharedModel paper_model() {
   scene::SharedModel model;
   model.node_count = 2;
-  model.nodes[0].name = name_of("stage");
+  model.nodes[0].name = scene::to_name("stage");
   model.nodes[0].parent_from_node = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-  model.nodes[1].name = name_of("sample");
+  model.nodes[1].name = scene::to_name("sample");
   model.nodes[1].parent = 0;
   // columns: the sample's x, y, z and origin in the room; z is up
   model.nodes[1].parent_from_node = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 1.5, 0, 1};

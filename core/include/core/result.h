@@ -23,4 +23,8 @@ inline tl::unexpected<Error> failure(ErrorCategory category, std::string message
   return tl::unexpected<Error>(Error{category, std::move(message)});
 }
 
+inline tl::unexpected<Error> wrong_usage(std::string message) {
+  return failure(ErrorCategory::WrongUsage, std::move(message));
+}
+
 }  // namespace afm::core

@@ -14,8 +14,8 @@
 
 namespace afm::curves {
 
-// A name that --model takes: auto, paper, paper-rule, hao, hertz, dmt, jkr, maugis, lj, and dynamic- before one that
-// can move a mass.
+// A name that --model takes: auto, paper-rule, a computed law (physics/law.h), and dynamic- before one that can move a
+// mass.
 struct ModelName {
   std::string text;
   bool automatic = false;       // the law that suits the contact
@@ -26,8 +26,11 @@ struct ModelName {
   static std::optional<ModelName> parse(std::string_view text);
 };
 
-// "auto, paper, paper-rule, ...", for help and messages.
-std::string known_models();
+// paper-rule must never drive a device.
+enum class ModelUse { Curve, Device };
+
+// "auto, paper-rule, paper, ...", for help and messages.
+std::string known_models(ModelUse use);
 
 // One tip, lever, sample and medium, and how its curve is to be computed.
 struct ContactSetup {
@@ -53,7 +56,7 @@ struct ContactParameter {
   std::string_view option;                        // "tip-radius"
   std::string_view json_key;                      // "tip_radius_m"
   std::span<const std::string_view> source_keys;  // in material files; the first is that of the number itself
-  std::string_view help;
+  std::string help;
   std::string_view sort;                 // "a length"
   std::span<const physics::Unit> units;  // empty for a plain number
   physics::Infinity infinity;

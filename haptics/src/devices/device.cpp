@@ -33,18 +33,15 @@ DeviceSpec from_contact(DeviceSpec spec) {
 
 scene::SharedDevice shared(const DeviceSpec& spec) {
   const DeviceSpec here = from_contact(spec);
-  scene::SharedDevice device{
-      .name = {},
-      .max_force_n = here.max_force_n,
-      .max_continuous_force_n = here.max_continuous_force_n,
-      .max_stiffness_n_per_m = here.max_stiffness_n_per_m,
-      .max_slew_n_per_s = here.max_slew_n_per_s,
-      .max_speed_m_per_s = here.max_speed_m_per_s,
-      .has_own_hand = here.has_own_hand ? 1U : 0U,
-      .workspace_min_m = {here.workspace_min_m.x, here.workspace_min_m.y, here.workspace_min_m.z},
-      .workspace_max_m = {here.workspace_max_m.x, here.workspace_max_m.y, here.workspace_max_m.z}};
-  std::copy_n(here.name.begin(), std::min(here.name.size(), device.name.size() - 1), device.name.begin());
-  return device;
+  return {.name = scene::to_name(here.name),
+          .max_force_n = here.max_force_n,
+          .max_continuous_force_n = here.max_continuous_force_n,
+          .max_stiffness_n_per_m = here.max_stiffness_n_per_m,
+          .max_slew_n_per_s = here.max_slew_n_per_s,
+          .max_speed_m_per_s = here.max_speed_m_per_s,
+          .has_own_hand = here.has_own_hand ? 1U : 0U,
+          .workspace_min_m = {here.workspace_min_m.x, here.workspace_min_m.y, here.workspace_min_m.z},
+          .workspace_max_m = {here.workspace_max_m.x, here.workspace_max_m.y, here.workspace_max_m.z}};
 }
 
 DeviceSpec spec_of(const scene::SharedDevice& device) {

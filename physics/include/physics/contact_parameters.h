@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include "physics/quantity_text.h"
 #include "physics/units.h"
 
 namespace afm::physics {
@@ -35,9 +39,64 @@ class UnphysicalValue : public std::invalid_argument {
   std::string field_;
 };
 
-// Throws UnphysicalValue unless every value is a number within: R 0.1 nm to 1 mm, k_c 1 uN/m to 1 MN/m, k_s 1 uN/m to
-// infinity, A_H 1e-24 J to 1e-16 J, sqrt(gamma_s gamma_t) 1 nJ/m^2 to 100 J/m^2, E* 1 Pa to 10 TPa or infinite, z0
-// 0.05 nm to 5 nm: what force microscopes are made of, with room to spare.
+// One number of ContactParameters as files, checks and people know it.
+struct ContactField {
+  std::string_view name;      // of the member; blanks for underscores make it what messages say
+  std::string_view json_key;  // of its SI value in session files and above recorded curves
+  std::string_view meaning;   // its symbol, for help texts
+  double smallest;            // SI, legal itself
+  double largest;             // likewise
+  Infinity infinity;          // allowed: it stands for a rigid body
+  const Units* units;
+  double (*get)(const ContactParameters& contact);  // SI
+  void (*set)(ContactParameters& contact, double si);
+
+  // "100 pm to 1 mm"
+  std::string range() const { return range_text(smallest, largest, *units); }
+};
+
+template <auto Member>
+constexpr ContactField contact_field(std::string_view name, std::string_view json_key, std::string_view meaning,
+                                     double smallest, double largest, const Units& units,
+                                     Infinity infinity = Infinity::Refused) {
+  return {name,
+          json_key,
+          meaning,
+          smallest,
+          largest,
+          infinity,
+          &units,
+          [](const ContactParameters& contact) { return (contact.*Member).si; },
+          [](ContactParameters& contact, double si) { (contact.*Member).si = si; }};
+}
+
+// In the order of the members. The ranges are what force microscopes are made of, with room to spare.
+inline constexpr std::array kContactFields{
+    contact_field<&ContactParameters::tip_radius>("tip_radius", "tip_radius_m", "R", 1e-10, 1e-3, kLengthUnits),
+    contact_field<&ContactParameters::spring_constant>("spring_constant", "spring_constant_N_per_m", "k_c", 1e-6, 1e6,
+                                                       kStiffnessUnits),
+    contact_field<&ContactParameters::sample_stiffness>(
+        "sample_stiffness", "sample_stiffness_N_per_m", "k_s of an elastic support", 1e-6,
+        std::numeric_limits<double>::infinity(), kStiffnessUnits, Infinity::Allowed),
+    contact_field<&ContactParameters::hamaker>("hamaker", "hamaker_J", "A_H", 1e-24, 1e-16, kEnergyUnits),
+    contact_field<&ContactParameters::mean_surface_energy>("mean_surface_energy", "mean_surface_energy_J_per_m2",
+                                                           "sqrt(gamma_s gamma_t)", 1e-9, 100.0, kSurfaceEnergyUnits),
+    contact_field<&ContactParameters::reduced_modulus>("reduced_modulus", "reduced_modulus_Pa", "E*", 1.0, 1e13,
+                                                       kPressureUnits, Infinity::Allowed),
+    contact_field<&ContactParameters::atomic_distance>("atomic_distance", "atomic_distance_m", "z0", 0.05e-9, 5e-9,
+                                                       kLengthUnits),
+};
+static_assert(sizeof(ContactParameters) == kContactFields.size() * sizeof(double),
+              "every member of ContactParameters needs one row in kContactFields");
+
+// The row of that name; another name does not compile.
+consteval const ContactField& contact_field(std::string_view name) {
+  std::size_t i = 0;
+  while (kContactFields.at(i).name != name) ++i;
+  return kContactFields.at(i);
+}
+
+// Throws UnphysicalValue unless every value is a number within the range of its row, or infinite where that is allowed.
 void validate(const ContactParameters& contact);
 
 }  // namespace afm::physics

@@ -14,13 +14,6 @@
 
 namespace afm::physics {
 
-// Whether a law can move a mass: Hertz, DMT, JKR, Maugis-Dugdale and Lennard-Jones. The others know no force of an
-// indented sample.
-constexpr bool has_dynamics(Law law) {
-  return law == Law::Hertz || law == Law::Dmt || law == Law::Jkr || law == Law::MaugisDugdale ||
-         law == Law::LennardJones;
-}
-
 // A law of force felt through a lever that has mass, damping and heat: ApproachRetractModel with time. The tip is a
 // point mass (physics/tip_oscillator.h) under the law of fixed grips, so that jumps take their time, overshoot and
 // ring.

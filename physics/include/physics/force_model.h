@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "physics/contact_parameters.h"
 #include "physics/contact_phase.h"
@@ -31,6 +32,8 @@ struct TipResponse {
   Phase phase = Phase::WaitForLift;
   std::array<ModelEvent, 2> events{};
   std::uint32_t event_count = 0;
+
+  void add(const ModelEvent& event) noexcept { events[event_count++] = event; }
 };
 
 // How apex, lever and surface stand at one Z with one force on the tip; frames and signs as in physics/contact.h.
@@ -40,6 +43,9 @@ struct Pose {
   Length sample_deformation;     // delta_s: of the support alone while free, tip height less the contact gap in contact
 };
 Pose pose_of(const LawTables& tables, Phase phase, Length z, Force force) noexcept;
+
+// That pose as the response of a step without a jump.
+TipResponse respond(const LawTables& tables, Phase phase, Length z, Force force) noexcept;
 
 // A law of force as a two-state latch: Free until Z <= Z_jtc, Attached until Z >= Z_joc. The direction of motion is
 // never consulted.
@@ -74,7 +80,8 @@ class ApproachRetractModel {
   const LawTables& tables() const noexcept { return *tables_; }
 
  private:
-  void latch(Length z, TipResponse& response) noexcept;
+  // Moves `phase_` on to z; the jump, if that was one.
+  std::optional<ModelEvent> latch(Length z) noexcept;
 
   std::shared_ptr<const LawTables> tables_;
   Phase phase_ = Phase::WaitForLift;

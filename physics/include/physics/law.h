@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "physics/units.h"
 
 namespace afm::physics {
 
+struct ContactParameters;
+struct ForceLaw;
+struct LawOptions;
+
 // The rate-independent laws of force. All of them are two monotone branches and two folds (physics/law_tables.h) and
-// differ in nothing else. The values are part of session files and shared blocks.
+// differ in nothing else. The values are part of session files and shared blocks: a new law takes the next one
+// (docs/adding-a-law.md).
 enum class Law : std::uint32_t {
   Paper = 0,          // Liu & Peng: nothing until Hao's fold, then the contact line -k' Z until F_ad
   Hao = 1,            // the same with the van der Waals attraction before the fold
@@ -20,10 +28,126 @@ enum class Law : std::uint32_t {
   MaugisDugdale = 5,  // van der Waals, then Maugis' contact with a cohesive zone
   LennardJones = 6,   // rigid sphere, surface 3-9 potential (Bradley)
   Measured = 7,       // two branches that an instrument recorded
+  Count               // how many laws there are; none itself
 };
 
-// "paper", "hao", "hertz", "dmt", "jkr", "maugis", "lj", "measured": what command lines and files call them.
-std::string_view name_of(Law law);
+// The curve of a law before lever and support bend; what each promises stands in physics/force_laws.h.
+using LawCurve = ForceLaw(const ContactParameters& contact, const LawOptions& options);
+LawCurve hao_law, hertz_law, dmt_law, jkr_law, maugis_law, lennard_jones_law;
+
+// Unused: E* does not act. Optional: an infinite one makes the contact a rigid wall. Needed: finite.
+enum class ModulusUse { Unused, Optional, Needed };
+
+// What a law is made of and what can be done with it. Lists of laws, help texts, panels and checks follow from this.
+struct LawTraits {
+  Law law;
+  std::string_view name;  // what command lines and files call it
+  bool van_der_waals;     // the Hamaker constant acts
+  bool adhesion;          // the work of adhesion acts
+  bool atomic_distance;   // z0 acts
+  ModulusUse modulus;
+  bool dynamic;     // its force follows from the tip's height without a lever, so it can move a mass
+  bool computed;    // from ContactParameters, so that --model can ask for it; not recorded by an instrument
+  LawCurve* curve;  // null: closed form (computed), or recorded
+};
+
+inline constexpr std::array kLawTable{
+    LawTraits{.law = Law::Paper,
+              .name = "paper",
+              .van_der_waals = true,
+              .adhesion = true,
+              .atomic_distance = false,
+              .modulus = ModulusUse::Unused,
+              .dynamic = false,
+              .computed = true,
+              .curve = nullptr},
+    LawTraits{.law = Law::Hao,
+              .name = "hao",
+              .van_der_waals = true,
+              .adhesion = true,
+              .atomic_distance = false,
+              .modulus = ModulusUse::Unused,
+              .dynamic = false,
+              .computed = true,
+              .curve = hao_law},
+    LawTraits{.law = Law::Hertz,
+              .name = "hertz",
+              .van_der_waals = false,
+              .adhesion = false,
+              .atomic_distance = false,
+              .modulus = ModulusUse::Needed,
+              .dynamic = true,
+              .computed = true,
+              .curve = hertz_law},
+    LawTraits{.law = Law::Dmt,
+              .name = "dmt",
+              .van_der_waals = true,
+              .adhesion = true,
+              .atomic_distance = false,
+              .modulus = ModulusUse::Optional,
+              .dynamic = true,
+              .computed = true,
+              .curve = dmt_law},
+    LawTraits{.law = Law::Jkr,
+              .name = "jkr",
+              .van_der_waals = false,
+              .adhesion = true,
+              .atomic_distance = false,
+              .modulus = ModulusUse::Needed,
+              .dynamic = true,
+              .computed = true,
+              .curve = jkr_law},
+    LawTraits{.law = Law::MaugisDugdale,
+              .name = "maugis",
+              .van_der_waals = true,
+              .adhesion = true,
+              .atomic_distance = true,
+              .modulus = ModulusUse::Needed,
+              .dynamic = true,
+              .computed = true,
+              .curve = maugis_law},
+    LawTraits{.law = Law::LennardJones,
+              .name = "lj",
+              .van_der_waals = false,
+              .adhesion = true,
+              .atomic_distance = true,
+              .modulus = ModulusUse::Unused,
+              .dynamic = true,
+              .computed = true,
+              .curve = lennard_jones_law},
+    LawTraits{.law = Law::Measured,
+              .name = "measured",
+              .van_der_waals = false,
+              .adhesion = false,
+              .atomic_distance = false,
+              .modulus = ModulusUse::Unused,
+              .dynamic = false,
+              .computed = false,
+              .curve = nullptr},
+};
+static_assert(kLawTable.size() == static_cast<std::size_t>(Law::Count),
+              "every law of force needs one row in kLawTable");
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < kLawTable.size(); ++i) {
+        if (kLawTable[i].law != static_cast<Law>(i)) return false;
+      }
+      return true;
+    }(),
+    "the rows of kLawTable stand in the order of the enum");
+
+// Whether the number, which came from a file or another process, is a law.
+constexpr bool is_known(Law law) { return law < Law::Count; }
+
+// Throws std::out_of_range for what is not.
+constexpr const LawTraits& traits_of(Law law) { return kLawTable.at(static_cast<std::size_t>(law)); }
+
+constexpr bool has_dynamics(Law law) { return traits_of(law).dynamic; }
+
+// The laws that have a trait, in the order of the table: laws_with(&LawTraits::computed).
+std::vector<Law> laws_with(bool LawTraits::* trait);
+
+std::string_view name_of(Law law);  // "unknown" for what is none
 std::optional<Law> law_of(std::string_view name);
 
 // A liquid bridge in humid air, on top of any law: 4 pi R gamma_L cos(theta) (Laplace pressure, sphere on plane).

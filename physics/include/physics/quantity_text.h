@@ -20,11 +20,14 @@ struct Unit {
 
 // The units of one sort of quantity, the largest first. Stiffness and surface energy are one type but two lists, so
 // that a spring constant in mJ/m2 is refused.
-template <class Q>
-struct UnitList {
+struct Units {
   std::string_view sort;  // "a length", as messages name it
   std::span<const Unit> units;
 };
+
+// The same where the compiler knows which quantity it is.
+template <class Q>
+struct UnitList : Units {};
 
 extern const UnitList<Length> kLengthUnits;                // m mm um nm pm
 extern const UnitList<Force> kForceUnits;                  // N mN uN nN pN
@@ -45,6 +48,9 @@ struct ParsedQuantity {
   std::string error;  // one line that lists the legal units; empty if there is a value
 };
 
+// "m, mm, um, nm, pm": those of the units that messages offer.
+std::string list_units(std::span<const Unit> units);
+
 // The value in SI, or the error. For every text; use parse_quantity.
 std::variant<double, std::string> parse_si(std::string_view text, std::string_view sort, std::span<const Unit> units,
                                            Infinity infinity);
@@ -59,12 +65,18 @@ ParsedQuantity<Q> parse_quantity(std::string_view text, const UnitList<Q>& list,
   return {std::nullopt, std::get<std::string>(parsed)};
 }
 
+// What five significant digits say is enough for people.
+inline constexpr int kUsualDigits = 5;
+
 // Use format_quantity.
-std::string format_si(double si, std::span<const Unit> units, int digits);
+std::string format_si(double si, std::span<const Unit> units, int digits = kUsualDigits);
+
+// "100 pm to 1 mm", of a range in SI.
+std::string range_text(double smallest, double largest, const Units& units);
 
 // With `digits` significant digits (1 to 17) in the unit that leaves 1 to 1000 before the point, where there is one.
 template <class Q>
-std::string format_quantity(Q value, const UnitList<Q>& list, int digits = 5) {
+std::string format_quantity(Q value, const UnitList<Q>& list, int digits = kUsualDigits) {
   return format_si(value.si, list.units, digits);
 }
 

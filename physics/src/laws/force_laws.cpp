@@ -139,34 +139,13 @@ ForceLaw lennard_jones_law(const ContactParameters& contact, const LawOptions&) 
           .attached_end_potential = surfaces.potential(z0 * std::exp(farthest))};
 }
 
-namespace {
-
-ForceLaw dry_law(Law law, const ContactParameters& contact, const LawOptions& options) {
-  switch (law) {
-    case Law::Hao:
-      return hao_law(contact, options);
-    case Law::Hertz:
-      return hertz_law(contact, options);
-    case Law::Dmt:
-      return dmt_law(contact, options);
-    case Law::Jkr:
-      return jkr_law(contact, options);
-    case Law::LennardJones:
-      return lennard_jones_law(contact, options);
-    case Law::MaugisDugdale:
-      return maugis_law(contact, options);
-    case Law::Paper:
-    case Law::Measured:
-      break;
-  }
-  throw std::invalid_argument("the law \"" + std::string(name_of(law)) + "\" is not given by a curve of force");
-}
-
-}  // namespace
-
 ForceLaw force_law(Law law, const ContactParameters& contact, const LawOptions& options) {
   validate(options);
-  ForceLaw dry = dry_law(law, contact, options);
+  LawCurve* const curve = traits_of(law).curve;
+  if (curve == nullptr) {
+    throw std::invalid_argument("the law \"" + std::string(name_of(law)) + "\" is not given by a curve of force");
+  }
+  ForceLaw dry = curve(contact, options);
   return options.meniscus ? with_meniscus(dry, *options.meniscus, contact.tip_radius) : dry;
 }
 

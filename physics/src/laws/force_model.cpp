@@ -22,12 +22,21 @@ Pose pose_of(const LawTables& tables, Phase phase, Length z, Force force) noexce
   return {tip_height, deflection, deformation};
 }
 
+TipResponse respond(const LawTables& tables, Phase phase, Length z, Force force) noexcept {
+  const Pose pose = pose_of(tables, phase, z, force);
+  return {.force = force,
+          .tip_height = pose.tip_height,
+          .cantilever_deflection = pose.cantilever_deflection,
+          .sample_deformation = pose.sample_deformation,
+          .phase = phase};
+}
+
 ApproachRetractModel::ApproachRetractModel(std::shared_ptr<const LawTables> tables) : tables_(std::move(tables)) {}
 
 ApproachRetractModel::ApproachRetractModel(const ContactParameters& contact)
     : ApproachRetractModel(build_law_tables(Law::Paper, contact)) {}
 
-void ApproachRetractModel::latch(Length z, TipResponse& response) noexcept {
+std::optional<ModelEvent> ApproachRetractModel::latch(Length z) noexcept {
   const CycleFigures& figures = tables_->figures;
   if (phase_ == Phase::WaitForLift) {
     if (z > figures.z_joc) phase_ = Phase::Free;
@@ -36,32 +45,28 @@ void ApproachRetractModel::latch(Length z, TipResponse& response) noexcept {
   } else if (phase_ == Phase::Free && z <= figures.z_jtc) {
     // the path began above Z_jtc, or this would not be Free; so its lowest point is its end
     phase_ = Phase::Attached;
-    response.events[response.event_count++] = {EventKind::JumpToContact, figures.z_jtc, figures.force_before_jtc,
-                                               figures.force_after_jtc, fraction_of(figures.z_jtc, previous_z_, z)};
+    return ModelEvent{EventKind::JumpToContact, figures.z_jtc, figures.force_before_jtc, figures.force_after_jtc,
+                      fraction_of(figures.z_jtc, previous_z_, z)};
   } else if (phase_ == Phase::Attached && z >= figures.z_joc) {
     phase_ = Phase::Free;
-    response.events[response.event_count++] = {EventKind::JumpOffContact, figures.z_joc, figures.force_before_joc,
-                                               figures.force_after_joc, fraction_of(figures.z_joc, previous_z_, z)};
+    return ModelEvent{EventKind::JumpOffContact, figures.z_joc, figures.force_before_joc, figures.force_after_joc,
+                      fraction_of(figures.z_joc, previous_z_, z)};
   }
+  return std::nullopt;
 }
 
 TipResponse ApproachRetractModel::step(Length z) noexcept {
-  TipResponse response;
   if (!isfinite(z)) {
     phase_ = Phase::WaitForLift;
-    return response;
+    return {};
   }
-  latch(z, response);
+  const std::optional<ModelEvent> jump = latch(z);
   previous_z_ = z;
 
-  response.phase = phase_;
-  if (phase_ != Phase::WaitForLift) {
-    response.force = (phase_ == Phase::Attached ? tables_->attached : tables_->free).force(z);
-  }
-  const Pose pose = pose_of(*tables_, phase_, z, response.force);
-  response.tip_height = pose.tip_height;
-  response.cantilever_deflection = pose.cantilever_deflection;
-  response.sample_deformation = pose.sample_deformation;
+  Force force;
+  if (phase_ != Phase::WaitForLift) force = (phase_ == Phase::Attached ? tables_->attached : tables_->free).force(z);
+  TipResponse response = respond(*tables_, phase_, z, force);
+  if (jump) response.add(*jump);
   return response;
 }
 

@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/law.h"
 
-#include <array>
 #include <string>
 
 #include "require_range.h"
 
 namespace afm::physics {
 namespace {
-
-struct NamedLaw {
-  Law law;
-  std::string_view name;
-};
-
-constexpr std::array kLaws{
-    NamedLaw{Law::Paper, "paper"},     NamedLaw{Law::Hao, "hao"},           NamedLaw{Law::Hertz, "hertz"},
-    NamedLaw{Law::Dmt, "dmt"},         NamedLaw{Law::Jkr, "jkr"},           NamedLaw{Law::MaugisDugdale, "maugis"},
-    NamedLaw{Law::LennardJones, "lj"}, NamedLaw{Law::Measured, "measured"},
-};
 
 // The same for what has no unit that a list knows.
 void require_range(const std::string& field, double value, double smallest, double largest, const std::string& what) {
@@ -40,16 +28,19 @@ void validate(const LawOptions& options) {
   require_range("relative_humidity", options.meniscus->relative_humidity, 0.01, 0.99, "relative humidity");
 }
 
-std::string_view name_of(Law law) {
-  for (const NamedLaw& named : kLaws) {
-    if (named.law == law) return named.name;
+std::vector<Law> laws_with(bool LawTraits::* trait) {
+  std::vector<Law> laws;
+  for (const LawTraits& row : kLawTable) {
+    if (row.*trait) laws.push_back(row.law);
   }
-  return "unknown";
+  return laws;
 }
 
+std::string_view name_of(Law law) { return is_known(law) ? traits_of(law).name : "unknown"; }
+
 std::optional<Law> law_of(std::string_view name) {
-  for (const NamedLaw& named : kLaws) {
-    if (named.name == name) return named.law;
+  for (const LawTraits& row : kLawTable) {
+    if (row.name == name) return row.law;
   }
   return std::nullopt;
 }

@@ -196,8 +196,7 @@ std::shared_ptr<const LawTables> build_law_tables(Law name, const ForceLaw& law,
 std::shared_ptr<const LawTables> build_law_tables(Law law, const ContactParameters& contact,
                                                   const LawOptions& options) {
   const ContactParameters surfaces = without_lever(contact);
-  const bool rigid_contact = law == Law::Paper || law == Law::Hao;
-  if (rigid_contact && compliance(contact) == 0.0) {
+  if (!has_dynamics(law) && compliance(contact) == 0.0) {
     throw std::invalid_argument("the law " + std::string(name_of(law)) +
                                 " has a rigid contact, which has no force without a lever");
   }

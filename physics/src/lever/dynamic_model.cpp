@@ -29,10 +29,13 @@ std::shared_ptr<const DynamicModel::Setup> DynamicModel::build(Law law, const Co
                                                                const LeverDynamics& lever, const LawOptions& options,
                                                                std::uint64_t seed) {
   if (!has_dynamics(law)) {
-    throw std::invalid_argument("the law " + std::string(name_of(law)) +
-                                " has no dynamics: take hertz, dmt, jkr, maugis or lj");
+    std::string others;
+    for (const Law other : laws_with(&LawTraits::dynamic)) {
+      others += (others.empty() ? "" : ", ") + std::string(name_of(other));
+    }
+    throw std::invalid_argument("the law " + std::string(name_of(law)) + " has no dynamics: take one of " + others);
   }
-  if (law != Law::LennardJones && std::isinf(contact.reduced_modulus.si)) {
+  if (traits_of(law).modulus != ModulusUse::Unused && std::isinf(contact.reduced_modulus.si)) {
     throw UnphysicalValue("reduced_modulus", "a rigid contact has no dynamics: give it a finite reduced modulus");
   }
   validate(lever);

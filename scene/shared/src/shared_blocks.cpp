@@ -62,6 +62,12 @@ bool is_valid(const SharedHeightField& field) {
 
 }  // namespace
 
+Name to_name(std::string_view text) {
+  Name name{};
+  std::copy_n(text.begin(), std::min(text.size(), name.size() - 1), name.begin());
+  return name;
+}
+
 physics::LawOptions law_options(const SharedContact& material) {
   physics::LawOptions options;
   options.exact_hamaker_sphere = material.exact_hamaker_sphere != 0;
@@ -75,12 +81,15 @@ physics::LawOptions law_options(const SharedContact& material) {
 core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count,
                             std::uint32_t height_field_count) {
   if (!terminated(material.name)) return refusal("it has a name without an end");
-  if (!core::is_enumerator(material.law) || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
+  if (!physics::is_known(material.law) || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
       material.dynamic > 1) {
     return refusal("it has a law or an option that is not known");
   }
-  if (material.law == physics::Law::Measured && (material.measured_curve >= curve_count || material.dynamic != 0)) {
-    return refusal("it has no measured curve, or a dynamic one");
+  if (material.law == physics::Law::Measured && material.measured_curve >= curve_count) {
+    return refusal("it has no measured curve");
+  }
+  if (material.dynamic != 0 && !physics::has_dynamics(material.law)) {
+    return refusal(fmt::format("the law {} has no dynamics", physics::name_of(material.law)));
   }
   if (material.height_field != kNoHeightField && material.height_field >= height_field_count) {
     return refusal("it has a surface that is not there");

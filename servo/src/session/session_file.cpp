@@ -74,26 +74,22 @@ bool finite(const TipEvent& e) {
   return std::isfinite(e.z_m) && std::isfinite(e.force_before_n) && std::isfinite(e.force_after_n);
 }
 
-nlohmann::json json_of(const physics::ContactParameters& in) {
-  nlohmann::json json{{"tip_radius_m", in.tip_radius.si},
-                      {"spring_constant_N_per_m", in.spring_constant.si},
-                      {"hamaker_J", in.hamaker.si},
-                      {"mean_surface_energy_J_per_m2", in.mean_surface_energy.si},
-                      {"atomic_distance_m", in.atomic_distance.si}};
-  // JSON has no infinity: what is rigid has no entry
-  if (physics::isfinite(in.sample_stiffness)) json["sample_stiffness_N_per_m"] = in.sample_stiffness.si;
-  if (physics::isfinite(in.reduced_modulus)) json["reduced_modulus_Pa"] = in.reduced_modulus.si;
+// JSON has no infinity: what is rigid has no entry.
+nlohmann::json json_of(const physics::ContactParameters& contact) {
+  nlohmann::json json;
+  for (const physics::ContactField& field : physics::kContactFields) {
+    if (std::isfinite(field.get(contact))) json[field.json_key] = field.get(contact);
+  }
   return json;
 }
 
-physics::ContactParameters interaction_of(const nlohmann::json& json) {
-  return {.tip_radius = physics::Length(json.at("tip_radius_m").get<double>()),
-          .spring_constant = physics::Stiffness(json.at("spring_constant_N_per_m").get<double>()),
-          .sample_stiffness = physics::Stiffness(json.value("sample_stiffness_N_per_m", HUGE_VAL)),
-          .hamaker = physics::Energy(json.at("hamaker_J").get<double>()),
-          .mean_surface_energy = physics::SurfaceEnergy(json.at("mean_surface_energy_J_per_m2").get<double>()),
-          .reduced_modulus = physics::Pressure(json.value("reduced_modulus_Pa", HUGE_VAL)),
-          .atomic_distance = physics::Length(json.at("atomic_distance_m").get<double>())};
+physics::ContactParameters contact_of(const nlohmann::json& json) {
+  physics::ContactParameters contact;
+  for (const physics::ContactField& field : physics::kContactFields) {
+    const bool rigid = field.infinity == physics::Infinity::Allowed && !json.contains(field.json_key);
+    field.set(contact, rigid ? HUGE_VAL : json.at(field.json_key).get<double>());
+  }
+  return contact;
 }
 
 nlohmann::json json_of(const scene::SharedContact& m) {
@@ -116,10 +112,10 @@ nlohmann::json json_of(const scene::SharedContact& m) {
 
 scene::SharedContact parameters_of(const nlohmann::json& json, const std::string& name) {
   scene::SharedContact m;
-  std::copy_n(name.begin(), std::min(name.size(), m.name.size() - 1), m.name.begin());
+  m.name = scene::to_name(name);
   m.law = static_cast<physics::Law>(json.at("law").get<std::uint32_t>());
   if (m.law == physics::Law::Measured) m.measured_curve = 0;
-  m.contact = interaction_of(json.at("interaction"));
+  m.contact = contact_of(json.at("interaction"));
   m.exact_hamaker_sphere = json.at("exact_hamaker_sphere").get<bool>() ? 1 : 0;
   m.retardation_wavelength_m = json.at("retardation_wavelength_m").get<double>();
   if (const auto meniscus = json.find("meniscus"); meniscus != json.end()) {
@@ -175,7 +171,7 @@ scene::SharedDevice device_of(const nlohmann::json& json) {
                              .workspace_min_m = json.at("workspace_min_m").get<std::array<double, 3>>(),
                              .workspace_max_m = json.at("workspace_max_m").get<std::array<double, 3>>()};
   const auto name = json.at("name").get<std::string>();
-  std::copy_n(name.begin(), std::min(name.size(), device.name.size() - 1), device.name.begin());
+  device.name = scene::to_name(name);
   return device;
 }
 

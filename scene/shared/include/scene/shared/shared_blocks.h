@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "physics/contact_parameters.h"
 #include "physics/contact_phase.h"
@@ -29,6 +30,9 @@ inline constexpr std::uint32_t kNoMeasuredCurve = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kNoHeightField = 0xFFFFFFFFU;
 
 using Name = std::array<char, kNameLength>;  // zero-terminated UTF-8
+
+// A name is for people: a longer one is cut.
+Name to_name(std::string_view text);
 
 // ---- constant after the segment is created (written by touchafm before the servo starts) ----
 

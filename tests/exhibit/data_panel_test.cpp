@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/data_panel.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "curves/sample_model.h"
+#include "places.h"
+#include "scene/samples/material_library.h"
+
+namespace afm::exhibit {
+namespace {
+
+using physics::Law;
+
+render::DataPanel panel_of(Law law) {
+  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+  curves::ContactSetup setup{*library.find("mica"), {}, {}};
+  setup.model.law = law;
+  return data_panel(curves::make_sample_model(setup).value(), 0.0, 0.0);
+}
+
+bool shows(const render::DataPanel& panel, std::string_view begin) {
+  return std::any_of(panel.rows.begin(), panel.rows.end(),
+                     [&](const render::DataRow& row) { return std::string_view(row.name).starts_with(begin); });
+}
+
+TEST(DataPanel, ShowsTheNumbersThatActInTheLawAndNoOthers) {
+  const auto laws = physics::laws_with(&physics::LawTraits::computed);
+  ASSERT_GE(laws.size(), 7U);
+  for (const Law law : laws) {
+    const render::DataPanel panel = panel_of(law);
+    const physics::LawTraits& traits = physics::traits_of(law);
+    EXPECT_EQ(shows(panel, "Hamaker constant"), traits.van_der_waals) << traits.name;
+    EXPECT_EQ(shows(panel, "Surface energy"), traits.adhesion) << traits.name;
+    EXPECT_EQ(shows(panel, "Reduced modulus"), traits.modulus != physics::ModulusUse::Unused) << traits.name;
+    EXPECT_EQ(shows(panel, "Atomic distance"), traits.atomic_distance) << traits.name;
+  }
+}
+
+TEST(DataPanel, GivesLennardJonesItsAtomicDistanceAndNoHamakerConstant) {
+  const render::DataPanel panel = panel_of(Law::LennardJones);
+  EXPECT_FALSE(shows(panel, "Hamaker constant"));
+  const auto row = std::find_if(panel.rows.begin(), panel.rows.end(),
+                                [](const render::DataRow& each) { return each.name == "Atomic distance z0"; });
+  ASSERT_NE(row, panel.rows.end());
+  EXPECT_EQ(row->value, "300 pm");
+  EXPECT_THAT(row->source, ::testing::HasSubstr("estimated: "));
+}
+
+}  // namespace
+}  // namespace afm::exhibit

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "physics/law.h"
+
+namespace afm::physics {
+
+// The laws that force_law() gives.
+inline std::vector<Law> curve_laws() {
+  std::vector<Law> laws;
+  for (const LawTraits& row : kLawTable) {
+    if (row.curve != nullptr) laws.push_back(row.law);
+  }
+  return laws;
+}
+
+}  // namespace afm::physics
