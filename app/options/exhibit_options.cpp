@@ -1,54 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/options/exhibit_options.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
+#include <array>
+#include <optional>
 
-#include "physics/quantity_text.h"
+#include "app/options/enum_option.h"
+#include "app/options/quantity_option.h"
 
 namespace afm::app {
 
 namespace {
 
-std::string stereo_mode_list() {
-  std::string names;
-  for (const scene::NamedStereoMode& entry : scene::kStereoModes) {
-    names += names.empty() ? std::string(entry.name) : ", " + std::string(entry.name);
-  }
-  return names;
-}
+struct NamedScaleMode {
+  scene::ScaleMode mode;
+  const char* name;
+};
+
+constexpr std::array kScaleModes{NamedScaleMode{scene::ScaleMode::Common, "common"},
+                                 NamedScaleMode{scene::ScaleMode::Fit, "fit"},
+                                 NamedScaleMode{scene::ScaleMode::Compressed, "compressed"}};
+
+constexpr QuantityRange<physics::Length> kEyeDistances{physics::Length(scene::kSmallestIpdM),
+                                                       physics::Length(scene::kLargestIpdM)};
 
 }  // namespace
 
 void add_stereo_options(CLI::App& command, exhibit::PictureOptions& options, const std::string& default_mode) {
-  command
-      .add_option_function<std::string>(
-          "--stereo",
-          [&options](const std::string& name) {
-            const auto mode = scene::parse_stereo_mode(name);
-            if (!mode) throw CLI::ValidationError("--stereo", mode.error().message);
-            options.mode = *mode;
-          },
-          fmt::format("how both eyes are shown: {}; default: {}", stereo_mode_list(), default_mode))
-      ->type_name("MODE");
+  enum_option(command, "--stereo", options.mode, "a stereo mode", scene::kStereoModes, &scene::NamedStereoMode::name,
+              &scene::NamedStereoMode::mode, "how both eyes are shown; default: " + default_mode);
   command.add_flag_callback(
       "--swap-eyes", [&options] { options.order = scene::EyeOrder::Swapped; }, "left and right exchanged");
-  command
-      .add_option_function<std::string>(
-          "--ipd",
-          [&options](const std::string& text) {
-            const auto parsed = physics::parse_quantity(text, physics::kLengthUnits);
-            if (!parsed.value) throw CLI::ValidationError("--ipd", parsed.error);
-            const double ipd_m = parsed.value->si;
-            if (!(ipd_m >= scene::kSmallestIpdM && ipd_m <= scene::kLargestIpdM)) {
-              throw CLI::ValidationError("--ipd", fmt::format("{:g} mm is not between {:g} mm and {:g} mm", ipd_m * 1e3,
-                                                              scene::kSmallestIpdM * 1e3, scene::kLargestIpdM * 1e3));
-            }
-            options.ipd_m = ipd_m;
-          },
-          "distance between the eyes, 30mm to 90mm; default: the viewer's in the wall file")
-      ->type_name("LENGTH");
+  quantity_option(
+      command, "--ipd", [&options](physics::Length distance) { options.ipd_m = distance.si; }, physics::kLengthUnits,
+      "distance between the eyes; default: the viewer's in the wall file", std::optional(kEyeDistances));
+}
+
+void add_scale_option(CLI::App& command, scene::ScaleMode& mode) {
+  enum_option(command, "--scale", mode, "a scale of the hand", kScaleModes, &NamedScaleMode::name,
+              &NamedScaleMode::mode,
+              "how nm and nN become mm and N in the hand: common, one scale for all samples; fit, one for each; "
+              "compressed, fit with weak forces raised; default: fit");
 }
 
 void add_own_model_options(CLI::App& command, exhibit::ExhibitFiles& files) {
