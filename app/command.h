@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "core/result.h"
 
@@ -20,18 +22,34 @@ struct CommandContext {
   std::function<core::Result<void>()> chosen;
 };
 
-// Each command adds one subcommand with its options, whose callback only stores what to run into context.chosen.
-void add_analyse_command(CLI::App& app, CommandContext& context);
-void add_bench_command(CLI::App& app, CommandContext& context);
-void add_curve_command(CLI::App& app, CommandContext& context);
-void add_demo_command(CLI::App& app, CommandContext& context);
-void add_devices_command(CLI::App& app, CommandContext& context);
-void add_doctor_command(CLI::App& app, CommandContext& context);
-void add_material_command(CLI::App& app, CommandContext& context);
-void add_paper_command(CLI::App& app, CommandContext& context);
-void add_render_command(CLI::App& app, CommandContext& context);
-void add_replay_command(CLI::App& app, CommandContext& context);
-void add_view_command(CLI::App& app, CommandContext& context);
-void add_wall_command(CLI::App& app, CommandContext& context);
+// Every command, in the order of the help. A line declares add_NAME_command, which a file in app/commands defines, and
+// makes a row of kCommands.
+#define AFM_FOR_EACH_COMMAND(COMMAND) \
+  COMMAND(demo)                       \
+  COMMAND(view)                       \
+  COMMAND(curve)                      \
+  COMMAND(analyse)                    \
+  COMMAND(material)                   \
+  COMMAND(paper)                      \
+  COMMAND(render)                     \
+  COMMAND(replay)                     \
+  COMMAND(wall)                       \
+  COMMAND(devices)                    \
+  COMMAND(doctor)                     \
+  COMMAND(bench)
+
+// Adds one subcommand of that name with its options, whose callback only stores what to run into context.chosen.
+#define AFM_DECLARE_COMMAND(name) void add_##name##_command(CLI::App& app, CommandContext& context);
+AFM_FOR_EACH_COMMAND(AFM_DECLARE_COMMAND)
+#undef AFM_DECLARE_COMMAND
+
+struct Command {
+  std::string_view name;
+  void (*add)(CLI::App& app, CommandContext& context);
+};
+
+#define AFM_COMMAND_ROW(name) Command{#name, add_##name##_command},
+inline constexpr std::array kCommands{AFM_FOR_EACH_COMMAND(AFM_COMMAND_ROW)};
+#undef AFM_COMMAND_ROW
 
 }  // namespace afm::app

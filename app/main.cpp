@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "app/command.h"
@@ -28,10 +30,11 @@ int fail(afm::core::ExitCode code, const std::string& message) {
 }
 
 // CLI11 would only say that a subcommand is missing.
-bool names_unknown_command(const CLI::App& app, int count, char** arguments) {
+bool names_unknown_command(int count, char** arguments) {
   if (count < 2 || arguments[1][0] == '-') return false;
-  const std::string name = arguments[1];
-  return app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; }).empty();
+  const std::string_view name = arguments[1];
+  return std::none_of(afm::app::kCommands.begin(), afm::app::kCommands.end(),
+                      [name](const afm::app::Command& command) { return command.name == name; });
 }
 
 int run(int count, char** arguments) {
@@ -45,20 +48,9 @@ int run(int count, char** arguments) {
       "touchafm");
   app.set_version_flag("--version", std::string("touchafm ") + afm::core::kVersion);
   app.require_subcommand(1);
-  afm::app::add_demo_command(app, context);
-  afm::app::add_view_command(app, context);
-  afm::app::add_curve_command(app, context);
-  afm::app::add_analyse_command(app, context);
-  afm::app::add_material_command(app, context);
-  afm::app::add_paper_command(app, context);
-  afm::app::add_render_command(app, context);
-  afm::app::add_replay_command(app, context);
-  afm::app::add_wall_command(app, context);
-  afm::app::add_devices_command(app, context);
-  afm::app::add_doctor_command(app, context);
-  afm::app::add_bench_command(app, context);
+  for (const afm::app::Command& command : afm::app::kCommands) command.add(app, context);
 
-  if (names_unknown_command(app, count, arguments)) {
+  if (names_unknown_command(count, arguments)) {
     return fail(afm::core::ExitCode::WrongUsage,
                 "there is no command \"" + std::string(arguments[1]) + "\"; see touchafm --help");
   }

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "app/command.h"
+#include "app/options/quantity_option.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
@@ -22,30 +23,9 @@ namespace afm::app {
 namespace {
 
 using core::wrong_usage;
+// As those of a contact.
+constexpr QuantityRange<physics::Stiffness> kSpringConstants{physics::Stiffness(1e-6), physics::Stiffness(1e6)};
 
-core::Result<curves::CurveReading> reading_of(const AnalyseOptions& options) {
-  curves::CurveReading reading;
-  reading.index = options.index;
-  if (!options.spring_constant.empty()) {
-    const auto parsed = physics::parse_quantity(options.spring_constant, physics::kStiffnessUnits);
-    if (!parsed.value) return wrong_usage("--spring-constant: " + parsed.error);
-    if (parsed.value->si <= 0.0) {
-      return wrong_usage(fmt::format("--spring-constant: {} is not positive", options.spring_constant));
-    }
-    reading.spring_constant = *parsed.value;
-  }
-  if (!options.sensitivity.empty()) {
-    const std::string_view text = options.sensitivity;
-    constexpr std::string_view kPerVolt = "/V";
-    const auto parsed = physics::parse_quantity(text.substr(0, text.size() - std::min(text.size(), kPerVolt.size())),
-                                                physics::kLengthUnits);
-    if (!text.ends_with(kPerVolt) || !parsed.value || parsed.value->si <= 0.0) {
-      return wrong_usage(fmt::format("--sensitivity: \"{}\" is no deflection per volt, as 70nm/V is", text));
-    }
-    reading.sensitivity_m_per_v = parsed.value->si;
-  }
-  return reading;
-}
 
 core::Result<curves::AnalysedCurve> load_analysed(const std::string& file, const curves::CurveReading& reading) {
   auto curve = curves::load_curve(file, reading);
@@ -55,10 +35,18 @@ core::Result<curves::AnalysedCurve> load_analysed(const std::string& file, const
 
 }  // namespace
 
+core::Result<double> parse_sensitivity(std::string_view text) {
+  constexpr std::string_view kPerVolt = "/V";
+  const auto parsed = physics::parse_quantity(text.substr(0, text.size() - std::min(text.size(), kPerVolt.size())),
+                                              physics::kLengthUnits);
+  if (!text.ends_with(kPerVolt) || !parsed.value || parsed.value->si <= 0.0) {
+    return wrong_usage(fmt::format("\"{}\" is no deflection per volt, as 70nm/V is", text));
+  }
+  return parsed.value->si;
+}
+
 core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
-  const auto reading = reading_of(options);
-  if (!reading) return tl::unexpected(reading.error());
-  const auto measured = load_analysed(options.file, *reading);
+  const auto measured = load_analysed(options.file, options.reading);
   if (!measured) return tl::unexpected(measured.error());
   std::optional<curves::AnalysedCurve> beside;
   if (!options.beside.empty()) {
@@ -91,11 +79,22 @@ void add_analyse_command(CLI::App& app, CommandContext& context) {
       ->type_name("FILE");
   command->add_option("--beside", options->beside, "another curve, measured or of `touchafm curve`, to compare with")
       ->type_name("FILE");
-  command->add_option("--spring-constant", options->spring_constant,
-                      "of the lever, in place of the file's; forces scale with it: N/m, mN/m");
-  command->add_option("--sensitivity", options->sensitivity,
-                      "of the optical lever, in place of the file's: nm/V, um/V");
-  command->add_option("--curve", options->index, "which curve of an .h5, from 0")->capture_default_str();
+  curves::CurveReading& reading = options->reading;
+  quantity_option(
+      *command, "--spring-constant", [&reading](physics::Stiffness lever) { reading.spring_constant = lever; },
+      physics::kStiffnessUnits, "of the lever, in place of the file's; forces scale with it",
+      std::optional(kSpringConstants));
+  const auto read_sensitivity = [&reading](const std::string& text) -> core::Result<void> {
+    const auto sensitivity = parse_sensitivity(text);
+    if (!sensitivity) return tl::unexpected(sensitivity.error());
+    reading.sensitivity_m_per_v = *sensitivity;
+    return {};
+  };
+  parsed_option(*command, "--sensitivity", read_sensitivity, "of the optical lever, in place of the file's")
+      ->type_name("SENSITIVITY in um/V, nm/V, pm/V");
+  command->add_option("--curve", reading.index, "which curve of an .h5, from 0")
+      ->capture_default_str()
+      ->type_name("INDEX");
   command->add_flag("--json", options->json, "in SI, null for what was not found");
   command->add_option("--out", options->out, "write a picture (SVG) of the curve here")->type_name("FILE");
   command->footer(

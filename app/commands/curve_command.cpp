@@ -137,29 +137,38 @@ void add_curve_command(CLI::App& app, CommandContext& context) {
       "curve", "one approach-retract cycle as CSV, as a file for other programs, or its events as JSON; or a sweep");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<CurveOptions>();
-  command->add_option("--material", options->contact.material,
-                      "mica, gold, si3n4, or another of \"touchafm material\"; without it every number that the model "
-                      "needs must be given");
+  command
+      ->add_option("--material", options->contact.material,
+                   "mica, gold, si3n4, or another of \"touchafm material\"; without it every number that the model "
+                   "needs must be given")
+      ->type_name("NAME");
   add_contact_options(*command, options->contact, context);
-  command->add_option("--from", options->path.from,
-                      "where the cycle starts and ends, above Z_jtc: m, mm, um, nm, pm; default: a tenth above Z_joc");
+  command
+      ->add_option("--from", options->path.from,
+                   "where the cycle starts and ends, above Z_jtc: m, mm, um, nm, pm; default: a tenth above Z_joc")
+      ->type_name("LENGTH");
   command->add_option("--to", options->path.to, "where it turns, below --from: m, mm, um, nm, pm")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("LENGTH");
   command->add_option("--step", options->path.step, "between samples: m, mm, um, nm, pm; at most 10 million samples")
-      ->capture_default_str();
-  command->add_option("--speed", options->path.speed,
-                      "of the base, for dynamic models: m/s, mm/s, um/s; default: 1um/s");
+      ->capture_default_str()
+      ->type_name("LENGTH");
+  command
+      ->add_option("--speed", options->path.speed, "of the base, for dynamic models: m/s, mm/s, um/s; default: 1um/s")
+      ->type_name("VELOCITY");
   command
       ->add_option("--sweep", options->sweeps,
                    "key=from:to:count, the events of one cycle for every value of a number (its option without the "
                    "dashes), :log behind it for equal ratios; twice for a grid; at most a million points")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->type_name("KEY=FROM:TO:COUNT");
   command->add_flag("--json", options->json, "the events instead of the samples, in SI");
   command
       ->add_option("--format", options->format,
                    std::string("csv, json, svg, tab and h5 (afmformats), afm-workshop; default: by the ending of "
                                "--out, else csv"))
-      ->check(CLI::IsMember({"csv", "json", "svg", "tab", "h5", "afm-workshop"}));
+      ->check(CLI::IsMember({"csv", "json", "svg", "tab", "h5", "afm-workshop"}))
+      ->type_name("FORMAT");
   command->add_option("--overlay", options->overlay, "a measured curve to draw over the model, with --format svg")
       ->type_name("FILE");
   command->add_option("--out", options->out, "write here instead of to stdout")->type_name("FILE");

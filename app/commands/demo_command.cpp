@@ -19,6 +19,9 @@
 #include "app/demo/report_pictures.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
+#include "app/options/parsed_option.h"
+#include "app/options/quantity_option.h"
+#include "app/options/servo_options.h"
 #include "core/log.h"
 #include "curves/measured_material.h"
 #include "curves/sweep.h"
@@ -26,7 +29,6 @@
 #include "exhibit/shared_model.h"
 #include "haptics/scaling.h"
 #include "haptics/simulated_device.h"
-#include "physics/quantity_text.h"
 #include "render/context.h"
 #include "render/image_file.h"
 #include "scene/samples/probe_library.h"
@@ -38,8 +40,8 @@ namespace {
 // Fig. 5 is drawn larger than the live wall.
 constexpr std::uint32_t kFigureEyeWidth = 1440;
 constexpr std::uint64_t kMostVariations = 9;
-constexpr double kCommonPushM = 0.012;                        // clear of the end of the workspace
-constexpr double kSlowestHand = 0.005, kFastestHand = 0.200;  // m/s
+constexpr double kCommonPushM = 0.012;  // clear of the end of the workspace
+constexpr QuantityRange<physics::Velocity> kHandSpeeds{physics::Velocity(0.005), physics::Velocity(0.200)};
 
 struct DemoOptions {
   std::string out;
@@ -48,7 +50,7 @@ struct DemoOptions {
   HandPath hand;
   double frame_budget_ms = 0;
   servo::ServoChoice servo;
-  curves::ModelName model;
+  curves::ModelName model{.text = "paper"};
   scene::ScaleMode scale = scene::ScaleMode::Fit;
   std::string probe;              // a lever and tip instead of the materials' own; empty: none
   std::string measured;           // a curve file to be felt too; empty: none
@@ -296,6 +298,51 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   return {};
 }
 
+core::Result<void> read_model(const std::string& text, DemoOptions& options) {
+  const auto model = curves::ModelName::parse(text);
+  if (!model || model->direction_rule) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("unknown model \"{}\" to feel; known are {} (paper-rule is for curves alone)",
+                                     text, curves::known_models(curves::ModelUse::Device)));
+  }
+  options.model = *model;
+  return {};
+}
+
+// What is felt, and how.
+void add_sample_options(CLI::App& command, DemoOptions& options) {
+  command
+      .add_option("--material", options.files.shown,
+                  "a sample of the material files, by name; give it once for each; default: the paper's three")
+      ->type_name("NAME");
+  parsed_option(
+      command, "--model", [&options](const std::string& text) { return read_model(text, options); },
+      "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- before one "
+      "that can move a mass")
+      ->default_str("paper")
+      ->type_name("NAME");
+  command
+      .add_option_function<std::string>(
+          "--probe",
+          [&options](const std::string& text) {
+            (exhibit::is_model_file(text) ? options.files.probe : options.probe) = text;
+          },
+          "a lever and tip of assets/probes.toml instead of the materials' own; or a glTF model of your own "
+          "cantilever, .glb or .gltf, which changes the picture alone")
+      ->type_name("NAME|FILE");
+  add_own_sample_option(command, options.files);
+  command
+      .add_option("--vary", options.vary,
+                  "feel every sample once more at each of n values of one parameter, changed while the servo runs: "
+                  "spring-constant=0.1N/m:0.4N/m:3")
+      ->type_name("KEY=FROM:TO:N");
+  command
+      .add_option("--measured", options.measured,
+                  "a recorded curve to be felt too (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
+      ->type_name("FILE");
+  add_scale_option(command, options.scale);
+}
+
 }  // namespace
 
 void add_demo_command(CLI::App& app, CommandContext& context) {
@@ -319,65 +366,14 @@ void add_demo_command(CLI::App& app, CommandContext& context) {
       ->capture_default_str()
       ->type_name("PIXELS");
   add_frame_budget(*command, options->frame_budget_ms);
-  auto speed = std::make_shared<std::string>("30mm/s");
-  command->add_option("--hand-speed", *speed, "mean speed of the simulated hand, 5mm/s to 200mm/s")
-      ->capture_default_str()
-      ->type_name("SPEED");
-  command
-      ->add_option("--material", options->files.shown,
-                   "a sample of the material files, by name; give it once for each; default: the paper's three")
-      ->type_name("NAME");
-  auto model = std::make_shared<std::string>("paper");
-  command
-      ->add_option(
-          "--model", *model,
-          "law of force: auto (by the Tabor parameter), or one of " + curves::known_models(curves::ModelUse::Device))
-      ->capture_default_str()
-      ->type_name("NAME");
-  command
-      ->add_option_function<std::string>(
-          "--probe",
-          [options](const std::string& text) {
-            (exhibit::is_model_file(text) ? options->files.probe : options->probe) = text;
-          },
-          "a lever and tip of assets/probes.toml instead of the materials' own; or a glTF model of your own "
-          "cantilever, "
-          ".glb or .gltf, which changes the picture alone")
-      ->type_name("NAME|FILE");
-  add_own_sample_option(*command, options->files);
-  command
-      ->add_option("--vary", options->vary,
-                   "feel every sample once more at each of n values of one parameter, changed while the servo runs: "
-                   "spring-constant=0.1N/m:0.4N/m:3")
-      ->type_name("KEY=FROM:TO:N");
-  command
-      ->add_option("--measured", options->measured,
-                   "a recorded curve to be felt too (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
-      ->type_name("FILE");
-  add_scale_option(*command, options->scale);
-  auto servo = std::make_shared<std::string>("process");
-  command->add_option("--servo", *servo, "how the servo runs: process, or thread for debuggers and sanitizers")
-      ->check(CLI::IsMember({"process", "thread"}))
-      ->capture_default_str();
-  command->callback([options, speed, model, servo, &context] {
-    context.chosen = [options, speed, model, servo, &context]() -> core::Result<void> {
-      const auto parsed = physics::parse_quantity(*speed, physics::kVelocityUnits);
-      if (!parsed.value) return core::failure(core::ErrorCategory::WrongUsage, "--hand-speed: " + parsed.error);
-      if (parsed.value->si < kSlowestHand || parsed.value->si > kFastestHand) {
-        return core::failure(core::ErrorCategory::WrongUsage,
-                             fmt::format("--hand-speed: {} is outside 5mm/s to 200mm/s, the speeds of a hand", *speed));
-      }
-      options->hand.speed_m_per_s = parsed.value->si;
-      const auto name = curves::ModelName::parse(*model);
-      if (!name || name->direction_rule) {
-        return core::failure(core::ErrorCategory::WrongUsage,
-                             fmt::format("unknown model \"{}\" to feel; known are {} (paper-rule is for curves alone)",
-                                         *model, curves::known_models(curves::ModelUse::Device)));
-      }
-      options->model = *name;
-      options->servo.mode = *servo == "thread" ? servo::ServoMode::Thread : servo::ServoMode::Process;
-      return run_demo(*options, context.program_path);
-    };
+  quantity_option(
+      *command, "--hand-speed", [&hand = options->hand](physics::Velocity speed) { hand.speed_m_per_s = speed.si; },
+      physics::kVelocityUnits, "mean speed of the simulated hand", std::optional(kHandSpeeds))
+      ->default_str("30mm/s");
+  add_sample_options(*command, *options);
+  add_servo_mode_option(*command, options->servo.mode);
+  command->callback([options, &context] {
+    context.chosen = [options, &context] { return run_demo(*options, context.program_path); };
   });
 }
 

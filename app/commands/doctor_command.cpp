@@ -141,7 +141,8 @@ void add_doctor_command(CLI::App& app, CommandContext& context) {
       "doctor", "say whether this machine can run TouchAFM well, and the line that mends what it cannot");
   const auto options = std::make_shared<DoctorOptions>();
   command->add_option("--seconds", options->seconds, "how long to measure the jitter of a 1 kHz loop, s, 0.1 to 600")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("SECONDS");
   command->add_flag("--lab", options->lab,
                     "run the servo itself for 60 s; ends with 1 if it missed a tick or one in 1000 came 200 us late");
   command->add_flag("--json", options->json,

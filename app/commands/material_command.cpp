@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/material_command.h"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +9,7 @@
 
 #include "app/command.h"
 #include "app/commands/standard_output.h"
+#include "app/options/contact_options.h"
 #include "core/whole_file.h"
 #include "curves/adhesion_map_plot.h"
 #include "physics/law_tables.h"
@@ -66,6 +65,69 @@ core::Result<std::shared_ptr<const physics::LawTables>> tables_of(const curves::
   }
 }
 
+// Every known material and probe with its chief numbers, a line each.
+core::Result<std::string> material_list(const ContactOptions& options) {
+  const auto materials = load_materials(options);
+  if (!materials) return tl::unexpected(materials.error());
+  const auto probes = load_probes(options);
+  if (!probes) return tl::unexpected(probes.error());
+  std::string text = "materials (touchafm material NAME tells each number with its source)\n";
+  for (const scene::MaterialEntry& m : materials->materials) {
+    const auto place = physics::choose_law(m.contact);
+    text += fmt::format("  {:<20}{:<18}{:<9}in {:<15}W {:<13}E* {:<12}Tabor {:<10.3g}{}\n", m.name, m.title, m.tip,
+                        m.medium, text_of(2.0 * m.contact.mean_surface_energy, physics::kSurfaceEnergyUnits),
+                        text_of(m.contact.reduced_modulus, physics::kPressureUnits), place.tabor,
+                        physics::name_of(place.law));
+  }
+  text += "probes (--probe NAME; nominal values)\n";
+  for (const scene::ProbeEntry& p : probes->probes) {
+    const auto& resonance = p.resonance_in_air;
+    text +=
+        fmt::format("  {:<20}k_c {:<11}R {:<8}{:<11}{}\n", p.name, text_of(p.spring_constant, physics::kStiffnessUnits),
+                    text_of(p.tip_radius, physics::kLengthUnits),
+                    resonance ? text_of(*resonance, physics::kFrequencyUnits) : "", p.title);
+  }
+  return text;
+}
+
+// One contact for people: each number with its source, the place on the adhesion map, the law and why, and what a cycle
+// comes to.
+core::Result<std::string> material_text(const curves::ContactSetup& setup) {
+  const auto tables = tables_of(setup);
+  if (!tables) return tl::unexpected(tables.error());
+  const scene::MaterialEntry& material = setup.material;
+  std::string text = fmt::format("{}: {} tip, in {}\n", material.title, material.tip, material.medium);
+  if (!material.note.empty()) text += material.note + "\n";
+  text += "\nnumbers and where they come from\n" + sources_text(material);
+  if (material.tip_elasticity) {
+    text += fmt::format("  {:<22}{:<14}of tip and sample: 1/E* = (1 - nu_t^2)/E_t + (1 - nu_s^2)/E_s\n",
+                        "reduced modulus", text_of(material.contact.reduced_modulus, physics::kPressureUnits));
+  }
+  if (const auto place = setup.place()) {
+    text += fmt::format("\nplace on the adhesion map\n  Tabor parameter       {:.4g}\n  Maugis parameter      {:.4g}\n",
+                        place->tabor, place->maugis);
+    text += fmt::format("  regime                {}\n  {}\n", physics::name_of(place->regime), place->reason);
+  }
+  text += fmt::format("\none cycle by the model {}{}\n{}", setup.used_model(),
+                      setup.model.automatic ? ", chosen by the Tabor parameter" : "", cycle_text((*tables)->figures));
+  return text;
+}
+
+// The adhesion map with the contact on it, as SVG.
+core::Result<std::string> material_map(const curves::ContactSetup& setup) {
+  const auto tables = tables_of(setup);
+  if (!tables) return tl::unexpected(tables.error());
+  const auto place = setup.place();
+  if (!place) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         "without a work of adhesion the contact has no place on the map; give --work-of-adhesion");
+  }
+  const std::string title =
+      fmt::format("Adhesion map: {}, {} tip, in {}", setup.material.title, setup.material.tip, setup.material.medium);
+  return curves::svg(
+      curves::adhesion_map_plot(title, *place, setup.material.contact, (*tables)->figures.force_before_joc));
+}
+
 struct MaterialOptions {
   ContactOptions contact;
   std::string map;  // an SVG file, or empty
@@ -94,71 +156,13 @@ core::Result<void> print_material(const MaterialOptions& options) {
 
 }  // namespace
 
-core::Result<std::string> material_list(const ContactOptions& options) {
-  const auto materials = load_materials(options);
-  if (!materials) return tl::unexpected(materials.error());
-  const auto probes = load_probes(options);
-  if (!probes) return tl::unexpected(probes.error());
-  std::string text = "materials (touchafm material NAME tells each number with its source)\n";
-  for (const scene::MaterialEntry& m : materials->materials) {
-    const auto place = physics::choose_law(m.contact);
-    text += fmt::format("  {:<20}{:<18}{:<9}in {:<15}W {:<13}E* {:<12}Tabor {:<10.3g}{}\n", m.name, m.title, m.tip,
-                        m.medium, text_of(2.0 * m.contact.mean_surface_energy, physics::kSurfaceEnergyUnits),
-                        text_of(m.contact.reduced_modulus, physics::kPressureUnits), place.tabor,
-                        physics::name_of(place.law));
-  }
-  text += "probes (--probe NAME; nominal values)\n";
-  for (const scene::ProbeEntry& p : probes->probes) {
-    const auto& resonance = p.resonance_in_air;
-    text +=
-        fmt::format("  {:<20}k_c {:<11}R {:<8}{:<11}{}\n", p.name, text_of(p.spring_constant, physics::kStiffnessUnits),
-                    text_of(p.tip_radius, physics::kLengthUnits),
-                    resonance ? text_of(*resonance, physics::kFrequencyUnits) : "", p.title);
-  }
-  return text;
-}
-
-core::Result<std::string> material_text(const curves::ContactSetup& setup) {
-  const auto tables = tables_of(setup);
-  if (!tables) return tl::unexpected(tables.error());
-  const scene::MaterialEntry& material = setup.material;
-  std::string text = fmt::format("{}: {} tip, in {}\n", material.title, material.tip, material.medium);
-  if (!material.note.empty()) text += material.note + "\n";
-  text += "\nnumbers and where they come from\n" + sources_text(material);
-  if (material.tip_elasticity) {
-    text += fmt::format("  {:<22}{:<14}of tip and sample: 1/E* = (1 - nu_t^2)/E_t + (1 - nu_s^2)/E_s\n",
-                        "reduced modulus", text_of(material.contact.reduced_modulus, physics::kPressureUnits));
-  }
-  if (const auto place = setup.place()) {
-    text += fmt::format("\nplace on the adhesion map\n  Tabor parameter       {:.4g}\n  Maugis parameter      {:.4g}\n",
-                        place->tabor, place->maugis);
-    text += fmt::format("  regime                {}\n  {}\n", physics::name_of(place->regime), place->reason);
-  }
-  text += fmt::format("\none cycle by the model {}{}\n{}", setup.used_model(),
-                      setup.model.automatic ? ", chosen by the Tabor parameter" : "", cycle_text((*tables)->figures));
-  return text;
-}
-
-core::Result<std::string> material_map(const curves::ContactSetup& setup) {
-  const auto tables = tables_of(setup);
-  if (!tables) return tl::unexpected(tables.error());
-  const auto place = setup.place();
-  if (!place) {
-    return core::failure(core::ErrorCategory::WrongUsage,
-                         "without a work of adhesion the contact has no place on the map; give --work-of-adhesion");
-  }
-  const std::string title =
-      fmt::format("Adhesion map: {}, {} tip, in {}", setup.material.title, setup.material.tip, setup.material.medium);
-  return curves::svg(
-      curves::adhesion_map_plot(title, *place, setup.material.contact, (*tables)->figures.force_before_joc));
-}
-
 void add_material_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand(
       "material", "what is known of a material, with its sources, the law that suits it and why; or a list of all");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<MaterialOptions>();
-  command->add_option("name", options->contact.material, "a material; without it all materials and probes are listed");
+  command->add_option("name", options->contact.material, "a material; without it all materials and probes are listed")
+      ->type_name("NAME");
   add_contact_options(*command, options->contact, context);
   command->add_option("--map", options->map, "write the adhesion map with this contact on it, as SVG")
       ->type_name("FILE");

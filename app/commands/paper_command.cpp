@@ -54,10 +54,15 @@ void add_paper_command(CLI::App& app, CommandContext& context) {
       app.add_subcommand("paper", "the paper's Tables 1 and 2, Fig. 2 and Fig. 5(e), ours beside its own");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<PaperOptions>();
-  command->add_option("--out", options->out, "folder for paper.md, paper.json, the tables and the figures")->required();
-  command->add_option("--summary", options->summary_file,
-                      "summary.json of a demo, whose measurements then stand in the tables");
-  command->add_option("--materials", options->materials_file, "material file (TOML); default: the built-in one");
+  command->add_option("--out", options->out, "folder for paper.md, paper.json, the tables and the figures")
+      ->required()
+      ->type_name("DIR");
+  command
+      ->add_option("--summary", options->summary_file,
+                   "summary.json of a demo, whose measurements then stand in the tables")
+      ->type_name("FILE");
+  command->add_option("--materials", options->materials_file, "material file (TOML); default: the built-in one")
+      ->type_name("FILE");
   command->footer("example: touchafm paper --out paper --summary out/summary.json");
   command->callback([options, &context] {
     if (options->materials_file.empty()) options->materials_file = context.assets_dir + "/materials.toml";

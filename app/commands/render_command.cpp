@@ -14,9 +14,11 @@
 #include "app/command.h"
 #include "app/demo/demonstration.h"
 #include "app/options/exhibit_options.h"
+#include "app/options/pixel_size_option.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/model_view.h"
+#include "exhibit/wall_drawing.h"
 #include "render/context.h"
 #include "servo/session_file.h"
 
@@ -34,7 +36,6 @@ struct RenderOptions {
   bool json = false;
   std::string out;
   double at_s = 0;
-  std::string size;  // empty: as the wall's outputs say, or from the eyes' width
   exhibit::PictureOptions picture;
   exhibit::ExhibitFiles files;
 };
@@ -60,29 +61,15 @@ exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::
 
 core::Result<void> draw(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& felt,
                         const exhibit::Moment& moment, const RenderOptions& options) {
-  auto context = render::Context::open();
-  if (!context) return tl::unexpected(context.error());
-  exhibit::PictureOptions picture = options.picture;
-  if (!options.size.empty()) {
-    const auto size = exhibit::parse_picture_size("--size", options.size, context->largest_picture_px());
-    if (!size) return tl::unexpected(size.error());
-    picture.size_px = *size;
-  }
-  const auto plan = exhibit::plan_wall(stage.wall, picture);
-  if (!plan) return tl::unexpected(plan.error());
-  const auto drawing = exhibit::renderer_options(*context, *plan, stage.wall_scene.panel_millimetre_m());
-  auto renderer = render::Renderer::create(*context, stage.wall_scene.scene(), drawing);
-  if (!renderer) return tl::unexpected(renderer.error());
+  auto drawing = exhibit::WallDrawing::open(stage.wall, options.picture);
+  if (!drawing) return tl::unexpected(drawing.error());
   const exhibit::FrameBuilder frames(stage.wall_scene, felt, stage.eyes);
-  const auto pictures =
-      exhibit::draw_wall(*renderer, *plan, stage.wall.viewers.front(), picture,
-                         [&](const exhibit::OutputPicture&, const std::array<scene::EyeView, 2>& eyes) {
-                           render::FrameState frame = frames.build(moment);
-                           frame.eyes = eyes;
-                           return frame;
-                         });
-  if (!pictures) return tl::unexpected(pictures.error());
-  return exhibit::write_wall(*pictures, options.out);
+  const auto build = [&](const exhibit::OutputPicture&, const std::array<scene::EyeView, 2>& eyes) {
+    render::FrameState frame = frames.build(moment);
+    frame.eyes = eyes;
+    return frame;
+  };
+  return drawing->write(stage.wall_scene.scene(), stage.wall_scene.panel_millimetre_m(), build, options.out);
 }
 
 core::Result<void> run_journey(const RenderOptions& options) {
@@ -117,9 +104,9 @@ core::Result<void> run_model(const RenderOptions& options) {
   if (options.picture.ipd_m) choice.eyes_apart_m = *options.picture.ipd_m;
   if (mode == scene::StereoMode::Mono) choice.eyes_apart_m = 0.0;
   render::ReadArea area;
-  if (!options.size.empty()) {
-    const auto size = exhibit::parse_picture_size("--size", options.size, context->largest_picture_px());
-    if (!size) return tl::unexpected(size.error());
+  if (const auto& size = options.picture.size_px) {
+    if (const auto checked = exhibit::check_picture_size(*size, context->largest_picture_px()); !checked)
+      return checked;
     area.size_px = *size;
     choice.size_px = scene::eye_size(mode, *size);
   }
@@ -235,11 +222,9 @@ void add_render_command(CLI::App& app, CommandContext& context) {
                               "default: the session's start, the model at rest")
                  ->type_name("SECONDS");
   add_stereo_options(*command, options->picture, "the outputs of the wall file, else side-by-side; of a model mono");
-  CLI::Option* size = command
-                          ->add_option("--size", options->size,
-                                       "size of the whole picture in pixels; default: as the wall's outputs say, or "
-                                       "from --eye-width; of a model 960x720 an eye")
-                          ->type_name("WIDTHxHEIGHT");
+  CLI::Option* size = pixel_size_option(*command, "--size", options->picture.size_px,
+                                        "size of the whole picture in pixels; default: as the wall's outputs say, or "
+                                        "from --eye-width; of a model 960x720 an eye");
   command
       ->add_option("--eye-width", options->picture.eye_width,
                    "width of each eye's picture in pixels; the height follows the wall")

@@ -3,12 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/command.h"
@@ -17,6 +13,8 @@
 #include "app/live/view_wand.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
+#include "app/options/pixel_size_option.h"
+#include "app/options/servo_options.h"
 #include "core/log.h"
 #include "curves/sample_model.h"
 #include "exhibit/exhibit_setup.h"
@@ -43,30 +41,6 @@ struct ViewOptions {
   std::int64_t spin_us = 0;
   WandOptions wand;
 };
-
-std::optional<std::uint32_t> whole_number(std::string_view text) {
-  std::uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-core::Result<void> parse_size(const std::string& text, WindowOptions& window) {
-  if (text.empty()) return {};
-  const std::size_t cross = text.find('x');
-  const auto width = whole_number(text.substr(0, cross));
-  const auto height = cross == std::string::npos ? std::nullopt : whole_number(text.substr(cross + 1));
-  const auto legal = [](const std::optional<std::uint32_t>& pixels) {
-    return pixels && *pixels >= kSmallestWindow && *pixels <= kLargestWindow;
-  };
-  if (!legal(width) || !legal(height)) {
-    return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("--size: \"{}\" is not WIDTHxHEIGHT in pixels of {} to {} each, such as 1280x960",
-                                     text, kSmallestWindow, kLargestWindow));
-  }
-  window.size_px = {*width, *height};
-  return {};
-}
 
 core::Result<void> check_validation(render::Context& context) {
   const auto messages = context.take_validation_messages();
@@ -222,29 +196,18 @@ void add_view_command(CLI::App& app, CommandContext& context) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME");
   add_picture_options(*command, *options);
-  auto size = std::make_shared<std::string>();
-  command
-      ->add_option(
-          "--size", *size,
-          "one window of that size in pixels; default: a window for each output of the wall file in its place, "
-          "else one of 1280x960")
-      ->type_name("WxH");
-  static const std::map<std::string, servo::ServoMode> kServos{{"process", servo::ServoMode::Process},
-                                                               {"thread", servo::ServoMode::Thread}};
-  command
-      ->add_option("--servo", options->servo.mode,
-                   "how the servo runs: process, or thread for debuggers and sanitizers; default: process")
-      ->transform(CLI::CheckedTransformer(kServos))
-      ->type_name("HOW");
+  pixel_size_option(
+      *command, "--size", options->display.window.size_px,
+      "one window of that size in pixels; default: a window for each output of the wall file in its place, else one "
+      "of 1280x960",
+      PixelRange{kSmallestWindow, kLargestWindow});
+  add_servo_mode_option(*command, options->servo.mode);
   add_wand_options(*command, *options);
   add_servo_options(*command, *options);
   command->add_flag("--validate", options->display.validate,
                     "check every Vulkan call; any message ends in exit code 1");
-  command->callback([options, size, &context] {
-    context.chosen = [options, size, &context]() -> core::Result<void> {
-      if (auto parsed = parse_size(*size, options->display.window); !parsed) return parsed;
-      return run_view(*options, context.program_path);
-    };
+  command->callback([options, &context] {
+    context.chosen = [options, &context] { return run_view(*options, context.program_path); };
   });
 }
 

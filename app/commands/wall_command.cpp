@@ -8,16 +8,19 @@
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/command.h"
 #include "app/options/exhibit_options.h"
+#include "app/options/parsed_option.h"
+#include "app/options/pixel_size_option.h"
 #include "exhibit/calibration.h"
 #include "exhibit/exhibit_setup.h"
+#include "exhibit/wall_drawing.h"
 #include "exhibit/wall_layout.h"
-#include "render/context.h"
 #include "scene/display/disparity.h"
 
 namespace afm::app {
@@ -26,11 +29,10 @@ namespace {
 
 struct WallOptions {
   std::string file;
-  std::string head;  // empty: the viewer's sweet spot
+  std::optional<scene::HeadPose> head;  // instead of the viewer's sweet spot
   bool json = false;
   bool test_pattern = false;
   std::string out;
-  std::string size;
   exhibit::PictureOptions picture;
 };
 
@@ -38,7 +40,7 @@ core::Result<scene::HeadPose> parse_head(std::string_view text) {
   const auto wrong = [&] {
     return core::failure(
         core::ErrorCategory::WrongUsage,
-        fmt::format("--head: \"{}\" is not x,y,z in metres, with or without a unit quaternion ,qx,qy,qz,qw", text));
+        fmt::format("\"{}\" is not x,y,z in metres, with or without a unit quaternion ,qx,qy,qz,qw", text));
   };
   std::vector<double> v;
   for (std::string_view rest = text;;) {
@@ -132,33 +134,19 @@ scene::Scene nothing() {
 }
 
 core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions& options) {
-  auto context = render::Context::open();
-  if (!context) return tl::unexpected(context.error());
-  exhibit::PictureOptions picture = options.picture;
-  if (!options.size.empty()) {
-    const auto size = exhibit::parse_picture_size("--size", options.size, context->largest_picture_px());
-    if (!size) return tl::unexpected(size.error());
-    picture.size_px = *size;
-  }
-  const auto plan = exhibit::plan_wall(wall, picture);
-  if (!plan) return tl::unexpected(plan.error());
+  auto drawing = exhibit::WallDrawing::open(wall, options.picture);
+  if (!drawing) return tl::unexpected(drawing.error());
   const scene::Scene scene = nothing();
-  const double millimetre_m = 1e-3 * exhibit::layout_unit_m(plan->outputs.front().screen);
-  auto renderer = render::Renderer::create(*context, scene, exhibit::renderer_options(*context, *plan, millimetre_m));
-  if (!renderer) return tl::unexpected(renderer.error());
-  const scene::Viewer& viewer = wall.viewers.front();
-  const double ipd_m = picture.ipd_m.value_or(viewer.ipd_m);
-  const auto pictures =
-      exhibit::draw_wall(*renderer, *plan, viewer, picture,
-                         [&](const exhibit::OutputPicture& output, const std::array<scene::EyeView, 2>& eyes) {
-                           render::FrameState frame;
-                           frame.eyes = eyes;
-                           frame.room_from_node.assign(scene.nodes.size(), glm::dmat4(1.0));
-                           exhibit::show_calibration(output.screen, output.mode, ipd_m, frame);
-                           return frame;
-                         });
-  if (!pictures) return tl::unexpected(pictures.error());
-  return exhibit::write_wall(*pictures, options.out);
+  const double millimetre_m = 1e-3 * exhibit::layout_unit_m(drawing->plan().outputs.front().screen);
+  const double ipd_m = options.picture.ipd_m.value_or(wall.viewers.front().ipd_m);
+  const auto build = [&](const exhibit::OutputPicture& output, const std::array<scene::EyeView, 2>& eyes) {
+    render::FrameState frame;
+    frame.eyes = eyes;
+    frame.room_from_node.assign(scene.nodes.size(), glm::dmat4(1.0));
+    exhibit::show_calibration(output.screen, output.mode, ipd_m, frame);
+    return frame;
+  };
+  return drawing->write(scene, millimetre_m, build, options.out);
 }
 
 core::Result<void> run_wall(const WallOptions& options) {
@@ -170,12 +158,7 @@ core::Result<void> run_wall(const WallOptions& options) {
   if (options.test_pattern) return draw_test_pattern(*wall, options);
   const scene::Viewer& viewer = wall->viewers.front();
   const double ipd_m = options.picture.ipd_m.value_or(viewer.ipd_m);
-  scene::HeadPose head = viewer.sweet_spot;
-  if (!options.head.empty()) {
-    const auto parsed = parse_head(options.head);
-    if (!parsed) return tl::unexpected(parsed.error());
-    head = *parsed;
-  }
+  const scene::HeadPose head = options.head.value_or(viewer.sweet_spot);
   const auto seen = frusta(*wall, head, ipd_m);
   if (!seen) return tl::unexpected(seen.error());
   if (options.json) {
@@ -198,9 +181,14 @@ void add_wall_command(CLI::App& app, CommandContext& context) {
   command->add_option("file", options->file, "wall file (TOML), or a ParaView configuration (.pvx)")
       ->required()
       ->type_name("FILE");
-  command
-      ->add_option("--head", options->head,
-                   "head position in metres, and orientation as a unit quaternion; default: the sweet spot")
+  const auto read_head = [head = &options->head](const std::string& text) -> core::Result<void> {
+    const auto parsed = parse_head(text);
+    if (!parsed) return tl::unexpected(parsed.error());
+    *head = *parsed;
+    return {};
+  };
+  parsed_option(*command, "--head", read_head,
+                "head position in metres, and orientation as a unit quaternion; default: the sweet spot")
       ->type_name("X,Y,Z[,QX,QY,QZ,QW]");
   command->add_flag(
       "--json", options->json,
@@ -208,7 +196,7 @@ void add_wall_command(CLI::App& app, CommandContext& context) {
   command->add_flag("--test-pattern", options->test_pattern,
                     "draw the picture for setting up: grid, cross, circle, ruler, L and R; with --out");
   command->add_option("--out", options->out, "where the test pattern is written")->type_name("FILE.png");
-  command->add_option("--size", options->size, "size of the whole test pattern in pixels")->type_name("WIDTHxHEIGHT");
+  pixel_size_option(*command, "--size", options->picture.size_px, "size of the whole test pattern in pixels");
   add_stereo_options(*command, options->picture, "the outputs of the wall file, else side-by-side");
   command->callback([options, &context] { context.chosen = [options] { return run_wall(*options); }; });
 }

@@ -86,7 +86,7 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, D
   const std::string title = materials_[material].setup.material.title;
   const double stroke_seconds = (path_.lift_m - path_.push_m) / path_.speed_m_per_s;
 
-  std::size_t events_told = 0;
+  std::size_t events_logged = 0;
   int restarts = 0;
   while (person_.step() != SimulatedPerson::Step::Done) {
     if (auto stepped = step(result); !stepped) return tl::unexpected(stepped.error());
@@ -101,12 +101,12 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, D
       progress(fmt::format("  the servo released the hand: {}; lifting again", scene::reason(servo_.tip().fault)));
       recorder_.begin_again();
       forget_cycle(material);
-      events_told = 0;
+      events_logged = 0;
     }
     const std::vector<scene::TipEvent>& events = recorder_.session().events;
-    for (; events_told < events.size() && events[events_told].material == static_cast<std::int32_t>(material);
-         ++events_told) {
-      const scene::TipEvent& e = events[events_told];
+    for (; events_logged < events.size() && events[events_logged].material == static_cast<std::int32_t>(material);
+         ++events_logged) {
+      const scene::TipEvent& e = events[events_logged];
       const bool in = e.kind == physics::EventKind::JumpToContact;
       progress(fmt::format("  {:<17} Z = {:8.4f} nm   pull {:8.5f} nN", in ? "jump to contact" : "jump off contact",
                            e.z_m * 1e9, -(in ? e.force_after_n : e.force_before_n) * 1e9));
@@ -142,7 +142,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   const std::int64_t start_ns = clock_.now_ns();
   wait_for_renderer();
   const std::int64_t now_ns = clock_.now_ns();
-  if (auto taken = take_update(now_ns); !taken) return taken;
+  if (auto consumed = consume_update(now_ns); !consumed) return consumed;
 
   person_.update(now_ns, servo_.tip());
   servo_.script(person_.hand());
@@ -164,11 +164,11 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   return {};
 }
 
-core::Result<void> Demonstration::take_update(std::int64_t now_ns) {
+core::Result<void> Demonstration::consume_update(std::int64_t now_ns) {
   auto update = servo_.poll(now_ns);
   if (!update) return tl::unexpected(update.error());
 
-  stream_.take(
+  stream_.consume(
       *update,
       [&](const scene::TipSample& sample) {
         const auto material = static_cast<std::size_t>(sample.material);

@@ -53,7 +53,7 @@ class Demonstration {
   core::Result<void> keep_patience(const std::string& title, double step_seconds, const DemoResult& result) const;
   void wait_for_renderer();
   core::Result<void> step(DemoResult& result);
-  core::Result<void> take_update(std::int64_t now_ns);
+  core::Result<void> consume_update(std::int64_t now_ns);
   void forget_cycle(std::size_t material);
   exhibit::Moment moment(const input::WandState& wand, const input::Selector::Result& pointing) const;
   exhibit::Hint hint() const;

@@ -10,7 +10,7 @@ namespace afm::app {
 ReportPictures::ReportPictures(render::Context& context, render::Renderer& renderer, const OutputFolder& out)
     : saver_(context, renderer), out_(out) {}
 
-void ReportPictures::take(std::vector<render::SavedPicture> saved) {
+void ReportPictures::keep_errors(std::vector<render::SavedPicture> saved) {
   for (render::SavedPicture& picture : saved) {
     if (!picture.written) errors_.push_back(std::move(picture.written.error()));
   }
@@ -19,14 +19,14 @@ void ReportPictures::take(std::vector<render::SavedPicture> saved) {
 void ReportPictures::add(const std::string& file, const std::string& caption) {
   paths_.push_back(out_.staged(file));
   pictures_.push_back({caption, {}});
-  take(saver_.collect());
+  keep_errors(saver_.collect());
   if (saver_.save({}, paths_.back())) return;
-  take(saver_.finish());
+  keep_errors(saver_.finish());
   saver_.save({}, paths_.back());
 }
 
 core::Result<std::vector<ReportPicture>> ReportPictures::finish() {
-  take(saver_.finish());
+  keep_errors(saver_.finish());
   if (!errors_.empty()) return tl::unexpected(errors_.front());
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
     auto bytes = core::read_file(paths_[i]);

@@ -25,7 +25,7 @@ class ReportPictures {
   core::Result<std::vector<ReportPicture>> finish();
 
  private:
-  void take(std::vector<render::SavedPicture> saved);
+  void keep_errors(std::vector<render::SavedPicture> saved);
 
   render::ScreenshotQueue saver_;
   const OutputFolder& out_;

@@ -24,7 +24,6 @@ namespace {
 constexpr std::int64_t kForceTakenNs = 500'000'000;  // until a choice has taken the force away
 constexpr double kHiddenPauseS = 0.05;               // between two heartbeats of a window that nobody sees
 constexpr double kDrawnHandM = 0.085;                // of the hand, shown as the stroke that a sample's cycle fills
-constexpr double kEyeStepM = 1e-3;                   // of the eyes' distance, a key press
 
 MouseHand hand_over(const exhibit::WallScene& wall_scene) {
   return MouseHand(wall_scene.sample_normal(), wall_scene.sample_right());
@@ -65,7 +64,7 @@ core::Result<void> LiveView::run() {
   hand_moved_ns_ = clock_.now_ns();
   std::optional<core::Error> lost;
   try {
-    while (!leaving_ && !interrupted()) turn(clock_.now_ns());
+    while (!leaving_ && !interrupted()) run_frame(clock_.now_ns());
   } catch (const render::DeviceFailure& failure) {
     lost = core::Error{core::ErrorCategory::Failed, failure.what()};
   }
@@ -77,13 +76,13 @@ core::Result<void> LiveView::run() {
   return {};
 }
 
-void LiveView::turn(std::int64_t now_ns) {
+void LiveView::run_frame(std::int64_t now_ns) {
   const ViewInput input = windows_.poll();
   leaving_ = input.close_requested;
   for (const ViewEvent& event : input.events) handle(event, now_ns);
   if (std::exchange(cursor_px_, input.cursor_px) != input.cursor_px && !hand_.dragging()) cursor_moved_ns_ = now_ns;
   move_hand(input, now_ns);
-  servo_.take_update(now_ns);
+  servo_.update(now_ns);
   follow_wand(now_ns);
   if (windows_.hidden()) {
     picture_.rest();
@@ -101,76 +100,31 @@ void LiveView::handle(const ViewEvent& input, std::int64_t now_ns) {
   const render::WindowEvent& event = input.event;
   render::WindowEvent on_desktop = event;
   on_desktop.cursor_px = windows_.on_desktop(input.window, event.cursor_px);
-  hand_.take(on_desktop, hand_m_per_px(input.window), now_ns);
+  hand_.apply(on_desktop, hand_m_per_px(input.window), now_ns);
   if (event.kind == Kind::ButtonDown && event.button == render::MouseButton::Left) {
     press(pointed_at(input.window, event.cursor_px));
   }
   if (event.kind != Kind::KeyDown) return;
-  if (const auto number = digit(event.key); number && *number < swatches_.size()) choose(*number);
-  if (const auto action = action_of(event.key)) act(*action);
+  for (const LiveKey& row : live_keys()) {
+    if (!row.holds(event.key) || row.press == nullptr) continue;
+    row.press(*this, static_cast<std::size_t>(event.key) - static_cast<std::size_t>(row.key));
+  }
 }
 
-void LiveView::act(ViewAction action) {
-  switch (action) {
-    case ViewAction::Leave:
-      leaving_ = true;
-      break;
-    case ViewAction::ShowKeys:
-      panels_.toggle_keys();
-      break;
-    case ViewAction::ShowParameters:
-      panels_.toggle_parameters();
-      break;
-    case ViewAction::FullScreen:
-      windows_.toggle_full_screen();
-      break;
-    case ViewAction::SavePicture:
-      picture_.save();
-      break;
-    case ViewAction::NextScale:
-      next_scale();
-      break;
-    case ViewAction::HidePanels:
-      panels_.toggle_all();
-      break;
-    case ViewAction::BeginAgain:
-      begin_again();
-      break;
-    case ViewAction::Home:
-      view_wand_.home();
-      to_wall_ = glm::dmat4(1.0);
-      break;
-    case ViewAction::SwapEyes:
-      picture_.swap_eyes();
-      break;
-    case ViewAction::Journey:
-      travel_.turn_round(clock_.now_ns());
-      core::log_line("the journey of scale was turned round");
-      take_force_away(clock_.now_ns());
-      break;
-    case ViewAction::Analogy:
-      analogy_ = !analogy_;
-      core::log_line(analogy_ ? "shown: Millet's analogy" : "shown: the instrument");
-      break;
-    case ViewAction::NextStereo:
-      picture_.change_mode(ViewPicture::Step::Next);
-      break;
-    case ViewAction::PreviousStereo:
-      picture_.change_mode(ViewPicture::Step::Previous);
-      break;
-    case ViewAction::NarrowEyes:
-      picture_.widen_eyes(-kEyeStepM);
-      break;
-    case ViewAction::WidenEyes:
-      picture_.widen_eyes(kEyeStepM);
-      break;
-    case ViewAction::ShowCalibration:
-      picture_.toggle_calibration();
-      break;
-    case ViewAction::BringToWall:
-      bring_to_wall();
-      break;
-  }
+void LiveView::turn_journey_round() {
+  travel_.turn_round(clock_.now_ns());
+  core::log_line("the journey of scale was turned round");
+  take_force_away(clock_.now_ns());
+}
+
+void LiveView::toggle_analogy() {
+  analogy_ = !analogy_;
+  core::log_line(analogy_ ? "shown: Millet's analogy" : "shown: the instrument");
+}
+
+void LiveView::bring_home() {
+  view_wand_.home();
+  to_wall_ = glm::dmat4(1.0);
 }
 
 // The contact comes into the wall's plane, where both eyes see it in one place.
@@ -217,8 +171,8 @@ void LiveView::follow_wand(std::int64_t now_ns) {
   if (view_wand_.select_pressed()) press(wand_pointed_at());
   const glm::dmat3 turned(view_wand_.navigation());
   const glm::dvec3 normal = glm::normalize(turned * stage_.wall_scene.sample_normal());
-  hand_.turn(normal, glm::normalize(turned * stage_.wall_scene.sample_right()));
-  person_.turn(normal);
+  hand_.set_axes(normal, glm::normalize(turned * stage_.wall_scene.sample_right()));
+  person_.set_normal(normal);
 }
 
 void LiveView::press(const Pointed& pointed) {
@@ -229,7 +183,7 @@ void LiveView::press(const Pointed& pointed) {
 }
 
 void LiveView::choose(std::size_t material) {
-  if (!servo_.running()) return;
+  if (!servo_.running() || material >= swatches_.size()) return;
   servo_.link().choose(static_cast<std::int32_t>(material), settings_.scale);
   if (settings_.hand == HandSource::Simulated) {
     person_.begin(swatches_[material].center_m, static_cast<std::int32_t>(material), clock_.now_ns());
@@ -349,8 +303,7 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   stage_.wall_scene.place(exhibit::pose_of(now), transforms);
   servo_.link().place(transforms);
 
-  if (now.guidance != guidance_) core::log_line(now.guidance);
-  guidance_ = now.guidance;
+  if (std::exchange(logged_guidance_, now.guidance) != now.guidance) core::log_line(now.guidance);
 
   render::FrameState frame = frames_.build(now);
   const auto material = travel_.orders() ? std::nullopt : servo_.material();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,19 +47,23 @@ class LiveView {
   core::Result<void> run();
 
  private:
+  friend std::span<const LiveKey> live_keys();  // whose handlers act on what follows
+
   void begin_with(servo::ServoClient& servo, std::optional<std::size_t> felt_before);
-  void turn(std::int64_t now_ns);
+  void run_frame(std::int64_t now_ns);
   void handle(const ViewEvent& input, std::int64_t now_ns);
-  void act(ViewAction action);
   void press(const Pointed& pointed);
   void follow_wand(std::int64_t now_ns);
   void follow_head(std::int64_t now_ns);
-  void choose(std::size_t material);
+  void choose(std::size_t material);  // that there is
   void next_scale();
   void take_force_away(std::int64_t now_ns);
   void travel(std::int64_t now_ns);
   void begin_again();
   void bring_to_wall();
+  void bring_home();
+  void turn_journey_round();
+  void toggle_analogy();
 
   double hand_m_per_px(std::size_t window) const;
   HandSource hand() const;
@@ -86,7 +91,7 @@ class LiveView {
   ViewHead head_;
   MouseHand hand_;
   SimulatedPerson person_;  // moves the hand with HandSource::Simulated
-  std::string guidance_;    // as it was told last
+  std::string logged_guidance_;
   std::int64_t hand_moved_ns_ = 0;
   glm::dvec2 cursor_px_{0.0};
   std::int64_t cursor_moved_ns_ = 0;

@@ -18,12 +18,12 @@ using Kind = render::WindowEvent::Kind;
 
 bool is_grip(const render::WindowEvent& event) {
   const bool key = event.kind == Kind::KeyDown || event.kind == Kind::KeyUp;
-  return key ? event.key == render::Key::Space : event.button == render::MouseButton::Right;
+  return key ? event.key == MouseHand::kGripKey : event.button == render::MouseButton::Right;
 }
 
 bool is_turn_on(const render::WindowEvent& event) {
   const bool key = event.kind == Kind::KeyDown || event.kind == Kind::KeyUp;
-  return key ? event.key == render::Key::T : event.button == render::MouseButton::Middle;
+  return key ? event.key == MouseHand::kTurnOnKey : event.button == render::MouseButton::Middle;
 }
 
 }  // namespace
@@ -34,13 +34,13 @@ void MouseHand::drag_to(const glm::dvec2& cursor_px, double m_per_px) {
   grip_px_ = cursor_px;
 }
 
-void MouseHand::turn(const glm::dvec3& normal, const glm::dvec3& right) {
-  turned_ = turned_ || normal != normal_ || right != right_;
+void MouseHand::set_axes(const glm::dvec3& normal, const glm::dvec3& right) {
+  axes_changed_ = axes_changed_ || normal != normal_ || right != right_;
   normal_ = normal;
   right_ = right;
 }
 
-void MouseHand::take(const render::WindowEvent& event, double m_per_px, std::int64_t now_ns) {
+void MouseHand::apply(const render::WindowEvent& event, double m_per_px, std::int64_t now_ns) {
   if (event.kind == Kind::Scroll) {
     wanted_m_.y = std::clamp(wanted_m_.y + kWheelStepM * event.scroll, kLowestM, kHighestM);
     return;
@@ -66,9 +66,9 @@ void MouseHand::update(const glm::dvec2& cursor_px, double m_per_px, double fram
   const glm::dvec2 way = wanted_m_ - aim_m_;
   const double length = glm::length(way);
   const glm::dvec2 next = length > reach ? aim_m_ + reach / length * way : wanted_m_;
-  if (next == aim_m_ && script_.revision != 0 && !turned_) return;
+  if (next == aim_m_ && script_.revision != 0 && !axes_changed_) return;
   aim_m_ = next;
-  turned_ = false;
+  axes_changed_ = false;
   const glm::dvec3 target = aim_m_.x * right_ + aim_m_.y * normal_;
   script_.target_m = {target.x, target.y, target.z};
   script_.duration_s = seconds;

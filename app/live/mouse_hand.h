@@ -15,7 +15,8 @@ namespace afm::app {
 // flies off by itself while the mouse goes on evenly (pseudo-haptics). Places are the hand's, from the contact point,
 // metres.
 //
-// Held right button or space bar: the aim follows the cursor. Wheel: steps up and down. T or middle button: Turn-On.
+// Held right button or kGripKey: the aim follows the cursor. Wheel: steps up and down. Middle button or kTurnOnKey:
+// Turn-On.
 class MouseHand {
  public:
   static constexpr double kLowestM = -0.030;
@@ -23,11 +24,14 @@ class MouseHand {
   static constexpr double kRestM = 0.060;    // where the simulated hand begins
   static constexpr double kWidestM = 0.070;  // to either side: as far as a sample reaches on the scale that fits it
 
+  static constexpr render::Key kGripKey = render::Key::Space;
+  static constexpr render::Key kTurnOnKey = render::Key::T;
+
   // The sample's outward normal and its x axis, to the right, in the device's frame; unit.
   MouseHand(const glm::dvec3& normal, const glm::dvec3& right) : normal_(normal), right_(right) {}
 
   // `m_per_px`: how far the aim goes when the cursor moves by a pixel.
-  void take(const render::WindowEvent& event, double m_per_px, std::int64_t now_ns);
+  void apply(const render::WindowEvent& event, double m_per_px, std::int64_t now_ns);
 
   // Once a frame. The aim moves to where it is wanted, no faster than a hand that the servo trusts, in a path that
   // lasts until the next frame: `frame_s`.
@@ -36,8 +40,8 @@ class MouseHand {
   // Off the sample, and back over the contact point.
   void lift() { wanted_m_ = {0.0, kHighestM}; }
 
-  // The sample has been turned: its axes are others now, as in the constructor.
-  void turn(const glm::dvec3& normal, const glm::dvec3& right);
+  // As in the constructor, after the sample has been turned.
+  void set_axes(const glm::dvec3& normal, const glm::dvec3& right);
 
   bool dragging() const { return grips_ > 0; }
   double wanted_m() const { return wanted_m_.y; }
@@ -54,7 +58,7 @@ class MouseHand {
   glm::dvec2 aim_m_{0.0, kRestM};
   int grips_ = 0;  // of right button and space bar, how many are held
   glm::dvec2 grip_px_{0.0};
-  bool turned_ = false;
+  bool axes_changed_ = false;
   bool turn_on_held_ = false;
   std::int64_t turn_on_until_ns_ = 0;
   scene::HandScript script_;

@@ -19,13 +19,13 @@ class ParameterEdits {
   explicit ParameterEdits(std::vector<curves::SampleModel> loaded)
       : loaded_(std::move(loaded)), edits_(loaded_.size()) {}
 
-  // What the target of the panel stands for, except Close: changes the parameters and tells the servo.
+  // What the target of the panel stands for, except Close: changes the parameters, and the servo's.
   void apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo);
 
   // Back to what was loaded, of every material.
   void reset(servo::ServoClient& servo);
 
-  // Tells a servo that has been started again what has been changed.
+  // Sends what has been changed to a servo that has been started again.
   void resend(servo::ServoClient& servo);
 
   // Of a material that has been asked for before; made from what was loaded if it has not.
@@ -37,7 +37,7 @@ class ParameterEdits {
  private:
   struct Edit {
     std::optional<curves::LiveParameters> parameters;
-    std::uint32_t revision = 0;  // of the newest edit that the servo was told, 0: none
+    std::uint32_t revision = 0;  // of the newest edit that was sent to the servo, 0: none
   };
   curves::LiveParameters& parameters(std::size_t material);
 

@@ -39,7 +39,7 @@ core::Result<void> ServoSupervisor::start() {
   return launch(link_ ? "the servo was started again" : nullptr);
 }
 
-core::Result<void> ServoSupervisor::launch(const char* update) {
+core::Result<void> ServoSupervisor::launch(const char* message) {
   const auto felt_before = link_ ? material() : std::nullopt;
   auto servo = starter_();
   if (!servo) {
@@ -50,7 +50,7 @@ core::Result<void> ServoSupervisor::launch(const char* update) {
   error_.reset();
   stream_ = {};
   logged_state_ = scene::ServoState::Disarmed;
-  if (update != nullptr) core::log_line(update);
+  if (message != nullptr) core::log_line(message);
   started_(*link_, felt_before);
   return {};
 }
@@ -60,15 +60,15 @@ std::optional<std::size_t> ServoSupervisor::material() const {
   return material < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(material));
 }
 
-void ServoSupervisor::take_update(std::int64_t now_ns) {
+void ServoSupervisor::update(std::int64_t now_ns) {
   if (error_) return;
-  const auto update = link_->poll(now_ns);
-  if (!update) {
-    replace(update.error(), now_ns);
+  const auto polled = link_->poll(now_ns);
+  if (!polled) {
+    replace(polled.error(), now_ns);
     return;
   }
-  stream_.take(
-      *update,
+  stream_.consume(
+      *polled,
       [&](const scene::TipSample& sample) {
         cycles_.add(sample);
         if (!folder_) return;

@@ -17,7 +17,7 @@
 
 namespace afm::app {
 
-// The servo behind a live window: starts it, takes what it tells, keeps what is felt, and replaces one that has died.
+// The servo behind a live window: starts it, follows its state, keeps what is felt, and replaces one that has died.
 // The main thread alone.
 class ServoSupervisor {
  public:
@@ -35,12 +35,12 @@ class ServoSupervisor {
 
   // Once a frame: everything new. One that has died is replaced, without force until the hand lifts and Turn-On is
   // pressed; one that dies again and again, or that cannot have its device, needs a person: then it has an error().
-  void take_update(std::int64_t now_ns);
+  void update(std::int64_t now_ns);
 
-  // The session under way is kept, the log tells how punctual the servo was, and the hand is released.
+  // The session under way is kept, the servo's timing is logged, and the hand is released.
   void finish();
 
-  // The link to one that has ended still tells its last state.
+  // The link to one that has ended still has its last state.
   servo::ServoClient& link() { return *link_; }
   const servo::ServoClient& link() const { return *link_; }
   const std::optional<core::Error>& error() const { return error_; }
@@ -53,7 +53,7 @@ class ServoSupervisor {
   void forget_cycles() { cycles_ = exhibit::CycleHistory(materials_); }
 
  private:
-  core::Result<void> launch(const char* update);
+  core::Result<void> launch(const char* message);
   void replace(const core::Error& error, std::int64_t now_ns);
   void keep_session();
   void log_state();

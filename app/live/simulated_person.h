@@ -37,8 +37,8 @@ class SimulatedPerson {
   // Once a frame, with the newest state of the tip.
   void update(std::int64_t now_ns, const scene::TipState& tip);
 
-  // The sample has been turned: its normal is another now.
-  void turn(const glm::dvec3& normal) { normal_ = normal; }
+  // After the sample has been turned.
+  void set_normal(const glm::dvec3& normal) { normal_ = normal; }
 
   Step step() const { return step_; }
   input::WandState wand(std::int64_t now_ns) const { return wand_.state(now_ns); }

@@ -20,10 +20,10 @@ class ViewHead {
   std::optional<scene::HeadPose> update(const std::optional<scene::HeadPose>& pose, std::int64_t pose_ns,
                                         std::int64_t now_ns);
 
-  // The frame of the last update() has been presented. The log tells the latencies once a minute.
+  // The frame of the last update() has been presented. Logs the latencies once a minute.
   void presented(std::int64_t now_ns);
 
-  // Tells the latencies since they were told last.
+  // Logs the latencies since they were last logged.
   void log_latency();
 
  private:

@@ -2,65 +2,64 @@
 #include "app/live/view_keys.h"
 
 #include <array>
+#include <string>
+#include <string_view>
+
+#include "app/live/live_view.h"
 
 namespace afm::app {
 
-namespace {
-
-struct KeyBinding {
-  render::Key key;
-  ViewAction action;
-  const char* what;  // as the list on the wall says it; null: beside another key
-  const char* key_name;
-};
-
-constexpr std::array kBindings{
-    KeyBinding{render::Key::F2, ViewAction::ShowParameters, "Parameters", "F2"},
-    KeyBinding{render::Key::M, ViewAction::NextScale, "Next scale of the hand", "M"},
-    KeyBinding{render::Key::J, ViewAction::Journey, "Journey of scale, and back", "J"},
-    KeyBinding{render::Key::A, ViewAction::Analogy, "A magnet on a spring instead", "A"},
-    KeyBinding{render::Key::R, ViewAction::BeginAgain, "Begin again", "R"},
-    KeyBinding{render::Key::H, ViewAction::Home, "Scene back to its place", "H"},
-    KeyBinding{render::Key::P, ViewAction::HidePanels, "Hide the panels", "P"},
-    KeyBinding{render::Key::S, ViewAction::SwapEyes, "Swap the eyes", "S"},
-    KeyBinding{render::Key::V, ViewAction::NextStereo, "Stereo mode: next, before", "V, C"},
-    KeyBinding{render::Key::C, ViewAction::PreviousStereo, nullptr, "C"},
-    KeyBinding{render::Key::RightBracket, ViewAction::WidenEyes, "Eyes 1 mm nearer, farther", "[, ]"},
-    KeyBinding{render::Key::LeftBracket, ViewAction::NarrowEyes, nullptr, "["},
-    KeyBinding{render::Key::G, ViewAction::ShowCalibration, "Test pattern", "G"},
-    KeyBinding{render::Key::B, ViewAction::BringToWall, "Contact to the wall's plane", "B"},
-    KeyBinding{render::Key::F11, ViewAction::FullScreen, "Full screen", "F11"},
-    KeyBinding{render::Key::F12, ViewAction::SavePicture, "Save the picture", "F12"},
-    KeyBinding{render::Key::Escape, ViewAction::Leave, "End", "Esc"},
-    KeyBinding{render::Key::F1, ViewAction::ShowKeys, nullptr, "F1"},
-};
-
-}  // namespace
-
-std::optional<ViewAction> action_of(render::Key key) {
-  for (const KeyBinding& binding : kBindings) {
-    if (binding.key == key) return binding.action;
-  }
-  return std::nullopt;
-}
-
-std::optional<std::size_t> digit(render::Key key) {
-  if (key < render::Key::Digit1 || key > render::Key::Digit9) return std::nullopt;
-  return static_cast<std::size_t>(key) - static_cast<std::size_t>(render::Key::Digit1);
+std::span<const LiveKey> live_keys() {
+  using render::Key;
+  constexpr double kEyeStepM = 1e-3;
+  static constexpr std::array kKeys{
+      LiveKey{Key::Digit1, "1 to 9", "Choose a sample", [](LiveView& view, std::size_t number) { view.choose(number); },
+              "left click", Key::Digit9},
+      LiveKey{MouseHand::kGripKey, "Space", "Move the hand", nullptr, "right drag, wheel"},
+      LiveKey{MouseHand::kTurnOnKey, "T", "Turn-On", nullptr, "middle click"},
+      LiveKey{Key::F2, "F2", "Parameters", [](LiveView& view, std::size_t) { view.panels_.toggle_parameters(); }},
+      LiveKey{Key::M, "M", "Next scale of the hand", [](LiveView& view, std::size_t) { view.next_scale(); }},
+      LiveKey{Key::J, "J", "Journey of scale, and back",
+              [](LiveView& view, std::size_t) { view.turn_journey_round(); }},
+      LiveKey{Key::A, "A", "A magnet on a spring instead", [](LiveView& view, std::size_t) { view.toggle_analogy(); }},
+      LiveKey{Key::R, "R", "Begin again", [](LiveView& view, std::size_t) { view.begin_again(); }},
+      LiveKey{Key::H, "H", "Scene back to its place", [](LiveView& view, std::size_t) { view.bring_home(); }},
+      LiveKey{Key::P, "P", "Hide the panels", [](LiveView& view, std::size_t) { view.panels_.toggle_all(); }},
+      LiveKey{Key::S, "S", "Swap the eyes", [](LiveView& view, std::size_t) { view.picture_.swap_eyes(); }},
+      LiveKey{Key::V, "V", "Stereo mode: next, before",
+              [](LiveView& view, std::size_t) { view.picture_.change_mode(ViewPicture::Step::Next); }},
+      LiveKey{Key::C, "C", "Stereo mode: next, before",
+              [](LiveView& view, std::size_t) { view.picture_.change_mode(ViewPicture::Step::Previous); }},
+      LiveKey{Key::LeftBracket, "[", "Eyes 1 mm nearer, farther",
+              [](LiveView& view, std::size_t) { view.picture_.widen_eyes(-kEyeStepM); }},
+      LiveKey{Key::RightBracket, "]", "Eyes 1 mm nearer, farther",
+              [](LiveView& view, std::size_t) { view.picture_.widen_eyes(kEyeStepM); }},
+      LiveKey{Key::G, "G", "Test pattern", [](LiveView& view, std::size_t) { view.picture_.toggle_calibration(); }},
+      LiveKey{Key::B, "B", "Contact to the wall's plane", [](LiveView& view, std::size_t) { view.bring_to_wall(); }},
+      LiveKey{Key::F11, "F11", "Full screen", [](LiveView& view, std::size_t) { view.windows_.toggle_full_screen(); }},
+      LiveKey{Key::F12, "F12", "Save the picture", [](LiveView& view, std::size_t) { view.picture_.save(); }},
+      LiveKey{Key::Escape, "Esc", "End", [](LiveView& view, std::size_t) { view.leaving_ = true; }},
+      LiveKey{Key::F1, "F1", "", [](LiveView& view, std::size_t) { view.panels_.toggle_keys(); }},
+  };
+  return kKeys;
 }
 
 render::DataPanel key_list(HandSource hand) {
   render::DataPanel panel;
   panel.title = "Keys";
   panel.subtitle = "F1 hides them";
-  // without notes below them: with those the rows would stand on one another
-  panel.rows = {{"Choose a sample", "left click, 1 to 9", ""}};
-  if (hand == HandSource::Mouse) {
-    panel.rows.insert(panel.rows.end(),
-                      {{"Move the hand", "right drag, wheel", ""}, {"Turn-On", "T, middle click", ""}});
-  }
-  for (const KeyBinding& binding : kBindings) {
-    if (binding.what != nullptr) panel.rows.push_back({binding.what, binding.key_name, ""});
+  std::string_view text_above;
+  for (const LiveKey& key : live_keys()) {
+    const std::string_view text = key.text;
+    if (text.empty() || (key.press == nullptr && hand != HandSource::Mouse)) continue;
+    if (text == text_above) {
+      panel.rows.back().value += std::string(", ") + key.name;
+      continue;
+    }
+    text_above = text;
+    const std::string_view mouse = key.mouse;
+    // without notes below them: with those the rows would stand on one another
+    panel.rows.push_back({key.text, key.name + (mouse.empty() ? "" : ", " + std::string(mouse)), ""});
   }
   return panel;
 }

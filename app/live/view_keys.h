@@ -1,43 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
+#include <cstddef>
+#include <span>
 
 #include "render/frame.h"
-#include "render/window.h"
+#include "render/key.h"
 
 namespace afm::app {
 
+class LiveView;
+
 enum class HandSource { Mouse, Simulated, Device };
 
-// What a person can ask of the live window by a key. Samples are chosen by the digits, see digit().
-enum class ViewAction {
-  Leave,
-  ShowKeys,
-  ShowParameters,
-  FullScreen,
-  NextScale,
-  HidePanels,
-  BeginAgain,
-  Home,
-  SwapEyes,
-  Journey,
-  Analogy,
-  NextStereo,
-  PreviousStereo,
-  NarrowEyes,
-  WidenEyes,
-  ShowCalibration,
-  BringToWall,
-  SavePicture,
+// A key of the live window, or a run of keys that do the same with a number each.
+struct LiveKey {
+  render::Key key;
+  const char* name;  // as the wall and docs/manual.md print it
+  const char* text;  // on the list of keys; neighbours of the same text share a line; empty: not listed
+  void (*press)(LiveView& view, std::size_t number);  // 0 for the run's first key; null: MouseHand follows the key
+  const char* mouse = "";                             // does the same
+  render::Key last = key;                             // of the run
+
+  bool holds(render::Key other) const { return other >= key && other <= last; }
 };
 
-std::optional<ViewAction> action_of(render::Key key);
+// Every key of the live window, in the order of the list.
+std::span<const LiveKey> live_keys();
 
-// 0 for the key 1, up to 8.
-std::optional<std::size_t> digit(render::Key key);
-
-// What the live window's keys and buttons do, for the wall.
+// The list of keys for the wall. Those of MouseHand stand there where the mouse moves the hand.
 render::DataPanel key_list(HandSource hand);
 
 }  // namespace afm::app

@@ -140,7 +140,7 @@ WallPicture ViewPicture::picture(std::size_t window) const {
           .screen = share->screen};
 }
 
-// What an earlier frame asked of the eyes; tells the log when that begins to be too much, and now and then.
+// What an earlier frame asked of the eyes; logs when that begins to be too much, and now and then.
 void ViewPicture::measure_depth(std::int64_t now_ns) {
   if (shares_.front().flat || calibrating_ || now_ns - depth_measured_ns_ < kMeasureNs) return;
   depth_measured_ns_ = now_ns;

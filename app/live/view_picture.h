@@ -62,7 +62,7 @@ class ViewPicture {
   // Nobody sees the windows; to be said instead of show().
   void rest() { times_.hidden(); }
 
-  // Waits for the last saved pictures, and tells the log of them and how long frames took.
+  // Waits for the last saved pictures, and logs them and how long frames took.
   void finish();
 
   // What the next frame is drawn for in a window, and where it will lie there.

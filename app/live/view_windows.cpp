@@ -34,20 +34,20 @@ ViewInput ViewWindows::poll() {
     if (std::exchange(cursors_[i], input.cursor_px) != input.cursor_px || !input.events.empty()) window_ = i;
     for (render::WindowEvent& event : input.events) all.events.push_back({i, event});
     all.close_requested = all.close_requested || input.close_requested;
-    if (input.monitor_change != render::WindowInput::MonitorChange::None) log_update(i, input);
+    if (input.monitor_change != render::WindowInput::MonitorChange::None) log_monitor_change(i, input);
   }
   all.window = window_;
   all.cursor_px = cursors_[window_];
   return all;
 }
 
-void ViewWindows::log_update(std::size_t window, const render::WindowInput& update) const {
-  std::string which = update.monitor;
+void ViewWindows::log_monitor_change(std::size_t window, const render::WindowInput& input) const {
+  std::string which = input.monitor;
   if (const auto& rect = rects_[window]) {
     which = fmt::format("under the {} x {} pixels at {}, {}", rect->size_px.x, rect->size_px.y, rect->offset_px.x,
                         rect->offset_px.y);
   }
-  const bool lost = update.monitor_change == render::WindowInput::MonitorChange::Lost;
+  const bool lost = input.monitor_change == render::WindowInput::MonitorChange::Lost;
   core::log_line(
       fmt::format("monitor {} is {}", which,
                   lost ? "lost; its window goes on as a small one until it is back" : "back, and filled again"));

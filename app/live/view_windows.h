@@ -24,13 +24,13 @@ struct ViewInput {
   bool close_requested = false;
 };
 
-// The windows of the live view, which take a person's input alike. The main thread alone.
+// The windows of the live view, which share a person's input. The main thread alone.
 class ViewWindows {
  public:
   // Fails as render::Window::open does, naming the output.
   static core::Result<ViewWindows> open(const std::vector<ViewOutput>& outputs);
 
-  // Without waiting; the log tells of monitors that are lost and come back.
+  // Without waiting; logs monitors that are lost and come back.
   ViewInput poll();
 
   std::size_t count() const { return windows_.size(); }
@@ -45,7 +45,7 @@ class ViewWindows {
   glm::dvec2 on_desktop(std::size_t window, const glm::dvec2& cursor_px) const;
 
  private:
-  void log_update(std::size_t window, const render::WindowInput& update) const;
+  void log_monitor_change(std::size_t window, const render::WindowInput& input) const;
 
   std::vector<std::unique_ptr<render::Window>> windows_;
   std::vector<std::optional<scene::PixelRect>> rects_;  // of those that have their place by one

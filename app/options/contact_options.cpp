@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "app/options/quantity_option.h"
+
 namespace afm::app {
 namespace {
 
@@ -120,8 +122,10 @@ void add_contact_options(CLI::App& command, ContactOptions& options, const Comma
       ->type_name("NAME")
       ->capture_default_str();
   for (const curves::ContactParameter& parameter : curves::contact_parameters()) {
-    command.add_option("--" + std::string(parameter.option), options.values[std::string(parameter.option)],
-                       std::string(parameter.help));
+    command
+        .add_option("--" + std::string(parameter.option), options.values[std::string(parameter.option)],
+                    std::string(parameter.help))
+        ->type_name(type_word(parameter.sort));
   }
   command.add_flag("--exact-sphere", options.exact_sphere,
                    "Hamaker's sphere instead of Derjaguin's approximation of it");

@@ -4,53 +4,29 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <map>
+#include <optional>
 #include <string>
 
-#include "physics/quantity_text.h"
+#include "app/options/enum_option.h"
+#include "app/options/quantity_option.h"
 
 namespace afm::app {
 
 namespace {
 
-std::string stereo_mode_list() {
-  std::string names;
-  for (const scene::NamedStereoMode& entry : scene::kStereoModes) {
-    names += names.empty() ? std::string(entry.name) : ", " + std::string(entry.name);
-  }
-  return names;
-}
+constexpr QuantityRange<physics::Length> kEyeDistances{physics::Length(scene::kSmallestIpdM),
+                                                       physics::Length(scene::kLargestIpdM)};
 
 }  // namespace
 
 void add_stereo_options(CLI::App& command, exhibit::PictureOptions& options, const std::string& default_mode) {
-  command
-      .add_option_function<std::string>(
-          "--stereo",
-          [&options](const std::string& name) {
-            const auto mode = scene::parse_stereo_mode(name);
-            if (!mode) throw CLI::ValidationError("--stereo", mode.error().message);
-            options.mode = *mode;
-          },
-          fmt::format("how both eyes are shown: {}; default: {}", stereo_mode_list(), default_mode))
-      ->type_name("MODE");
+  enum_option(command, "--stereo", options.mode, "a stereo mode", scene::kStereoModes, &scene::NamedStereoMode::name,
+              &scene::NamedStereoMode::mode, "how both eyes are shown; default: " + default_mode);
   command.add_flag_callback(
       "--swap-eyes", [&options] { options.order = scene::EyeOrder::Swapped; }, "left and right exchanged");
-  command
-      .add_option_function<std::string>(
-          "--ipd",
-          [&options](const std::string& text) {
-            const auto parsed = physics::parse_quantity(text, physics::kLengthUnits);
-            if (!parsed.value) throw CLI::ValidationError("--ipd", parsed.error);
-            const double ipd_m = parsed.value->si;
-            if (!(ipd_m >= scene::kSmallestIpdM && ipd_m <= scene::kLargestIpdM)) {
-              throw CLI::ValidationError("--ipd", fmt::format("{:g} mm is not between {:g} mm and {:g} mm", ipd_m * 1e3,
-                                                              scene::kSmallestIpdM * 1e3, scene::kLargestIpdM * 1e3));
-            }
-            options.ipd_m = ipd_m;
-          },
-          "distance between the eyes, 30mm to 90mm; default: the viewer's in the wall file")
-      ->type_name("LENGTH");
+  quantity_option(
+      command, "--ipd", [&options](physics::Length distance) { options.ipd_m = distance.si; }, physics::kLengthUnits,
+      "distance between the eyes; default: the viewer's in the wall file", std::optional(kEyeDistances));
 }
 
 void add_own_model_options(CLI::App& command, exhibit::ExhibitFiles& files) {
@@ -69,18 +45,12 @@ void add_own_sample_option(CLI::App& command, exhibit::ExhibitFiles& files) {
 }
 
 void add_scale_option(CLI::App& command, scene::ScaleMode& mode) {
-  std::map<std::string, scene::ScaleMode> words;
   std::string meanings;
-  for (const scene::ScaleModeText& row : scene::kScaleModes) {
-    words.emplace(row.word, row.mode);
-    meanings += fmt::format("{}, {}; ", row.word, row.meaning);
-  }
-  command
-      .add_option(
-          "--scale", mode,
-          fmt::format("how nm and nN become mm and N in the hand: {}default: {}", meanings, scene::text_of(mode).word))
-      ->transform(CLI::CheckedTransformer(words))
-      ->type_name("MODE");
+  for (const scene::ScaleModeText& row : scene::kScaleModes) meanings += fmt::format("{}, {}; ", row.word, row.meaning);
+  enum_option(command, "--scale", mode, "a scale of the hand", scene::kScaleModes, &scene::ScaleModeText::word,
+              &scene::ScaleModeText::mode,
+              fmt::format("how nm and nN become mm and N in the hand: {}default: {}", meanings,
+                          scene::text_of(mode).word));
 }
 
 void add_stage_options(CLI::App& command, exhibit::ExhibitFiles& files, const CommandContext& context) {

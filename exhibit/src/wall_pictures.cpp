@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <glm/common.hpp>
@@ -116,17 +115,17 @@ core::Result<WallPlan> plan_wall(const scene::Wall& wall, const PictureOptions& 
   }
   for (OutputPicture& output : plan.outputs) output.rect.offset_px -= upper_left;
   plan.size_px = glm::uvec2(lower_right - upper_left);
-  if (options.size_px == glm::uvec2(0)) return plan;
+  if (!options.size_px) return plan;
 
   for (const OutputPicture& output : plan.outputs) {
     const bool packed = scene::frame_packing(output.composition.mode).has_value();
-    if (packed && (plan.size_px != options.size_px)) {
+    if (packed && plan.size_px != *options.size_px) {
       return core::failure(ErrorCategory::WrongUsage,
                            fmt::format("--size: {} is exactly {}x{} pixels with this wall; leave --size out",
                                        scene::name_of(output.composition.mode), plan.size_px.x, plan.size_px.y));
     }
   }
-  scale_to(options.size_px, plan);
+  scale_to(*options.size_px, plan);
   return plan;
 }
 
@@ -208,24 +207,11 @@ core::Result<void> write_wall(const std::vector<render::Image>& pictures, const 
   return {};
 }
 
-core::Result<glm::uvec2> parse_picture_size(const std::string& option, const std::string& text, std::uint32_t largest) {
-  const std::size_t cross = text.find('x');
-  glm::uvec2 size(0);
-  const auto read = [](std::string_view digits, std::uint32_t& value) {
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    return error == std::errc() && end == digits.data() + digits.size();
-  };
-  const std::string_view all(text);
-  if (cross == std::string::npos || !read(all.substr(0, cross), size.x) || !read(all.substr(cross + 1), size.y)) {
-    return core::failure(ErrorCategory::WrongUsage,
-                         fmt::format("{}: \"{}\" is not WIDTHxHEIGHT in pixels, such as 1920x1080", option, text));
-  }
-  if (size.x == 0 || size.y == 0 || size.x > largest || size.y > largest) {
-    return core::failure(
-        ErrorCategory::WrongUsage,
-        fmt::format("{}: {}x{} pixels cannot be drawn here; choose 1 to {} each way", option, size.x, size.y, largest));
-  }
-  return size;
+core::Result<void> check_picture_size(glm::uvec2 size_px, std::uint32_t largest) {
+  if (size_px.x > 0 && size_px.y > 0 && size_px.x <= largest && size_px.y <= largest) return {};
+  return core::failure(
+      ErrorCategory::WrongUsage,
+      fmt::format("--size: {}x{} pixels cannot be drawn here; choose 1 to {} each way", size_px.x, size_px.y, largest));
 }
 
 }  // namespace afm::exhibit

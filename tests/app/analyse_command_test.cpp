@@ -107,16 +107,17 @@ TEST(AnalyseCommand, RefusesWrongOptionsAndFilesAndWritesNothing) {
   options.file =
       folder.write("half.tab", curves::curve_bytes(curves::CurveFormat::Tab, mica_curve(0.1))->substr(0, 20000));
   EXPECT_THAT(error_of(options, core::ErrorCategory::BadInputFile), HasSubstr("cannot read the curve"));
-  options.spring_constant = "0.1nm";
-  EXPECT_THAT(error_of(options, core::ErrorCategory::WrongUsage), HasSubstr("--spring-constant: "));
-  options.spring_constant = "-1N/m";
-  EXPECT_THAT(error_of(options, core::ErrorCategory::WrongUsage), HasSubstr("is not positive"));
-  options.spring_constant.clear();
-  for (const char* wrong : {"70nm", "70/V", "/V", "V", "-70nm/V", "0nm/V"}) {
-    options.sensitivity = wrong;
-    EXPECT_THAT(error_of(options, core::ErrorCategory::WrongUsage), HasSubstr("no deflection per volt")) << wrong;
-  }
   EXPECT_FALSE(std::filesystem::exists(options.out));
+}
+
+TEST(AnalyseCommand, ReadsASensitivityThatIsADeflectionPerVolt) {
+  EXPECT_DOUBLE_EQ(parse_sensitivity("70nm/V").value(), 70e-9);
+  for (const char* wrong : {"70nm", "70/V", "/V", "V", "-70nm/V", "0nm/V"}) {
+    const auto sensitivity = parse_sensitivity(wrong);
+    ASSERT_FALSE(sensitivity.has_value()) << wrong;
+    EXPECT_EQ(sensitivity.error().category, core::ErrorCategory::WrongUsage);
+    EXPECT_THAT(sensitivity.error().message, HasSubstr("no deflection per volt"));
+  }
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ constexpr std::int64_t kFrameNs = 16'000'000;
 class MouseHandTest : public ::testing::Test {
  protected:
   void button(Kind kind, render::MouseButton button, double y) {
-    hand_.take({.kind = kind, .button = button, .cursor_px = {0.0, y}}, kMPerPx, now_ns_);
+    hand_.apply({.kind = kind, .button = button, .cursor_px = {0.0, y}}, kMPerPx, now_ns_);
   }
   void key(Kind kind, render::Key key, double y = 0.0) {
-    hand_.take({.kind = kind, .key = key, .cursor_px = {0.0, y}}, kMPerPx, now_ns_);
+    hand_.apply({.kind = kind, .key = key, .cursor_px = {0.0, y}}, kMPerPx, now_ns_);
   }
   void frame(double cursor_y, double cursor_x = 0.0) {
     now_ns_ += kFrameNs;

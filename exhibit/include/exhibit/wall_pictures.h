@@ -20,8 +20,8 @@ struct PictureOptions {
   std::optional<scene::StereoMode> mode{};            // instead of the outputs' own
   scene::EyeOrder order = scene::EyeOrder::Straight;  // Swapped: the other way round in every output
   std::optional<double> ipd_m{};                      // instead of the viewer's
-  glm::uvec2 size_px{0};          // of the whole picture; 0 x 0: as the outputs say, or from eye_width
-  std::uint32_t eye_width = 960;  // where neither a size nor an output's rectangle says
+  std::optional<glm::uvec2> size_px{};  // of the whole picture, instead of what the outputs say or eye_width gives
+  std::uint32_t eye_width = 960;        // where neither a size nor an output's rectangle says
 };
 
 // One output's part of a wall's picture.
@@ -47,10 +47,10 @@ core::Result<std::array<scene::EyeView, 2>> eyes_before(const scene::Screen& scr
                                                         double ipd_m);
 
 // For the plan's first output, with panels as sharp as its pixels, and with as many samples as the device has the
-// memory for in the largest one; fewer are told to the log. `panel_millimetre_m` as in render::RendererOptions.
+// memory for in the largest one; fewer are logged. `panel_millimetre_m` as in render::RendererOptions.
 render::RendererOptions renderer_options(render::Context& context, const WallPlan& plan, double panel_millimetre_m);
 
-// As many samples a pixel as the device has the memory for; fewer than usual are told to the log.
+// As many samples a pixel as the device has the memory for; fewer than usual are logged.
 std::uint32_t affordable_samples(render::Context& context, glm::uvec2 eye_px);
 
 // Draws each output in turn and puts them together: one picture, or with a mode of two pictures the left eye's and the
@@ -63,7 +63,7 @@ core::Result<std::vector<render::Image>> draw_wall(render::Renderer& renderer, c
 // FILE.png, or FILE-left.png and FILE-right.png.
 core::Result<void> write_wall(const std::vector<render::Image>& pictures, const std::string& path);
 
-// WIDTHxHEIGHT in pixels, each at least 1 and at most what the device draws. WrongUsage names `option`.
-core::Result<glm::uvec2> parse_picture_size(const std::string& option, const std::string& text, std::uint32_t largest);
+// WrongUsage: a picture of --size without a pixel, or with more each way than the device draws.
+core::Result<void> check_picture_size(glm::uvec2 size_px, std::uint32_t largest);
 
 }  // namespace afm::exhibit

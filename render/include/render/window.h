@@ -9,43 +9,11 @@
 #include <vector>
 
 #include "core/result.h"
+#include "render/key.h"
 #include "scene/display/wall.h"
 
 namespace afm::render {
 
-// The keys that something is bound to, by their place on the keyboard.
-enum class Key {
-  Other,
-  Escape,
-  Space,
-  F1,
-  F2,
-  F11,
-  F12,
-  A,
-  B,
-  C,
-  G,
-  H,
-  J,
-  LeftBracket,
-  M,
-  P,
-  R,
-  RightBracket,
-  S,
-  T,
-  V,
-  Digit1,
-  Digit2,
-  Digit3,
-  Digit4,
-  Digit5,
-  Digit6,
-  Digit7,
-  Digit8,
-  Digit9
-};
 enum class MouseButton { Left, Middle, Right };
 
 // What a person did, and where the cursor was then: pixels of the window's picture from its top left corner.
@@ -60,13 +28,13 @@ struct WindowEvent {
 struct WindowInput {
   std::vector<WindowEvent> events;  // since the last poll, in their order
   glm::dvec2 cursor_px{0.0};
-  glm::dvec2 origin_px{0.0};     // where the picture's top left corner lies on the desktop; 0,0 where nobody tells
+  glm::dvec2 origin_px{0.0};     // where the picture's top left corner lies on the desktop; 0,0 where it is unknown
   bool close_requested = false;  // the window's own close button
 
   // What has become of the monitor that the window fills, or of those under its rectangle: without it the window is a
   // small one on what is left.
   enum class MonitorChange { None, Lost, Back } monitor_change = MonitorChange::None;
-  std::string monitor;  // that the news is of; empty: under the rectangle
+  std::string monitor;  // that the change is of; empty: under the rectangle
 };
 
 struct WindowOptions {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "output/window_handle.h"
+#include "output/window_keys.h"
 #include "render/device_failure.h"
 #include "render/monitor.h"
 
@@ -25,56 +26,6 @@ GLFWmonitor* monitor_named(const std::string& name) {
     if (name == glfwGetMonitorName(candidate)) return candidate;
   }
   return nullptr;
-}
-
-Key key_of(int key) {
-  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
-    return static_cast<Key>(static_cast<int>(Key::Digit1) + key - GLFW_KEY_1);
-  }
-  switch (key) {
-    case GLFW_KEY_ESCAPE:
-      return Key::Escape;
-    case GLFW_KEY_SPACE:
-      return Key::Space;
-    case GLFW_KEY_F1:
-      return Key::F1;
-    case GLFW_KEY_F2:
-      return Key::F2;
-    case GLFW_KEY_F11:
-      return Key::F11;
-    case GLFW_KEY_F12:
-      return Key::F12;
-    case GLFW_KEY_H:
-      return Key::H;
-    case GLFW_KEY_A:
-      return Key::A;
-    case GLFW_KEY_J:
-      return Key::J;
-    case GLFW_KEY_B:
-      return Key::B;
-    case GLFW_KEY_C:
-      return Key::C;
-    case GLFW_KEY_G:
-      return Key::G;
-    case GLFW_KEY_V:
-      return Key::V;
-    case GLFW_KEY_LEFT_BRACKET:
-      return Key::LeftBracket;
-    case GLFW_KEY_RIGHT_BRACKET:
-      return Key::RightBracket;
-    case GLFW_KEY_M:
-      return Key::M;
-    case GLFW_KEY_P:
-      return Key::P;
-    case GLFW_KEY_R:
-      return Key::R;
-    case GLFW_KEY_S:
-      return Key::S;
-    case GLFW_KEY_T:
-      return Key::T;
-    default:
-      return Key::Other;
-  }
 }
 
 }  // namespace
@@ -128,7 +79,7 @@ core::Result<void> WindowHandle::place(const WindowOptions& options) {
           "or log into an X11 session");
     }
     rect_ = options.rect;
-    take_rect();
+    fill_rect();
     glfwShowWindow(window_);
     return {};
   }
@@ -197,7 +148,7 @@ WindowInput::MonitorChange WindowHandle::follow_rect() {
     become_small();
     return WindowInput::MonitorChange::Lost;
   }
-  take_rect();
+  fill_rect();
   return WindowInput::MonitorChange::Back;
 }
 
@@ -213,7 +164,7 @@ void WindowHandle::become_small() {
   glfwSetWindowMonitor(window_, nullptr, corner.x, corner.y, size.x, size.y, 0);
 }
 
-void WindowHandle::take_rect() {
+void WindowHandle::fill_rect() {
   const glm::ivec2 size(rect_->size_px);
   glfwSetWindowMonitor(window_, nullptr, rect_->offset_px.x, rect_->offset_px.y, size.x, size.y, 0);
 }

@@ -37,7 +37,7 @@ class WindowHandle {
   WindowInput::MonitorChange follow_monitor();
   WindowInput::MonitorChange follow_rect();
   void become_small();
-  void take_rect();
+  void fill_rect();
   glm::dvec2 picture_px(const glm::dvec2& place) const;
   void add(WindowEvent event);
   static WindowHandle& of(GLFWwindow* window);

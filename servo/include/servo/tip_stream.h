@@ -14,7 +14,7 @@ class TipStream {
  public:
   // Calls `on_event` for each event and `on_sample` for each sample that belongs to a material.
   template <class OnSample, class OnEvent>
-  void take(const ServoClient::Update& update, OnSample&& on_sample, OnEvent&& on_event) {
+  void consume(const ServoClient::Update& update, OnSample&& on_sample, OnEvent&& on_event) {
     waiting_.insert(waiting_.end(), update.events.begin(), update.events.end());
     auto event = waiting_.begin();
     for (const scene::TipSample& sample : update.samples) {

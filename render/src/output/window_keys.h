@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "render/key.h"
+
+namespace afm::render {
+
+// The key that GLFW gives this code.
+Key key_of(int glfw_code);
+
+}  // namespace afm::render

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live/view_keys.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/whole_file.h"
+#include "places.h"
+
+namespace afm::app {
+namespace {
+
+// The first column of the manual's table of keys.
+std::vector<std::string> manual_keys() {
+  const auto manual = core::read_file(AFM_SOURCE_DIR "/docs/manual.md");
+  EXPECT_TRUE(manual.has_value());
+  const std::string head = "| key | mouse | what |\n|---|---|---|\n";
+  const std::size_t table = manual->find(head);
+  EXPECT_NE(table, std::string::npos) << "docs/manual.md lacks the table " << head;
+  if (table == std::string::npos) return {};
+  std::istringstream lines(manual->substr(table + head.size()));
+  std::vector<std::string> keys;
+  for (std::string line; std::getline(lines, line) && line.starts_with("| ");) {
+    std::string key = line.substr(2, line.find(" |", 2) - 2);
+    keys.push_back(key.substr(0, key.find(", held")));
+  }
+  return keys;
+}
+
+TEST(LiveKeys, AreThoseOfTheManual) {
+  std::vector<std::string> names;
+  for (const LiveKey& key : live_keys()) names.emplace_back(key.name);
+  EXPECT_FALSE(names.empty());
+  EXPECT_EQ(manual_keys(), names);
+}
+
+TEST(LiveKeys, AreBoundOnce) {
+  for (const LiveKey& one : live_keys()) {
+    EXPECT_LE(one.key, one.last) << one.name;
+    EXPECT_EQ(std::count_if(live_keys().begin(), live_keys().end(),
+                            [&](const LiveKey& other) { return other.holds(one.key) || other.holds(one.last); }),
+              1)
+        << one.name;
+  }
+}
+
+TEST(LiveKeys, FillTheListOnTheWall) {
+  std::string list;
+  for (const render::DataRow& row : key_list(HandSource::Mouse).rows) list += row.name + ": " + row.value + "\n";
+  for (const char* line : {"Choose a sample: 1 to 9, left click\n", "Turn-On: T, middle click\n", "Parameters: F2\n",
+                           "Stereo mode: next, before: V, C\n", "Eyes 1 mm nearer, farther: [, ]\n", "End: Esc\n"}) {
+    EXPECT_THAT(list, testing::HasSubstr(line));
+  }
+  for (const render::DataRow& row : key_list(HandSource::Device).rows) EXPECT_NE(row.name, "Turn-On");
+}
+
+}  // namespace
+}  // namespace afm::app
