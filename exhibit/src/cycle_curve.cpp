@@ -13,9 +13,9 @@ constexpr double kNnPerN = 1e9;
 }  // namespace
 
 void CycleCurve::add(const scene::TipSample& sample) {
-  const bool felt =
+  const bool with_force =
       sample.servo_state == scene::ServoState::Running && sample.phase != scene::ContactPhase::WaitForLift;
-  if (felt) add_point({.z_nm = sample.z_m * kNmPerM, .force_nn = sample.force_n * kNnPerN});
+  if (with_force) add_point({.z_nm = sample.tip.z_m * kNmPerM, .force_nn = sample.tip.force_n * kNnPerN});
 }
 
 void CycleCurve::add(const scene::TipEvent& event) {

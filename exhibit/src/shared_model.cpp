@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <glm/gtc/type_ptr.hpp>
 #include <string_view>
+
+#include "core/check.h"
 
 namespace afm::exhibit {
 
@@ -13,6 +17,13 @@ namespace {
 // Names are for people; a longer one is cut.
 void set_name(scene::Name& name, std::string_view text) {
   std::copy_n(text.begin(), std::min(text.size(), name.size() - 1), name.begin());
+}
+
+// Column-major, as glm's.
+std::array<double, 16> shared_matrix(const glm::dmat4& matrix) {
+  std::array<double, 16> shared;
+  std::copy_n(glm::value_ptr(matrix), shared.size(), shared.begin());
+  return shared;
 }
 
 }  // namespace
@@ -40,18 +51,21 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
     scene::SharedNode& node = model.nodes[i];
     set_name(node.name, scene.nodes[i].name);
     node.parent = scene.nodes[i].parent.value_or(scene::kNoParent);
-    for (int column = 0; column < 4; ++column) {
-      for (int row = 0; row < 4; ++row) {
-        node.parent_from_node[static_cast<std::size_t>(4 * column + row)] =
-            scene.nodes[i].parent_from_node[column][row];
-      }
-    }
+    node.parent_from_node = shared_matrix(scene.nodes[i].parent_from_node);
   }
   std::transform(materials.begin(), materials.end(), model.materials.begin(),
                  [](const curves::SampleModel& material) { return material.parameters; });
   std::copy(surfaces.begin(), surfaces.end(), model.height_fields.begin());
   std::copy(curves.begin(), curves.end(), model.curves.begin());
   return model;
+}
+
+scene::SceneTransforms shared_transforms(std::span<const glm::dmat4> room_from_node) {
+  AFM_CHECK(room_from_node.size() <= scene::kMaxNodes);
+  scene::SceneTransforms transforms;
+  transforms.count = static_cast<std::uint32_t>(room_from_node.size());
+  std::transform(room_from_node.begin(), room_from_node.end(), transforms.room_from_node.begin(), shared_matrix);
+  return transforms;
 }
 
 }  // namespace afm::exhibit

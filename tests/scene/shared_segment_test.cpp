@@ -90,14 +90,14 @@ TEST(SharedSegment, CarriesEveryBlockAcross) {
   EXPECT_EQ(renderer.refused_blocks(), 1U);
 
   EXPECT_FALSE(renderer.tip_state() || renderer.servo_timing() || renderer.pop_sample() || renderer.pop_event());
-  servo.store(TipState{.tick = 3, .z_m = 1e-9});
+  servo.store(TipState{.tick = 3, .tip = {.z_m = 1e-9}});
   ServoTiming timing;
   timing.wake_us[kHistogramBins - 1] = 8;
   servo.store(timing);
   servo.push(TipSample{.tick = 1});
   servo.push(TipSample{.tick = 2});
   servo.push(TipEvent{.kind = TipEventKind::JumpOffContact});
-  EXPECT_EQ(renderer.tip_state()->z_m, 1e-9);
+  EXPECT_EQ(renderer.tip_state()->tip.z_m, 1e-9);
   EXPECT_EQ(renderer.servo_timing()->wake_us[kHistogramBins - 1], 8U);
   EXPECT_EQ(renderer.pop_sample()->tick, 1U);
   EXPECT_EQ(renderer.pop_sample()->tick, 2U);
@@ -295,7 +295,7 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   EXPECT_FALSE(servo.new_heartbeat());
   EXPECT_EQ(servo.refused_blocks(), 5U);
 
-  servo.store(TipState{.z_m = kNan});
+  servo.store(TipState{.tip = {.z_m = kNan}});
   EXPECT_FALSE(renderer.tip_state());
   servo.store(TipState{.servo_state = static_cast<ServoState>(77)});
   EXPECT_FALSE(renderer.tip_state());
@@ -303,7 +303,7 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   servo.push(TipEvent{.kind = TipEventKind::JumpToContact, .material = 3});
   EXPECT_FALSE(renderer.pop_event());
   // what comes after a bad sample is still found
-  servo.push(TipSample{.force_n = kNan});
+  servo.push(TipSample{.tip = {.force_n = kNan}});
   servo.push(TipSample{.tick = 8});
   EXPECT_EQ(renderer.pop_sample()->tick, 8U);
   EXPECT_EQ(renderer.refused_blocks(), 5U);
@@ -327,7 +327,7 @@ TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
       const auto selection = servo.new_selection();
       EXPECT_TRUE(!selection || selection->material < 3);
       const auto state = renderer.tip_state();
-      EXPECT_TRUE(!state || std::isfinite(state->z_m));
+      EXPECT_TRUE(!state || std::isfinite(state->tip.z_m));
       servo.new_transforms();
       servo.new_hand_script();
       servo.new_heartbeat();

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <glm/gtc/type_ptr.hpp>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 
 #include "core/check.h"
 #include "scene/shared/shared_segment.h"
@@ -21,8 +23,8 @@ constexpr double kLargest = 1e9;
 
 bool sane(double value) { return std::isfinite(value) && std::abs(value) <= kLargest; }
 
-template <class Numbers>
-bool all_sane(const Numbers& numbers) {
+template <std::size_t Count>
+bool all_sane(const std::array<double, Count>& numbers) {
   return std::all_of(numbers.begin(), numbers.end(), sane);
 }
 
@@ -36,6 +38,31 @@ bool known(FaultCode code) { return code <= FaultCode::OutOfWorkspace; }
 bool known(RendererLink link) { return link <= RendererLink::Died; }
 bool known(ScaleMode mode) { return mode <= ScaleMode::Compressed; }
 bool known(TipEventKind kind) { return kind == TipEventKind::JumpToContact || kind == TipEventKind::JumpOffContact; }
+
+// A field of a block by its type, and a block by its fields. A number without a unit of length or force may be larger.
+bool plausible(double value) { return sane(value); }
+bool plausible(const HandScale& scale) {
+  return std::isfinite(scale.hand_m_per_m) && std::isfinite(scale.hand_n_per_n);
+}
+template <std::integral Integer>
+bool plausible(Integer /*any*/) {
+  return true;
+}
+template <class Enumerator>
+  requires std::is_enum_v<Enumerator>
+bool plausible(Enumerator enumerator) {
+  return known(enumerator);
+}
+template <std::size_t Count>
+bool plausible(const std::array<double, Count>& numbers) {
+  return all_sane(numbers);
+}
+template <Described Block>
+bool plausible(const Block& block) {
+  bool all = true;
+  for_each_field([&](const char*, const auto& value) { all = all && plausible(value); }, block);
+  return all;
+}
 
 bool within(std::int32_t material, const SharedModel& model) {
   return material >= -1 && material < static_cast<std::int32_t>(std::min(model.material_count, kMaxMaterials));
@@ -170,28 +197,15 @@ bool is_valid(const SharedDevice& device) {
 }
 
 bool is_valid(const TipState& state, const SharedModel& model) {
-  return sane(state.z_m) && sane(state.tip_height_m) && sane(state.deflection_m) && sane(state.sample_deformation_m) &&
-         sane(state.force_n) && all_sane(state.hand_position_m) && all_sane(state.hand_force_n) &&
-         std::isfinite(state.hand_m_per_m) && std::isfinite(state.hand_n_per_n) && sane(state.release_z_m) &&
-         positive(state.slow_motion) && all_sane(state.tip_xy_m) && sane(state.surface_height_m) &&
-         all_sane(state.normal) && sane(state.force_cap_n) && std::isfinite(state.slew_limit_n_per_s) &&
-         sane(state.motor_heat) && sane(state.thermal_gain) && sane(state.excess_energy_j) &&
-         sane(state.observer_damping) && known(state.scale_mode) && known(state.servo_state) && known(state.phase) &&
-         known(state.fault) && within(state.material, model);
+  return plausible(state) && positive(state.active.slow_motion) && within(state.material, model);
 }
 
 bool is_valid(const TipSample& sample, const SharedModel& model) {
-  return sane(sample.z_m) && sane(sample.force_n) && sane(sample.tip_height_m) && sane(sample.deflection_m) &&
-         sane(sample.sample_deformation_m) && sane(sample.hand_height_m) && sane(sample.hand_force_n) &&
-         all_sane(sample.hand_from_contact_m) && all_sane(sample.sample_normal) && all_sane(sample.sample_x) &&
-         all_sane(sample.tip_xy_m) && sane(sample.surface_height_m) && sane(sample.motor_heat) &&
-         sample.device_healthy <= 1 && sample.changing <= 1 && known(sample.renderer) && known(sample.scale_mode) &&
-         known(sample.servo_state) && known(sample.phase) && within(sample.material, model);
+  return plausible(sample) && sample.device_healthy <= 1 && sample.changing <= 1 && within(sample.material, model);
 }
 
 bool is_valid(const TipEvent& event, const SharedModel& model) {
-  return known(event.kind) && sane(event.z_m) && sane(event.force_before_n) && sane(event.force_after_n) &&
-         within(event.material, model);
+  return plausible(event) && within(event.material, model);
 }
 
 glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node) {
