@@ -342,7 +342,7 @@ void LiveView::follow_edits() {
   if (!current) return;
   const exhibit::ChangeState state = panels_.edits().state(*current, servo_.link().tip());
   const curves::SampleModel& edited = panels_.edits().of(*current).felt();
-  const bool taken = state == exhibit::ChangeState::Felt || state == exhibit::ChangeState::AsLoaded;
+  const bool taken = state == exhibit::ChangeState::Applied || state == exhibit::ChangeState::AsLoaded;
   if (!taken || felt_[*current].tables == edited.tables) return;
   felt_[*current] = edited;
   core::log_line("the changed parameters are felt from now on");

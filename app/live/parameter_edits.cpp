@@ -48,7 +48,7 @@ exhibit::ChangeState ParameterEdits::state(std::size_t material, const scene::Ti
   const bool taken = under_tip ? tip.active.edit_revision == edit.revision : edit.revision == 0;
   if (edit.revision != 0 && tip.acknowledged.refused_edit == edit.revision) return exhibit::ChangeState::Refused;
   if (!taken) return exhibit::ChangeState::Waiting;
-  return changed(material) ? exhibit::ChangeState::Felt : exhibit::ChangeState::AsLoaded;
+  return changed(material) ? exhibit::ChangeState::Applied : exhibit::ChangeState::AsLoaded;
 }
 
 }  // namespace afm::app

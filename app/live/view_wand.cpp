@@ -83,7 +83,7 @@ core::Result<void> parse_head(const std::string& text, WandChoice& choice) {
 
 // The contact point, about which caps and sticks turn and scale.
 glm::dvec3 contact_point(const exhibit::WallScene& wall_scene) {
-  return {wall_scene.node_transforms({})[wall_scene.sample_node()][3]};
+  return glm::dvec3(wall_scene.node_transforms({})[wall_scene.sample_node()][3]);
 }
 
 }  // namespace

@@ -8,11 +8,13 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <random>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -307,6 +309,38 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   servo.push(TipSample{.tick = 8});
   EXPECT_EQ(renderer.pop_sample()->tick, 8U);
   EXPECT_EQ(renderer.refused_blocks(), 5U);
+}
+
+// One after the other, each number of a block made NaN; returns how many it has.
+template <class Block>
+int expect_every_number_is_checked(const SharedModel& model) {
+  const Block good{};
+  EXPECT_TRUE(is_valid(good, model));
+  int numbers = 0;
+  const auto spoil = [&](const char* name, const double& number) {
+    Block bad = good;
+    const auto offset = reinterpret_cast<const std::byte*>(&number) - reinterpret_cast<const std::byte*>(&good);
+    std::memcpy(reinterpret_cast<std::byte*>(&bad) + offset, &kNan, sizeof(double));
+    EXPECT_FALSE(is_valid(bad, model)) << name;
+    ++numbers;
+  };
+  for_each_leaf(
+      [&]<class Value>(const char* name, const Value& value) {
+        if constexpr (std::is_same_v<Value, double>) {
+          spoil(name, value);
+        } else if constexpr (!std::is_integral_v<Value> && !std::is_enum_v<Value>) {
+          for (const double& number : value) spoil(name, number);
+        }
+      },
+      good);
+  return numbers;
+}
+
+TEST(SharedBlocks, AreRefusedForAnyNumberThatIsNotFinite) {
+  const SharedModel model = paper_model();
+  EXPECT_EQ(expect_every_number_is_checked<TipState>(model), 5 + 3 + 3 + 6 + 4 + 6);
+  EXPECT_EQ(expect_every_number_is_checked<TipSample>(model), 5 + 3 + 2 + 9 + 1);
+  EXPECT_EQ(expect_every_number_is_checked<TipEvent>(model), 3);
 }
 
 TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {

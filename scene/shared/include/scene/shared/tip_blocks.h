@@ -74,7 +74,7 @@ static_assert(all_fields_described<HandScale>());
 
 // The contact model under the tip, since it took effect.
 struct ActiveContact {
-  HandScale scale;
+  HandScale scale{};
   double release_z_m = 0;  // Z at and above which the tip is free, whatever it did before
   double slow_motion = 1;  // seconds that a second of the lever's physics takes; 1 without dynamics
   ScaleMode scale_mode = ScaleMode::Fit;
@@ -131,17 +131,17 @@ static_assert(all_fields_described<Acknowledged>());
 struct TipState {
   std::int64_t time_ns = 0;  // CLOCK_MONOTONIC at the device read
   std::uint64_t tick = 0;
-  Tip tip;
-  SurfacePoint surface;
+  Tip tip{};
+  SurfacePoint surface{};
   std::array<double, 3> normal{0.0, 1.0, 0.0};  // outward normal of the surface below the tip, device frame, unit
-  HandState hand;
-  ActiveContact active;
-  SafetyFigures safety;
+  HandState hand{};
+  ActiveContact active{};
+  SafetyFigures safety{};
   std::int32_t material = -1;
   ContactPhase phase = ContactPhase::WaitForLift;
   ServoState servo_state = ServoState::Disarmed;
   FaultCode fault = FaultCode::None;
-  Acknowledged acknowledged;
+  Acknowledged acknowledged{};
   std::uint32_t dead_man = 0;        // 1: the force lasts only as long as the button is held
   std::uint32_t realtime = 0;        // 1: SCHED_FIFO and locked pages were granted
   std::uint32_t garbage_blocks = 0;  // shared blocks refused as out of range
@@ -173,7 +173,7 @@ static_assert(all_fields_described<TipState>());
 struct TipSample {
   std::int64_t time_ns = 0;
   std::uint64_t tick = 0;
-  Tip tip;
+  Tip tip{};
   double hand_height_m = 0;  // along the sample's normal, device frame
   double hand_force_n = 0;   // along the sample's normal, positive away from the sample, after the governor
   ServoState servo_state = ServoState::Disarmed;
@@ -189,7 +189,7 @@ struct TipSample {
   std::array<double, 3> hand_from_contact_m{};
   std::array<double, 3> sample_normal{0.0, 1.0, 0.0};  // +z of the sample's frame, unit
   std::array<double, 3> sample_x{1.0, 0.0, 0.0};       // +x of the sample's frame, unit
-  SurfacePoint surface;
+  SurfacePoint surface{};
   double motor_heat = 0;             // as in SafetyFigures
   std::uint32_t device_healthy = 1;  // 0: the device failed, and the hand's place is the last known
   std::uint32_t changing = 0;        // 1: another choice, or an edit, has taken the force away
