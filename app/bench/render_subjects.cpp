@@ -163,16 +163,15 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
     exhibit::Moment moment;
     for (int tick = 0; tick < kTicksPerFrame; ++tick) {
       scene::TipSample sample;
-      sample.z_m = height_at((i + static_cast<double>(tick) / kTicksPerFrame) / kFrames, release_m);
-      sample.force_n =
-          sample.z_m < release_m ? materials[felt].tables->attached.force(physics::Length(sample.z_m)).si : 0;
+      const double z_m = height_at((i + static_cast<double>(tick) / kTicksPerFrame) / kFrames, release_m);
+      const double force_n = z_m < release_m ? materials[felt].tables->attached.force(physics::Length(z_m)).si : 0;
+      sample.tip = {.z_m = z_m, .force_n = force_n, .deflection_m = -force_n / stiffness};
       sample.servo_state = scene::ServoState::Running;
       sample.phase = physics::Phase::Attached;
       curves[felt].add(sample);
-      moment.force_n = sample.force_n;
-      moment.tip = {.z_m = sample.z_m, .deflection_m = -sample.force_n / stiffness};
+      moment.wall.tip = sample.tip;
     }
-    moment.material = felt;
+    moment.wall.material = felt;
     moment.servo_state = scene::ServoState::Running;
     moment.phase = physics::Phase::Attached;
     moment.retracting = 2 * i > kFrames;

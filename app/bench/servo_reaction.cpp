@@ -33,7 +33,7 @@ constexpr auto kPatience = std::chrono::seconds(10);
 
 bool holds(scene::RendererSide& side) {
   const auto state = side.tip_state();
-  return state && state->servo_state == scene::ServoState::Running && std::abs(state->hand_force_n[1]) > kHeld_n;
+  return state && state->servo_state == scene::ServoState::Running && std::abs(state->hand.force_n[1]) > kHeld_n;
 }
 
 // Lets `act` be done over and over until the condition holds.
@@ -69,7 +69,7 @@ bool until(const std::function<void()>& act, const std::function<bool()>& condit
                                  .turn_on_pressed = move.pressed ? 1U : 0U});
     until(beat, [&] {
       const auto state = side.tip_state();
-      return state && state->hand_revision == revision;
+      return state && state->acknowledged.hand_script == revision;
     });
   }
   for (;;) until(beat, [] { return false; });

@@ -86,8 +86,8 @@ core::Result<void> run_journey(const RenderOptions& options) {
   auto felt = curves::make_sample_model(curves::ContactSetup{stage->materials.materials.front(), {}, {}});
   if (!felt) return tl::unexpected(felt.error());
   exhibit::Moment moment;
-  moment.material = 0;
-  moment.journey_orders = options.journey_orders;
+  moment.wall = {
+      .material = 0, .centerpiece = exhibit::Centerpiece::Journey, .journey_orders = *options.journey_orders};
   moment.realtime = true;  // nothing moves
   return draw(*stage, {*felt}, moment, options);
 }
@@ -165,7 +165,7 @@ core::Result<void> run_render(const RenderOptions& options) {
   curves[material] = exhibit::curve_until(*session, time_ns);
   exhibit::Moment moment = exhibit::moment_of(*session, material, time_ns, curves);
   moment.guidance = fmt::format("{} at {:.2f} s", found->title, options.at_s);
-  moment.analogy = options.analogy;
+  if (options.analogy) moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
   return draw(*stage, felt, moment, options);
 }
 

@@ -16,7 +16,7 @@ constexpr std::int64_t kAfterJumpInNs = 5'000'000;
 constexpr std::uint32_t kFilmColumns = 5, kFilmReduction = 4;
 constexpr std::int64_t kAfterJumpOffNs = 400'000'000;
 
-exhibit::Felt felt_of(const Measurement& m) {
+exhibit::CycleResult result_of(const Measurement& m) {
   const CycleEvents& events = m.measured;
   return {m.title, m.law, m.hysteretic, events.f_attr_n, events.f_ad_n, events.z_jtc_m, events.z_joc_m};
 }
@@ -37,7 +37,7 @@ FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
   const servo::RecordedSession& shown = sessions.at(shown_material);
   const auto [in_ns, off_ns] = contact_of(shown);
   const auto deepest = std::min_element(shown.samples.begin(), shown.samples.end(),
-                                        [](const auto& a, const auto& b) { return a.z_m < b.z_m; });
+                                        [](const auto& a, const auto& b) { return a.tip.z_m < b.tip.z_m; });
 
   struct Plan {
     const char* file;
@@ -69,9 +69,9 @@ FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
   for (const servo::RecordedSession& session : sessions)
     curves_.back().push_back(exhibit::curve_until(session, session.samples.back().time_ns));
   exhibit::Moment finale = exhibit::moment_of(shown, shown_material, plans.back().time_ns, curves_.back());
-  finale.compare_all = true;
+  finale.wall.centerpiece = exhibit::Centerpiece::Plot;
   for (const Measurement& m : measurements) {
-    finale.felt.push_back(felt_of(m));
+    finale.results.push_back(result_of(m));
   }
   finale.guidance = "All samples together";
   figures_.push_back({"fig5e.png", "(e) The force-displacement curves of all samples.", finale});
@@ -80,20 +80,20 @@ FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
 VariationFigure::VariationFigure(const servo::RecordedSession& base, const Measurement& measurement,
                                  const curves::SampleModel& felt, std::span<const FeltVariation> variations,
                                  std::size_t material) {
-  std::vector<exhibit::Felt> all;
+  std::vector<exhibit::CycleResult> all;
   const auto add = [&](const servo::RecordedSession& session, const Measurement& m,
                        const curves::SampleModel& was_felt) {
     materials_.push_back(was_felt);
     curves_.push_back(exhibit::curve_until(session, session.samples.back().time_ns));
-    all.push_back(felt_of(m));
+    all.push_back(result_of(m));
   };
   add(base, measurement, felt);
   for (const FeltVariation& variation : variations) {
     if (variation.material == material) add(variation.session, variation.measurement, variation.felt);
   }
   moment_ = exhibit::moment_of(base, material, base.samples.back().time_ns, curves_);
-  moment_.felt = std::move(all);
-  moment_.compare_all = true;
+  moment_.results = std::move(all);
+  moment_.wall.centerpiece = exhibit::Centerpiece::Plot;
   moment_.guidance = "The same sample, felt with other numbers";
 }
 
@@ -101,8 +101,7 @@ render::Image journey_strip(const exhibit::FrameBuilder& frames, render::Rendere
   std::vector<render::Image> stills;
   for (double orders = 0.0; orders <= exhibit::kJourneyOrders; orders += 1.0) {
     exhibit::Moment moment;
-    moment.material = 0;
-    moment.journey_orders = orders;
+    moment.wall = {.material = 0, .centerpiece = exhibit::Centerpiece::Journey, .journey_orders = orders};
     moment.realtime = true;  // nothing moves
     renderer.render(frames.build(moment));
     stills.push_back(renderer.read_eye(scene::Eye::Left));

@@ -14,6 +14,7 @@
 #include "app/interruption.h"
 #include "core/log.h"
 #include "exhibit/servo_rows.h"
+#include "exhibit/shared_model.h"
 
 namespace afm::app {
 
@@ -68,10 +69,10 @@ core::Result<servo::RecordedSession> Demonstration::feel_variation(std::size_t m
   progress(fmt::format("  {}", variation.setup.material.title));
   const std::uint32_t revision = servo_.change(material, variation.parameters);
   const std::int64_t start_ns = clock_.now_ns();
-  while (servo_.tip().edit_revision != revision) {
+  while (servo_.tip().active.edit_revision != revision) {
     if (auto stepped = step(result); !stepped) return tl::unexpected(stepped.error());
     const double waited_s = static_cast<double>(clock_.now_ns() - start_ns) * 1e-9;
-    if (servo_.tip().edit_refused == revision || waited_s > kPatienceSeconds) {
+    if (servo_.tip().acknowledged.refused_edit == revision || waited_s > kPatienceSeconds) {
       return core::failure(core::ErrorCategory::Failed,
                            fmt::format("{}: the servo did not take these parameters", variation.setup.material.title));
     }
@@ -153,11 +154,9 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   if (pointing.chosen) servo_.choose(static_cast<std::int32_t>(*pointing.chosen), plan_.scale);
 
   const exhibit::Moment now = moment(wand, pointing);
-  scene::SceneTransforms transforms;
-  wall_scene_.place({.material = now.material, .tip = now.tip, .hovered = now.hovered, .wand = now.wand}, transforms);
-  servo_.place(transforms);
-
-  renderer_.render(frames_.build(now));
+  const render::FrameState frame = frames_.build(now);
+  servo_.place(exhibit::shared_transforms(frame.room_from_node));
+  renderer_.render(frame);
   if (budget_) budget_->follow(renderer_);
   if (pointing.chosen && chosen_) std::exchange(chosen_, nullptr)();
   result.frame_ms.push_back(static_cast<double>(clock_.now_ns() - start_ns) * 1e-6);
@@ -174,7 +173,7 @@ core::Result<void> Demonstration::consume_update(std::int64_t now_ns) {
         const auto material = static_cast<std::size_t>(sample.material);
         if (recorder_.add(sample, servo_)) forget_cycle(material);
         curves_[material].add(sample);
-        deepest_z_m_ = std::min(deepest_z_m_, sample.z_m);
+        deepest_z_m_ = std::min(deepest_z_m_, sample.tip.z_m);
       },
       [&](const scene::TipEvent& event) {
         curves_[static_cast<std::size_t>(event.material)].add(event);
@@ -189,14 +188,14 @@ void Demonstration::forget_cycle(std::size_t material) {
 }
 
 exhibit::Moment Demonstration::moment(const input::WandState& wand, const input::Selector::Result& pointing) const {
-  exhibit::Moment now = exhibit::moment_of(servo_.tip(), exhibit::is_retracting(servo_.tip().z_m, deepest_z_m_));
-  now.hovered = pointing.hovered;
-  now.wand = wand;
+  exhibit::Moment now = exhibit::moment_of(servo_.tip(), exhibit::is_retracting(servo_.tip().tip.z_m, deepest_z_m_));
+  now.wall.hovered = pointing.hovered;
+  now.wall.wand = wand;
   now.guidance = guidance_.text(hint());
   now.curves = curves_;
   now.servo = exhibit::servo_rows(servo_.tip(), servo_.timing(), servo_.device());
   if (budget_) now.servo.push_back(budget_->row());
-  now.cue = exhibit::jump_cue(recorder_.session().events, servo_.tip().time_ns);
+  now.wall.cue = exhibit::jump_cue(recorder_.session().events, servo_.tip().time_ns);
   return now;
 }
 

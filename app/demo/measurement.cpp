@@ -66,8 +66,8 @@ core::Result<Measurement> measure(const servo::RecordedSession& session, const c
   const auto first_attached =
       std::find_if(session.samples.begin(), session.samples.end(),
                    [&](const scene::TipSample& s) { return s.phase == physics::Phase::Attached; });
-  if (first_attached != session.samples.end()) m.sampled_f_attr_n = std::abs(first_attached->force_n);
-  for (const scene::TipSample& s : session.samples) m.sampled_f_ad_n = std::max(m.sampled_f_ad_n, -s.force_n);
+  if (first_attached != session.samples.end()) m.sampled_f_attr_n = std::abs(first_attached->tip.force_n);
+  for (const scene::TipSample& s : session.samples) m.sampled_f_ad_n = std::max(m.sampled_f_ad_n, -s.tip.force_n);
   return m;
 }
 

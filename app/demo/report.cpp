@@ -217,9 +217,9 @@ std::string session_csv(const servo::RecordedSession& session) {
                  "state,phase\n");
   for (const scene::TipSample& s : session.samples) {
     fmt::format_to(out, "{:.6f},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{},{}\n",
-                   session.seconds_since_start(s.time_ns), s.z_m, s.force_n, s.tip_height_m, s.deflection_m,
-                   s.sample_deformation_m, s.hand_height_m, s.hand_force_n, static_cast<std::uint32_t>(s.servo_state),
-                   static_cast<std::uint32_t>(s.phase));
+                   session.seconds_since_start(s.time_ns), s.tip.z_m, s.tip.force_n, s.tip.height_m, s.tip.deflection_m,
+                   s.tip.sample_deformation_m, s.hand_height_m, s.hand_force_n,
+                   static_cast<std::uint32_t>(s.servo_state), static_cast<std::uint32_t>(s.phase));
   }
   return fmt::to_string(csv);
 }

@@ -14,6 +14,7 @@
 #include "app/interruption.h"
 #include "core/log.h"
 #include "exhibit/servo_rows.h"
+#include "exhibit/shared_model.h"
 #include "exhibit/wall_layout.h"
 #include "render/device_failure.h"
 
@@ -261,16 +262,18 @@ exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) co
   const bool touched = servo.tip().phase == physics::Phase::Attached || cycles.cycles() > 0;
   exhibit::Moment now = exhibit::moment_of(servo.tip(), touched && cycles.ascending());
   now.curves = cycles.curves();
-  now.hovered = pointed.swatch;
-  now.wand = wand_points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
-  now.navigation = to_wall_ * view_wand_.navigation();
+  now.wall.hovered = pointed.swatch;
+  now.wall.wand = wand_points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
+  now.wall.navigation = to_wall_ * view_wand_.navigation();
   // the pull of the sample jerks the hand down on its way up, which is no new approach
-  const bool upwards = cycles.ascending() || (cycles.pressed() && servo.tip().z_m > 0.0);
+  const bool upwards = cycles.ascending() || (cycles.pressed() && servo.tip().tip.z_m > 0.0);
   now.guidance = stage_.guidance.line(servo.tip(), upwards, cycles.cycles());
-  now.cue = exhibit::jump_cue(servo_.events(), servo.tip().time_ns);
-  now.analogy = analogy_;
-  now.journey_orders = travel_.orders();
-  now.fade = travel_.fade();
+  now.wall.cue = exhibit::jump_cue(servo_.events(), servo.tip().time_ns);
+  now.wall.centerpiece = travel_.orders() ? exhibit::Centerpiece::Journey
+                         : analogy_       ? exhibit::Centerpiece::Analogy
+                                          : exhibit::Centerpiece::Instrument;
+  now.wall.journey_orders = travel_.orders().value_or(0.0);
+  now.wall.fade = travel_.fade();
   now.servo = exhibit::servo_rows(servo.tip(), servo.timing(), servo.device());
   if (auto row = picture_.detail_row()) now.servo.push_back(std::move(*row));
   if (!servo_.running()) {
@@ -286,7 +289,7 @@ void LiveView::follow_edits() {
   if (!current) return;
   const exhibit::ChangeState state = panels_.edits().state(*current, servo_.link().tip());
   const curves::SampleModel& edited = panels_.edits().of(*current).felt();
-  const bool taken = state == exhibit::ChangeState::Felt || state == exhibit::ChangeState::AsLoaded;
+  const bool taken = state == exhibit::ChangeState::Applied || state == exhibit::ChangeState::AsLoaded;
   if (!taken || felt_[*current].tables == edited.tables) return;
   felt_[*current] = edited;
   core::log_line("the changed parameters are felt from now on");
@@ -298,14 +301,11 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   travel(now_ns);
   const Pointed pointed = wand_points() ? wand_pointed_at() : pointed_at(input.window, input.cursor_px);
   const exhibit::Moment now = moment(pointed, now_ns);
-
-  scene::SceneTransforms transforms;
-  stage_.wall_scene.place(exhibit::pose_of(now), transforms);
-  servo_.link().place(transforms);
+  render::FrameState frame = frames_.build(now);
+  servo_.link().place(exhibit::shared_transforms(frame.room_from_node));
 
   if (std::exchange(logged_guidance_, now.guidance) != now.guidance) core::log_line(now.guidance);
 
-  render::FrameState frame = frames_.build(now);
   const auto material = travel_.orders() ? std::nullopt : servo_.material();
   panels_.add_to(frame, pointed, material, material ? stage_.materials.materials[*material].title : "",
                  servo_.link().tip(), hand());

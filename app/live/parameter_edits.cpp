@@ -45,10 +45,10 @@ void ParameterEdits::resend(servo::ServoClient& servo) {
 exhibit::ChangeState ParameterEdits::state(std::size_t material, const scene::TipState& tip) const {
   const Edit& edit = edits_[material];
   const bool under_tip = tip.material == static_cast<std::int32_t>(material);
-  const bool taken = under_tip ? tip.edit_revision == edit.revision : edit.revision == 0;
-  if (edit.revision != 0 && tip.edit_refused == edit.revision) return exhibit::ChangeState::Refused;
+  const bool taken = under_tip ? tip.active.edit_revision == edit.revision : edit.revision == 0;
+  if (edit.revision != 0 && tip.acknowledged.refused_edit == edit.revision) return exhibit::ChangeState::Refused;
   if (!taken) return exhibit::ChangeState::Waiting;
-  return changed(material) ? exhibit::ChangeState::Felt : exhibit::ChangeState::AsLoaded;
+  return changed(material) ? exhibit::ChangeState::Applied : exhibit::ChangeState::AsLoaded;
 }
 
 }  // namespace afm::app

@@ -55,7 +55,7 @@ void SimulatedPerson::lift_again(std::int64_t now_ns) {
 }
 
 void SimulatedPerson::update(std::int64_t now_ns, const scene::TipState& tip) {
-  const bool path_finished = tip.hand_revision == hand_.revision;
+  const bool path_finished = tip.acknowledged.hand_script == hand_.revision;
   switch (step_) {
     case Step::PointAtSwatch:
       if (wand_.arrived(now_ns) && seconds_in_step(now_ns) > kAimSeconds + kReadSeconds) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "input/simulated_wand.h"
-#include "scene/shared/shared_blocks.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::app {
 

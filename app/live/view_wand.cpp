@@ -83,10 +83,7 @@ core::Result<void> parse_head(const std::string& text, WandChoice& choice) {
 
 // The contact point, about which caps and sticks turn and scale.
 glm::dvec3 contact_point(const exhibit::WallScene& wall_scene) {
-  scene::SceneTransforms transforms;
-  wall_scene.place({}, transforms);
-  const auto& m = transforms.room_from_node[wall_scene.sample_node()];
-  return {m[12], m[13], m[14]};
+  return glm::dvec3(wall_scene.node_transforms({})[wall_scene.sample_node()][3]);
 }
 
 }  // namespace

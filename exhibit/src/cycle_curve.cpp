@@ -7,11 +7,10 @@
 
 namespace afm::exhibit {
 
-namespace {}  // namespace
-
 void CycleCurve::add(const scene::TipSample& sample) {
-  const bool felt = sample.servo_state == scene::ServoState::Running && sample.phase != physics::Phase::WaitForLift;
-  if (felt) add_point({.z_nm = sample.z_m * kNmPerM, .force_nn = sample.force_n * kNnPerN});
+  const bool with_force =
+      sample.servo_state == scene::ServoState::Running && sample.phase != physics::Phase::WaitForLift;
+  if (with_force) add_point({.z_nm = sample.tip.z_m * kNmPerM, .force_nn = sample.tip.force_n * kNnPerN});
 }
 
 void CycleCurve::add(const scene::TipEvent& event) {

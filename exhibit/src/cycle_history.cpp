@@ -47,7 +47,7 @@ void CycleHistory::add(const scene::TipSample& sample) {
     if (sample.phase == physics::Phase::Free) ++cycles_;
   }
   attached_ = attached;
-  pressed_ = attached && (pressed_ || sample.z_m <= 0.0);
+  pressed_ = attached && (pressed_ || sample.tip.z_m <= 0.0);
 
   // a hand at rest adds nothing
   if (std::abs(height - drawn_height_m_) < kKeptM) return;

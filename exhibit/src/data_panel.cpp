@@ -65,7 +65,7 @@ std::string hysteresis_text(const physics::CycleFigures& figures) {
 
 }  // namespace
 
-render::DataPanel data_panel(const curves::SampleModel& material, double deflection_m, double force_n) {
+render::DataPanel data_panel(const curves::SampleModel& material, const scene::Tip& tip) {
   using physics::ContactParameters;
   const physics::CycleFigures& figures = material.figures();
   const Law law = material.parameters.law;
@@ -103,23 +103,24 @@ render::DataPanel data_panel(const curves::SampleModel& material, double deflect
   }
   panel.rows.push_back(
       {"Energy of the loop", fmt::format("{:.3g} aJ", figures.loop_energy.si * kAjPerJ), hysteresis_text(figures)});
-  panel.rows.push_back({"Force on the tip", signed_text(force_n * kNnPerN, 3, "nN"),
-                        fmt::format("lever bent by {}", signed_text(deflection_m * kNmPerM, 2, "nm"))});
+  panel.rows.push_back({"Force on the tip", signed_text(tip.force_n * kNnPerN, 3, "nN"),
+                        fmt::format("lever bent by {}", signed_text(tip.deflection_m * kNmPerM, 2, "nm"))});
   return panel;
 }
 
-render::DataPanel felt_panel(std::span<const Felt> felt) {
+render::DataPanel results_panel(std::span<const CycleResult> results) {
   render::DataPanel panel;
   panel.title = "What was felt";
   panel.subtitle = "jump to contact / jump off contact";
-  for (const Felt& f : felt) {
-    if (!f.hysteretic) {
-      panel.rows.push_back({f.title, "no jumps", fmt::format("law {}, a lever too stiff for them", f.law)});
+  for (const CycleResult& result : results) {
+    if (!result.hysteretic) {
+      panel.rows.push_back({result.title, "no jumps", fmt::format("law {}, a lever too stiff for them", result.law)});
       continue;
     }
-    panel.rows.push_back(
-        {f.title, fmt::format("{:.3f} / {:.3f} nN", f.f_attr_n * kNnPerN, f.f_ad_n * kNnPerN),
-         fmt::format("at {:.2f} nm / {:.2f} nm, law {}", f.z_jtc_m * kNmPerM, f.z_joc_m * kNmPerM, f.law)});
+    panel.rows.push_back({result.title,
+                          fmt::format("{:.3f} / {:.3f} nN", result.f_attr_n * kNnPerN, result.f_ad_n * kNnPerN),
+                          fmt::format("at {:.2f} nm / {:.2f} nm, law {}", result.z_jtc_m * kNmPerM,
+                                      result.z_joc_m * kNmPerM, result.law)});
   }
   return panel;
 }

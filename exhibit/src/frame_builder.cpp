@@ -126,10 +126,10 @@ std::string stage_of_cycle(const Moment& moment, double z_jtc_m) {
   if (moment.phase == physics::Phase::WaitForLift) return "lift the tip";
   if (moment.phase == physics::Phase::Free) {
     if (moment.retracting) return "B \u2192 A   free again";
-    return moment.tip.z_m < 2.0 * z_jtc_m ? "A \u2192 C   close to the jump" : "A \u2192 C   approach, no force";
+    return moment.wall.tip.z_m < 2.0 * z_jtc_m ? "A \u2192 C   close to the jump" : "A \u2192 C   approach, no force";
   }
-  if (!moment.retracting) return moment.tip.z_m > 0.0 ? "C \u2192 D   jump to contact" : "D \u2192 E   press";
-  return moment.tip.z_m > 0.0 ? "E \u2192 F   adhesion pulls" : "E \u2192 F   retract";
+  if (!moment.retracting) return moment.wall.tip.z_m > 0.0 ? "C \u2192 D   jump to contact" : "D \u2192 E   press";
+  return moment.wall.tip.z_m > 0.0 ? "E \u2192 F   adhesion pulls" : "E \u2192 F   retract";
 }
 
 FrameBuilder::FrameBuilder(const WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
@@ -139,12 +139,12 @@ FrameBuilder::FrameBuilder(const WallScene& wall_scene, const std::vector<curves
 render::FrameState FrameBuilder::build(const Moment& moment) const {
   render::FrameState frame;
   frame.eyes = eyes_;
-  wall_scene_->place(pose_of(moment), frame);
+  wall_scene_->update(moment.wall, frame);
   frame.force_panel = force_panel(moment);
-  if (moment.compare_all) {
-    frame.data_panel = felt_panel(moment.felt);
-  } else if (moment.material) {
-    frame.data_panel = data_panel((*materials_)[*moment.material], moment.tip.deflection_m, moment.force_n);
+  if (moment.wall.centerpiece == Centerpiece::Plot) {
+    frame.data_panel = results_panel(moment.results);
+  } else if (moment.wall.material) {
+    frame.data_panel = data_panel((*materials_)[*moment.wall.material], moment.wall.tip);
   } else {
     frame.data_panel = {.title = "No material yet", .subtitle = "point at a swatch and press", .rows = {}};
   }
@@ -157,7 +157,8 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   panel.title = "Force on the tip";
   Axes axes;
   for (std::size_t i = 0; i < materials_->size(); ++i) {
-    const bool in_front = moment.compare_all || !moment.material || moment.material == i;
+    const bool in_front =
+        moment.wall.centerpiece == Centerpiece::Plot || !moment.wall.material || moment.wall.material == i;
     if (in_front) axes.include((*materials_)[i]);
     if (i >= moment.curves.size() || moment.curves[i].empty()) continue;
     render::PlotCurve curve = moment.curves[i].plot((*materials_)[i].setup.material.title, curve_color(i));
@@ -167,18 +168,18 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   // earlier materials behind, the current one in front
   std::stable_partition(panel.curves.begin(), panel.curves.end(), [](const render::PlotCurve& c) { return c.faded; });
   axes.apply(panel);
-  if (moment.compare_all) {
+  if (moment.wall.centerpiece == Centerpiece::Plot) {
     panel.title = "Approach and retract, all together";
     panel.stage = "";
     return panel;
   }
-  if (!moment.material) return panel;
+  if (!moment.wall.material) return panel;
 
-  const physics::CycleFigures& figures = (*materials_)[*moment.material].figures();
+  const physics::CycleFigures& figures = (*materials_)[*moment.wall.material].figures();
   if (figures.hysteretic) panel.markers = jump_markers(figures);
   panel.stage = stage_of_cycle(moment, figures.z_jtc.si);
   if (moment.phase != physics::Phase::WaitForLift) {
-    panel.cursor = render::PlotPoint{moment.tip.z_m * kNmPerM, moment.force_n * kNnPerN};
+    panel.cursor = render::PlotPoint{moment.wall.tip.z_m * kNmPerM, moment.wall.tip.force_n * kNnPerN};
   }
   return panel;
 }
@@ -195,13 +196,13 @@ render::Banner FrameBuilder::banner(const Moment& moment) const {
     banner.warning =
         fmt::format("slow motion \u00d7{:.3g}{}", moment.slow_motion, moment.realtime ? "" : ", not real-time");
   }
-  if (moment.journey_orders) {
-    banner.guidance = fmt::format("Journey of scale: {}", journey_place(*moment.journey_orders));
+  if (moment.wall.centerpiece == Centerpiece::Journey) {
+    banner.guidance = fmt::format("Journey of scale: {}", journey_place(moment.wall.journey_orders));
     banner.scale = fmt::format("true to scale: 1 m on the wall = {}",
-                               scale_text(wall_scene_->journey_m_per_m(*moment.journey_orders)));
+                               scale_text(wall_scene_->journey_m_per_m(moment.wall.journey_orders)));
     return banner;
   }
-  const DrawnScale scale = wall_scene_->drawn_scale(moment.material.value_or(0), moment.tip);
+  const DrawnScale scale = wall_scene_->drawn_scale(moment.wall.material.value_or(0), moment.wall.release_z_m);
   banner.scale = fmt::format(
       "sample and motion: 1 m = {}     lever: 1 m = {}     tip: 1 m = {}     deflection \u00d7{:.0f} against the lever",
       scale_text(scale.sample_m_per_m), scale_text(scale.lever_m_per_m), scale_text(scale.tip_m_per_m),

@@ -31,13 +31,14 @@ constexpr auto kKeys = [] {
 // Where the servo accepts Turn-On.
 bool is_lifted(const scene::TipState& tip) {
   return tip.phase == physics::Phase::Free &&
-         (tip.z_m - tip.release_z_m) * tip.hand_m_per_m >= haptics::SafetyGovernor::kArmingMarginM;
+         (tip.tip.z_m - tip.active.release_z_m) * tip.active.scale.hand_m_per_m >=
+             haptics::SafetyGovernor::kArmingMarginM;
 }
 
 Hint step_with_force(const scene::TipState& tip, bool ascending, int cycles) {
   if (tip.phase == physics::Phase::Attached) {
     if (ascending) return Hint::MoveUp;
-    return tip.z_m > 0.0 ? Hint::PressOn : Hint::Pressed;
+    return tip.tip.z_m > 0.0 ? Hint::PressOn : Hint::Pressed;
   }
   return cycles > 0 && ascending ? Hint::LetGo : Hint::MoveDown;
 }

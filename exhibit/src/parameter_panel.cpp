@@ -50,7 +50,7 @@ const char* text_of(ChangeState state) {
   switch (state) {
     case ChangeState::Waiting:
       return "changed: lift the tip to feel it";
-    case ChangeState::Felt:
+    case ChangeState::Applied:
       return "changed, and felt like this";
     case ChangeState::Refused:
       return "this cannot be felt on the device";

@@ -23,12 +23,14 @@ std::vector<render::DataRow> servo_rows(const scene::TipState& tip, const scene:
                                         const scene::SharedDevice& device) {
   std::vector<render::DataRow> rows;
   // metres and newtons of the hand for those of the nanoworld: mm per nm, N per nN
-  if (tip.hand_m_per_m > 0) {
+  const scene::HandScale& scale = tip.active.scale;
+  if (scale.hand_m_per_m > 0) {
     rows.push_back({"Scale of the hand",
-                    fmt::format("{:.3g} mm/nm, {:.3g} N/nN", tip.hand_m_per_m * 1e-6, tip.hand_n_per_n * 1e-9),
-                    scale_text(tip.scale_mode)});
+                    fmt::format("{:.3g} mm/nm, {:.3g} N/nN", scale.hand_m_per_m * 1e-6, scale.hand_n_per_n * 1e-9),
+                    scale_text(tip.active.scale_mode)});
   }
-  rows.push_back({"Force at most", fmt::format("{:.2g} N, {:.0f} N/s", tip.force_cap_n, tip.slew_limit_n_per_s),
+  rows.push_back({"Force at most",
+                  fmt::format("{:.2g} N, {:.0f} N/s", tip.safety.force_cap_n, tip.safety.slew_limit_n_per_s),
                   std::string(device.name.data()) + (tip.dead_man != 0 ? ", only while Turn-On is held" : "")});
   if (timing.ticks > 0) {
     rows.push_back({"Servo",
@@ -37,9 +39,9 @@ std::vector<render::DataRow> servo_rows(const scene::TipState& tip, const scene:
                                 core::percentiles(timing.wake_us, timing.wake_max_us).p99, timing.missed,
                                 timing.ticks + timing.missed)});
   }
-  if (tip.motor_heat > kWarmEnoughToTell) {
-    rows.push_back({"Motors", fmt::format("{:.0f} % warm", 100.0 * tip.motor_heat),
-                    fmt::format("force at {:.0f} %", 100.0 * tip.thermal_gain)});
+  if (tip.safety.motor_heat > kWarmEnoughToTell) {
+    rows.push_back({"Motors", fmt::format("{:.0f} % warm", 100.0 * tip.safety.motor_heat),
+                    fmt::format("force at {:.0f} %", 100.0 * tip.safety.thermal_gain)});
   }
   return rows;
 }

@@ -4,11 +4,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <glm/gtc/type_ptr.hpp>
 #include <string_view>
+
+#include "core/check.h"
 
 namespace afm::exhibit {
 
-namespace {}  // namespace
+namespace {
+
+// Column-major, as glm's.
+std::array<double, 16> shared_matrix(const glm::dmat4& matrix) {
+  std::array<double, 16> shared;
+  std::copy_n(glm::value_ptr(matrix), shared.size(), shared.begin());
+  return shared;
+}
+
+}  // namespace
 
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
                                               std::span<const curves::SampleModel> materials,
@@ -33,18 +46,21 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
     scene::SharedNode& node = model.nodes[i];
     node.name = scene::to_name(scene.nodes[i].name);
     node.parent = scene.nodes[i].parent.value_or(scene::kNoParent);
-    for (int column = 0; column < 4; ++column) {
-      for (int row = 0; row < 4; ++row) {
-        node.parent_from_node[static_cast<std::size_t>(4 * column + row)] =
-            scene.nodes[i].parent_from_node[column][row];
-      }
-    }
+    node.parent_from_node = shared_matrix(scene.nodes[i].parent_from_node);
   }
   std::transform(materials.begin(), materials.end(), model.materials.begin(),
                  [](const curves::SampleModel& material) { return material.parameters; });
   std::copy(surfaces.begin(), surfaces.end(), model.height_fields.begin());
   std::copy(curves.begin(), curves.end(), model.curves.begin());
   return model;
+}
+
+scene::SceneTransforms shared_transforms(std::span<const glm::dmat4> room_from_node) {
+  AFM_CHECK(room_from_node.size() <= scene::kMaxNodes);
+  scene::SceneTransforms transforms;
+  transforms.count = static_cast<std::uint32_t>(room_from_node.size());
+  std::transform(room_from_node.begin(), room_from_node.end(), transforms.room_from_node.begin(), shared_matrix);
+  return transforms;
 }
 
 }  // namespace afm::exhibit

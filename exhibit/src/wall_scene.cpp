@@ -130,13 +130,13 @@ std::uint32_t WallScene::height_field_of(const std::string& model, scene::NodeIn
   return static_cast<std::uint32_t>(height_fields_.size() - 1);
 }
 
-double WallScene::parameter_factor(std::size_t material, const TipView& tip) const {
-  return tip.z_joc_m > 0.0 ? tip.z_joc_m * kStrokeOfZjoc / looks_[material].stroke_m : 1.0;
+double WallScene::parameter_factor(std::size_t material, double release_z_m) const {
+  return release_z_m > 0.0 ? release_z_m * kStrokeOfZjoc / looks_[material].stroke_m : 1.0;
 }
 
-DrawnScale WallScene::drawn_scale(std::size_t material, const TipView& tip) const {
+DrawnScale WallScene::drawn_scale(std::size_t material, double release_z_m) const {
   const double unit_m = glm::length(dvec3(room_from_layout_[0]));
-  const double stroke_m = looks_[material].stroke_m * parameter_factor(material, tip);
+  const double stroke_m = looks_[material].stroke_m * parameter_factor(material, release_z_m);
   return {.sample_m_per_m = stroke_m / (kStrokeHeight * unit_m),
           .lever_m_per_m = lever_length_ / (kLeverDrawnLength * unit_m),
           .tip_m_per_m = tip_length_ / (kTipDrawnLength * unit_m)};
@@ -146,10 +146,10 @@ double WallScene::journey_m_per_m(double orders) const {
   return std::pow(10.0, -orders) / glm::length(dvec3(room_from_layout_[0]));
 }
 
-double WallScene::layout_per_m(const Pose& pose) const {
+double WallScene::layout_per_m(const WallState& state) const {
   // before a choice nothing lies on the stage, and the tip rests at its height of zero
-  if (!pose.material) return 0.0;
-  return kStrokeHeight / (looks_[*pose.material].stroke_m * parameter_factor(*pose.material, pose.tip));
+  if (!state.material) return 0.0;
+  return kStrokeHeight / (looks_[*state.material].stroke_m * parameter_factor(*state.material, state.release_z_m));
 }
 
 glm::dvec3 WallScene::swatch_place(std::size_t i) const {
@@ -183,8 +183,9 @@ glm::dvec3 WallScene::sample_right() const {
 
 glm::dvec3 WallScene::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(kWandGrip, 1.0)); }
 
-glm::dvec3 WallScene::below_tip(const Pose& pose) const {
-  return layout_per_m(pose) * dvec3(pose.tip.xy_m, pose.tip.surface_height_m);
+glm::dvec3 WallScene::below_tip(const WallState& state) const {
+  const auto& [x, y] = state.surface.xy_m;
+  return layout_per_m(state) * dvec3(x, y, state.surface.height_m);
 }
 
 }  // namespace afm::exhibit

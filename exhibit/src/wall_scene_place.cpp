@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where everything stands for one pose.
+// Where everything stands in one state.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -16,24 +16,24 @@ namespace afm::exhibit {
 using glm::dmat4;
 using glm::dvec3;
 
-void WallScene::place_probe(const Pose& pose, std::vector<dmat4>& local, render::BeamBend& bend) const {
+void WallScene::place_probe(const WallState& state, std::vector<dmat4>& local, render::BeamBend& bend) const {
   // everything in the sample's frame, in layout units; the lever runs along `along` towards the viewer, parallel to the
   // sample
-  const double per_m = layout_per_m(pose);
+  const double per_m = layout_per_m(state);
   const double lever_scale = kLeverDrawnLength / lever_length_;
   const double tip_scale = kTipDrawnLength / tip_length_;
   const dvec3 up(0.0, 0.0, 1.0);
   const dvec3 along(std::sin(kLeverAzimuthRad), -std::cos(kLeverAzimuthRad), 0.0);
 
   // the drawn deflection brings the apex exactly to its height although the tip turns with the lever's end slope
-  const double deflection = pose.tip.deflection_m * per_m;
+  const double deflection = state.tip.deflection_m * per_m;
   double end = -deflection, angle = 0.0;
   for (int i = 0; i < 4; ++i) {
     angle = std::atan(physics::beam_slope(1.0) * end / kLeverDrawnLength);
     end = -deflection - kTipDrawnLength * (1.0 - std::cos(angle));
   }
-  const dvec3 below = below_tip(pose);
-  const double base_height = pose.tip.z_m * per_m + kTipDrawnLength;
+  const dvec3 below = below_tip(state);
+  const double base_height = state.tip.z_m * per_m + kTipDrawnLength;
 
   // the chip is moved along the lever so that the apex stays over its spot of the sample
   const dvec3 clamp = below + up * base_height - along * (kLeverDrawnLength + kTipDrawnLength * std::sin(angle));
@@ -60,21 +60,22 @@ void WallScene::place_probe(const Pose& pose, std::vector<dmat4>& local, render:
   marks_.place_lever(in_frame(0.0, 0.0), in_frame(kLeverDrawnLength, 0.0), in_frame(kLeverDrawnLength, end), local);
 }
 
-void WallScene::place_optics(const Pose& pose, std::vector<dmat4>& local) const {
+void WallScene::place_optics(const WallState& state, std::vector<dmat4>& local) const {
   const auto set = [&](scene::NodeIndex node, const dmat4& layout_from_node) {
     const dmat4 layout_from_parent = ancestor_from_node(scene_, layout_, *scene_.nodes[node].parent);
     local[node] = glm::inverse(layout_from_parent) * layout_from_node;
   };
-  const double apex = (pose.tip.z_m - pose.tip.deflection_m) * layout_per_m(pose);
-  const dvec3 above_apex = below_tip(pose) + dvec3(0.0, 0.0, apex + kTipDrawnLength + kBeamRadius);
+  const double apex = (state.tip.z_m - state.tip.deflection_m) * layout_per_m(state);
+  const dvec3 above_apex = below_tip(state) + dvec3(0.0, 0.0, apex + kTipDrawnLength + kBeamRadius);
   const dvec3 lever_end(scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(above_apex, 1.0));
 
   // the diode looks between the lever and the viewer, so that its four quadrants and the spot are seen
   const dmat4 photodiode =
       looking_along(kPhotodiode, glm::normalize(dvec3(0.0, 0.2, 0.0) - kPhotodiode) + kTowardsViewer);
   const double full =
-      pose.material ? looks_[*pose.material].full_deflection_m * parameter_factor(*pose.material, pose.tip) : 1.0;
-  const double reach = std::clamp(pose.tip.deflection_m / full, -1.0, 1.0) * kSpotReach * kPhotodiodeHalfSize;
+      state.material ? looks_[*state.material].full_deflection_m * parameter_factor(*state.material, state.release_z_m)
+                     : 1.0;
+  const double reach = std::clamp(state.tip.deflection_m / full, -1.0, 1.0) * kSpotReach * kPhotodiodeHalfSize;
   const dmat4 spot = photodiode * glm::translate(dmat4(1.0), dvec3(0.0, reach, 0.004));
 
   set(laser_, looking_along(kLaser, lever_end - kLaser));
@@ -84,48 +85,48 @@ void WallScene::place_optics(const Pose& pose, std::vector<dmat4>& local) const 
   set(beam_out_, stretched(lever_end, dvec3(spot[3]), kBeamRadius));
 }
 
-std::vector<dmat4> WallScene::local_transforms(const Pose& pose, render::BeamBend& bend) const {
+std::vector<dmat4> WallScene::local_transforms(const WallState& state, render::BeamBend& bend) const {
   std::vector<dmat4> local;
   local.reserve(scene_.nodes.size());
   for (const scene::Node& node : scene_.nodes) local.push_back(node.parent_from_node);
 
-  place_probe(pose, local, bend);
-  place_sample(pose, local);
-  place_optics(pose, local);
-  if (pose.navigation != dmat4(1.0)) {
-    const dmat4 navigated = glm::inverse(room_from_layout_) * pose.navigation * room_from_layout_;
+  place_probe(state, local, bend);
+  place_sample(state, local);
+  place_optics(state, local);
+  if (state.navigation != dmat4(1.0)) {
+    const dmat4 navigated = glm::inverse(room_from_layout_) * state.navigation * room_from_layout_;
     for (const scene::NodeIndex root : {sample_frame_, optics_}) local[root] = navigated * local[root];
   }
   for (std::size_t i = 0; i < looks_.size(); ++i) local[looks_[i].swatch] = glm::translate(dmat4(1.0), swatch_place(i));
-  if (pose.wand) place_wand(pose, local);
-  if (const double m_per_unit = ruler_m_per_unit(pose); m_per_unit > 0.0) {
+  if (state.wand) place_wand(state, local);
+  if (const double m_per_unit = ruler_m_per_unit(state); m_per_unit > 0.0) {
     marks_.place_ruler(scale_bar(m_per_unit, kRulerLongest), local);
   }
-  if (pose.exhibit == Exhibit::Analogy) analogy_.place(analogy_heights(pose), local);
-  if (pose.exhibit == Exhibit::Journey) journey_.place(pose.journey_orders, local);
+  if (state.centerpiece == Centerpiece::Analogy) analogy_.place(analogy_heights(state), local);
+  if (state.centerpiece == Centerpiece::Journey) journey_.place(state.journey_orders, local);
   return local;
 }
 
 // The sample at its true proportions, the stage below it.
-void WallScene::place_sample(const Pose& pose, std::vector<dmat4>& local) const {
+void WallScene::place_sample(const WallState& state, std::vector<dmat4>& local) const {
   double thickness = 0.0;
-  if (pose.material) {
-    const MaterialLook& look = looks_[*pose.material];
-    local[look.sample] = glm::scale(dmat4(1.0), dvec3(layout_per_m(pose))) * local[look.sample];
-    thickness = look.thickness_m * layout_per_m(pose);
+  if (state.material) {
+    const MaterialLook& look = looks_[*state.material];
+    local[look.sample] = glm::scale(dmat4(1.0), dvec3(layout_per_m(state))) * local[look.sample];
+    thickness = look.thickness_m * layout_per_m(state);
   }
   local[stage_] =
       glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -thickness)), dvec3(stage_scale_)) * local[stage_];
 }
 
-void WallScene::place_wand(const Pose& pose, std::vector<dmat4>& local) const {
+void WallScene::place_wand(const WallState& state, std::vector<dmat4>& local) const {
   const dmat4 layout_from_room = glm::inverse(room_from_layout_);
-  const input::Ray ray = input::ray_of(*pose.wand);
+  const input::Ray ray = input::ray_of(*state.wand);
   const dvec3 grip(layout_from_room * glm::dvec4(ray.origin_m, 1.0));
   const dvec3 direction = glm::normalize(dvec3(layout_from_room * glm::dvec4(ray.direction, 0.0)));
   const double to_wall = direction.z < 0.0 ? -grip.z / direction.z : kFreeRayLength;
-  const double reach = pose.hovered ? glm::distance(swatch_place(*pose.hovered) + kSwatchCenter, grip) - kRayGap
-                                    : std::min(to_wall, kLongestRay);
+  const double reach = state.hovered ? glm::distance(swatch_place(*state.hovered) + kSwatchCenter, grip) - kRayGap
+                                     : std::min(to_wall, kLongestRay);
   local[wand_] = looking_along(grip, -direction);
   local[ray_] = stretched(grip, grip + direction * reach, 0.6 * kBeamRadius);
 }
@@ -139,18 +140,9 @@ std::vector<dmat4> WallScene::compose(const std::vector<dmat4>& local) const {
   return room;
 }
 
-void WallScene::place(const Pose& pose, scene::SceneTransforms& transforms) const {
+std::vector<dmat4> WallScene::node_transforms(const WallState& state) const {
   render::BeamBend bend;
-  const std::vector<dmat4> room = compose(local_transforms(pose, bend));
-  AFM_CHECK(room.size() <= scene::kMaxNodes);
-  transforms.count = static_cast<std::uint32_t>(room.size());
-  for (std::size_t i = 0; i < room.size(); ++i) {
-    for (int column = 0; column < 4; ++column) {
-      for (int row = 0; row < 4; ++row) {
-        transforms.room_from_node[i][static_cast<std::size_t>(4 * column + row)] = room[i][column][row];
-      }
-    }
-  }
+  return compose(local_transforms(state, bend));
 }
 
 render::PanelPlacement WallScene::panel(double left, double bottom, double width, double height) const {
@@ -173,50 +165,50 @@ render::PanelPlacement WallScene::parameter_tab_placement() const {
                kTabHeight);
 }
 
-std::vector<scene::NodeIndex> WallScene::hidden_roots(const Pose& pose) const {
-  using enum Exhibit;
+std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) const {
+  using enum Centerpiece;
   std::vector<scene::NodeIndex> hidden;
   const auto hide = [&](const std::vector<scene::NodeIndex>& roots) {
     hidden.insert(hidden.end(), roots.begin(), roots.end());
   };
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    if (pose.material != i || pose.exhibit != Instrument) hide({looks_[i].sample});
-    if (pose.exhibit == Journey) hide({looks_[i].swatch});
+    if (state.material != i || state.centerpiece != Instrument) hide({looks_[i].sample});
+    if (state.centerpiece == Journey) hide({looks_[i].swatch});
   }
-  if (pose.exhibit != Instrument) hide({lever_, optics_});
-  if (pose.exhibit == Analogy || pose.exhibit == Journey) hide({stage_});
-  if (pose.exhibit != Analogy) hide({analogy_.frame()});
-  if (pose.exhibit != Journey) hide({journey_.frame()});
-  if (pose.exhibit != Instrument || !pose.material) hide(marks_.lever_nodes());
-  if (ruler_m_per_unit(pose) == 0.0) hide(marks_.ruler_nodes());
-  if (!pose.wand || pose.exhibit == Journey) hide({wand_, ray_});
+  if (state.centerpiece != Instrument) hide({lever_, optics_});
+  if (state.centerpiece == Analogy || state.centerpiece == Journey) hide({stage_});
+  if (state.centerpiece != Analogy) hide({analogy_.frame()});
+  if (state.centerpiece != Journey) hide({journey_.frame()});
+  if (state.centerpiece != Instrument || !state.material) hide(marks_.lever_nodes());
+  if (ruler_m_per_unit(state) == 0.0) hide(marks_.ruler_nodes());
+  if (!state.wand || state.centerpiece == Journey) hide({wand_, ray_});
   return hidden;
 }
 
-void WallScene::place(const Pose& pose, render::FrameState& frame) const {
+void WallScene::update(const WallState& state, render::FrameState& frame) const {
   render::BeamBend bend;
-  frame.room_from_node = compose(local_transforms(pose, bend));
+  frame.room_from_node = compose(local_transforms(state, bend));
   frame.bends = {bend};
 
-  const std::vector<scene::NodeIndex> hidden = hidden_roots(pose);
+  const std::vector<scene::NodeIndex> hidden = hidden_roots(state);
   frame.visible.assign(scene_.nodes.size(), 1);
   frame.highlighted.clear();
   for (scene::NodeIndex i = 0; i < scene_.nodes.size(); ++i) {
     for (const scene::NodeIndex root : hidden) {
       if (is_below(scene_, root, i)) frame.visible[i] = 0;
     }
-    if (pose.exhibit == Exhibit::Journey && is_below(scene_, journey_.frame(), i)) {
-      frame.visible[i] = journey_.shows(i, pose.journey_orders, looks_[pose.material.value_or(0)].ground) ? 1 : 0;
+    if (state.centerpiece == Centerpiece::Journey && is_below(scene_, journey_.frame(), i)) {
+      frame.visible[i] = journey_.shows(i, state.journey_orders, looks_[state.material.value_or(0)].ground) ? 1 : 0;
     }
-    if (pose.hovered && is_below(scene_, looks_[*pose.hovered].swatch, i)) frame.highlighted.push_back(i);
+    if (state.hovered && is_below(scene_, looks_[*state.hovered].swatch, i)) frame.highlighted.push_back(i);
   }
 
-  place_panels(pose, frame);
+  place_panels(state, frame);
   frame.labels.clear();
-  if (pose.exhibit != Exhibit::Journey) place_swatch_labels(pose, frame);
-  if (pose.exhibit == Exhibit::Analogy) place_analogy_labels(pose, frame);
-  place_marks(pose, frame);
-  place_fog(pose, frame);
+  if (state.centerpiece != Centerpiece::Journey) place_swatch_labels(state, frame);
+  if (state.centerpiece == Centerpiece::Analogy) place_analogy_labels(state, frame);
+  place_marks(state, frame);
+  place_fog(state, frame);
 
   const double unit_m = glm::length(dvec3(room_from_layout_[0]));
   frame.key_light.direction_to_light =
@@ -225,43 +217,43 @@ void WallScene::place(const Pose& pose, render::FrameState& frame) const {
   frame.key_light.shadow_radius_m = static_cast<float>(1.7 * unit_m);
 }
 
-void WallScene::place_panels(const Pose& pose, render::FrameState& frame) const {
+void WallScene::place_panels(const WallState& state, render::FrameState& frame) const {
   const double half = 0.5 * wall_width_;
   frame.banner_placement = panel(-half + kPanelMargin, wall_top_ - kBannerHeight - kPanelMargin,
                                  wall_width_ - 2.0 * kPanelMargin, kBannerHeight);
   frame.force_placement = frame.data_placement = render::kNoPlacement;
-  if (pose.exhibit == Exhibit::Journey) return;
+  if (state.centerpiece == Centerpiece::Journey) return;
 
   // the finale's large plot takes the room of the instrument
   const double plot_width =
-      pose.exhibit == Exhibit::Plot ? 2.0 * kPanelInnerEdge + side_width() - kPanelMargin : side_width();
+      state.centerpiece == Centerpiece::Plot ? 2.0 * kPanelInnerEdge + side_width() - kPanelMargin : side_width();
   frame.force_placement = panel(-half + kPanelMargin, kPanelBottom, plot_width, kPanelHeight);
   frame.data_placement = panel(kPanelInnerEdge, kPanelBottom, side_width(), kPanelHeight);
 }
 
 // On the slanted face of each swatch's plinth.
-void WallScene::place_swatch_labels(const Pose& pose, render::FrameState& frame) const {
+void WallScene::place_swatch_labels(const WallState& state, render::FrameState& frame) const {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     const dmat4& room_from_label = frame.room_from_node[looks_[i].label];
     const auto point = [&](const dvec3& p) { return dvec3(room_from_label * glm::dvec4(p, 1.0)); };
     const dvec3 lower_left = point({-0.5 * kLabelWidth, -0.5 * kLabelHeight, kLabelLift});
     frame.labels.push_back(
         {.text = titles_[i],
-         .highlighted = pose.hovered == i || pose.material == i,
+         .highlighted = state.hovered == i || state.material == i,
          .placement = {.lower_left_m = lower_left,
                        .right_m = point({0.5 * kLabelWidth, -0.5 * kLabelHeight, kLabelLift}) - lower_left,
                        .up_m = point({-0.5 * kLabelWidth, 0.5 * kLabelHeight, kLabelLift}) - lower_left}});
   }
 }
 
-Analogy::Heights WallScene::analogy_heights(const Pose& pose) const {
-  const double per_m = kAnalogyScale * layout_per_m(pose);
-  return {.poles = (pose.tip.z_m - pose.tip.deflection_m) * per_m, .deflection = pose.tip.deflection_m * per_m};
+Analogy::Heights WallScene::analogy_heights(const WallState& state) const {
+  const double per_m = kAnalogyScale * layout_per_m(state);
+  return {.poles = (state.tip.z_m - state.tip.deflection_m) * per_m, .deflection = state.tip.deflection_m * per_m};
 }
 
 // Beside the parts, in the wall's plane; the plate's lies on its front.
-void WallScene::place_analogy_labels(const Pose& pose, render::FrameState& frame) const {
-  const Analogy::Heights heights = analogy_heights(pose);
+void WallScene::place_analogy_labels(const WallState& state, render::FrameState& frame) const {
+  const Analogy::Heights heights = analogy_heights(state);
   const auto beside = [&](double height) {
     const double y = height * std::cos(kSampleTiltRad) - 0.5 * kAnalogyLabelHeight;
     return panel(-kAnalogyLabelGap - kAnalogyLabelWidth, y, kAnalogyLabelWidth, kAnalogyLabelHeight);
@@ -278,39 +270,39 @@ void WallScene::place_analogy_labels(const Pose& pose, render::FrameState& frame
                            .up_m = vector({0.0, 0.0, kAnalogyLabelHeight})}});
 }
 
-double WallScene::ruler_m_per_unit(const Pose& pose) const {
-  if (pose.exhibit == Exhibit::Journey) return std::pow(10.0, -pose.journey_orders);
-  if (!pose.material || pose.exhibit == Exhibit::Plot) return 0.0;
-  const double navigated = glm::length(dvec3(pose.navigation[0])) * layout_per_m(pose);
-  return 1.0 / (pose.exhibit == Exhibit::Analogy ? kAnalogyScale * navigated : navigated);
+double WallScene::ruler_m_per_unit(const WallState& state) const {
+  if (state.centerpiece == Centerpiece::Journey) return std::pow(10.0, -state.journey_orders);
+  if (!state.material || state.centerpiece == Centerpiece::Plot) return 0.0;
+  const double navigated = glm::length(dvec3(state.navigation[0])) * layout_per_m(state);
+  return 1.0 / (state.centerpiece == Centerpiece::Analogy ? kAnalogyScale * navigated : navigated);
 }
 
 // The ruler's number and what happens where the tip, or the magnet, meets the sample.
-void WallScene::place_marks(const Pose& pose, render::FrameState& frame) const {
+void WallScene::place_marks(const WallState& state, render::FrameState& frame) const {
   frame.contact = {};
-  const double m_per_unit = ruler_m_per_unit(pose);
+  const double m_per_unit = ruler_m_per_unit(state);
   if (m_per_unit == 0.0) return;
   const ScaleBar bar = scale_bar(m_per_unit, kRulerLongest);
   frame.labels.push_back({.text = bar.text,
                           .highlighted = false,
                           .placement = panel(kRulerFoot.x + kRulerTextGap, 0.5 * (bar.drawn - kRulerTextHeight),
                                              kRulerTextWidth, kRulerTextHeight)});
-  if (pose.exhibit == Exhibit::Journey) return;
+  if (state.centerpiece == Centerpiece::Journey) return;
 
   const auto radius_m = static_cast<float>(kShadeRadius * glm::length(dvec3(room_from_layout_[0])));
-  const bool magnet = pose.exhibit == Exhibit::Analogy;
+  const bool magnet = state.centerpiece == Centerpiece::Analogy;
   frame.contact = {.place_m = glm::vec3(frame.room_from_node[magnet ? analogy_.magnet() : apex_][3]),
                    .shade_radius_m = magnet ? 0.8F * radius_m : radius_m};
-  if (!pose.cue) return;
-  const CueRing ring = cue_ring(*pose.cue);
+  if (!state.cue) return;
+  const CueRing ring = cue_ring(*state.cue);
   frame.contact.ring_color = ring.color;
   frame.contact.ring_radius_m = static_cast<float>(ring.radius) * frame.contact.shade_radius_m;
 }
 
-void WallScene::place_fog(const Pose& pose, render::FrameState& frame) const {
+void WallScene::place_fog(const WallState& state, render::FrameState& frame) const {
   frame.fog = {};
-  frame.fog.fade = static_cast<float>(pose.fade);
-  if (pose.exhibit != Exhibit::Journey) return;
+  frame.fog.fade = static_cast<float>(state.fade);
+  if (state.centerpiece != Centerpiece::Journey) return;
   const auto unit_m = static_cast<float>(glm::length(dvec3(room_from_layout_[0])));
   frame.fog.begin_m = kFogBegin * unit_m;
   frame.fog.end_m = kFogEnd * unit_m;

@@ -43,7 +43,7 @@ double elevation(const glm::dvec3& direction) { return std::asin(std::clamp(dire
 }  // namespace
 
 bool navigation_locked(const scene::TipState& tip) {
-  const double force_n = glm::length(glm::dvec3(tip.hand_force_n[0], tip.hand_force_n[1], tip.hand_force_n[2]));
+  const double force_n = glm::length(glm::dvec3(tip.hand.force_n[0], tip.hand.force_n[1], tip.hand.force_n[2]));
   // what is no number locks too
   return tip.phase == physics::Phase::Attached || !(force_n <= kHeldForceN);
 }

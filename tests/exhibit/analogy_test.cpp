@@ -11,13 +11,13 @@ namespace {
 
 class AnalogyTest : public test::PaperWall {
  protected:
-  render::FrameState frame(const TipView& tip) const {
+  render::FrameState frame(const scene::Tip& tip) const {
     render::FrameState state;
-    scene_.place({.material = 0, .tip = tip, .exhibit = WallScene::Exhibit::Analogy}, state);
+    scene_.update({.material = 0, .tip = tip, .centerpiece = Centerpiece::Analogy}, state);
     return state;
   }
   // Height over the plate along its normal, metres of the wall.
-  double height(const TipView& tip, const std::string& part) const {
+  double height(const scene::Tip& tip, const std::string& part) const {
     const render::FrameState state = frame(tip);
     const auto place = [&](const std::string& name) {
       return glm::dvec3(state.room_from_node[scene_.scene().find_node(name).value()][3]);
@@ -27,14 +27,14 @@ class AnalogyTest : public test::PaperWall {
 };
 
 TEST_F(AnalogyTest, TheHandFollowsZAndTheMagnetTheTip) {
-  const TipView rest{.z_m = 0.0, .deflection_m = 0.0};
+  const scene::Tip rest{.z_m = 0.0, .deflection_m = 0.0};
   const double hand_at_rest = height(rest, "hand");
   const double unit = height({.z_m = 1e-9, .deflection_m = 0.0}, "magnet") / 1e-9;
   EXPECT_GT(unit, 0.0);
   EXPECT_NEAR(height(rest, "magnet"), 0.0, 1e-12);
   for (const double z_m : {-3e-9, 1e-9, 9e-9}) {
     for (const double deflection_m : {-2e-9, 0.0, 0.8e-9, 9e-9}) {
-      const TipView tip{.z_m = z_m, .deflection_m = deflection_m};
+      const scene::Tip tip{.z_m = z_m, .deflection_m = deflection_m};
       EXPECT_NEAR(height(tip, "magnet"), (z_m - deflection_m) * unit, 1e-9);
       EXPECT_NEAR(height(tip, "hand") - hand_at_rest, z_m * unit, 1e-6);
     }
@@ -43,7 +43,7 @@ TEST_F(AnalogyTest, TheHandFollowsZAndTheMagnetTheTip) {
 
 TEST_F(AnalogyTest, TheSpringReachesFromTheMagnetToTheHand) {
   for (const double deflection_m : {-2e-9, 0.0, 9e-9}) {
-    const TipView tip{.z_m = 9e-9, .deflection_m = deflection_m};
+    const scene::Tip tip{.z_m = 9e-9, .deflection_m = deflection_m};
     const render::FrameState state = frame(tip);
     const scene::NodeIndex spring = scene_.scene().find_node("analogy/spring").value();
     double low = 1e9, high = -1e9;
@@ -77,14 +77,13 @@ TEST_F(AnalogyTest, StandsInsteadOfTheInstrumentWithItsPartsNamed) {
 
 // What the servo feels does not depend on what is shown.
 TEST_F(AnalogyTest, TheServoFeelsTheSameSampleWhateverIsShown) {
-  using enum WallScene::Exhibit;
+  using enum Centerpiece;
   const std::size_t sample = scene_.sample_node();
-  scene::SceneTransforms shown;
-  scene_.place({.material = 0, .tip = {.z_m = 4e-9}}, shown);
-  for (const auto exhibit : {Plot, Analogy, Journey}) {
-    scene::SceneTransforms other;
-    scene_.place({.material = 0, .tip = {.z_m = 4e-9}, .exhibit = exhibit, .journey_orders = 6.5}, other);
-    EXPECT_EQ(other.room_from_node[sample], shown.room_from_node[sample]);
+  const auto shown = scene_.node_transforms({.material = 0, .tip = {.z_m = 4e-9}});
+  for (const auto centerpiece : {Plot, Analogy, Journey}) {
+    const auto other = scene_.node_transforms(
+        {.material = 0, .tip = {.z_m = 4e-9}, .centerpiece = centerpiece, .journey_orders = 6.5});
+    EXPECT_EQ(other[sample], shown[sample]);
   }
 }
 

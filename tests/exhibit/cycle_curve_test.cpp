@@ -9,7 +9,7 @@ namespace {
 scene::TipSample sample(std::int64_t ms, double z_nm, scene::ServoState state = scene::ServoState::Running) {
   scene::TipSample s;
   s.time_ns = ms * 1'000'000;
-  s.z_m = z_nm * 1e-9;
+  s.tip.z_m = z_nm * 1e-9;
   s.servo_state = state;
   s.phase = physics::Phase::Free;
   return s;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kHandMPerM = 0.05 / 14e-9;
 
-class FeltCyclesTest : public ::testing::Test {
+class CycleHistoryTest : public ::testing::Test {
  protected:
   // The hand goes straight to `to_m`, a sample every tenth of a millimetre.
   void move(double to_m, physics::Phase phase) {
@@ -22,7 +22,7 @@ class FeltCyclesTest : public ::testing::Test {
     sample.servo_state = scene::ServoState::Running;
     sample.phase = phase;
     sample.hand_height_m = height_m_;
-    sample.z_m = height_m_ / kHandMPerM;
+    sample.tip.z_m = height_m_ / kHandMPerM;
     cycles_.add(sample);
   }
   void cycle() {
@@ -42,7 +42,7 @@ class FeltCyclesTest : public ::testing::Test {
   double height_m_ = 0.070;
 };
 
-TEST_F(FeltCyclesTest, AWholeCycleStaysUntilTheTipTouchesAgain) {
+TEST_F(CycleHistoryTest, AWholeCycleStaysUntilTheTipTouchesAgain) {
   cycle();
   const std::size_t whole = points(0);
   EXPECT_EQ(cycles_.cycles(), 1);
@@ -53,7 +53,7 @@ TEST_F(FeltCyclesTest, AWholeCycleStaysUntilTheTipTouchesAgain) {
   EXPECT_GT(points(0), 500U) << "the approach since the tip let go belongs to the new cycle";
 }
 
-TEST_F(FeltCyclesTest, CountsCyclesAndKnowsWhereTheHandGoes) {
+TEST_F(CycleHistoryTest, CountsCyclesAndKnowsWhereTheHandGoes) {
   cycle();
   cycle();
   EXPECT_EQ(cycles_.cycles(), 2);
@@ -62,7 +62,7 @@ TEST_F(FeltCyclesTest, CountsCyclesAndKnowsWhereTheHandGoes) {
   EXPECT_FALSE(cycles_.ascending());
 }
 
-TEST_F(FeltCyclesTest, AContactRemembersThatItWasPressedUntilItEnds) {
+TEST_F(CycleHistoryTest, AContactRemembersThatItWasPressedUntilItEnds) {
   move(0.010, physics::Phase::Free);
   move(0.001, physics::Phase::Attached);
   EXPECT_FALSE(cycles_.pressed());
@@ -75,7 +75,7 @@ TEST_F(FeltCyclesTest, AContactRemembersThatItWasPressedUntilItEnds) {
   EXPECT_FALSE(cycles_.pressed());
 }
 
-TEST_F(FeltCyclesTest, TheTremorOfAHandIsNoTurn) {
+TEST_F(CycleHistoryTest, TheTremorOfAHandIsNoTurn) {
   cycle();
   for (int i = 0; i < 1000; ++i) {
     height_m_ += i % 2 == 0 ? -0.0005 : 0.0005;
@@ -84,14 +84,14 @@ TEST_F(FeltCyclesTest, TheTremorOfAHandIsNoTurn) {
   }
 }
 
-TEST_F(FeltCyclesTest, AHandAtRestAddsNothing) {
+TEST_F(CycleHistoryTest, AHandAtRestAddsNothing) {
   cycle();
   const std::size_t whole = points(0);
   for (int i = 0; i < 100'000; ++i) sample(physics::Phase::Free);
   EXPECT_LE(points(0), whole + 1);
 }
 
-TEST_F(FeltCyclesTest, KeepsTheOtherMaterialAndForgetsWhatOtherParametersGave) {
+TEST_F(CycleHistoryTest, KeepsTheOtherMaterialAndForgetsWhatOtherParametersGave) {
   cycle();
   material_ = 1;
   cycle();

@@ -54,7 +54,7 @@ TEST(ForcePanel, NoLabelCoversAnotherForAnyMaterialOfTheLibrary) {
     const std::vector<curves::SampleModel> felt{curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value()};
     const FrameBuilder frames(scene, felt, eyes_at_sweet_spot(wall).value());
     Moment moment;
-    moment.material = 0;
+    moment.wall.material = 0;
     const render::ForcePanel panel = frames.build(moment).force_panel;
     if (felt.front().figures().hysteretic) {
       EXPECT_GE(panel.markers.size(), 4U) << entry.name;

@@ -24,9 +24,9 @@ scene::TipState tip(scene::ServoState state, physics::Phase phase, double hand_h
   tip.material = 0;
   tip.servo_state = state;
   tip.phase = phase;
-  tip.hand_m_per_m = kHandMPerM;
-  tip.z_m = hand_height_m / kHandMPerM;
-  tip.release_z_m = 0.05 / kHandMPerM;
+  tip.active.scale.hand_m_per_m = kHandMPerM;
+  tip.tip.z_m = hand_height_m / kHandMPerM;
+  tip.active.release_z_m = 0.05 / kHandMPerM;
   return tip;
 }
 

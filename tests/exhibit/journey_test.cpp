@@ -20,7 +20,7 @@ class JourneyTest : public test::PaperWall {
  protected:
   render::FrameState frame(double orders, std::size_t material = 0) const {
     render::FrameState state;
-    scene_.place({.material = material, .exhibit = WallScene::Exhibit::Journey, .journey_orders = orders}, state);
+    scene_.update({.material = material, .centerpiece = Centerpiece::Journey, .journey_orders = orders}, state);
     return state;
   }
   // The lowest and the highest z of a part, in the journey's frame, metres.
@@ -40,7 +40,7 @@ class JourneyTest : public test::PaperWall {
 
 TEST_F(JourneyTest, LeavesTheContactPointWhereItIs) {
   render::FrameState still;
-  scene_.place({.material = 0}, still);
+  scene_.update({.material = 0}, still);
   const glm::dvec3 contact(still.room_from_node[node("sample")][3]);
   for (double orders = 0.0; orders <= kJourneyOrders; orders += 0.01) {
     // as the renderer gets it

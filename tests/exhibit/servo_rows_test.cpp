@@ -24,11 +24,11 @@ std::string text(const scene::TipState& tip, const scene::ServoTiming& timing) {
 
 TEST(ServoRows, TellLimitsScaleAndPunctualityWithTheirUnits) {
   scene::TipState tip;
-  tip.force_cap_n = 2.0;
-  tip.slew_limit_n_per_s = 500.0;
-  tip.hand_m_per_m = 0.050 / 14e-9;
-  tip.hand_n_per_n = 2.0 / 1.4e-9;
-  tip.scale_mode = scene::ScaleMode::Compressed;
+  tip.safety.force_cap_n = 2.0;
+  tip.safety.slew_limit_n_per_s = 500.0;
+  tip.active.scale.hand_m_per_m = 0.050 / 14e-9;
+  tip.active.scale.hand_n_per_n = 2.0 / 1.4e-9;
+  tip.active.scale_mode = scene::ScaleMode::Compressed;
   scene::ServoTiming timing;
   timing.rate_hz = 1000.0;
   timing.ticks = 1000;
@@ -45,8 +45,8 @@ TEST(ServoRows, TellLimitsScaleAndPunctualityWithTheirUnits) {
 
 TEST(ServoRows, TellOfWarmMotorsAndOfTheButtonThatMustBeHeld) {
   scene::TipState tip;
-  tip.motor_heat = 0.9;
-  tip.thermal_gain = 0.71;
+  tip.safety.motor_heat = 0.9;
+  tip.safety.thermal_gain = 0.71;
   tip.dead_man = 1;
   tip.realtime = 1;
   scene::ServoTiming timing;

@@ -18,9 +18,9 @@ class WallSceneTest : public test::PaperWall {
   const scene::Screen& screen_ = wall_.screens.front();
   const glm::dvec3 viewer_ = wall_.viewers.front().sweet_spot.position_m;
 
-  render::FrameState frame(const WallScene::Pose& pose) const {
+  render::FrameState frame(const WallState& pose) const {
     render::FrameState state;
-    scene_.place(pose, state);
+    scene_.update(pose, state);
     return state;
   }
 
@@ -29,7 +29,7 @@ class WallSceneTest : public test::PaperWall {
   }
 
   // Where the apex is, by the drawn transforms.
-  glm::dvec3 apex(const WallScene::Pose& pose) const { return origin_of(frame(pose), "probe/apex"); }
+  glm::dvec3 apex(const WallState& pose) const { return origin_of(frame(pose), "probe/apex"); }
 
   glm::dvec3 contact() const { return origin_of(frame({}), "sample"); }
 };
@@ -48,7 +48,7 @@ TEST_F(WallSceneTest, TheApexStandsAtItsHeightHoweverTheLeverBends) {
     const double scale = scene_.drawn_scale(material).sample_m_per_m;
     for (const double z : {-0.3, 0.0, 0.5, 1.0}) {
       for (const double deflection : {-0.3, 0.0, 0.5, 1.0}) {
-        const TipView tip{.z_m = z * z_joc, .deflection_m = deflection * z_joc};
+        const scene::Tip tip{.z_m = z * z_joc, .deflection_m = deflection * z_joc};
         const glm::dvec3 offset = apex({.material = material, .tip = tip}) - contact();
         EXPECT_NEAR(glm::dot(offset, scene_.sample_normal()), (tip.z_m - tip.deflection_m) / scale, 2e-3);
         EXPECT_NEAR(glm::length(offset - glm::dot(offset, scene_.sample_normal()) * scene_.sample_normal()), 0.0, 2e-3);
@@ -67,9 +67,9 @@ TEST_F(WallSceneTest, TheApexStandsOverTheDrawnSurfaceWhereverTheTipIs) {
       const glm::dvec3 place(drawn[vertex].position);
       EXPECT_EQ(static_cast<double>(field.height_m[vertex]), place.z);
       for (const double gap : {0.0, 3e-9}) {
-        const WallScene::Pose pose{
-            .material = material,
-            .tip = {.z_m = gap + 1e-9, .deflection_m = 1e-9, .xy_m = glm::dvec2(place), .surface_height_m = place.z}};
+        const WallState pose{.material = material,
+                             .tip = {.z_m = gap + 1e-9, .deflection_m = 1e-9},
+                             .surface = {{place.x, place.y}, place.z}};
         const render::FrameState state = frame(pose);
         const glm::dvec3 vertex_m(state.room_from_node[surface] * glm::dvec4(place, 1.0));
         const glm::dvec3 above_m = vertex_m + gap / scale * scene_.sample_normal();
@@ -86,7 +86,7 @@ TEST_F(WallSceneTest, TheApexStandsOverTheDrawnSurfaceWhereverTheTipIs) {
 TEST_F(WallSceneTest, TheBeamOfLightFollowsTheTip) {
   const glm::dvec2 there(4e-9, -3e-9);
   const auto lever_end = [&](const glm::dvec2& xy) {
-    const render::FrameState state = frame({.material = 0, .tip = {.xy_m = xy, .surface_height_m = 0.5e-9}});
+    const render::FrameState state = frame({.material = 0, .surface = {{xy.x, xy.y}, 0.5e-9}});
     return glm::dvec3(state.room_from_node[scene_.scene().find_node("optics/beam-reflected").value()][3]);
   };
   const double scale = scene_.drawn_scale(0).sample_m_per_m;
@@ -163,7 +163,7 @@ TEST_F(WallSceneTest, NineMaterialsStandApartAndAllCanBePicked) {
 
   // as the viewer sees them on the wall, no label covers another
   render::FrameState state;
-  many.place({.material = 0}, state);
+  many.update({.material = 0}, state);
   struct Box {
     glm::dvec2 low{1e9}, high{-1e9};
   };
@@ -189,9 +189,9 @@ TEST_F(WallSceneTest, NineMaterialsStandApartAndAllCanBePicked) {
 }
 
 TEST_F(WallSceneTest, TheStrokeFillsTheSameRoomWithOtherParameters) {
-  const TipView tip{.z_m = 70e-9, .deflection_m = 0.0, .z_joc_m = 50e-9};
-  const glm::dvec3 high = apex({.material = 0, .tip = tip});
-  const glm::dvec3 low = apex({.material = 0, .tip = {.z_m = -15e-9, .deflection_m = 0.0, .z_joc_m = 50e-9}});
+  constexpr double kReleaseM = 50e-9;
+  const glm::dvec3 high = apex({.material = 0, .tip = {.z_m = 70e-9}, .release_z_m = kReleaseM});
+  const glm::dvec3 low = apex({.material = 0, .tip = {.z_m = -15e-9}, .release_z_m = kReleaseM});
   EXPECT_NEAR(glm::length(high - low), screen_.height_m() / 3.0, 0.02);
 }
 

@@ -29,7 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   if (!session) return 0;
   if (session->samples.empty()) std::abort();
   for (const afm::scene::TipSample& sample : session->samples) {
-    if (!std::isfinite(sample.z_m) || !std::isfinite(sample.force_n)) std::abort();
+    if (!std::isfinite(sample.tip.z_m) || !std::isfinite(sample.tip.force_n)) std::abort();
   }
   return 0;
 }

@@ -112,9 +112,9 @@ TEST(HdapiDevice, TellsHowHotTheMotorsAreAndTheForceGivesWay) {
   const double cold_n = bench.force_n;
   mock_hd_set_limit(kMotorTemperatureProperty, 0.9);
   bench.run(50);
-  EXPECT_NEAR(bench.state().motor_heat, 0.9, 1e-12);
-  EXPECT_LT(bench.state().thermal_gain, 0.8);
-  EXPECT_NEAR(bench.force_n, cold_n * bench.state().thermal_gain, 1e-3);
+  EXPECT_NEAR(bench.state().safety.motor_heat, 0.9, 1e-12);
+  EXPECT_LT(bench.state().safety.thermal_gain, 0.8);
+  EXPECT_NEAR(bench.force_n, cold_n * bench.state().safety.thermal_gain, 1e-3);
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
   mock_hd_set_limit(kMotorTemperatureProperty, 1.0);
   bench.run(150);

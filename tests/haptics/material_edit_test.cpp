@@ -34,8 +34,7 @@ double pull_off_m(const SharedContact& material) {
 double pull_off_m(const ServoBench& bench, std::uint32_t revision) {
   double z_m = 0;
   for (const TipSample& sample : bench.samples) {
-    if (sample.edit_revision == revision && sample.phase == afm::physics::Phase::Attached)
-      z_m = std::max(z_m, sample.z_m);
+    if (sample.edit_revision == revision && sample.phase == afm::physics::Phase::Attached) z_m = std::max(z_m, sample.tip.z_m);
   }
   return z_m;
 }
@@ -45,8 +44,8 @@ TEST(MaterialEdit, IsFeltOnceTheForceIsReleased) {
   bench.arm(kMica);
   bench.edit(kMica, mica_on_a_lever_of(0.2));
   bench.run(0.1);
-  EXPECT_EQ(bench.state().edit_revision, 1U);
-  EXPECT_EQ(bench.state().edit_refused, 0U);
+  EXPECT_EQ(bench.state().active.edit_revision, 1U);
+  EXPECT_EQ(bench.state().acknowledged.refused_edit, 0U);
   EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
   EXPECT_EQ(bench.state().material, kMica);
 
@@ -56,7 +55,7 @@ TEST(MaterialEdit, IsFeltOnceTheForceIsReleased) {
   ASSERT_EQ(bench.events.size(), 2U);
   EXPECT_NEAR(bench.events[1].z_m, pull_off_m(mica_on_a_lever_of(0.2)), 1e-9 * bench.events[1].z_m);
   EXPECT_NEAR(pull_off_m(bench, 1), bench.events[1].z_m, 0.1e-9);
-  EXPECT_NEAR(bench.state().hand_m_per_m, 0.050 / bench.events[1].z_m, 1.0);
+  EXPECT_NEAR(bench.state().active.scale.hand_m_per_m, 0.050 / bench.events[1].z_m, 1.0);
 }
 
 TEST(MaterialEdit, TakesEffectOnlyAfterTheForceIsGone) {
@@ -64,7 +63,7 @@ TEST(MaterialEdit, TakesEffectOnlyAfterTheForceIsGone) {
   bench.arm(kMica);
   bench.move(0.045, 0.3);
   bench.edit(kMica, mica_on_a_lever_of(0.2));
-  while (bench.state().edit_revision == 0) {
+  while (bench.state().active.edit_revision == 0) {
     bench.tick();
     ASSERT_LT(bench.now_ns, 10'000'000'000);
   }
@@ -79,13 +78,13 @@ TEST(MaterialEdit, WaitsUntilTheTipIsOff) {
   const double force_n = bench.hand_force_n();
   bench.edit(kMica, mica_on_a_lever_of(0.2));
   bench.run(0.3);
-  EXPECT_EQ(bench.state().edit_revision, 0U);
+  EXPECT_EQ(bench.state().active.edit_revision, 0U);
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
   EXPECT_NEAR(bench.hand_force_n(), force_n, 1e-3);
 
   bench.move(0.072, 0.5);
   bench.run(0.2);
-  EXPECT_EQ(bench.state().edit_revision, 1U);
+  EXPECT_EQ(bench.state().active.edit_revision, 1U);
   EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
 }
 
@@ -97,12 +96,12 @@ TEST(MaterialEdit, OfAnotherMaterialLeavesTheHandAlone) {
   bench.edit(kGold, gold);
   bench.run(0.1);
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
-  EXPECT_EQ(bench.state().edit_revision, 0U);
+  EXPECT_EQ(bench.state().active.edit_revision, 0U);
 
   bench.move(0.072, 0.5);
   bench.arm(kGold);
-  EXPECT_EQ(bench.state().edit_revision, 1U);
-  EXPECT_NEAR(bench.state().hand_m_per_m, 0.050 / pull_off_m(gold), 1.0);
+  EXPECT_EQ(bench.state().active.edit_revision, 1U);
+  EXPECT_NEAR(bench.state().active.scale.hand_m_per_m, 0.050 / pull_off_m(gold), 1.0);
 }
 
 TEST(MaterialEdit, ThatCannotBeFeltIsRefusedAndChangesNothing) {
@@ -112,20 +111,20 @@ TEST(MaterialEdit, ThatCannotBeFeltIsRefusedAndChangesNothing) {
   SharedContact nonsense = mica_on_a_lever_of(std::numeric_limits<double>::quiet_NaN());
   bench.edit(kMica, nonsense);
   bench.run(0.01);
-  EXPECT_EQ(bench.state().edit_refused, 1U);
+  EXPECT_EQ(bench.state().acknowledged.refused_edit, 1U);
   nonsense = mica_on_a_lever_of(0.1);
   nonsense.law = static_cast<afm::physics::Law>(99);
   nonsense.name.fill('x');
   bench.edit(kMica, nonsense);
   bench.run(0.01);
-  EXPECT_EQ(bench.state().edit_refused, 2U);
+  EXPECT_EQ(bench.state().acknowledged.refused_edit, 2U);
   // an adhesion too weak to hold what was pulled in: valid numbers, but no law
   nonsense = mica_on_a_lever_of(0.1);
   nonsense.contact.mean_surface_energy.si = 1e-6;
   bench.edit(kMica, nonsense);
   bench.run(0.01);
-  EXPECT_EQ(bench.state().edit_refused, 3U);
-  EXPECT_EQ(bench.state().edit_revision, 0U);
+  EXPECT_EQ(bench.state().acknowledged.refused_edit, 3U);
+  EXPECT_EQ(bench.state().active.edit_revision, 0U);
   EXPECT_NEAR(bench.hand_force_n(), force_n, 1e-3);
 }
 
@@ -136,12 +135,12 @@ TEST(MaterialEdit, OfAThousandInAStormTheNewestIsFelt) {
     bench.edit(kMica, mica_on_a_lever_of(0.05 + 0.0002 * i));
     bench.tick();
   }
-  EXPECT_EQ(bench.state().edit_revision, 0U);
+  EXPECT_EQ(bench.state().active.edit_revision, 0U);
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
   bench.move(0.072, 0.5);
   bench.run(0.2);
-  EXPECT_EQ(bench.state().edit_revision, 1000U);
-  EXPECT_NEAR(bench.state().hand_m_per_m, 0.050 / pull_off_m(mica_on_a_lever_of(0.25)), 1.0);
+  EXPECT_EQ(bench.state().active.edit_revision, 1000U);
+  EXPECT_NEAR(bench.state().active.scale.hand_m_per_m, 0.050 / pull_off_m(mica_on_a_lever_of(0.25)), 1.0);
 
   // and again with a tip that is free all the time, where every edit is taken as it comes
   for (int i = 1; i <= 1000; ++i) {
@@ -149,7 +148,7 @@ TEST(MaterialEdit, OfAThousandInAStormTheNewestIsFelt) {
     bench.tick();
   }
   bench.run(0.1);
-  EXPECT_EQ(bench.state().edit_revision, 2000U);
+  EXPECT_EQ(bench.state().active.edit_revision, 2000U);
 }
 
 TEST(MaterialEdit, IsFeltByTheSuccessorOfAServoThatDied) {
@@ -163,7 +162,7 @@ TEST(MaterialEdit, IsFeltByTheSuccessorOfAServoThatDied) {
     bench.renderer.store(RendererHeartbeat{});
     (*successor)->tick(bench.now_ns += 1'000'000, 0);
   }
-  EXPECT_EQ(bench.state().edit_revision, 1U);
+  EXPECT_EQ(bench.state().active.edit_revision, 1U);
 }
 
 // The three threads as they are in the program: one draws and edits, one builds, one ticks.
@@ -194,7 +193,7 @@ TEST(MaterialEdit, CrossesBetweenThreads) {
   }
   done = true;
   servo.join();
-  EXPECT_EQ(bench.state().edit_revision, revision);
+  EXPECT_EQ(bench.state().active.edit_revision, revision);
 }
 
 }  // namespace

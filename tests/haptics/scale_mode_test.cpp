@@ -35,7 +35,7 @@ TEST_P(CycleOnAScale, HasTheEventsOfTheEquationsAndLetsGoWithinTheWorkspace) {
   bench.aim(0.070, 0.0);
   bench.run(0.6);
   ASSERT_EQ(bench.state().servo_state, ServoState::Running);
-  EXPECT_EQ(bench.state().scale_mode, mode);
+  EXPECT_EQ(bench.state().active.scale_mode, mode);
   bench.move(-0.030, 2.0);
   bench.run(0.3);
   bench.move(0.070, 2.0);
@@ -66,15 +66,15 @@ TEST(ScaleMode, ChangesOnlyOffTheSampleAndWithoutForce) {
   bench.hold_attached(kMica);
   bench.choose(kMica, ScaleMode::Compressed);
   bench.run(0.3);
-  EXPECT_EQ(bench.state().scale_mode, ScaleMode::Fit);
+  EXPECT_EQ(bench.state().active.scale_mode, ScaleMode::Fit);
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
-  EXPECT_LT(bench.state().selection_revision, bench.selection);
+  EXPECT_LT(bench.state().acknowledged.selection, bench.selection);
 
   bench.samples.clear();
   bench.move(ServoBench::kTop, 0.5);
   bench.run(0.5);
-  EXPECT_EQ(bench.state().scale_mode, ScaleMode::Compressed);
-  EXPECT_EQ(bench.state().selection_revision, bench.selection);
+  EXPECT_EQ(bench.state().active.scale_mode, ScaleMode::Compressed);
+  EXPECT_EQ(bench.state().acknowledged.selection, bench.selection);
   EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
   const auto first = std::find_if(bench.samples.begin(), bench.samples.end(),
                                   [](const auto& s) { return s.scale_mode == ScaleMode::Compressed; });
@@ -86,14 +86,14 @@ TEST(ScaleMode, ChangesOnlyOffTheSampleAndWithoutForce) {
 TEST(ScaleMode, StaysWhenTheMaterialUnderTheTipIsEdited) {
   ServoBench bench;
   bench.arm(kMica, ScaleMode::Common);
-  const double before = bench.state().hand_m_per_m;
+  const double before = bench.state().active.scale.hand_m_per_m;
   auto changed = bench.segment.model().materials[kMica];
   changed.contact.spring_constant.si *= 1.5;
   bench.edit(kMica, changed);
   bench.run(0.3);
-  EXPECT_EQ(bench.state().edit_revision, bench.edits);
-  EXPECT_EQ(bench.state().scale_mode, ScaleMode::Common);
-  EXPECT_EQ(bench.state().hand_m_per_m, before);
+  EXPECT_EQ(bench.state().active.edit_revision, bench.edits);
+  EXPECT_EQ(bench.state().active.scale_mode, ScaleMode::Common);
+  EXPECT_EQ(bench.state().active.scale.hand_m_per_m, before);
 }
 
 TEST(ScaleMode, IsTheSameOnTheCommonScaleOfARecording) {
@@ -101,13 +101,13 @@ TEST(ScaleMode, IsTheSameOnTheCommonScaleOfARecording) {
   all.arm(kMica, ScaleMode::Common);
   auto alone = afm::test::paper_model();
   alone.material_count = 1;
-  alone.common_hand_m_per_m = all.state().hand_m_per_m;
-  alone.common_hand_n_per_n = all.state().hand_n_per_n;
+  alone.common_hand_m_per_m = all.state().active.scale.hand_m_per_m;
+  alone.common_hand_n_per_n = all.state().active.scale.hand_n_per_n;
   ServoBench again(alone);
   again.arm(kMica, ScaleMode::Common);
-  EXPECT_EQ(again.state().hand_m_per_m, all.state().hand_m_per_m);
-  EXPECT_EQ(again.state().hand_n_per_n, all.state().hand_n_per_n);
-  EXPECT_EQ(again.state().hand_force_n, all.state().hand_force_n);
+  EXPECT_EQ(again.state().active.scale.hand_m_per_m, all.state().active.scale.hand_m_per_m);
+  EXPECT_EQ(again.state().active.scale.hand_n_per_n, all.state().active.scale.hand_n_per_n);
+  EXPECT_EQ(again.state().hand.force_n, all.state().hand.force_n);
 
   alone.common_hand_n_per_n = 0.0;
   EXPECT_FALSE(afm::scene::validate(alone));

@@ -120,7 +120,7 @@ TEST_P(ServoTickOf, NeitherAllocatesNorLocksNorThrowsOverACycle) {
   EXPECT_EQ(bench.state().fault, afm::scene::FaultCode::None);
   EXPECT_EQ(bench.state().servo_state, afm::scene::ServoState::Running);
   EXPECT_EQ(bench.state().phase, afm::physics::Phase::Free);
-  EXPECT_EQ(bench.state().slow_motion > 1.0, GetParam().dynamic);
+  EXPECT_EQ(bench.state().active.slow_motion > 1.0, GetParam().dynamic);
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, ServoTickOf,

@@ -58,7 +58,7 @@ class ServoBench {
 
   scene::TipState state() { return *renderer.tip_state(); }
   double hand_force_n() {
-    const auto force = state().hand_force_n;
+    const auto force = state().hand.force_n;
     return std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
   }
 
@@ -84,7 +84,7 @@ class ServoBench {
   // Aims and waits until the path has been played.
   void move(double height_m, double seconds) {
     aim(height_m, seconds);
-    while (state_or_default().hand_revision != script) tick();
+    while (state_or_default().acknowledged.hand_script != script) tick();
   }
 
   // The paper's procedure: choose, lift, press Turn-On; returns in Running with the button released.

@@ -67,7 +67,7 @@ TEST_P(FullCycle, JumpsOnceEachWayWithTheForcesOfTheEquations) {
   EXPECT_EQ(off.force_after_n, 0.0);
 
   EXPECT_LT(in.time_ns, off.time_ns);
-  EXPECT_LT(bench_.state().excess_energy_j, 1e-6);
+  EXPECT_LT(bench_.state().safety.excess_energy_j, 1e-6);
   EXPECT_EQ(bench_.state().servo_state, ServoState::Running);
   EXPECT_EQ(bench_.state().fault, FaultCode::None);
 }
@@ -88,8 +88,8 @@ TEST_P(FullCycle, PlacesEachEventBetweenTheSamplesAroundIt) {
   for (const TipEvent& event : bench_.events) {
     for (std::size_t i = 1; i < bench_.samples.size(); ++i) {
       if (bench_.samples[i].time_ns < event.time_ns) continue;
-      const double before_m = bench_.samples[i - 1].z_m;
-      const double after_m = bench_.samples[i].z_m;
+      const double before_m = bench_.samples[i - 1].tip.z_m;
+      const double after_m = bench_.samples[i].tip.z_m;
       EXPECT_LE(std::min(before_m, after_m), event.z_m);
       EXPECT_GE(std::max(before_m, after_m), event.z_m);
       break;
@@ -137,7 +137,7 @@ TEST(ServoLoop, PullsTheHandDownAtSnapInAndLetsItFlyAtPullOff) {
   // after snap-in the hand stands lower than its aim would hold it: 200 N/m against 40 N/m
   bench.move(0.030, 1.0);
   bench.run(1.0);
-  EXPECT_NEAR(bench.state().hand_position_m[1], 0.030 * 200.0 / 240.0, 1e-5);
+  EXPECT_NEAR(bench.state().hand.position_m[1], 0.030 * 200.0 / 240.0, 1e-5);
 
   // at pull-off the grip is stretched by 2 N / 200 N/m, and 60 ms later the hand is most of that higher
   bench.move(0.072, 3.0);
@@ -154,13 +154,13 @@ TEST(ServoLoop, TellsItsLimitsHeatAndEnergy) {
   ServoBench bench;
   bench.hold_attached(kMica);
   const TipState state = bench.state();
-  EXPECT_EQ(state.force_cap_n, 2.0);
-  EXPECT_EQ(state.slew_limit_n_per_s, 500.0);
-  EXPECT_GT(state.motor_heat, 0.0);
-  EXPECT_LT(state.motor_heat, 0.5);
-  EXPECT_EQ(state.thermal_gain, 1.0);
-  EXPECT_LT(state.excess_energy_j, 1e-6);
-  EXPECT_EQ(state.observer_damping, 0.0);
+  EXPECT_EQ(state.safety.force_cap_n, 2.0);
+  EXPECT_EQ(state.safety.slew_limit_n_per_s, 500.0);
+  EXPECT_GT(state.safety.motor_heat, 0.0);
+  EXPECT_LT(state.safety.motor_heat, 0.5);
+  EXPECT_EQ(state.safety.thermal_gain, 1.0);
+  EXPECT_LT(state.safety.excess_energy_j, 1e-6);
+  EXPECT_EQ(state.safety.observer_damping_n_s_per_m, 0.0);
   EXPECT_EQ(state.dead_man, 0U);
 }
 
@@ -180,7 +180,7 @@ TEST(ServoLoop, BrakesTheRecoilOfARelaxedHandAtPullOff) {
       renderer.store(RendererHeartbeat{});
       (*loop)->tick(now_ns += 1'000'000, 0);
       const TipState state = *renderer.tip_state();
-      strongest_n = std::max(strongest_n, -state.hand_force_n[1]);
+      strongest_n = std::max(strongest_n, -state.hand.force_n[1]);
       if (renderer.pop_event()) recoil_m_per_s = 0.0;
       recoil_m_per_s = std::max(recoil_m_per_s, device.velocity_m_per_s().y);
     }
@@ -220,10 +220,10 @@ TEST(ServoLoop, GivesForceOnlyWhileTurnOnIsHeldWithADeadMan) {
   TipState state = run(1000);
   EXPECT_EQ(state.dead_man, 1U);
   EXPECT_EQ(state.servo_state, ServoState::Running);
-  ASSERT_GT(state.hand_force_n[1], 0.4);
+  ASSERT_GT(state.hand.force_n[1], 0.4);
   renderer.store(HandScript{.target_m = {0, -0.02, 0}, .revision = 3});
   state = run(25);
-  EXPECT_EQ(state.hand_force_n[1], 0.0);
+  EXPECT_EQ(state.hand.force_n[1], 0.0);
   EXPECT_EQ(state.fault, FaultCode::DeadManReleased);
 }
 
@@ -235,7 +235,7 @@ TEST(ServoLoop, GivesNoForceBeforeTurnOn) {
   bench.run(0.5);
   EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
   EXPECT_EQ(bench.hand_force_n(), 0.0);
-  EXPECT_NEAR(bench.state().hand_position_m[1], -0.020, 1e-5);
+  EXPECT_NEAR(bench.state().hand.position_m[1], -0.020, 1e-5);
 }
 
 TEST(ServoLoop, FeelsTheSampleInItsNewOrientation) {
@@ -249,27 +249,27 @@ TEST(ServoLoop, FeelsTheSampleInItsNewOrientation) {
   bench.renderer.store(transforms);
   bench.run(1.0);
   const TipState state = bench.state();
-  EXPECT_NEAR(state.hand_force_n[0] / state.hand_force_n[1], std::tan(angle), 1e-9);
-  EXPECT_LT(state.hand_force_n[1], 0.0);
+  EXPECT_NEAR(state.hand.force_n[0] / state.hand.force_n[1], std::tan(angle), 1e-9);
+  EXPECT_LT(state.hand.force_n[1], 0.0);
 }
 
 TEST(ServoLoop, WaitsWithAChangeOfMaterialUntilTheTipIsOff) {
   ServoBench bench;
   bench.hold_attached(kMica);
-  const std::uint32_t before = bench.state().selection_revision;
+  const std::uint32_t before = bench.state().acknowledged.selection;
   bench.choose(kGold);
   bench.run(0.2);
   EXPECT_EQ(bench.state().material, kMica);
-  EXPECT_EQ(bench.state().selection_revision, before);
+  EXPECT_EQ(bench.state().acknowledged.selection, before);
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
 
   bench.move(0.072, 0.5);
   bench.run(0.5);
   EXPECT_EQ(bench.state().material, kGold);
-  EXPECT_EQ(bench.state().selection_revision, before + 1);
+  EXPECT_EQ(bench.state().acknowledged.selection, before + 1);
   EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
   EXPECT_EQ(bench.hand_force_n(), 0.0);
-  EXPECT_NEAR(bench.state().hand_m_per_m, 0.050 / calculated(kGold).z_joc.si, 1.0);
+  EXPECT_NEAR(bench.state().active.scale.hand_m_per_m, 0.050 / calculated(kGold).z_joc.si, 1.0);
 }
 
 TEST(ServoLoop, DoesNotDisarmForTheSameMaterialAgain) {
@@ -277,7 +277,7 @@ TEST(ServoLoop, DoesNotDisarmForTheSameMaterialAgain) {
   bench.arm(kMica);
   bench.choose(kMica);
   bench.run(0.1);
-  EXPECT_EQ(bench.state().selection_revision, bench.selection);
+  EXPECT_EQ(bench.state().acknowledged.selection, bench.selection);
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
 }
 

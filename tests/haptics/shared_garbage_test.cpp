@@ -85,12 +85,12 @@ TEST(SharedGarbage, IsRefusedAndCountedWhileTheForceStaysWithinItsLimits) {
 
   const std::uint32_t refused_before = bench.state().garbage_blocks;
   std::uint32_t with_force = 0;
-  std::array<double, 3> before_n = bench.state().hand_force_n;
+  std::array<double, 3> before_n = bench.state().hand.force_n;
   testing::internal::CaptureStderr();
   for (int round = 0; round < kRounds; ++round) {
     // the hand is taken back to the sample now and then, or all would happen without force
     if (round % 2500 == 2499) bench.hold_attached(kMica);
-    before_n = bench.state().hand_force_n;
+    before_n = bench.state().hand.force_n;
     write_all(bench, garbage);
     bench.loop->edits().build();
     bench.now_ns += bench.loop->period_ns();
@@ -100,9 +100,9 @@ TEST(SharedGarbage, IsRefusedAndCountedWhileTheForceStaysWithinItsLimits) {
     double force_n = 0;
     double change_n = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      ASSERT_TRUE(std::isfinite(state.hand_force_n[axis]));
-      force_n = std::hypot(force_n, state.hand_force_n[axis]);
-      change_n = std::hypot(change_n, state.hand_force_n[axis] - before_n[axis]);
+      ASSERT_TRUE(std::isfinite(state.hand.force_n[axis]));
+      force_n = std::hypot(force_n, state.hand.force_n[axis]);
+      change_n = std::hypot(change_n, state.hand.force_n[axis] - before_n[axis]);
     }
     if (force_n > 0) ++with_force;
     ASSERT_LE(force_n, cap_n * (1 + 1e-12));

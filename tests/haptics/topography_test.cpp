@@ -201,9 +201,9 @@ class TurnedSample : public testing::Test {
 
 TEST_F(TurnedSample, TurnsHeightAxesAndForceTogether) {
   const afm::scene::TipState level = press(glm::dmat4(1.0));
-  ASSERT_GT(glm::length(vector(level.hand_force_n)), 0.2);
+  ASSERT_GT(glm::length(vector(level.hand.force_n)), 0.2);
   EXPECT_GT(std::abs(level.normal[0]) + std::abs(level.normal[2]), 0.01) << "the place is flat";
-  EXPECT_NEAR(glm::length(glm::cross(vector(level.normal), glm::normalize(vector(level.hand_force_n)))), 0.0, 1e-12);
+  EXPECT_NEAR(glm::length(glm::cross(vector(level.normal), glm::normalize(vector(level.hand.force_n)))), 0.0, 1e-12);
 
   const double thirty = glm::radians(30.0);
   for (const glm::dvec3& axis :
@@ -211,12 +211,12 @@ TEST_F(TurnedSample, TurnsHeightAxesAndForceTogether) {
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), thirty, axis);
     const afm::scene::TipState state = press(turn);
     // the simulated hand's friction and quantiser are along the device's axes: it rests a little elsewhere
-    const glm::dvec3 normal(vector(state.normal)), force(vector(state.hand_force_n));
+    const glm::dvec3 normal(vector(state.normal)), force(vector(state.hand.force_n));
     EXPECT_NEAR(glm::length(glm::cross(normal, glm::normalize(force))), 0.0, 1e-12);
     EXPECT_GT(glm::length(glm::dvec3(turn * glm::dvec4(vector(level.normal), 0.0)) - vector(level.normal)), 0.02);
     EXPECT_LT(glm::length(glm::dvec3(turn * glm::dvec4(vector(level.normal), 0.0)) - normal), 0.05);
-    EXPECT_NEAR(state.tip_xy_m[0], level.tip_xy_m[0], 0.2e-9);
-    EXPECT_NEAR(state.tip_xy_m[1], level.tip_xy_m[1], 0.2e-9);
+    EXPECT_NEAR(state.surface.xy_m[0], level.surface.xy_m[0], 0.2e-9);
+    EXPECT_NEAR(state.surface.xy_m[1], level.surface.xy_m[1], 0.2e-9);
   }
 }
 

@@ -219,9 +219,9 @@ TEST(NavigationLock, HoldsInContactAndWhileTheHandFeelsAForce) {
   EXPECT_TRUE(navigation_locked(tip));
   tip.phase = physics::Phase::Free;
   EXPECT_FALSE(navigation_locked(tip));
-  tip.hand_force_n = {0.0, -0.2, 0.0};
+  tip.hand.force_n = {0.0, -0.2, 0.0};
   EXPECT_TRUE(navigation_locked(tip));
-  tip.hand_force_n[1] = std::nan("");
+  tip.hand.force_n[1] = std::nan("");
   EXPECT_TRUE(navigation_locked(tip));
 }
 

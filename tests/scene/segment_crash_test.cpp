@@ -32,11 +32,11 @@ double number(std::uint64_t seed, int word) {
 }
 
 TipState tip_state(std::uint64_t seed) {
-  TipState state{.time_ns = static_cast<std::int64_t>(seed), .tick = seed, .z_m = number(seed, 1)};
-  state.hand_position_m.fill(number(seed, 2));
-  state.hand_force_n.fill(number(seed, 3));
+  TipState state{.time_ns = static_cast<std::int64_t>(seed), .tick = seed, .tip = {.z_m = number(seed, 1)}};
+  state.hand.position_m.fill(number(seed, 2));
+  state.hand.force_n.fill(number(seed, 3));
   state.normal.fill(number(seed, 4));
-  state.observer_damping = number(seed, 5);
+  state.safety.observer_damping_n_s_per_m = number(seed, 5);
   state.material = static_cast<std::int32_t>(seed % 3);
   state.garbage_blocks = static_cast<std::uint32_t>(seed);
   return state;
@@ -51,9 +51,9 @@ ServoTiming timing(std::uint64_t seed) {
 }
 
 TipSample sample(std::uint64_t seed) {
-  TipSample sample{.time_ns = static_cast<std::int64_t>(seed), .tick = seed, .z_m = number(seed, 1)};
+  TipSample sample{.time_ns = static_cast<std::int64_t>(seed), .tick = seed, .tip = {.z_m = number(seed, 1)}};
   sample.hand_from_contact_m.fill(number(seed, 2));
-  sample.surface_height_m = number(seed, 3);
+  sample.surface.height_m = number(seed, 3);
   return sample;
 }
 

@@ -8,11 +8,13 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <random>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -90,14 +92,14 @@ TEST(SharedSegment, CarriesEveryBlockAcross) {
   EXPECT_EQ(renderer.refused_blocks(), 1U);
 
   EXPECT_FALSE(renderer.tip_state() || renderer.servo_timing() || renderer.pop_sample() || renderer.pop_event());
-  servo.store(TipState{.tick = 3, .z_m = 1e-9});
+  servo.store(TipState{.tick = 3, .tip = {.z_m = 1e-9}});
   ServoTiming timing;
   timing.wake_us[kHistogramBins - 1] = 8;
   servo.store(timing);
   servo.push(TipSample{.tick = 1});
   servo.push(TipSample{.tick = 2});
   servo.push(TipEvent{.kind = afm::physics::EventKind::JumpOffContact});
-  EXPECT_EQ(renderer.tip_state()->z_m, 1e-9);
+  EXPECT_EQ(renderer.tip_state()->tip.z_m, 1e-9);
   EXPECT_EQ(renderer.servo_timing()->wake_us[kHistogramBins - 1], 8U);
   EXPECT_EQ(renderer.pop_sample()->tick, 1U);
   EXPECT_EQ(renderer.pop_sample()->tick, 2U);
@@ -312,7 +314,7 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   EXPECT_FALSE(servo.new_heartbeat());
   EXPECT_EQ(servo.refused_blocks(), 5U);
 
-  servo.store(TipState{.z_m = kNan});
+  servo.store(TipState{.tip = {.z_m = kNan}});
   EXPECT_FALSE(renderer.tip_state());
   servo.store(TipState{.servo_state = static_cast<ServoState>(77)});
   EXPECT_FALSE(renderer.tip_state());
@@ -322,7 +324,7 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   servo.push(TipEvent{.kind = afm::physics::EventKind::JumpToContact, .material = 3});
   EXPECT_FALSE(renderer.pop_event());
   // what comes after a bad sample is still found
-  servo.push(TipSample{.force_n = kNan});
+  servo.push(TipSample{.tip = {.force_n = kNan}});
   servo.push(TipSample{.tick = 8});
   EXPECT_EQ(renderer.pop_sample()->tick, 8U);
   EXPECT_EQ(renderer.refused_blocks(), 6U);
@@ -340,6 +342,38 @@ TEST(SharedBlocks, OfEveryFaultAndEveryScaleModePass) {
     renderer.store(Selection{.material = 0, .scale_mode = scale.mode});
     EXPECT_TRUE(servo.new_selection()) << scale.word;
   }
+}
+
+// One after the other, each number of a block made NaN; returns how many it has.
+template <class Block>
+int expect_every_number_is_checked(const SharedModel& model) {
+  const Block good{};
+  EXPECT_TRUE(is_valid(good, model));
+  int numbers = 0;
+  const auto spoil = [&](const char* name, const double& number) {
+    Block bad = good;
+    const auto offset = reinterpret_cast<const std::byte*>(&number) - reinterpret_cast<const std::byte*>(&good);
+    std::memcpy(reinterpret_cast<std::byte*>(&bad) + offset, &kNan, sizeof(double));
+    EXPECT_FALSE(is_valid(bad, model)) << name;
+    ++numbers;
+  };
+  for_each_leaf(
+      [&]<class Value>(const char* name, const Value& value) {
+        if constexpr (std::is_same_v<Value, double>) {
+          spoil(name, value);
+        } else if constexpr (!std::is_integral_v<Value> && !std::is_enum_v<Value>) {
+          for (const double& number : value) spoil(name, number);
+        }
+      },
+      good);
+  return numbers;
+}
+
+TEST(SharedBlocks, AreRefusedForAnyNumberThatIsNotFinite) {
+  const SharedModel model = paper_model();
+  EXPECT_EQ(expect_every_number_is_checked<TipState>(model), 5 + 3 + 3 + 6 + 4 + 6);
+  EXPECT_EQ(expect_every_number_is_checked<TipSample>(model), 5 + 3 + 2 + 9 + 1);
+  EXPECT_EQ(expect_every_number_is_checked<TipEvent>(model), 3);
 }
 
 TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
@@ -360,7 +394,7 @@ TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
       const auto selection = servo.new_selection();
       EXPECT_TRUE(!selection || selection->material < 3);
       const auto state = renderer.tip_state();
-      EXPECT_TRUE(!state || std::isfinite(state->z_m));
+      EXPECT_TRUE(!state || std::isfinite(state->tip.z_m));
       servo.new_transforms();
       servo.new_hand_script();
       servo.new_heartbeat();

@@ -60,7 +60,7 @@ class LiveRenderer {
   }
 
   bool played() {
-    return until([this](const scene::TipState& state) { return state.hand_revision == script_; });
+    return until([this](const scene::TipState& state) { return state.acknowledged.hand_script == script_; });
   }
 
   // The tip hangs on the sample and the hand feels more than half a newton.

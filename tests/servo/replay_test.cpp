@@ -234,7 +234,7 @@ TEST(Replay, GivesForcesThatWerePutDownForHotMotorsAgain) {
   recording.arm();
   recording.aim(-0.030, 0.5);  // holds more than the motors stand for ever
   recording.run(60'000);
-  EXPECT_LT(recording.state().thermal_gain, 1.0);
+  EXPECT_LT(recording.state().safety.thermal_gain, 1.0);
   recording.aim(0.065, 0.7);
   recording.run(1500);
   recording.choose(test::kGold);

@@ -185,8 +185,8 @@ TEST_F(ServoDevices, ReplaysASessionTickByTickToTheSameForces) {
     if (index >= session.samples.size() || played.phase == physics::Phase::WaitForLift) continue;
     const TipSample& recorded = session.samples[index];
     if (recorded.phase == physics::Phase::WaitForLift) continue;
-    ASSERT_EQ(played.z_m, recorded.z_m) << index;
-    ASSERT_EQ(played.force_n, recorded.force_n) << index;
+    ASSERT_EQ(played.tip.z_m, recorded.tip.z_m) << index;
+    ASSERT_EQ(played.tip.force_n, recorded.tip.force_n) << index;
     ++compared;
   }
   EXPECT_GT(compared, 1500U);

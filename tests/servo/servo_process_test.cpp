@@ -123,7 +123,7 @@ TEST(ServoProcess, ReleasesTheHandAndEndsWhenTheRendererIsKilled) {
     EXPECT_EQ(renderer.servo_exit_code(), 1);
     EXPECT_THAT(renderer.log(), HasSubstr("the renderer died: force released"));
     const TipState last = *side.tip_state();
-    EXPECT_EQ(last.hand_force_n, (std::array<double, 3>{}));
+    EXPECT_EQ(last.hand.force_n, (std::array<double, 3>{}));
     if (let_go_before(last)) return false;
     EXPECT_EQ(last.fault, FaultCode::RendererDied);
     std::printf("force exactly zero %.1f ms after the kill\n", 1e-6 * static_cast<double>(released_ns - killed_ns));
@@ -188,7 +188,7 @@ TEST(ServoProcess, LeavesInGoodOrderAndNoZombieBehind) {
     servo->reset();
     EXPECT_NE(::kill(pid, 0), 0);
     const TipState last = *side.tip_state();
-    EXPECT_EQ(last.hand_force_n, (std::array<double, 3>{}));
+    EXPECT_EQ(last.hand.force_n, (std::array<double, 3>{}));
     if (let_go_before(last)) return false;
     EXPECT_EQ(last.fault, FaultCode::None);
     return true;

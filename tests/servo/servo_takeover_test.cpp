@@ -94,8 +94,8 @@ class Predecessor {
     (*link)->change(test::kMica, test::paper_model().materials[test::kGold]);
     (*link)->script({.target_m = {0.0, kHeldHeightM, 0.0}, .duration_s = 0.05, .revision = 7});
     const bool held = until(**link, [](const scene::TipState& tip) {
-      return tip.material == test::kGold && tip.hand_revision == 7 && tip.tick > 100 &&
-             std::abs(tip.hand_position_m[1] - kHeldHeightM) < 0.002;
+      return tip.material == test::kGold && tip.acknowledged.hand_script == 7 && tip.tick > 100 &&
+             std::abs(tip.hand.position_m[1] - kHeldHeightM) < 0.002;
     });
     pid_t servo = -1;
     std::ifstream("/proc/self/task/" + std::to_string(::getpid()) + "/children") >> servo;
@@ -121,7 +121,7 @@ TEST(ServoTakeover, GoesOnWithTheServoOfADeadRenderer) {
   // as the predecessor left it, but for what the hand swings: it was not put back to its 60 mm, the material and the
   // count of ticks go on
   EXPECT_GT((*link)->tip().tick, 100U);
-  EXPECT_NEAR((*link)->tip().hand_position_m[1], kHeldHeightM, 0.005);
+  EXPECT_NEAR((*link)->tip().hand.position_m[1], kHeldHeightM, 0.005);
   EXPECT_EQ((*link)->tip().material, test::kGold);
   EXPECT_EQ((*link)->tip().servo_state, scene::ServoState::Disarmed);
 
@@ -129,13 +129,13 @@ TEST(ServoTakeover, GoesOnWithTheServoOfADeadRenderer) {
   (*link)->choose(test::kSiliconNitride);
   (*link)->script({.target_m = {0.0, 0.066, 0.0}, .duration_s = 0.05, .revision = 1});
   EXPECT_TRUE(until(**link, [](const scene::TipState& tip) {
-    return tip.material == test::kSiliconNitride && tip.hand_revision == 1 &&
-           std::abs(tip.hand_position_m[1] - 0.066) < 0.002;
+    return tip.material == test::kSiliconNitride && tip.acknowledged.hand_script == 1 &&
+           std::abs(tip.hand.position_m[1] - 0.066) < 0.002;
   }));
   // what the predecessor had changed is as loaded again: mica pulls off where mica does
   (*link)->choose(test::kMica);
   EXPECT_TRUE(until(**link, [](const scene::TipState& tip) { return tip.material == test::kMica; }));
-  const double z_joc_m = 0.050 / (*link)->tip().hand_m_per_m;
+  const double z_joc_m = 0.050 / (*link)->tip().active.scale.hand_m_per_m;
   EXPECT_NEAR(z_joc_m, 14.0e-9, 0.1e-9);
 }
 

@@ -126,10 +126,10 @@ TEST_P(StoppedServo, GoesOnWithoutAStepOfTheForceAndLetsGoAfterTwentyMillisecond
     if (longest_ns > 20'000'000) {
       EXPECT_EQ(state.servo_state, ServoState::Disarmed);
       EXPECT_EQ(state.fault, FaultCode::LateTick);
-      EXPECT_EQ(state.hand_force_n, (std::array<double, 3>{}));
+      EXPECT_EQ(state.hand.force_n, (std::array<double, 3>{}));
     } else {
       EXPECT_EQ(state.servo_state, ServoState::Running);
-      EXPECT_LT(state.hand_force_n[1], -0.5);
+      EXPECT_LT(state.hand.force_n[1], -0.5);
     }
     std::printf("paused for %.1f ms: largest step %.3f N\n", 1e-6 * static_cast<double>(longest_ns), largest_step_n);
     return (longest_ns > 20'000'000) == (GetParam() > 20);

@@ -43,8 +43,8 @@ RecordedSession example() {
   for (int i = 0; i < 1000; ++i) {
     scene::TipSample sample;
     sample.time_ns = 5'000'000'000 + i * 1'000'000;
-    sample.z_m = 1e-9 * std::cos(0.01 * i);
-    sample.force_n = -0.1 * sample.z_m;
+    sample.tip.z_m = 1e-9 * std::cos(0.01 * i);
+    sample.tip.force_n = -0.1 * sample.tip.z_m;
     session.samples.push_back(sample);
   }
   scene::TipEvent event;
@@ -87,7 +87,7 @@ TEST(SessionFile, ComesBackAsItWasSaved) {
   EXPECT_EQ(loaded->device.workspace_min_m, example().device.workspace_min_m);
   EXPECT_EQ(loaded->hand_n_per_n, 1.43e9);
   ASSERT_EQ(loaded->samples.size(), 1000U);
-  EXPECT_EQ(loaded->samples[999].z_m, example().samples[999].z_m);
+  EXPECT_EQ(loaded->samples[999].tip.z_m, example().samples[999].tip.z_m);
   ASSERT_NE(loaded->find(physics::EventKind::JumpOffContact), nullptr);
   EXPECT_EQ(loaded->find(physics::EventKind::JumpToContact), nullptr);
   EXPECT_NEAR(loaded->seconds_since_start(loaded->events[0].time_ns), 0.300000123, 1e-12);
@@ -180,7 +180,7 @@ TEST(SessionFile, WithParametersThatNoMicroscopeHasIsRefused) {
 TEST(SessionFile, WithNumbersThatAreNotFiniteIsRefused) {
   const support::ScratchFolder folder;
   RecordedSession session = example();
-  session.samples[500].force_n = std::nan("");
+  session.samples[500].tip.force_n = std::nan("");
   ASSERT_TRUE(save_session(session, folder.file("nan.afms")).has_value());
   EXPECT_THAT(error_of(folder.file("nan.afms")), HasSubstr("not finite"));
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "exhibit/cycle_curve.h"
-#include "scene/shared/shared_blocks.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
 

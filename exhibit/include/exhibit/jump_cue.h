@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "scene/shared/shared_blocks.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
 

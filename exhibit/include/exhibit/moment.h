@@ -8,48 +8,35 @@
 #include <vector>
 
 #include "exhibit/cycle_curve.h"
-#include "exhibit/wall_scene.h"
+#include "exhibit/wall_state.h"
 #include "render/frame.h"
-#include "scene/shared/shared_blocks.h"
+#include "scene/shared/tip_blocks.h"
 #include "servo/session_file.h"
 
 namespace afm::exhibit {
 
 // What a finished cycle came to, magnitudes.
-struct Felt {
+struct CycleResult {
   std::string title;
   std::string law;  // "dmt"
   bool hysteretic = true;
   double f_attr_n = 0, f_ad_n = 0, z_jtc_m = 0, z_joc_m = 0;
 };
 
-// One moment of the demonstration, from the live servo or from a session: all that the wall tells.
+// One moment of the demonstration, from the live servo or from a session: all that the wall shows.
 struct Moment {
-  std::optional<std::size_t> material;
-  TipView tip;
-  double force_n = 0;
+  WallState wall;
   scene::ServoState servo_state = scene::ServoState::Disarmed;
   physics::Phase phase = physics::Phase::WaitForLift;
   bool retracting = false;  // past the deepest push of this cycle
   bool realtime = false;
-  double slow_motion = 1;  // as in TipState
-  std::optional<JumpCue> cue;
-  std::optional<std::size_t> hovered;
-  std::optional<input::WandState> wand;
-  glm::dmat4 navigation{1.0};  // as in WallScene::Pose
+  double slow_motion = 1;  // as in scene::ActiveContact
   std::string guidance;
   std::vector<render::DataRow> servo;  // servo_rows()
   // one per material, empty while it has not been felt; the current one is drawn in front
   std::span<const CycleCurve> curves;
-  bool analogy = false;                  // Millet's magnet instead of the instrument
-  std::optional<double> journey_orders;  // on the journey of scale, as in app/journey.h
-  double fade = 0;                       // as in WallScene::Pose
-  bool compare_all = false;              // the finale: all curves together, large, and what was felt
-  std::vector<Felt> felt;
+  std::vector<CycleResult> results;  // of Centerpiece::Plot
 };
-
-// What WallScene places.
-WallScene::Pose pose_of(const Moment& moment);
 
 // What the newest state of the tip tells the wall.
 Moment moment_of(const scene::TipState& tip, bool retracting);

@@ -9,7 +9,7 @@
 namespace afm::exhibit {
 
 // What has become of a change, for people.
-enum class ChangeState { AsLoaded, Waiting, Felt, Refused };
+enum class ChangeState { AsLoaded, Waiting, Applied, Refused };
 
 // The buttons of the panel, in their order.
 enum class PanelButton { Reset, Close };

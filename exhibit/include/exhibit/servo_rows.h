@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/frame.h"
-#include "scene/shared/shared_blocks.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/mat4x4.hpp>
 #include <span>
 
 #include "core/result.h"
@@ -16,5 +17,8 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
                                               std::span<const curves::SampleModel> materials,
                                               std::span<const scene::SharedHeightField> surfaces,
                                               std::span<const scene::SharedMeasuredCurve> curves = {});
+
+// What the servo reads of a frame's transforms: room from node. At most scene::kMaxNodes.
+scene::SceneTransforms shared_transforms(std::span<const glm::dmat4> room_from_node);
 
 }  // namespace afm::exhibit

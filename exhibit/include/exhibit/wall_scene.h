@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,11 +12,10 @@
 #include "core/result.h"
 #include "exhibit/analogy.h"
 #include "exhibit/journey.h"
-#include "exhibit/jump_cue.h"
 #include "exhibit/user_models.h"
 #include "exhibit/wall_marks.h"
+#include "exhibit/wall_state.h"
 #include "input/selection.h"
-#include "input/wand.h"
 #include "render/frame.h"
 #include "scene/display/wall.h"
 #include "scene/graph/scene.h"
@@ -25,15 +23,6 @@
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::exhibit {
-
-// What the picture shows of the tip: heights along the sample's normal, metres of the nanoworld.
-struct TipView {
-  double z_m = 0;               // piezo displacement
-  double deflection_m = 0;      // delta_c, positive towards the sample
-  double z_joc_m = 0;           // where the tip lets go with the parameters that it has now; 0: those of the material
-  glm::dvec2 xy_m{0.0};         // the tip's place in the sample's frame
-  double surface_height_m = 0;  // below the tip; Z and the deflection count from there
-};
 
 // How large things are drawn: metres of the nanoworld (or of the instrument) shown as one metre on the wall.
 struct DrawnScale {
@@ -76,33 +65,18 @@ class WallScene {
   // Metres of the nanoworld on a metre of the wall, at a place of the journey.
   double journey_m_per_m(double orders) const;
 
-  DrawnScale drawn_scale(std::size_t material, const TipView& tip = {}) const;
+  // `release_z_m` as in WallState.
+  DrawnScale drawn_scale(std::size_t material, double release_z_m = 0) const;
 
   // Where the parameters of a material are changed, in the place of its data; and the target that opens it.
   render::PanelPlacement parameter_placement() const;
   render::PanelPlacement parameter_tab_placement() const;
 
-  // What stands in the middle: the instrument; in the finale the plot alone; Millet's analogy of what happens; or the
-  // instrument at one true scale.
-  enum class Exhibit { Instrument, Plot, Analogy, Journey };
-
-  struct Pose {
-    std::optional<std::size_t> material{};  // none: no sample lies on the stage yet
-    TipView tip{};
-    std::optional<std::size_t> hovered{};
-    std::optional<input::WandState> wand{};
-    Exhibit exhibit = Exhibit::Instrument;
-    double journey_orders = 0;   // of Exhibit::Journey, as in app/journey.h
-    double fade = 0;             // 0..1: how much of everything has dissolved
-    glm::dmat4 navigation{1.0};  // room from room: where sample and instrument have been moved, turned and scaled to
-    std::optional<JumpCue> cue{};
-  };
+  // Room from node, for every node of the scene.
+  std::vector<glm::dmat4> node_transforms(const WallState& state) const;
 
   // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.
-  void place(const Pose& pose, render::FrameState& frame) const;
-
-  // Only the transforms, for the shared block that the servo reads.
-  void place(const Pose& pose, scene::SceneTransforms& transforms) const;
+  void update(const WallState& state, render::FrameState& frame) const;
 
  private:
   struct MaterialLook {
@@ -117,24 +91,24 @@ class WallScene {
   };
 
   std::uint32_t height_field_of(const std::string& model, scene::NodeIndex surface);
-  void place_probe(const Pose& pose, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
-  void place_sample(const Pose& pose, std::vector<glm::dmat4>& local) const;
-  void place_optics(const Pose& pose, std::vector<glm::dmat4>& local) const;
-  void place_wand(const Pose& pose, std::vector<glm::dmat4>& local) const;
-  double parameter_factor(std::size_t material, const TipView& tip) const;  // of Z_joc, against the material's own
-  double layout_per_m(const Pose& pose) const;                              // layout units per metre of the nanoworld
+  void place_probe(const WallState& state, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
+  void place_sample(const WallState& state, std::vector<glm::dmat4>& local) const;
+  void place_optics(const WallState& state, std::vector<glm::dmat4>& local) const;
+  void place_wand(const WallState& state, std::vector<glm::dmat4>& local) const;
+  double parameter_factor(std::size_t material, double release_z_m) const;  // of Z_joc, against the material's own
+  double layout_per_m(const WallState& state) const;                        // layout units per metre of the nanoworld
   double side_width() const;                                                // of the panels beside the instrument
   glm::dvec3 swatch_place(std::size_t i) const;
-  glm::dvec3 below_tip(const Pose& pose) const;     // the surface's point, sample's frame, layout units
-  double ruler_m_per_unit(const Pose& pose) const;  // what a layout unit beside the ruler shows; 0: nothing
-  Analogy::Heights analogy_heights(const Pose& pose) const;
-  std::vector<scene::NodeIndex> hidden_roots(const Pose& pose) const;
-  void place_panels(const Pose& pose, render::FrameState& frame) const;
-  void place_swatch_labels(const Pose& pose, render::FrameState& frame) const;
-  void place_analogy_labels(const Pose& pose, render::FrameState& frame) const;
-  void place_fog(const Pose& pose, render::FrameState& frame) const;
-  void place_marks(const Pose& pose, render::FrameState& frame) const;
-  std::vector<glm::dmat4> local_transforms(const Pose& pose, render::BeamBend& bend) const;
+  glm::dvec3 below_tip(const WallState& state) const;     // the surface's point, sample's frame, layout units
+  double ruler_m_per_unit(const WallState& state) const;  // what a layout unit beside the ruler shows; 0: nothing
+  Analogy::Heights analogy_heights(const WallState& state) const;
+  std::vector<scene::NodeIndex> hidden_roots(const WallState& state) const;
+  void place_panels(const WallState& state, render::FrameState& frame) const;
+  void place_swatch_labels(const WallState& state, render::FrameState& frame) const;
+  void place_analogy_labels(const WallState& state, render::FrameState& frame) const;
+  void place_fog(const WallState& state, render::FrameState& frame) const;
+  void place_marks(const WallState& state, render::FrameState& frame) const;
+  std::vector<glm::dmat4> local_transforms(const WallState& state, render::BeamBend& bend) const;
   std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;
   render::PanelPlacement panel(double left, double bottom, double width, double height) const;
 

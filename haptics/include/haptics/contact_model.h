@@ -64,7 +64,7 @@ class ContactModel {
   Touch step(const glm::dvec3& hand_m) noexcept;
   void wait_for_lift() noexcept;
   physics::Phase phase() const noexcept;
-  double slow_motion() const noexcept { return slow_motion_; }  // as in TipState
+  double slow_motion() const noexcept { return slow_motion_; }  // as in scene::ActiveContact
 
   // Only without force: the hand would feel the step. Fit before the first call.
   void use(scene::ScaleMode mode) noexcept { mode_ = mode; }

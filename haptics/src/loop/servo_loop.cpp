@@ -25,6 +25,8 @@ void count(std::array<std::uint32_t, scene::kHistogramBins>& bins, std::uint32_t
   largest = std::max(largest, us);
 }
 
+std::array<double, 3> array_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
 std::int64_t period_of(const ServoSettings& settings) { return std::llround(1e9 / settings.rate_hz); }
 
 std::uint32_t microseconds(std::int64_t ns) {
@@ -147,9 +149,8 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   device_.write(output.command);
   if (output.dropped && model_ != nullptr) model_->wait_for_lift();
 
-  const glm::dvec3& force_n = output.command.force_n();
-  state_.hand_force_n = {force_n.x, force_n.y, force_n.z};
-  state_.hand_revision = hand.finished_script;
+  state_.hand.force_n = array_of(output.command.force_n());
+  state_.acknowledged.hand_script = hand.finished_script;
   publish_events(now_ns);
   publish(now_ns, wake_us);
   previous_ns_ = now_ns;
@@ -180,8 +181,8 @@ void ServoLoop::change_model() noexcept {
     if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.adopt(i);
   }
   const bool valid = chosen_.material >= 0 && static_cast<std::size_t>(chosen_.material) < exchange_.size();
-  const bool other = valid && chosen_.revision != state_.selection_revision &&
-                     (chosen_.material != state_.material || chosen_.scale_mode != state_.scale_mode);
+  const bool other = valid && chosen_.revision != state_.acknowledged.selection &&
+                     (chosen_.material != state_.material || chosen_.scale_mode != state_.active.scale_mode);
   const bool edited = model_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
   changing_ = false;
   if (other || edited) {
@@ -193,10 +194,10 @@ void ServoLoop::change_model() noexcept {
     if (other) {
       select_material(static_cast<std::size_t>(chosen_.material), chosen_.scale_mode);
     } else {
-      select_material(static_cast<std::size_t>(state_.material), state_.scale_mode);
+      select_material(static_cast<std::size_t>(state_.material), state_.active.scale_mode);
     }
   }
-  if (valid) state_.selection_revision = chosen_.revision;
+  if (valid) state_.acknowledged.selection = chosen_.revision;
 }
 
 void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noexcept {
@@ -208,12 +209,11 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
   const Scaling& scaling = model_->scaling();
   governor_.set_release_height(scaling.release_height_m());
   state_.material = static_cast<std::int32_t>(material);
-  state_.scale_mode = mode;
-  state_.hand_m_per_m = scaling.hand_m_per_m();
-  state_.hand_n_per_n = scaling.hand_n_per_n();
-  state_.release_z_m = scaling.release_z_m();
-  state_.slow_motion = model_->slow_motion();
-  state_.edit_revision = model_->edit_revision();
+  state_.active = {.scale = {.hand_m_per_m = scaling.hand_m_per_m(), .hand_n_per_n = scaling.hand_n_per_n()},
+                   .release_z_m = scaling.release_z_m(),
+                   .slow_motion = model_->slow_motion(),
+                   .scale_mode = mode,
+                   .edit_revision = model_->edit_revision()};
 }
 
 RendererLink ServoLoop::renderer_link(std::int64_t now_ns) const noexcept {
@@ -241,60 +241,52 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   const physics::TipResponse& response = touch_.response;
   ++state_.tick;
   state_.time_ns = now_ns;
-  state_.z_m = touch_.z_m;
-  state_.tip_xy_m = {touch_.tip_xy_m.x, touch_.tip_xy_m.y};
-  state_.surface_height_m = touch_.surface_height_m;
-  const glm::dvec3 local_normal = sample_.in_device(touch_.normal);
-  state_.normal = {local_normal.x, local_normal.y, local_normal.z};
-  state_.tip_height_m = response.tip_height.si;
-  state_.deflection_m = response.cantilever_deflection.si;
-  state_.sample_deformation_m = response.sample_deformation.si;
-  state_.force_n = response.force.si;
-  state_.hand_position_m = {hand_position_m_.x, hand_position_m_.y, hand_position_m_.z};
-  state_.servo_state = governor_.state();
+  state_.tip = {.z_m = touch_.z_m,
+                .force_n = response.force.si,
+                .height_m = response.tip_height.si,
+                .deflection_m = response.cantilever_deflection.si,
+                .sample_deformation_m = response.sample_deformation.si};
+  state_.surface = {.xy_m = {touch_.tip_xy_m.x, touch_.tip_xy_m.y}, .height_m = touch_.surface_height_m};
+  state_.normal = array_of(sample_.in_device(touch_.normal));
+  state_.hand.position_m = array_of(hand_position_m_);
+  state_.safety = {.force_cap_n = governor_.force_cap_n(),
+                   .slew_limit_n_per_s = governor_.slew_limit_n_per_s(),
+                   .motor_heat = governor_.motors().heat(),
+                   .thermal_gain = governor_.motors().gain(),
+                   .excess_energy_j = governor_.observer().excess_j(),
+                   .observer_damping_n_s_per_m = governor_.observer_damping_n_s_per_m()};
   state_.phase = response.phase;
+  state_.servo_state = governor_.state();
   state_.fault = governor_.fault();
   state_.dead_man = governor_.dead_man() ? 1 : 0;
-  state_.force_cap_n = governor_.force_cap_n();
-  state_.slew_limit_n_per_s = governor_.slew_limit_n_per_s();
-  state_.motor_heat = governor_.motors().heat();
-  state_.thermal_gain = governor_.motors().gain();
-  state_.excess_energy_j = governor_.observer().excess_j();
-  state_.observer_damping = governor_.observer_damping_n_s_per_m();
-  state_.edit_refused = edits_.refused();
+  state_.acknowledged.refused_edit = edits_.refused();
   state_.garbage_blocks = shared_.refused_blocks() + refused_transforms_;
   shared_.store(state_);
 
   // without a material there is no curve to draw
   if (model_ == nullptr) return;
   const glm::dvec3& normal = sample_.normal();
-  const glm::dvec3 hand_force_n(state_.hand_force_n[0], state_.hand_force_n[1], state_.hand_force_n[2]);
-  shared_.push(
-      scene::TipSample{.time_ns = now_ns,
-                       .tick = state_.tick,
-                       .z_m = state_.z_m,
-                       .force_n = state_.force_n,
-                       .tip_height_m = state_.tip_height_m,
-                       .deflection_m = state_.deflection_m,
-                       .sample_deformation_m = state_.sample_deformation_m,
-                       .hand_height_m = glm::dot(hand_from_contact_m_, normal),
-                       .hand_force_n = glm::dot(hand_force_n, normal),
-                       .servo_state = state_.servo_state,
-                       .phase = state_.phase,
-                       .material = state_.material,
-                       .wake_us = wake_us,
-                       .edit_revision = state_.edit_revision,
-                       .turn_on = turn_on_ ? 1U : 0U,
-                       .renderer = renderer_,
-                       .scale_mode = state_.scale_mode,
-                       .hand_from_contact_m = {hand_from_contact_m_.x, hand_from_contact_m_.y, hand_from_contact_m_.z},
-                       .sample_normal = {normal.x, normal.y, normal.z},
-                       .sample_x = {sample_.x().x, sample_.x().y, sample_.x().z},
-                       .tip_xy_m = state_.tip_xy_m,
-                       .surface_height_m = state_.surface_height_m,
-                       .motor_heat = state_.motor_heat,
-                       .device_healthy = device_healthy_ ? 1U : 0U,
-                       .changing = changing_ ? 1U : 0U});
+  const auto& [x, y, z] = state_.hand.force_n;
+  shared_.push(scene::TipSample{.time_ns = now_ns,
+                                .tick = state_.tick,
+                                .tip = state_.tip,
+                                .hand_height_m = glm::dot(hand_from_contact_m_, normal),
+                                .hand_force_n = glm::dot(glm::dvec3(x, y, z), normal),
+                                .servo_state = state_.servo_state,
+                                .phase = state_.phase,
+                                .material = state_.material,
+                                .wake_us = wake_us,
+                                .edit_revision = state_.active.edit_revision,
+                                .turn_on = turn_on_ ? 1U : 0U,
+                                .renderer = renderer_,
+                                .scale_mode = state_.active.scale_mode,
+                                .hand_from_contact_m = array_of(hand_from_contact_m_),
+                                .sample_normal = array_of(normal),
+                                .sample_x = array_of(sample_.x()),
+                                .surface = state_.surface,
+                                .motor_heat = state_.safety.motor_heat,
+                                .device_healthy = device_healthy_ ? 1U : 0U,
+                                .changing = changing_ ? 1U : 0U});
 }
 
 bool ServoLoop::finished() const noexcept {

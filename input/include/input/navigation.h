@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "input/wand.h"
-#include "scene/shared/shared_blocks.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::input {
 

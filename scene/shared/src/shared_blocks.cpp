@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <glm/gtc/type_ptr.hpp>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 
 #include "core/check.h"
 #include "core/enumerators.h"
@@ -22,14 +24,40 @@ constexpr double kLargest = 1e9;
 
 bool sane(double value) { return std::isfinite(value) && std::abs(value) <= kLargest; }
 
-template <class Numbers>
-bool all_sane(const Numbers& numbers) {
+template <std::size_t Count>
+bool all_sane(const std::array<double, Count>& numbers) {
   return std::all_of(numbers.begin(), numbers.end(), sane);
 }
 
 bool positive(double value) { return sane(value) && value > 0; }
 
 bool terminated(const Name& name) { return std::find(name.begin(), name.end(), '\0') != name.end(); }
+
+
+// A field of a block by its type, and a block by its fields. A number without a unit of length or force may be larger.
+bool is_field_valid(double value) { return sane(value); }
+bool is_field_valid(const HandScale& scale) {
+  return std::isfinite(scale.hand_m_per_m) && std::isfinite(scale.hand_n_per_n);
+}
+template <std::integral Integer>
+bool is_field_valid(Integer /*any*/) {
+  return true;
+}
+template <class Enumerator>
+  requires std::is_enum_v<Enumerator>
+bool is_field_valid(Enumerator enumerator) {
+  return core::is_enumerator(enumerator);
+}
+template <std::size_t Count>
+bool is_field_valid(const std::array<double, Count>& numbers) {
+  return all_sane(numbers);
+}
+template <Described Block>
+bool is_field_valid(const Block& block) {
+  bool all = true;
+  for_each_field([&](const char*, const auto& value) { all = all && is_field_valid(value); }, block);
+  return all;
+}
 
 bool within(std::int32_t material, const SharedModel& model) {
   return material >= -1 && material < static_cast<std::int32_t>(std::min(model.material_count, kMaxMaterials));
@@ -173,30 +201,15 @@ bool is_valid(const SharedDevice& device) {
 }
 
 bool is_valid(const TipState& state, const SharedModel& model) {
-  return sane(state.z_m) && sane(state.tip_height_m) && sane(state.deflection_m) && sane(state.sample_deformation_m) &&
-         sane(state.force_n) && all_sane(state.hand_position_m) && all_sane(state.hand_force_n) &&
-         std::isfinite(state.hand_m_per_m) && std::isfinite(state.hand_n_per_n) && sane(state.release_z_m) &&
-         positive(state.slow_motion) && all_sane(state.tip_xy_m) && sane(state.surface_height_m) &&
-         all_sane(state.normal) && sane(state.force_cap_n) && std::isfinite(state.slew_limit_n_per_s) &&
-         sane(state.motor_heat) && sane(state.thermal_gain) && sane(state.excess_energy_j) &&
-         sane(state.observer_damping) && core::is_enumerator(state.scale_mode) &&
-         core::is_enumerator(state.servo_state) && core::is_enumerator(state.phase) &&
-         core::is_enumerator(state.fault) && within(state.material, model);
+  return is_field_valid(state) && positive(state.active.slow_motion) && within(state.material, model);
 }
 
 bool is_valid(const TipSample& sample, const SharedModel& model) {
-  return sane(sample.z_m) && sane(sample.force_n) && sane(sample.tip_height_m) && sane(sample.deflection_m) &&
-         sane(sample.sample_deformation_m) && sane(sample.hand_height_m) && sane(sample.hand_force_n) &&
-         all_sane(sample.hand_from_contact_m) && all_sane(sample.sample_normal) && all_sane(sample.sample_x) &&
-         all_sane(sample.tip_xy_m) && sane(sample.surface_height_m) && sane(sample.motor_heat) &&
-         sample.device_healthy <= 1 && sample.changing <= 1 && core::is_enumerator(sample.renderer) &&
-         core::is_enumerator(sample.scale_mode) && core::is_enumerator(sample.servo_state) &&
-         core::is_enumerator(sample.phase) && within(sample.material, model);
+  return is_field_valid(sample) && sample.device_healthy <= 1 && sample.changing <= 1 && within(sample.material, model);
 }
 
 bool is_valid(const TipEvent& event, const SharedModel& model) {
-  return core::is_enumerator(event.kind) && sane(event.z_m) && sane(event.force_before_n) &&
-         sane(event.force_after_n) && within(event.material, model);
+  return is_field_valid(event) && within(event.material, model);
 }
 
 glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node) {

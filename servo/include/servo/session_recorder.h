@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "scene/shared/shared_blocks.h"
+#include "scene/shared/tip_blocks.h"
 #include "servo/servo_client.h"
 #include "servo/session_file.h"
 

@@ -71,7 +71,8 @@ core::Result<ServoClient::Update> ServoClient::poll(std::int64_t now_ns) {
   beat(now_ns);
   if (const auto state = side_.tip_state()) {
     tip_ = *state;
-    tip_.hand_revision = state->hand_revision > script_base_ ? state->hand_revision - script_base_ : 0;
+    tip_.acknowledged.hand_script =
+        state->acknowledged.hand_script > script_base_ ? state->acknowledged.hand_script - script_base_ : 0;
   }
 
   Update update;
@@ -114,8 +115,9 @@ void ServoClient::script(const scene::HandScript& script) {
 // is of the past.
 void ServoClient::go_on() {
   tip_ = side_.tip_state().value_or(scene::TipState{});
-  selection_ = side_.last_selection().value_or(scene::Selection{.revision = tip_.selection_revision});
-  script_base_ = side_.last_hand_script().value_or(scene::HandScript{.revision = tip_.hand_revision}).revision;
+  selection_ = side_.last_selection().value_or(scene::Selection{.revision = tip_.acknowledged.selection});
+  script_base_ =
+      side_.last_hand_script().value_or(scene::HandScript{.revision = tip_.acknowledged.hand_script}).revision;
   const scene::SharedModel& model = segment_.model();
   std::vector<std::size_t> edited;
   for (std::uint32_t i = 0; i < model.material_count; ++i) {

@@ -2,8 +2,8 @@
 #include "servo/replay.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <utility>
@@ -46,53 +46,24 @@ class RecordedHand final : public haptics::HapticDevice {
   DeviceSample now_;
 };
 
-// Finds the first quantity in which two records differ.
-class Comparison {
- public:
-  explicit Comparison(std::size_t index) : index_(index) {}
-
-  void expect(const char* quantity, double recorded, double replayed) {
-    if (first_ || std::bit_cast<std::uint64_t>(recorded) == std::bit_cast<std::uint64_t>(replayed)) return;
-    first_ = Difference{index_, quantity, recorded, replayed};
-  }
-  template <class Enumerator>
-    requires std::is_enum_v<Enumerator>
-  void expect(const char* quantity, Enumerator recorded, Enumerator replayed) {
-    expect(quantity, static_cast<double>(recorded), static_cast<double>(replayed));
-  }
-
-  const std::optional<Difference>& first() const { return first_; }
-
- private:
-  std::size_t index_;
-  std::optional<Difference> first_;
-};
-
-std::optional<Difference> difference(std::size_t index, const TipSample& recorded, const TipSample& replayed) {
-  Comparison compare(index);
-  compare.expect("z_m", recorded.z_m, replayed.z_m);
-  compare.expect("force_N", recorded.force_n, replayed.force_n);
-  compare.expect("tip_height_m", recorded.tip_height_m, replayed.tip_height_m);
-  compare.expect("deflection_m", recorded.deflection_m, replayed.deflection_m);
-  compare.expect("sample_deformation_m", recorded.sample_deformation_m, replayed.sample_deformation_m);
-  compare.expect("hand_height_m", recorded.hand_height_m, replayed.hand_height_m);
-  compare.expect("hand_force_N", recorded.hand_force_n, replayed.hand_force_n);
-  compare.expect("servo_state", recorded.servo_state, replayed.servo_state);
-  compare.expect("phase", recorded.phase, replayed.phase);
-  compare.expect("tip_x_m", recorded.tip_xy_m[0], replayed.tip_xy_m[0]);
-  compare.expect("tip_y_m", recorded.tip_xy_m[1], replayed.tip_xy_m[1]);
-  compare.expect("surface_height_m", recorded.surface_height_m, replayed.surface_height_m);
-  return compare.first();
-}
-
-std::optional<Difference> difference(std::size_t index, const TipEvent& recorded, const TipEvent& replayed) {
-  Comparison compare(index);
-  compare.expect("kind", recorded.kind, replayed.kind);
-  compare.expect("time_ns", static_cast<double>(recorded.time_ns), static_cast<double>(replayed.time_ns));
-  compare.expect("z_m", recorded.z_m, replayed.z_m);
-  compare.expect("force_before_N", recorded.force_before_n, replayed.force_before_n);
-  compare.expect("force_after_N", recorded.force_after_n, replayed.force_after_n);
-  return compare.first();
+// The first result in which two records differ.
+template <class Record>
+std::optional<Difference> difference(std::size_t index, const Record& recorded, const Record& replayed) {
+  std::optional<Difference> first;
+  const auto compare = [&]<class Value>(const char* quantity, const Value& was, const Value& is) {
+    if (first || std::memcmp(&was, &is, sizeof(Value)) == 0) return;
+    first = Difference{index, quantity, static_cast<double>(was), static_cast<double>(is)};
+  };
+  for_each_result(
+      [&]<class Value>(const char* quantity, const Value& was, const Value& is) {
+        if constexpr (scene::Described<Value>) {
+          for_each_leaf(compare, was, is);
+        } else {
+          compare(quantity, was, is);
+        }
+      },
+      recorded, replayed);
+  return first;
 }
 
 // Whether a heartbeat with this tick lets the servo see what it saw then: the last one before a hang must be just old
@@ -198,7 +169,7 @@ core::Result<Replay> replay(const RecordedSession& session) {
     if ((*player)->play(i)) {
       const TipSample& replayed = (*player)->sample();
       found = difference(i, recorded, replayed);
-      result.largest_tip_n = std::max(result.largest_tip_n, std::abs(recorded.force_n - replayed.force_n));
+      result.largest_tip_n = std::max(result.largest_tip_n, std::abs(recorded.tip.force_n - replayed.tip.force_n));
       result.largest_hand_n = std::max(result.largest_hand_n, std::abs(recorded.hand_force_n - replayed.hand_force_n));
     }
     if (!found) continue;

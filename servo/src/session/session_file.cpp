@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -28,6 +29,12 @@ constexpr std::uint32_t kVersion = 3;
 using scene::SharedHeightField;
 using scene::TipEvent;
 using scene::TipSample;
+
+// The records of version 3, to the byte.
+static_assert(sizeof(TipSample) == 216 && offsetof(TipSample, tip) == 16 && offsetof(TipSample, hand_height_m) == 56 &&
+              offsetof(TipSample, servo_state) == 72 && offsetof(TipSample, hand_from_contact_m) == 104 &&
+              offsetof(TipSample, surface) == 176 && offsetof(TipSample, motor_heat) == 200);
+static_assert(sizeof(TipEvent) == 40 && offsetof(TipEvent, time_ns) == 8 && offsetof(TipEvent, z_m) == 16);
 
 template <class T>
 void put(std::string& bytes, const T& value) {
@@ -58,20 +65,19 @@ bool take_all(std::string_view& bytes, std::vector<T>& values) {
   return std::all_of(values.begin(), values.end(), [&](T& value) { return take(bytes, value); });
 }
 
-template <std::size_t Count>
-bool finite(const std::array<double, Count>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-}
-
-bool finite(const TipSample& s) {
-  return std::isfinite(s.z_m) && std::isfinite(s.force_n) && std::isfinite(s.tip_height_m) &&
-         std::isfinite(s.deflection_m) && std::isfinite(s.sample_deformation_m) && std::isfinite(s.hand_height_m) &&
-         std::isfinite(s.hand_force_n) && finite(s.hand_from_contact_m) && finite(s.sample_normal) &&
-         finite(s.sample_x) && finite(s.tip_xy_m) && std::isfinite(s.surface_height_m) && std::isfinite(s.motor_heat);
-}
-
-bool finite(const TipEvent& e) {
-  return std::isfinite(e.z_m) && std::isfinite(e.force_before_n) && std::isfinite(e.force_after_n);
+template <class Record>
+bool finite(const Record& record) {
+  bool all = true;
+  scene::for_each_leaf(
+      [&]<class Value>(const char*, const Value& value) {
+        if constexpr (std::is_floating_point_v<Value>) {
+          all = all && std::isfinite(value);
+        } else if constexpr (!std::is_integral_v<Value> && !std::is_enum_v<Value>) {
+          all = all && std::all_of(value.begin(), value.end(), [](double number) { return std::isfinite(number); });
+        }
+      },
+      record);
+  return all;
 }
 
 // JSON has no infinity: what is rigid has no entry.

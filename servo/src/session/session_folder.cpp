@@ -22,10 +22,10 @@ core::Result<SessionFolder> SessionFolder::open(const std::string& path) {
 }
 
 core::Result<void> SessionFolder::keep(const RecordedSession& session) {
-  const bool felt = std::any_of(session.samples.begin(), session.samples.end(), [](const scene::TipSample& sample) {
-    return sample.servo_state == scene::ServoState::Running;
-  });
-  if (!felt) return {};
+  const bool had_force =
+      std::any_of(session.samples.begin(), session.samples.end(),
+                  [](const scene::TipSample& sample) { return sample.servo_state == scene::ServoState::Running; });
+  if (!had_force) return {};
   std::string file = fmt::format("{}/session-{}.afms", path_, session.material);
   for (int number = 2; std::filesystem::exists(file); ++number) {
     file = fmt::format("{}/session-{}-{}.afms", path_, session.material, number);

@@ -10,7 +10,7 @@ namespace {
 using scene::ServoState;
 using scene::TipSample;
 
-bool same_encounter(const TipSample& a, const TipSample& b) {
+bool same_contact(const TipSample& a, const TipSample& b) {
   return a.material == b.material && a.edit_revision == b.edit_revision && a.scale_mode == b.scale_mode;
 }
 
@@ -23,14 +23,14 @@ bool is_released(const TipSample& sample) {
 }  // namespace
 
 bool SessionRecorder::goes_on_with(const TipSample& sample) const {
-  return previous_ && same_encounter(*previous_, sample) && sample.tick == previous_->tick + 1 &&
+  return previous_ && same_contact(*previous_, sample) && sample.tick == previous_->tick + 1 &&
          session_.samples.size() < kLongestTicks;
 }
 
 bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
   if (!goes_on_with(sample)) finish();
   const bool begins = session_.samples.empty();
-  const bool fresh = previous_ && !same_encounter(*previous_, sample) && sample.tick == previous_->tick + 1;
+  const bool fresh = previous_ && !same_contact(*previous_, sample) && sample.tick == previous_->tick + 1;
   previous_ = sample;
   if (begins && !fresh && !is_released(sample)) return false;
   if (begins) begin(sample, servo);
@@ -70,13 +70,13 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo) {
 
 // The newest state may still be, or already be, that of another contact model; then the next sample asks again.
 void SessionRecorder::take_scale(const TipSample& sample, const scene::TipState& tip) {
-  scale_known_ = tip.material == sample.material && tip.edit_revision == sample.edit_revision &&
-                 tip.scale_mode == sample.scale_mode;
+  scale_known_ = tip.material == sample.material && tip.active.edit_revision == sample.edit_revision &&
+                 tip.active.scale_mode == sample.scale_mode;
   if (!scale_known_) return;
   session_.realtime = tip.realtime != 0;
-  session_.hand_m_per_m = tip.hand_m_per_m;
-  session_.hand_n_per_n = tip.hand_n_per_n;
-  session_.slow_motion = tip.slow_motion;
+  session_.hand_m_per_m = tip.active.scale.hand_m_per_m;
+  session_.hand_n_per_n = tip.active.scale.hand_n_per_n;
+  session_.slow_motion = tip.active.slow_motion;
 }
 
 }  // namespace afm::servo

@@ -10,14 +10,14 @@
 #include "core/file_descriptor.h"
 #include "core/result.h"
 #include "physics/law.h"
-#include "scene/shared/shared_blocks.h"
+#include "scene/shared/tip_blocks.h"
 
 // The memory that touchafm and touchafm-servo share: a header page, the constant SharedModel, and one channel per
 // block.
 namespace afm::scene {
 
 // Raised whenever the meaning of a block changes; a change of a block's size is noticed by itself.
-inline constexpr std::uint32_t kSegmentVersion = 3;
+inline constexpr std::uint32_t kSegmentVersion = 4;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <glm/mat4x4.hpp>
+#include <optional>
+
+#include "exhibit/jump_cue.h"
+#include "input/wand.h"
+#include "scene/shared/tip_blocks.h"
+
+namespace afm::exhibit {
+
+// What stands in the middle of the wall: the instrument; in the finale the plot alone; Millet's analogy of what
+// happens; or the instrument at one true scale.
+enum class Centerpiece { Instrument, Plot, Analogy, Journey };
+
+// What moves, shows or hides the things on the wall.
+struct WallState {
+  std::optional<std::size_t> material{};  // none: no sample lies on the stage yet
+  scene::Tip tip{};
+  scene::SurfacePoint surface{};
+  double release_z_m = 0;  // with the parameters that the tip has now; 0: those of the material
+  std::optional<std::size_t> hovered{};
+  std::optional<input::WandState> wand{};
+  Centerpiece centerpiece = Centerpiece::Instrument;
+  double journey_orders = 0;   // of Centerpiece::Journey, as in exhibit/journey.h
+  double fade = 0;             // 0..1: how much of everything has dissolved
+  glm::dmat4 navigation{1.0};  // room from room: where sample and instrument have been moved, turned and scaled to
+  std::optional<JumpCue> cue{};
+};
+
+}  // namespace afm::exhibit

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#include "scene/shared/field_visitor.h"
+#include "scene/shared/shared_blocks.h"
+
+// What touchafm-servo tells of the tip, every tick. Fields that several blocks have are one struct; a new field takes
+// one line in the struct, one in its description and one in ServoLoop::publish().
+namespace afm::scene {
+
+// The tip and its lever, from the law of force. Heights along +z of the sample.
+struct Tip {
+  double z_m = 0;      // piezo displacement Z above the surface below the tip: what the hand commands
+  double force_n = 0;  // on the tip, positive away from the sample
+  double height_m = 0;
+  double deflection_m = 0;          // delta_c, positive towards the sample
+  double sample_deformation_m = 0;  // delta_s
+};
+
+template <class Visit, std::same_as<Tip>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... tip) {
+  visit("z_m", tip.z_m...);
+  visit("force_N", tip.force_n...);
+  visit("tip_height_m", tip.height_m...);
+  visit("deflection_m", tip.deflection_m...);
+  visit("sample_deformation_m", tip.sample_deformation_m...);
+}
+static_assert(all_fields_described<Tip>());
+
+// The point of the sample's surface below the tip, in the sample's frame. The heights of a Tip count from there.
+struct SurfacePoint {
+  std::array<double, 2> xy_m{};
+  double height_m = 0;
+};
+
+template <class Visit, std::same_as<SurfacePoint>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... surface) {
+  visit("tip_x_m", surface.xy_m[0]...);
+  visit("tip_y_m", surface.xy_m[1]...);
+  visit("surface_height_m", surface.height_m...);
+}
+static_assert(all_fields_described<SurfacePoint>());
+
+// The hand, in the device frame, from the device.
+struct HandState {
+  std::array<double, 3> position_m{};
+  std::array<double, 3> force_n{};  // after the safety governor: what the device got
+};
+
+template <class Visit, std::same_as<HandState>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... hand) {
+  visit("hand_position_m", hand.position_m...);
+  visit("hand_force_N", hand.force_n...);
+}
+static_assert(all_fields_described<HandState>());
+
+// How much larger the hand's world is: metres of hand per metre of Z, newtons on the hand per newton on the tip.
+struct HandScale {
+  double hand_m_per_m = 0;
+  double hand_n_per_n = 0;
+};
+
+template <class Visit, std::same_as<HandScale>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... scale) {
+  visit("hand_m_per_m", scale.hand_m_per_m...);
+  visit("hand_N_per_N", scale.hand_n_per_n...);
+}
+static_assert(all_fields_described<HandScale>());
+
+// The contact model under the tip, since it took effect.
+struct ActiveContact {
+  HandScale scale{};
+  double release_z_m = 0;  // Z at and above which the tip is free, whatever it did before
+  double slow_motion = 1;  // seconds that a second of the lever's physics takes; 1 without dynamics
+  ScaleMode scale_mode = ScaleMode::Fit;
+  std::uint32_t edit_revision = 0;  // of the MaterialEdit in effect; 0: none
+};
+
+template <class Visit, std::same_as<ActiveContact>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... active) {
+  visit("scale", active.scale...);
+  visit("release_z_m", active.release_z_m...);
+  visit("slow_motion", active.slow_motion...);
+  visit("scale_mode", active.scale_mode...);
+  visit("edit_revision", active.edit_revision...);
+}
+static_assert(all_fields_described<ActiveContact>());
+
+// What limits the force on the hand, from the safety governor.
+struct SafetyFigures {
+  double force_cap_n = 0;  // the longest force vector that may be given now
+  double slew_limit_n_per_s = 0;
+  double motor_heat = 0;                  // 0: cold, 1: as hot as the motors may become
+  double thermal_gain = 1;                // what is left of the force to let the motors cool
+  double excess_energy_j = 0;             // that the hand has got beyond what the model and its sampling may give
+  double observer_damping_n_s_per_m = 0;  // that the passivity observer adds in this tick
+};
+
+template <class Visit, std::same_as<SafetyFigures>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... safety) {
+  visit("force_cap_N", safety.force_cap_n...);
+  visit("slew_limit_N_per_s", safety.slew_limit_n_per_s...);
+  visit("motor_heat", safety.motor_heat...);
+  visit("thermal_gain", safety.thermal_gain...);
+  visit("excess_energy_J", safety.excess_energy_j...);
+  visit("observer_damping_N_s_per_m", safety.observer_damping_n_s_per_m...);
+}
+static_assert(all_fields_described<SafetyFigures>());
+
+// How far the servo has got with what the renderer asked for.
+struct Acknowledged {
+  std::uint32_t selection = 0;     // revision of the newest Selection that took effect
+  std::uint32_t refused_edit = 0;  // of the newest MaterialEdit that cannot be built
+  std::uint32_t hand_script = 0;   // of the newest HandScript that was finished
+};
+
+template <class Visit, std::same_as<Acknowledged>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... acknowledged) {
+  visit("selection", acknowledged.selection...);
+  visit("refused_edit", acknowledged.refused_edit...);
+  visit("hand_script", acknowledged.hand_script...);
+}
+static_assert(all_fields_described<Acknowledged>());
+
+// The newest state of the tip, once a tick, grouped by what computes it.
+struct TipState {
+  std::int64_t time_ns = 0;  // CLOCK_MONOTONIC at the device read
+  std::uint64_t tick = 0;
+  Tip tip{};
+  SurfacePoint surface{};
+  std::array<double, 3> normal{0.0, 1.0, 0.0};  // outward normal of the surface below the tip, device frame, unit
+  HandState hand{};
+  ActiveContact active{};
+  SafetyFigures safety{};
+  std::int32_t material = -1;
+  physics::Phase phase = physics::Phase::WaitForLift;
+  ServoState servo_state = ServoState::Disarmed;
+  FaultCode fault = FaultCode::None;
+  Acknowledged acknowledged{};
+  std::uint32_t dead_man = 0;        // 1: the force lasts only as long as the button is held
+  std::uint32_t realtime = 0;        // 1: SCHED_FIFO and locked pages were granted
+  std::uint32_t garbage_blocks = 0;  // shared blocks refused as out of range
+};
+
+template <class Visit, std::same_as<TipState>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... state) {
+  visit("time_ns", state.time_ns...);
+  visit("tick", state.tick...);
+  visit("tip", state.tip...);
+  visit("surface", state.surface...);
+  visit("normal", state.normal...);
+  visit("hand", state.hand...);
+  visit("active", state.active...);
+  visit("safety", state.safety...);
+  visit("material", state.material...);
+  visit("phase", state.phase...);
+  visit("servo_state", state.servo_state...);
+  visit("fault", state.fault...);
+  visit("acknowledged", state.acknowledged...);
+  visit("dead_man", state.dead_man...);
+  visit("realtime", state.realtime...);
+  visit("garbage_blocks", state.garbage_blocks...);
+}
+static_assert(all_fields_described<TipState>());
+
+// Every tick, for curves and sessions. Its bytes are the record of a session file (servo/session_file.h): another field
+// is another version of that.
+struct TipSample {
+  std::int64_t time_ns = 0;
+  std::uint64_t tick = 0;
+  Tip tip{};
+  double hand_height_m = 0;  // along the sample's normal, device frame
+  double hand_force_n = 0;   // along the sample's normal, positive away from the sample, after the governor
+  ServoState servo_state = ServoState::Disarmed;
+  physics::Phase phase = physics::Phase::WaitForLift;
+  std::int32_t material = -1;
+  std::uint32_t wake_us = 0;        // how late this tick woke
+  std::uint32_t edit_revision = 0;  // as in ActiveContact
+  std::uint32_t turn_on = 0;        // 1: the button was held
+  RendererLink renderer = RendererLink::Absent;
+  ScaleMode scale_mode = ScaleMode::Fit;
+  // device frame, from the device's contact point: with turn_on, renderer and the sample's normal all that a replay
+  // needs
+  std::array<double, 3> hand_from_contact_m{};
+  std::array<double, 3> sample_normal{0.0, 1.0, 0.0};  // +z of the sample's frame, unit
+  std::array<double, 3> sample_x{1.0, 0.0, 0.0};       // +x of the sample's frame, unit
+  SurfacePoint surface{};
+  double motor_heat = 0;             // as in SafetyFigures
+  std::uint32_t device_healthy = 1;  // 0: the device failed, and the hand's place is the last known
+  std::uint32_t changing = 0;        // 1: another choice, or an edit, has taken the force away
+};
+
+// What the servo computed in the tick: a replay must give it again, bit for bit.
+template <class Visit, std::same_as<TipSample>... Record>
+constexpr void for_each_result(Visit&& visit, const Record&... sample) {
+  visit("tip", sample.tip...);
+  visit("hand_height_m", sample.hand_height_m...);
+  visit("hand_force_N", sample.hand_force_n...);
+  visit("servo_state", sample.servo_state...);
+  visit("phase", sample.phase...);
+  visit("surface", sample.surface...);
+}
+
+// What the tick was given: a replay begins from it.
+template <class Visit, std::same_as<TipSample>... Record>
+constexpr void for_each_input(Visit&& visit, const Record&... sample) {
+  visit("time_ns", sample.time_ns...);
+  visit("tick", sample.tick...);
+  visit("material", sample.material...);
+  visit("wake_us", sample.wake_us...);
+  visit("edit_revision", sample.edit_revision...);
+  visit("turn_on", sample.turn_on...);
+  visit("renderer", sample.renderer...);
+  visit("scale_mode", sample.scale_mode...);
+  visit("hand_from_contact_m", sample.hand_from_contact_m...);
+  visit("sample_normal", sample.sample_normal...);
+  visit("sample_x", sample.sample_x...);
+  visit("motor_heat", sample.motor_heat...);
+  visit("device_healthy", sample.device_healthy...);
+  visit("changing", sample.changing...);
+}
+
+template <class Visit, std::same_as<TipSample>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... sample) {
+  for_each_result(visit, sample...);
+  for_each_input(visit, sample...);
+}
+static_assert(all_fields_described<TipSample>());
+
+enum class physics::EventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2 };
+
+// A transition of the latch, at the place where the path crossed the fold inside the tick.
+struct TipEvent {
+  physics::EventKind kind = physics::EventKind::JumpToContact;
+  std::int32_t material = -1;
+  std::int64_t time_ns = 0;  // interpolated
+  double z_m = 0;
+  double force_before_n = 0;
+  double force_after_n = 0;
+};
+
+template <class Visit, std::same_as<TipEvent>... Record>
+constexpr void for_each_result(Visit&& visit, const Record&... event) {
+  visit("kind", event.kind...);
+  visit("time_ns", event.time_ns...);
+  visit("z_m", event.z_m...);
+  visit("force_before_N", event.force_before_n...);
+  visit("force_after_N", event.force_after_n...);
+}
+
+template <class Visit, std::same_as<TipEvent>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... event) {
+  for_each_result(visit, event...);
+  visit("material", event.material...);
+}
+static_assert(all_fields_described<TipEvent>());
+
+}  // namespace afm::scene
