@@ -26,7 +26,6 @@ using core::wrong_usage;
 // As those of a contact.
 constexpr QuantityRange<physics::Stiffness> kSpringConstants{physics::Stiffness(1e-6), physics::Stiffness(1e6)};
 
-
 core::Result<curves::AnalysedCurve> load_analysed(const std::string& file, const curves::CurveReading& reading) {
   auto curve = curves::load_curve(file, reading);
   if (!curve) return tl::unexpected(curve.error());

@@ -47,10 +47,10 @@ void add_own_sample_option(CLI::App& command, exhibit::ExhibitFiles& files) {
 void add_scale_option(CLI::App& command, scene::ScaleMode& mode) {
   std::string meanings;
   for (const scene::ScaleModeText& row : scene::kScaleModes) meanings += fmt::format("{}, {}; ", row.word, row.meaning);
-  enum_option(command, "--scale", mode, "a scale of the hand", scene::kScaleModes, &scene::ScaleModeText::word,
-              &scene::ScaleModeText::mode,
-              fmt::format("how nm and nN become mm and N in the hand: {}default: {}", meanings,
-                          scene::text_of(mode).word));
+  enum_option(
+      command, "--scale", mode, "a scale of the hand", scene::kScaleModes, &scene::ScaleModeText::word,
+      &scene::ScaleModeText::mode,
+      fmt::format("how nm and nN become mm and N in the hand: {}default: {}", meanings, scene::text_of(mode).word));
 }
 
 void add_stage_options(CLI::App& command, exhibit::ExhibitFiles& files, const CommandContext& context) {

@@ -30,9 +30,8 @@ constexpr auto kKeys = [] {
 
 // Where the servo accepts Turn-On.
 bool is_lifted(const scene::TipState& tip) {
-  return tip.phase == physics::Phase::Free &&
-         (tip.tip.z_m - tip.active.release_z_m) * tip.active.scale.hand_m_per_m >=
-             haptics::SafetyGovernor::kArmingMarginM;
+  return tip.phase == physics::Phase::Free && (tip.tip.z_m - tip.active.release_z_m) * tip.active.scale.hand_m_per_m >=
+                                                  haptics::SafetyGovernor::kArmingMarginM;
 }
 
 Hint step_with_force(const scene::TipState& tip, bool ascending, int cycles) {

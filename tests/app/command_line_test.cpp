@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "haptics/device_registry.h"
 #include "app/command.h"
+#include "haptics/device_registry.h"
 #include "places.h"
 #include "scene/shared/scale_modes.h"
 #include "support/run_program.h"

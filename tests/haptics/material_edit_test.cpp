@@ -34,7 +34,8 @@ double pull_off_m(const SharedContact& material) {
 double pull_off_m(const ServoBench& bench, std::uint32_t revision) {
   double z_m = 0;
   for (const TipSample& sample : bench.samples) {
-    if (sample.edit_revision == revision && sample.phase == afm::physics::Phase::Attached) z_m = std::max(z_m, sample.tip.z_m);
+    if (sample.edit_revision == revision && sample.phase == afm::physics::Phase::Attached)
+      z_m = std::max(z_m, sample.tip.z_m);
   }
   return z_m;
 }

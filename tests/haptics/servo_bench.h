@@ -11,6 +11,7 @@
 
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
+#include "physics/contact.h"
 #include "scene/shared/shared_segment.h"
 #include "support/paper_model.h"
 
@@ -21,6 +22,11 @@ template <class T>
 T required(core::Result<T> result) {
   if (!result) throw std::runtime_error(result.error().message);
   return std::move(*result);
+}
+
+// The events of a cycle with a material of the paper's, by its equations.
+inline physics::ApproachRetractEvents calculated(std::int32_t material) {
+  return physics::approach_retract_events(paper_model().materials[static_cast<std::size_t>(material)].contact);
 }
 
 // A contact model as the servo makes it, with a scale to itself; `drawn` null for a plane. Throws as required() does.

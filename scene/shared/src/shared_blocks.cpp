@@ -33,7 +33,6 @@ bool positive(double value) { return sane(value) && value > 0; }
 
 bool terminated(const Name& name) { return std::find(name.begin(), name.end(), '\0') != name.end(); }
 
-
 // A field of a block by its type, and a block by its fields. A number without a unit of length or force may be larger.
 bool is_field_valid(double value) { return sane(value); }
 bool is_field_valid(const HandScale& scale) {

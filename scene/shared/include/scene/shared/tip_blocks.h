@@ -232,8 +232,6 @@ constexpr void for_each_field(Visit&& visit, const Record&... sample) {
 }
 static_assert(all_fields_described<TipSample>());
 
-enum class physics::EventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2 };
-
 // A transition of the latch, at the place where the path crossed the fold inside the tick.
 struct TipEvent {
   physics::EventKind kind = physics::EventKind::JumpToContact;
