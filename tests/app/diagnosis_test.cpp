@@ -107,7 +107,7 @@ TEST(Diagnosis, IsContentWithAnyDeviceThatRendersForce) {
                      {std::string(haptics::simulated_kind().subject), true, "needs no device"}};
     const Finding found = finding(facts, "haptic device");
     EXPECT_EQ(found.verdict, kind.renders_force ? Verdict::Good : Verdict::Limited) << kind.word;
-    if (kind.renders_force) EXPECT_EQ(found.found, "the device") << kind.word;
+    EXPECT_EQ(found.found == "the device", kind.renders_force) << kind.word;
   }
 }
 
