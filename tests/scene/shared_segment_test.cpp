@@ -178,7 +178,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A loop of ten points a branch.
 void make_dynamic(SharedContact& contact) {
   contact.dynamic = 1;
-  contact.lever = {physics::Frequency(12e3), 2.5, physics::Temperature(298.0)};
+  contact.lever = {afm::physics::Frequency(12e3), 2.5, afm::physics::Temperature(298.0)};
 }
 
 void add_measured_curve(SharedModel& model) {
