@@ -189,7 +189,7 @@ TEST(MaterialEdit, CrossesBetweenThreads) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (std::chrono::steady_clock::now() < end) {
     const auto state = bench.renderer.tip_state();
-    if (state && state->edit_revision == revision) break;
+    if (state && state->active.edit_revision == revision) break;
     std::this_thread::yield();
   }
   done = true;

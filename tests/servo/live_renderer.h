@@ -66,7 +66,7 @@ class LiveRenderer {
   // The tip hangs on the sample and the hand feels more than half a newton.
   bool holds() {
     const auto state = side_.tip_state();
-    return state && state->servo_state == scene::ServoState::Running && state->hand_force_n[1] < -0.5;
+    return state && state->servo_state == scene::ServoState::Running && state->hand.force_n[1] < -0.5;
   }
 
   // The paper's procedure, until the tip hangs on mica. When the servo lets go on the way the person begins again, as

@@ -100,7 +100,7 @@ TEST_F(ServoDevices, LetsACycleBeFeltThroughTheVendorsLibrary) {
   const pid_t pid = (*servo)->pid();
   servo->reset();
   EXPECT_NE(::kill(pid, 0), 0);
-  EXPECT_EQ(side.tip_state()->hand_force_n, (std::array<double, 3>{}));
+  EXPECT_EQ(side.tip_state()->hand.force_n, (std::array<double, 3>{}));
 }
 
 TEST_F(ServoDevices, EndsWithFourWhenTheNamedDeviceIsMissing) {

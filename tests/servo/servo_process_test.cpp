@@ -145,7 +145,7 @@ TEST(ServoProcess, FadesWhenTheRendererIsStoppedAndStaysDisarmedWhenItGoesOn) {
     renderer.signal(SIGCONT);
     wait_a_little();
     EXPECT_EQ(side.tip_state()->servo_state, ServoState::Disarmed);
-    EXPECT_EQ(side.tip_state()->hand_force_n, (std::array<double, 3>{}));
+    EXPECT_EQ(side.tip_state()->hand.force_n, (std::array<double, 3>{}));
     renderer.signal(SIGKILL);
     EXPECT_EQ(renderer.servo_exit_code(), 1);
     if (let_go_before(stopped)) return false;
@@ -205,7 +205,7 @@ TEST(ServoProcess, EndsOnSigtermWithZeroAfterReleasingTheHand) {
   ::kill((*servo)->pid(), SIGTERM);
   ASSERT_TRUE(eventually([&] { return !(*servo)->alive(); }));
   EXPECT_EQ((*servo)->exit_status(), 0);
-  EXPECT_EQ(side.tip_state()->hand_force_n, (std::array<double, 3>{}));
+  EXPECT_EQ(side.tip_state()->hand.force_n, (std::array<double, 3>{}));
 }
 
 TEST(ServoProcess, InheritsTheTwoDescriptorsAndNoOthers) {
@@ -244,7 +244,7 @@ TEST(ServoThread, RunsTheSameLoopAndLeavesInGoodOrder) {
   EXPECT_TRUE((*servo)->alive());
   EXPECT_EQ(side.tip_state()->realtime, 0U);
   servo->reset();
-  EXPECT_EQ(side.tip_state()->hand_force_n, (std::array<double, 3>{}));
+  EXPECT_EQ(side.tip_state()->hand.force_n, (std::array<double, 3>{}));
 }
 
 std::uint32_t percentile(const std::array<std::uint32_t, kHistogramBins>& bins, double share) {
