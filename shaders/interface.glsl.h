@@ -101,7 +101,7 @@ struct CanvasBlock {
 
 // push constants of the compose pass; sizes and places in pixels
 struct ComposeBlock {
-  ivec4 mode;  // x: AFM_COMPOSE_*, y: 1 swaps the eyes, z: 1 for a keystone, w: which of the anaglyphs
+  ivec4 mode;  // x: scene::EyeArrangement, y: 1 swaps the eyes, z: 1 for a keystone, w: which of the anaglyphs
   vec4 drawn;  // xy: share of the eye images, from their upper left corner, that is drawn; z: 1: the right eye sees the
                // left one's
   ivec4 place;   // xy: where the picture begins in the target, zw: its size
@@ -113,21 +113,11 @@ struct ComposeBlock {
 #define AFM_FEATURE_SCALED 0x1u  // pictures of another size than the eyes', and keystones
 #define AFM_FEATURE_MIXED 0x2u   // anaglyphs
 
-#define AFM_COMPOSE_LEFT 0
-#define AFM_COMPOSE_RIGHT 1
-#define AFM_COMPOSE_SIDE_BY_SIDE 2
-#define AFM_COMPOSE_TOP_BOTTOM 3
-#define AFM_COMPOSE_ROW 4
-#define AFM_COMPOSE_COLUMN 5
-#define AFM_COMPOSE_CHECKERBOARD 6
-#define AFM_COMPOSE_ANAGLYPH 7
-#define AFM_COMPOSE_FRAME_PACKED 8
-
-// linear rgb = left * L + right * R: red-cyan, green-magenta, amber-blue; the upper left 3 x 3
-#define AFM_ANAGLYPH_COUNT 3
+// linear rgb = left * L + right * R: the upper left 3 x 3
+#define AFM_MOST_ANAGLYPHS 8
 struct AnaglyphBlock {
-  mat4 left[AFM_ANAGLYPH_COUNT];
-  mat4 right[AFM_ANAGLYPH_COUNT];
+  mat4 left[AFM_MOST_ANAGLYPHS];
+  mat4 right[AFM_MOST_ANAGLYPHS];
 };
 
 #endif

@@ -13,7 +13,7 @@ namespace {
 
 std::string stereo_mode_list() {
   std::string names;
-  for (const scene::NamedStereoMode& entry : scene::kStereoModes) {
+  for (const scene::StereoModeTraits& entry : scene::kStereoModes) {
     names += names.empty() ? std::string(entry.name) : ", " + std::string(entry.name);
   }
   return names;
