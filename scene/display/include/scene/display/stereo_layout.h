@@ -31,7 +31,8 @@ enum class StereoMode {
   FramePacked720p,
   FramePacked1080p,
   QuadBuffer,
-  Dual  // the last
+  Dual,
+  Count
 };
 
 // How a picture is made of the eyes' images; compose.frag has the same list. TwoPictures shows each eye's image as a
@@ -80,7 +81,7 @@ constexpr glm::dmat3 from_rows(const glm::dvec3& red, const glm::dvec3& green, c
 
 // Every mode, in the order of the enumeration. The anaglyphs are the least-squares matrices of E. Dubois ("A projection
 // method to generate anaglyph stereo images", ICASSP 2001; numbers of his "LeastSquaresHowToPhotoshop").
-inline constexpr std::array<StereoModeTraits, 17> kStereoModes{{
+inline constexpr auto kStereoModes = std::to_array<StereoModeTraits>({
     {.mode = StereoMode::Mono, .name = "mono", .arrangement = EyeArrangement::Left},
     {.mode = StereoMode::Left, .name = "left", .arrangement = EyeArrangement::Left},
     {.mode = StereoMode::Right, .name = "right", .arrangement = EyeArrangement::Right},
@@ -125,8 +126,8 @@ inline constexpr std::array<StereoModeTraits, 17> kStereoModes{{
      .packing = FramePacking{{1920, 1080}, 45}},
     {.mode = StereoMode::QuadBuffer, .name = "quad-buffer", .arrangement = EyeArrangement::TwoPictures},
     {.mode = StereoMode::Dual, .name = "dual", .arrangement = EyeArrangement::TwoPictures},
-}};
-static_assert(kStereoModes.size() == static_cast<std::size_t>(StereoMode::Dual) + 1);
+});
+static_assert(kStereoModes.size() == static_cast<std::size_t>(StereoMode::Count), "a mode has no row");
 static_assert([] {
   for (std::size_t i = 0; i < kStereoModes.size(); ++i) {
     const StereoModeTraits& row = kStereoModes[i];
