@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the shaders and render/ agree on; included by both. Only vec4 and mat4 members, so that std140, std430 and C++
-// lay the blocks out alike; render/src/shader_interface.h asserts sizes and offsets. Lengths are metres in the room.
+// What the shaders and render/ agree on; included by both. Only vec4, ivec4 and mat4 members, so that std140, std430 and C++
+// lay the blocks out alike; render/src/device/shader_interface.h asserts sizes and offsets. Lengths are metres in the room.
 #ifndef AFM_INTERFACE_GLSL_H
 #define AFM_INTERFACE_GLSL_H
 
@@ -17,19 +17,19 @@
 #define AFM_BINDING_TEXTURES 1
 
 #define AFM_MOST_LIGHTS 16
-#define AFM_TEXTURE_SLOTS 12
 
-// What a pipeline of such materials does beside sampling the textures whose bits, 1 << slot, are set.
-#define AFM_FEATURE_TANGENTS 0x01000u  // the vertices have tangents
-#define AFM_FEATURE_UNLIT 0x02000u
-#define AFM_FEATURE_MASK 0x04000u   // alphaMode MASK
-#define AFM_FEATURE_BLEND 0x08000u  // alphaMode BLEND
-#define AFM_FEATURE_CLEARCOAT 0x10000u
-#define AFM_FEATURE_IRIDESCENCE 0x20000u
-#define AFM_FEATURE_LIGHTS 0x40000u  // the scene has lights of its own
+// What a pipeline of such materials does. The bits 1 << slot: it samples these textures. From AFM_FIRST_PBR_FEATURE on:
+// the features of scene::kPbrFields, in their order.
+#define AFM_FIRST_PBR_FEATURE 18
+#define AFM_MOST_PBR_FEATURES 8
+#define AFM_FEATURE_TANGENTS 0x04000000u  // the vertices have tangents
+#define AFM_FEATURE_UNLIT 0x08000000u
+#define AFM_FEATURE_MASK 0x10000000u    // alphaMode MASK
+#define AFM_FEATURE_BLEND 0x20000000u   // alphaMode BLEND
+#define AFM_FEATURE_LIGHTS 0x40000000u  // the scene has lights of its own
 
 // Of plain materials too: the shadow on a back is looked up a step off the back, not off the front.
-#define AFM_FEATURE_DOUBLE_SIDED 0x80000u
+#define AFM_FEATURE_DOUBLE_SIDED 0x80000000u
 
 // What a pipeline of plain materials does: dissolve what is far. A CPU device computes what a branch leaves out, too.
 #define AFM_FEATURE_FOG 0x1u
@@ -75,16 +75,6 @@ struct DrawBlock {
   vec4 emissive;          // rgb: linear radiance; a: highlight, 0 or 1
   vec4 surface;           // metallic, roughness, unlit (0 or 1), unused
   vec4 bend;              // 1 / length, end deflection, both in the node's units; 0, 0: not bent; unused, unused
-};
-
-// One per material with textures or extensions; what scene::Material says, beyond what the DrawBlock holds.
-struct MaterialBlock {
-  vec4 specular;     // rgb: colour, a: weight
-  vec4 clearcoat;    // x factor, y roughness, z scale of its normals, w unused
-  vec4 iridescence;  // x factor, y index of refraction, z and w thickness in nm at a texture's 0 and 1
-  vec4 scales;  // x of normals, y of occlusion, z reflectance at normal incidence by the index of refraction, w alpha
-                // cutoff
-  vec4 uv_rows[2 * AFM_TEXTURE_SLOTS];  // two rows a slot: xyz maps (u, v, 1); w of the first row: set 0 or 1
 };
 
 // push constants of a panel: the rectangle in the room

@@ -227,11 +227,11 @@ core::Result<Renderer> Renderer::create(Context& context, const scene::Scene& sc
                       image.width, image.height, context.device().name(), largest));
     }
   }
-  if (const std::size_t variants = count_variants(scene); variants > kMostLooks) {
+  if (const std::size_t variants = count_variants(scene); variants > kMostShaderVariants) {
     return core::failure(core::ErrorCategory::BadInputFile,
                          fmt::format("cannot draw a scene whose materials combine their textures and extensions in {} "
                                      "ways: up to {} are drawn; make it smaller",
-                                     variants, kMostLooks));
+                                     variants, kMostShaderVariants));
   }
   auto fonts = load_panel_fonts(options.panel_texels_per_m, options.panel_millimetre_m, largest);
   if (!fonts) {
