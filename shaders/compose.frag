@@ -4,16 +4,19 @@
 #include "interface.glsl.h"
 #include "tone.glsl"
 
-// Both eyes' images as one picture, every stereo mode: scene/stereo_layout.h says which pixel shows what, and a test compares
+// Both eyes' images as one picture, every stereo mode: scene/display/stereo_layout.h says which pixel shows what, and a test compares
 // the two for each. The eye images hold sRGB values in a UNORM format: bytes go through unchanged where one pixel is one
 // pixel. What is scaled is so in linear light, through views of the same images that decode them, and so is what is mixed.
-layout(constant_id = 0) const uint kLook = 0;
+layout(constant_id = 0) const uint kVariant = 0;
 
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2DArray eyes;
 layout(set = 0, binding = AFM_BINDING_LINEAR) uniform sampler2DArray linear_eyes;
 layout(set = 0, binding = AFM_BINDING_ANAGLYPH) uniform Anaglyph { AnaglyphBlock anaglyph; };
 layout(push_constant) uniform Compose { ComposeBlock compose; };
 layout(location = 0) out vec4 out_color;
+
+// the cases of scene::EyeArrangement, in its order; what shows one eye from corner to corner needs none
+const int kRightEye = 1, kSideBySide = 3, kTopBottom = 4, kRows = 5, kColumns = 6, kCheckerboard = 7, kFramePacked = 9;
 
 const int kLeft = 0;
 const int kRight = 1;
@@ -50,19 +53,19 @@ Source frame_packed(ivec2 pixel, ivec2 picture) {
 Source source_of_pixel(ivec2 pixel, ivec2 picture) {
   ivec2 on_screen = ivec2(gl_FragCoord.xy) + compose.screen.xy;
   switch (compose.mode.x) {
-    case AFM_COMPOSE_RIGHT:
+    case kRightEye:
       return Source(kRight, pixel, picture);
-    case AFM_COMPOSE_SIDE_BY_SIDE:
+    case kSideBySide:
       return shared_by_two(pixel, picture, 0);
-    case AFM_COMPOSE_TOP_BOTTOM:
+    case kTopBottom:
       return shared_by_two(pixel, picture, 1);
-    case AFM_COMPOSE_ROW:
+    case kRows:
       return Source(on_screen.y & 1, pixel, picture);
-    case AFM_COMPOSE_COLUMN:
+    case kColumns:
       return Source(on_screen.x & 1, pixel, picture);
-    case AFM_COMPOSE_CHECKERBOARD:
+    case kCheckerboard:
       return Source((on_screen.x + on_screen.y) & 1, pixel, picture);
-    case AFM_COMPOSE_FRAME_PACKED:
+    case kFramePacked:
       return frame_packed(pixel, picture);
     default:
       return Source(kLeft, pixel, picture);
@@ -112,14 +115,14 @@ void main() {
   Source source = source_of_pixel(pixel, compose.place.zw);
   bool swapped = compose.mode.y != 0;
   vec3 color = vec3(0.0);
-  if ((kLook & AFM_FEATURE_MIXED) != 0u) {
+  if ((kVariant & AFM_FEATURE_MIXED) != 0u) {
     vec3 left = eye_light(swapped ? kRight : kLeft, source);
     vec3 right = eye_light(swapped ? kLeft : kRight, source);
     vec3 mixed = mat3(anaglyph.left[compose.mode.w]) * left + mat3(anaglyph.right[compose.mode.w]) * right;
     color = srgb_from_linear(clamp(mixed, 0.0, 1.0));
   } else if (source.eye != kBlank) {
     int eye = swapped ? kRight - source.eye : source.eye;
-    color = (kLook & AFM_FEATURE_SCALED) != 0u ? eye_color(eye, source) : eye_texel(eye, source);
+    color = (kVariant & AFM_FEATURE_SCALED) != 0u ? eye_color(eye, source) : eye_texel(eye, source);
   }
   out_color = vec4(color, 1.0);
 }

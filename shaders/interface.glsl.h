@@ -17,19 +17,19 @@
 #define AFM_BINDING_TEXTURES 1
 
 #define AFM_MOST_LIGHTS 16
-#define AFM_TEXTURE_SLOTS 12
 
-// What a pipeline of such materials does beside sampling the textures whose bits, 1 << slot, are set.
-#define AFM_FEATURE_TANGENTS 0x01000u  // the vertices have tangents
-#define AFM_FEATURE_UNLIT 0x02000u
-#define AFM_FEATURE_MASK 0x04000u   // alphaMode MASK
-#define AFM_FEATURE_BLEND 0x08000u  // alphaMode BLEND
-#define AFM_FEATURE_CLEARCOAT 0x10000u
-#define AFM_FEATURE_IRIDESCENCE 0x20000u
-#define AFM_FEATURE_LIGHTS 0x40000u  // the scene has lights of its own
+// What a pipeline of such materials does. The bits 1 << slot: it samples these textures. From AFM_FIRST_PBR_FEATURE on:
+// the features of scene::kPbrFields, in their order.
+#define AFM_FIRST_PBR_FEATURE 18
+#define AFM_MOST_PBR_FEATURES 8
+#define AFM_FEATURE_TANGENTS 0x04000000u  // the vertices have tangents
+#define AFM_FEATURE_UNLIT 0x08000000u
+#define AFM_FEATURE_MASK 0x10000000u    // alphaMode MASK
+#define AFM_FEATURE_BLEND 0x20000000u   // alphaMode BLEND
+#define AFM_FEATURE_LIGHTS 0x40000000u  // the scene has lights of its own
 
 // Of plain materials too: the shadow on a back is looked up a step off the back, not off the front.
-#define AFM_FEATURE_DOUBLE_SIDED 0x80000u
+#define AFM_FEATURE_DOUBLE_SIDED 0x80000000u
 
 // What a pipeline of plain materials does: dissolve what is far. A CPU device computes what a branch leaves out, too.
 #define AFM_FEATURE_FOG 0x1u
@@ -77,16 +77,6 @@ struct DrawBlock {
   vec4 bend;              // 1 / length, end deflection, both in the node's units; 0, 0: not bent; unused, unused
 };
 
-// One per material with textures or extensions; what scene::Material says, beyond what the DrawBlock holds.
-struct MaterialBlock {
-  vec4 specular;     // rgb: colour, a: weight
-  vec4 clearcoat;    // x factor, y roughness, z scale of its normals, w unused
-  vec4 iridescence;  // x factor, y index of refraction, z and w thickness in nm at a texture's 0 and 1
-  vec4 scales;  // x of normals, y of occlusion, z reflectance at normal incidence by the index of refraction, w alpha
-                // cutoff
-  vec4 uv_rows[2 * AFM_TEXTURE_SLOTS];  // two rows a slot: xyz maps (u, v, 1); w of the first row: set 0 or 1
-};
-
 // push constants of a panel: the rectangle in the room
 struct PanelBlock {
   vec4 lower_left;  // w: 0 or 1: in the left or the right eye's picture alone, -1: in both
@@ -101,7 +91,7 @@ struct CanvasBlock {
 
 // push constants of the compose pass; sizes and places in pixels
 struct ComposeBlock {
-  ivec4 mode;  // x: AFM_COMPOSE_*, y: 1 swaps the eyes, z: 1 for a keystone, w: which of the anaglyphs
+  ivec4 mode;  // x: scene::EyeArrangement, y: 1 swaps the eyes, z: 1 for a keystone, w: which of the anaglyphs
   vec4 drawn;  // xy: share of the eye images, from their upper left corner, that is drawn; z: 1: the right eye sees the
                // left one's
   ivec4 place;   // xy: where the picture begins in the target, zw: its size
@@ -113,21 +103,11 @@ struct ComposeBlock {
 #define AFM_FEATURE_SCALED 0x1u  // pictures of another size than the eyes', and keystones
 #define AFM_FEATURE_MIXED 0x2u   // anaglyphs
 
-#define AFM_COMPOSE_LEFT 0
-#define AFM_COMPOSE_RIGHT 1
-#define AFM_COMPOSE_SIDE_BY_SIDE 2
-#define AFM_COMPOSE_TOP_BOTTOM 3
-#define AFM_COMPOSE_ROW 4
-#define AFM_COMPOSE_COLUMN 5
-#define AFM_COMPOSE_CHECKERBOARD 6
-#define AFM_COMPOSE_ANAGLYPH 7
-#define AFM_COMPOSE_FRAME_PACKED 8
-
-// linear rgb = left * L + right * R: red-cyan, green-magenta, amber-blue; the upper left 3 x 3
-#define AFM_ANAGLYPH_COUNT 3
+// linear rgb = left * L + right * R: the upper left 3 x 3
+#define AFM_MOST_ANAGLYPHS 8
 struct AnaglyphBlock {
-  mat4 left[AFM_ANAGLYPH_COUNT];
-  mat4 right[AFM_ANAGLYPH_COUNT];
+  mat4 left[AFM_MOST_ANAGLYPHS];
+  mat4 right[AFM_MOST_ANAGLYPHS];
 };
 
 #endif

@@ -11,13 +11,39 @@
 #include "tone.glsl"
 #include "view.glsl"
 
-layout(constant_id = 0) const uint kLook = 0;
+layout(constant_id = 0) const uint kVariant = 0;
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map;
-layout(set = 1, binding = AFM_BINDING_MATERIAL, std140) uniform Material { MaterialBlock material; };
-layout(set = 1, binding = AFM_BINDING_TEXTURES) uniform sampler2D textures[AFM_TEXTURE_SLOTS];
+
+// in the order of scene::TextureSlot
+const int kBaseColor = 0, kMetallicRoughness = 1, kNormal = 2, kOcclusion = 3, kEmissive = 4, kSpecular = 5,
+          kSpecularColor = 6, kClearcoat = 7, kClearcoatRoughness = 8, kClearcoatNormal = 9, kIridescence = 10,
+          kIridescenceThickness = 11;
+const int kTextureSlots = 12;
+
+// the features of scene::kPbrFields, in their order
+const int kClearcoatFeature = 0, kIridescenceFeature = 1;
+
+// What scene::PbrMaterial says beyond the DrawBlock: the fields of scene::kPbrFields that are not Plain, in their order,
+// and two rows a slot: xyz maps (u, v, 1); w of the first row: set 0 or 1.
+layout(set = 1, binding = AFM_BINDING_MATERIAL, std140) uniform Material {
+  vec4 alpha_cutoff;
+  vec4 normal_scale;
+  vec4 occlusion_strength;
+  vec4 ior;
+  vec4 specular;
+  vec4 specular_color;
+  vec4 clearcoat;
+  vec4 clearcoat_roughness;
+  vec4 clearcoat_normal_scale;
+  vec4 iridescence;
+  vec4 iridescence_ior;
+  vec4 iridescence_thickness_nm;  // at a texture's 0 and 1
+  vec4 uv_rows[2 * kTextureSlots];
+} material;
+layout(set = 1, binding = AFM_BINDING_TEXTURES) uniform sampler2D textures[kTextureSlots];
 
 layout(location = 0) in vec3 room_position;
 layout(location = 1) centroid in vec3 room_normal;
@@ -33,12 +59,14 @@ vec3 shadow_place;
 #include "key_light.glsl"
 #include "shadow_place.glsl"
 
-// in the order of scene::TextureSlot
-const int kBaseColor = 0, kMetallicRoughness = 1, kNormal = 2, kOcclusion = 3, kEmissive = 4, kSpecular = 5,
-          kSpecularColor = 6, kClearcoat = 7, kClearcoatRoughness = 8, kClearcoatNormal = 9, kIridescence = 10,
-          kIridescenceThickness = 11;
+bool enabled(uint bit) { return (kVariant & bit) != 0u; }
+bool has(int feature) { return enabled(1u << (AFM_FIRST_PBR_FEATURE + feature)); }
 
-bool looks(uint bit) { return (kLook & bit) != 0u; }
+// Reflectance at normal incidence; KHR_materials_ior lets 0 stand for a mirror.
+float reflectance(float ior) {
+  float ratio = (ior - 1.0) / (ior + 1.0);
+  return ratio * ratio;
+}
 
 vec2 place_in(int slot) {
   vec4 row = material.uv_rows[2 * slot];
@@ -47,14 +75,14 @@ vec2 place_in(int slot) {
 }
 
 // White, where the material has no such texture. Every access is constant, so that the compiler leaves the others out.
-#define AFM_TEXEL(slot) (looks(1u << slot) ? texture(textures[slot], place_in(slot)) : vec4(1.0))
+#define AFM_TEXEL(slot) (enabled(1u << slot) ? texture(textures[slot], place_in(slot)) : vec4(1.0))
 
 // The normal that a texture gives, in the frame of the vertices' tangents, or else of the texture's own coordinates across
 // the pixel: dP/du, and its perpendicular on the side where v decreases.
 vec3 mapped_normal(vec3 normal, vec3 texel, float scale, vec2 uv) {
   vec3 tangent = room_tangent.xyz;
   float side = room_tangent.w;
-  if (!looks(AFM_FEATURE_TANGENTS)) {
+  if (!enabled(AFM_FEATURE_TANGENTS)) {
     vec3 dx = dFdx(room_position), dy = dFdy(room_position);
     vec2 uv_dx = dFdx(uv), uv_dy = dFdy(uv);
     float area = uv_dx.x * uv_dy.y - uv_dy.x * uv_dx.y;
@@ -94,7 +122,7 @@ vec3 punctual_light(int i, out vec3 to_light) {
 vec3 lit(Surface s, Key key, float occlusion) {
   vec3 radiance = occlusion * studio_reflection(s, key, lobe_of(s.roughness)) +
                   key_reflection(s, key.axis) * frame.light_radiance.rgb * key.visibility;
-  if (looks(AFM_FEATURE_LIGHTS)) {
+  if (enabled(AFM_FEATURE_LIGHTS)) {
     for (int i = 0; i < int(frame.punctual_count.x); ++i) {
       vec3 to_light;
       vec3 light = punctual_light(i, to_light);
@@ -106,10 +134,10 @@ vec3 lit(Surface s, Key key, float occlusion) {
 
 // Premultiplied. What a mask leaves out goes last: its neighbours' textures are filtered by its place too.
 void put(vec3 shown, float coverage) {
-  if (looks(AFM_FEATURE_MASK) && coverage < material.scales.w) {
+  if (enabled(AFM_FEATURE_MASK) && coverage < material.alpha_cutoff.x) {
     discard;
   }
-  float alpha = looks(AFM_FEATURE_BLEND) ? coverage : 1.0;
+  float alpha = enabled(AFM_FEATURE_BLEND) ? coverage : 1.0;
   out_color = vec4(srgb_from_linear(shown) * alpha, alpha);
 }
 
@@ -120,40 +148,40 @@ void main() {
   vec3 front = normalize(room_normal);
   float facing = gl_FrontFacing ? 1.0 : -1.0;  // a back has its front's normal reversed, bent or not
   vec3 normal = facing * front;
-  shadow_place = looks(AFM_FEATURE_DOUBLE_SIDED) ? place_in_shadow_map(room_position, normal) : front_shadow_place;
-  if (looks(1u << kNormal)) {
-    normal = facing * mapped_normal(front, AFM_TEXEL(kNormal).xyz, material.scales.x, place_in(kNormal));
+  shadow_place = enabled(AFM_FEATURE_DOUBLE_SIDED) ? place_in_shadow_map(room_position, normal) : front_shadow_place;
+  if (enabled(1u << kNormal)) {
+    normal = facing * mapped_normal(front, AFM_TEXEL(kNormal).xyz, material.normal_scale.x, place_in(kNormal));
   }
 
   vec4 metal_rough = AFM_TEXEL(kMetallicRoughness);
   float metallic = draw.surface.x * metal_rough.b;
   float roughness = draw.surface.y * metal_rough.g;
-  vec3 dielectric = min(material.scales.z * material.specular.rgb * AFM_TEXEL(kSpecularColor).rgb, vec3(1.0)) *
-                    material.specular.a * AFM_TEXEL(kSpecular).a;
+  vec3 dielectric = min(reflectance(material.ior.x) * material.specular_color.rgb * AFM_TEXEL(kSpecularColor).rgb, vec3(1.0)) *
+                    material.specular.x * AFM_TEXEL(kSpecular).a;
   Surface s = Surface(normal, to_eye, color.rgb * (1.0 - metallic), mix(dielectric, color.rgb, metallic), roughness);
   vec3 own_light = emitted + highlight_glow(s, draw.emissive.a);
-  if (looks(AFM_FEATURE_UNLIT)) {
+  if (enabled(AFM_FEATURE_UNLIT)) {
     put(min(color.rgb + own_light, vec3(1.0)), color.a);
     return;
   }
 
-  if (looks(AFM_FEATURE_IRIDESCENCE)) {
+  if (has(kIridescenceFeature)) {
     float share = material.iridescence.x * AFM_TEXEL(kIridescence).r;
-    float nm = mix(material.iridescence.z, material.iridescence.w, AFM_TEXEL(kIridescenceThickness).g);
-    vec3 film = thin_film_reflectance(material.iridescence.y, max(dot(normal, to_eye), 1e-3), nm * 1e-9, s.specular);
+    float nm = mix(material.iridescence_thickness_nm.x, material.iridescence_thickness_nm.y, AFM_TEXEL(kIridescenceThickness).g);
+    vec3 film = thin_film_reflectance(material.iridescence_ior.x, max(dot(normal, to_eye), 1e-3), nm * 1e-9, s.specular);
     s.specular = mix(s.specular, film, share);
   }
   Key key = Key(frame.light_direction.xyz, frame.light_side.xyz, key_light_visibility());
-  float occlusion = mix(1.0, AFM_TEXEL(kOcclusion).r, material.scales.y);
+  float occlusion = mix(1.0, AFM_TEXEL(kOcclusion).r, material.occlusion_strength.x);
   vec3 radiance = lit(s, key, occlusion) + emitted;
-  if (looks(AFM_FEATURE_CLEARCOAT)) {
+  if (has(kClearcoatFeature)) {
     vec3 coat_normal = facing * front;
-    if (looks(1u << kClearcoatNormal)) {
-      coat_normal = facing * mapped_normal(front, AFM_TEXEL(kClearcoatNormal).xyz, material.clearcoat.z,
+    if (enabled(1u << kClearcoatNormal)) {
+      coat_normal = facing * mapped_normal(front, AFM_TEXEL(kClearcoatNormal).xyz, material.clearcoat_normal_scale.x,
                                            place_in(kClearcoatNormal));
     }
     float coat = material.clearcoat.x * AFM_TEXEL(kClearcoat).r;
-    float coat_roughness = material.clearcoat.y * AFM_TEXEL(kClearcoatRoughness).g;
+    float coat_roughness = material.clearcoat_roughness.x * AFM_TEXEL(kClearcoatRoughness).g;
     float through = 1.0 - coat * schlick(vec3(0.04), max(dot(coat_normal, to_eye), 0.0)).x;
     Surface lacquer = Surface(coat_normal, to_eye, vec3(0.0), vec3(0.04), coat_roughness);
     radiance = radiance * through + coat * lit(lacquer, key, occlusion);

@@ -9,7 +9,7 @@
 #include "tone.glsl"
 #include "view.glsl"
 
-layout(constant_id = 0) const uint kLook = 0;
+layout(constant_id = 0) const uint kVariant = 0;
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
@@ -33,12 +33,12 @@ vec3 shadow_place;
 void main() {
   vec3 front = normalize(room_normal);
   vec3 normal = gl_FrontFacing ? front : -front;
-  bool has_back = (kLook & AFM_FEATURE_DOUBLE_SIDED) != 0u;
+  bool has_back = (kVariant & AFM_FEATURE_DOUBLE_SIDED) != 0u;
   shadow_place = has_back ? place_in_shadow_map(room_position, normal) : front_shadow_place;
   vec3 shown = shaded(room_position, normal, vertex_color.rgb, Lobe(lobe.x, lobe.yzw));
 
   // what has dissolved is the background
-  if ((kLook & AFM_FEATURE_FOG) != 0u) {
+  if ((kVariant & AFM_FEATURE_FOG) != 0u) {
     shown = mix(shown, background_color(frame, gl_FragCoord.xy * frame.target_size.zw), fog(frame, room_position));
   }
 

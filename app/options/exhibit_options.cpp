@@ -20,8 +20,8 @@ constexpr QuantityRange<physics::Length> kEyeDistances{physics::Length(scene::kS
 }  // namespace
 
 void add_stereo_options(CLI::App& command, exhibit::PictureOptions& options, const std::string& default_mode) {
-  enum_option(command, "--stereo", options.mode, "a stereo mode", scene::kStereoModes, &scene::NamedStereoMode::name,
-              &scene::NamedStereoMode::mode, "how both eyes are shown; default: " + default_mode);
+  enum_option(command, "--stereo", options.mode, "a stereo mode", scene::kStereoModes, &scene::StereoModeTraits::name,
+              &scene::StereoModeTraits::mode, "how both eyes are shown; default: " + default_mode);
   command.add_flag_callback(
       "--swap-eyes", [&options] { options.order = scene::EyeOrder::Swapped; }, "left and right exchanged");
   quantity_option(

@@ -42,7 +42,7 @@ Counts count(const scene::Scene& scene) {
   return counts;
 }
 
-std::ptrdiff_t count_textures(const scene::Material& material) {
+std::ptrdiff_t count_textures(const scene::PbrMaterial& material) {
   return std::count_if(material.textures.begin(), material.textures.end(),
                        [](const scene::TextureUse& use) { return use.texture.has_value(); });
 }
@@ -53,7 +53,7 @@ void describe_parts(const scene::Scene& scene, std::ostream& out) {
       "geometry: {} nodes, {} meshes, {} vertices, {} triangles, {} lines, {} points, {} morph targets, {} skins\n",
       scene.nodes.size(), scene.meshes.size(), counts.vertices, counts.triangles, counts.lines, counts.points,
       counts.targets, scene.skins.size());
-  for (const scene::Material& material : scene.materials) {
+  for (const scene::PbrMaterial& material : scene.materials) {
     out << fmt::format("material: {}, {} textures{}{}{}\n", quoted(material.name), count_textures(material),
                        material.unlit ? ", unlit" : "", material.blended ? ", blended" : "",
                        material.alpha_cutoff ? ", mask" : "");
@@ -95,7 +95,7 @@ nlohmann::json json_of(const scene::Scene& scene) {
                       {"variants", scene.variants},
                       {"cameras", list()},
                       {"roles", nlohmann::json::object()}};
-  for (const scene::Material& material : scene.materials) {
+  for (const scene::PbrMaterial& material : scene.materials) {
     json["materials"].push_back({{"name", material.name},
                                  {"textures", count_textures(material)},
                                  {"unlit", material.unlit},

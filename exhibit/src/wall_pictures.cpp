@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/log.h"
+#include "render/eye_memory.h"
 #include "render/image_file.h"
-#include "render/picture_memory.h"
 
 namespace afm::exhibit {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/wall_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/check.h"
+#include "core/log.h"
 #include "exhibit/model_builder.h"
 #include "exhibit/wall_layout.h"
 #include "physics/contact.h"
@@ -22,12 +25,14 @@ constexpr const char* kNeutralLook = "si3n4";
 using glm::dmat4;
 using glm::dvec3;
 
-// Whose models stand for a material: its own, those of its look, or the plain grey ones.
+// Whose models stand for a material: its own, those of its look, or, with a line on stderr, the plain grey ones.
 std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& material) {
   for (const std::string& name : {material.name, material.look}) {
     std::error_code ignored;
     if (std::filesystem::exists(assets_dir + "/models/sample-" + name + ".glb", ignored)) return name;
   }
+  core::log_line(fmt::format("material {}: {}/models/sample-{}.glb is missing; it is shown in plain grey",
+                             material.name, assets_dir, material.look));
   return kNeutralLook;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input/hid_catalog.h"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "input/dualsense.h"
@@ -13,83 +15,50 @@ namespace afm::input {
 
 namespace {
 
-enum class Family { SpaceMouse, NoWand, Wiimote, PsMove1, PsMove2, DualSense, JoyConLeft, JoyConRight, SwitchPro };
-
-struct Entry {
-  std::uint16_t vendor;
-  std::uint16_t product;
-  Family family;
-  const char* name;
-};
-
 // 3Dconnexion's as in FreeSpacenav's spacenavd, src/dev.c, with its deny-list; the others from Linux' drivers.
-constexpr std::array kEntries{
-    Entry{0x046d, 0xc603, Family::SpaceMouse, "SpaceMouse Plus XT"},
-    Entry{0x046d, 0xc605, Family::SpaceMouse, "CADman"},
-    Entry{0x046d, 0xc606, Family::SpaceMouse, "SpaceMouse Classic"},
-    Entry{0x046d, 0xc621, Family::SpaceMouse, "SpaceBall 5000"},
-    Entry{0x046d, 0xc623, Family::SpaceMouse, "SpaceTraveler"},
-    Entry{0x046d, 0xc625, Family::SpaceMouse, "SpacePilot"},
-    Entry{0x046d, 0xc626, Family::SpaceMouse, "SpaceNavigator"},
-    Entry{0x046d, 0xc627, Family::SpaceMouse, "SpaceExplorer"},
-    Entry{0x046d, 0xc628, Family::SpaceMouse, "SpaceNavigator for Notebooks"},
-    Entry{0x046d, 0xc629, Family::SpaceMouse, "SpacePilot Pro"},
-    Entry{0x046d, 0xc62b, Family::SpaceMouse, "SpaceMouse Pro"},
-    Entry{0x256f, 0xc62e, Family::SpaceMouse, "SpaceMouse Wireless (cable)"},
-    Entry{0x256f, 0xc62f, Family::SpaceMouse, "SpaceMouse Wireless"},
-    Entry{0x256f, 0xc631, Family::SpaceMouse, "SpaceMouse Pro Wireless (cable)"},
-    Entry{0x256f, 0xc632, Family::SpaceMouse, "SpaceMouse Pro Wireless"},
-    Entry{0x256f, 0xc633, Family::SpaceMouse, "SpaceMouse Enterprise"},
-    Entry{0x256f, 0xc635, Family::SpaceMouse, "SpaceMouse Compact"},
-    Entry{0x256f, 0xc636, Family::SpaceMouse, "SpaceMouse Module"},
-    Entry{0x256f, 0xc638, Family::SpaceMouse, "SpaceMouse Pro Wireless"},
-    Entry{0x256f, 0xc63a, Family::SpaceMouse, "SpaceMouse Wireless"},
-    Entry{0x256f, 0xc652, Family::SpaceMouse, "3Dconnexion Universal Receiver"},
-    Entry{0x256f, 0xc650, Family::NoWand, "CadMouse"},
-    Entry{0x256f, 0xc651, Family::NoWand, "CadMouse Wireless"},
-    Entry{0x256f, 0xc653, Family::NoWand, "CadMouse"},
-    Entry{0x256f, 0xc654, Family::NoWand, "CadMouse Pro Wireless"},
-    Entry{0x256f, 0xc655, Family::NoWand, "CadMouse Compact"},
-    Entry{0x256f, 0xc656, Family::NoWand, "CadMouse Pro"},
-    Entry{0x256f, 0xc657, Family::NoWand, "CadMouse Pro Wireless Left"},
-    Entry{0x256f, 0xc658, Family::NoWand, "CadMouse Compact Wireless"},
-    Entry{0x256f, 0xc664, Family::NoWand, "3Dconnexion Numpad"},
-    Entry{0x256f, 0xc665, Family::NoWand, "3Dconnexion Numpad"},
-    Entry{0x256f, 0xc668, Family::NoWand, "3Dconnexion Keyboard"},
-    Entry{0x057e, 0x0306, Family::Wiimote, "Wii Remote"},
-    Entry{0x057e, 0x0330, Family::Wiimote, "Wii Remote Plus"},
-    Entry{0x057e, 0x2006, Family::JoyConLeft, "Joy-Con (left)"},
-    Entry{0x057e, 0x2007, Family::JoyConRight, "Joy-Con (right)"},
-    Entry{0x057e, 0x2009, Family::SwitchPro, "Switch Pro Controller"},
-    Entry{0x054c, 0x03d5, Family::PsMove1, "PS Move"},
-    Entry{0x054c, 0x0c5e, Family::PsMove2, "PS Move (ZCM2)"},
-    Entry{0x054c, 0x0ce6, Family::DualSense, "DualSense"},
-    Entry{0x054c, 0x0df2, Family::DualSense, "DualSense Edge"},
+constexpr std::array kModels{
+    HidModel{0x046d, 0xc603, "SpaceMouse Plus XT", spacemouse_driver},
+    HidModel{0x046d, 0xc605, "CADman", spacemouse_driver},
+    HidModel{0x046d, 0xc606, "SpaceMouse Classic", spacemouse_driver},
+    HidModel{0x046d, 0xc621, "SpaceBall 5000", spacemouse_driver},
+    HidModel{0x046d, 0xc623, "SpaceTraveler", spacemouse_driver},
+    HidModel{0x046d, 0xc625, "SpacePilot", spacemouse_driver},
+    HidModel{0x046d, 0xc626, "SpaceNavigator", spacemouse_driver},
+    HidModel{0x046d, 0xc627, "SpaceExplorer", spacemouse_driver},
+    HidModel{0x046d, 0xc628, "SpaceNavigator for Notebooks", spacemouse_driver},
+    HidModel{0x046d, 0xc629, "SpacePilot Pro", spacemouse_driver},
+    HidModel{0x046d, 0xc62b, "SpaceMouse Pro", spacemouse_driver},
+    HidModel{0x256f, 0xc62e, "SpaceMouse Wireless (cable)", spacemouse_driver},
+    HidModel{0x256f, 0xc62f, "SpaceMouse Wireless", spacemouse_driver},
+    HidModel{0x256f, 0xc631, "SpaceMouse Pro Wireless (cable)", spacemouse_driver},
+    HidModel{0x256f, 0xc632, "SpaceMouse Pro Wireless", spacemouse_driver},
+    HidModel{0x256f, 0xc633, "SpaceMouse Enterprise", spacemouse_driver},
+    HidModel{0x256f, 0xc635, "SpaceMouse Compact", spacemouse_driver},
+    HidModel{0x256f, 0xc636, "SpaceMouse Module", spacemouse_driver},
+    HidModel{0x256f, 0xc638, "SpaceMouse Pro Wireless", spacemouse_driver},
+    HidModel{0x256f, 0xc63a, "SpaceMouse Wireless", spacemouse_driver},
+    HidModel{0x256f, 0xc652, "3Dconnexion Universal Receiver", spacemouse_driver},
+    HidModel{0x256f, 0xc650, "CadMouse", nullptr},
+    HidModel{0x256f, 0xc651, "CadMouse Wireless", nullptr},
+    HidModel{0x256f, 0xc653, "CadMouse", nullptr},
+    HidModel{0x256f, 0xc654, "CadMouse Pro Wireless", nullptr},
+    HidModel{0x256f, 0xc655, "CadMouse Compact", nullptr},
+    HidModel{0x256f, 0xc656, "CadMouse Pro", nullptr},
+    HidModel{0x256f, 0xc657, "CadMouse Pro Wireless Left", nullptr},
+    HidModel{0x256f, 0xc658, "CadMouse Compact Wireless", nullptr},
+    HidModel{0x256f, 0xc664, "3Dconnexion Numpad", nullptr},
+    HidModel{0x256f, 0xc665, "3Dconnexion Numpad", nullptr},
+    HidModel{0x256f, 0xc668, "3Dconnexion Keyboard", nullptr},
+    HidModel{0x057e, 0x0306, "Wii Remote", wiimote_driver},
+    HidModel{0x057e, 0x0330, "Wii Remote Plus", wiimote_driver},
+    HidModel{0x057e, 0x2006, "Joy-Con (left)", [] { return joycon_driver(JoyConSide::Left); }},
+    HidModel{0x057e, 0x2007, "Joy-Con (right)", [] { return joycon_driver(JoyConSide::Right); }},
+    HidModel{0x057e, 0x2009, "Switch Pro Controller", [] { return joycon_driver(JoyConSide::Pro); }},
+    HidModel{0x054c, 0x03d5, "PS Move", [] { return psmove_driver(PsMoveModel::Zcm1); }},
+    HidModel{0x054c, 0x0c5e, "PS Move (ZCM2)", [] { return psmove_driver(PsMoveModel::Zcm2); }},
+    HidModel{0x054c, 0x0ce6, "DualSense", dualsense_driver},
+    HidModel{0x054c, 0x0df2, "DualSense Edge", dualsense_driver},
 };
-
-std::function<std::unique_ptr<HidDriver>()> maker(Family family) {
-  switch (family) {
-    case Family::SpaceMouse:
-      return spacemouse_driver;
-    case Family::Wiimote:
-      return wiimote_driver;
-    case Family::PsMove1:
-      return [] { return psmove_driver(PsMoveModel::Zcm1); };
-    case Family::PsMove2:
-      return [] { return psmove_driver(PsMoveModel::Zcm2); };
-    case Family::DualSense:
-      return dualsense_driver;
-    case Family::JoyConLeft:
-      return [] { return joycon_driver(JoyConSide::Left); };
-    case Family::JoyConRight:
-      return [] { return joycon_driver(JoyConSide::Right); };
-    case Family::SwitchPro:
-      return [] { return joycon_driver(JoyConSide::Pro); };
-    case Family::NoWand:
-      break;
-  }
-  return nullptr;
-}
 
 constexpr std::uint16_t k3Dconnexion = 0x256f;
 constexpr std::uint16_t kGenericDesktop = 1;
@@ -103,17 +72,19 @@ bool beside_the_cap(const HidIdentity& device) {
 
 }  // namespace
 
+std::span<const HidModel> hid_models() { return kModels; }
+
 std::optional<KnownHid> identify(const HidIdentity& device, std::span<const HidMapping> mappings) {
   for (const HidMapping& mapping : mappings) {
     if (mapping.vendor != device.vendor || mapping.product != device.product) continue;
     return KnownHid{.name = mapping.name, .make = [mapping] { return mapped_driver(mapping); }};
   }
-  for (const Entry& entry : kEntries) {
-    if (entry.vendor != device.vendor || entry.product != device.product) continue;
-    if (entry.family == Family::SpaceMouse && beside_the_cap(device)) {
-      return KnownHid{.name = std::string(entry.name) + ", another interface", .make = nullptr};
+  for (const HidModel& model : kModels) {
+    if (model.vendor != device.vendor || model.product != device.product) continue;
+    if (model.make != nullptr && beside_the_cap(device)) {
+      return KnownHid{.name = fmt::format("{}, another interface", model.name), .make = nullptr};
     }
-    return KnownHid{.name = entry.name, .make = maker(entry.family)};
+    return KnownHid{.name = std::string(model.name), .make = model.make};
   }
   // what 3Dconnexion builds next
   if (device.vendor == k3Dconnexion && device.usage_page == kGenericDesktop && device.usage == kMultiAxisController) {

@@ -178,7 +178,7 @@ TEST_F(ViewTest, GoesThroughEveryStereoModeOfThisDisplayWhileItRuns) {
   support::LiveProgram view(command({"--stereo", "mono"}), display_.name());
   ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
   xdotool("search --sync --name TouchAFM");
-  for (const scene::NamedStereoMode& entry : scene::kStereoModes) {
+  for (const scene::StereoModeTraits& entry : scene::kStereoModes) {
     if (entry.mode == scene::StereoMode::Mono || scene::has_two_pictures(entry.mode)) continue;
     xdotool("key v");
     ASSERT_TRUE(view.says("stereo: " + std::string(entry.name))) << view.said();

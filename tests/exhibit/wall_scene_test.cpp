@@ -142,6 +142,16 @@ TEST_F(WallSceneTest, TheSwatchesAreSoFarApartThatTheRayCannotConfuseThem) {
   }
 }
 
+TEST_F(WallSceneTest, AMaterialWithoutModelsIsGreyAndNamedInTheLog) {
+  scene::MaterialLibrary strange;
+  strange.materials.push_back(materials_.materials[0]);
+  strange.materials.back().name = strange.materials.back().look = "graphite";
+  testing::internal::CaptureStderr();
+  EXPECT_TRUE(WallScene::load(assets_, strange, screen_, viewer_));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::AllOf(testing::HasSubstr("material graphite"), testing::HasSubstr("sample-graphite.glb")));
+}
+
 TEST_F(WallSceneTest, NineMaterialsStandApartAndAllCanBePicked) {
   scene::MaterialLibrary nine;
   for (std::size_t i = 0; i < 9; ++i) {

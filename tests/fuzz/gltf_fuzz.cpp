@@ -42,7 +42,7 @@ void check(const scene::Scene& scene) {
   for (const scene::Mesh& mesh : scene.meshes) {
     for (const scene::Primitive& primitive : mesh.primitives) check(primitive, scene);
   }
-  for (const scene::Material& material : scene.materials) {
+  for (const scene::PbrMaterial& material : scene.materials) {
     for (const scene::TextureUse& use : material.textures)
       require(!use.texture || *use.texture < scene.textures.size());
   }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "input/dualsense.h"
@@ -16,6 +20,7 @@
 #include "input/spacemouse.h"
 #include "input/wand.h"
 #include "input/wiimote.h"
+#include "places.h"
 #include "support/hex_report.h"
 #include "support/stereo_cases.h"
 
@@ -269,14 +274,36 @@ TEST(Catalog, KnowsWandsAndWhatOnlyLooksLikeOne) {
   EXPECT_EQ(identify({0x1234, 0x5678, 1, 4}, mappings)->name, "stick");
 }
 
+// The rules' keys are those of USB (idVendor) or of the HID core (KERNELS=="*:vendor:product.*"), with * for the rest.
+bool is_readable(const std::string& rules, const HidModel& model) {
+  const std::string vendor = fmt::format("ATTRS{{idVendor}}==\"{:04x}\", ", model.vendor);
+  return rules.find(fmt::format("KERNELS==\"*:{:04X}:{:04X}.*\"", model.vendor, model.product)) != std::string::npos ||
+         rules.find(vendor + "TAG") != std::string::npos ||
+         rules.find(fmt::format("{}ATTRS{{idProduct}}==\"{:02x}*\"", vendor, model.product >> 8)) != std::string::npos;
+}
+
+TEST(Catalog, EveryWandIsInTheUdevRules) {
+  std::ifstream file(AFM_SOURCE_DIR "/assets/wands/70-touchafm-wands.rules");
+  const std::string rules{std::istreambuf_iterator<char>(file), {}};
+  for (const HidModel& model : hid_models()) {
+    EXPECT_TRUE(model.make == nullptr || is_readable(rules, model)) << model.name;
+  }
+}
+
+TEST(Catalog, NamesEachDeviceOnce) {
+  std::set<std::pair<std::uint16_t, std::uint16_t>> seen;
+  for (const HidModel& model : hid_models()) {
+    EXPECT_TRUE(seen.emplace(model.vendor, model.product).second) << model.name;
+  }
+}
+
 TEST(EveryDriver, SurvivesWhateverBytesComeAndStaysFinite) {
   std::vector<std::unique_ptr<HidDriver>> drivers;
-  drivers.push_back(spacemouse_driver());
-  drivers.push_back(wiimote_driver());
-  drivers.push_back(dualsense_driver());
-  drivers.push_back(psmove_driver(PsMoveModel::Zcm1));
-  drivers.push_back(psmove_driver(PsMoveModel::Zcm2));
-  drivers.push_back(joycon_driver(JoyConSide::Right));
+  std::set<std::unique_ptr<HidDriver> (*)()> makers;
+  for (const HidModel& model : hid_models()) {
+    if (model.make != nullptr && makers.insert(model.make).second) drivers.push_back(model.make());
+  }
+  ASSERT_GE(drivers.size(), 8U);
   drivers.push_back(mapped_driver(mapping_of_a_stick()));
   std::mt19937 random(11);
   int taken = 0;

@@ -136,7 +136,8 @@ TEST_F(Compose, EveryPixelOfEveryModeShowsTheEyeOfTheLayout) {
   frame.eyes[1].view = glm::rotate(glm::dmat4(1.0), 2.0, glm::dvec3(0.0, 1.0, 0.0)) * frame.eyes[1].view;
   renderer_.emplace(make_renderer(scene, small(1)));
   renderer_->render(frame);
-  for (const auto& [mode, name] : scene::kStereoModes) {
+  for (const scene::StereoModeTraits& traits : scene::kStereoModes) {
+    const StereoMode mode = traits.mode;
     if (scene::has_two_pictures(mode) || scene::anaglyph_matrices(mode)) continue;
     for (const EyeOrder order : kOrders) {
       const render::ReadArea area{.size_px = {61, 147}, .screen_px = {3, -2}};
@@ -150,7 +151,7 @@ TEST_F(Compose, EveryPixelOfEveryModeShowsTheEyeOfTheLayout) {
           wrong.at(static_cast<std::size_t>(source.eye)) += shown == source.eye ? 0U : 1U;
         }
       }
-      EXPECT_EQ(wrong, (std::array<std::size_t, 4>{})) << name << (order == EyeOrder::Swapped ? " swapped" : "");
+      EXPECT_EQ(wrong, (std::array<std::size_t, 4>{})) << traits.name << (order == EyeOrder::Swapped ? " swapped" : "");
     }
   }
 }

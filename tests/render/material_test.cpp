@@ -54,7 +54,7 @@ class Materials : public VulkanTest {
   }
 
   scene::Scene scene_;
-  scene::Material material_;
+  scene::PbrMaterial material_;
   scene::Primitive square_;
   std::vector<render::PlacedLight> lights_;
 };
@@ -87,7 +87,7 @@ TEST_F(Materials, ShareOnePipelineThatShowTheSameKindsOfTexture) {
 TEST_F(Materials, AreRefusedWhereTheyNeedTooManyPipelines) {
   add_image(scene::TextureFilter::Nearest);
   for (std::uint32_t i = 1; i <= 300; ++i) {
-    scene::Material& material = scene_.materials.emplace_back();
+    scene::PbrMaterial& material = scene_.materials.emplace_back();
     for (std::uint32_t slot = 0; slot < scene::kTextureSlots; ++slot) {
       if ((i >> slot & 1U) != 0) material.textures[slot].texture = 0;
     }

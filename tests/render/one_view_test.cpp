@@ -27,7 +27,7 @@ class OneView : public testing::Test {
     if (!renderer) throw std::runtime_error(renderer.error().message);
     renderer->render(full_frame(test_));
     std::vector<render::Image> pictures{renderer->read_eye(scene::Eye::Left), renderer->read_eye(scene::Eye::Right)};
-    for (const scene::NamedStereoMode& named : scene::kStereoModes) {
+    for (const scene::StereoModeTraits& named : scene::kStereoModes) {
       const render::Composition composition{.mode = named.mode};
       if (scene::has_two_pictures(named.mode)) {
         for (render::Image& picture : renderer->read_pair(composition)) pictures.push_back(std::move(picture));

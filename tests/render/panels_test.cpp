@@ -10,7 +10,7 @@ namespace {
 class PanelsInTheRoom : public VulkanTest {
  protected:
   PanelsInTheRoom() {
-    scene::Material material;
+    scene::PbrMaterial material;
     add_material(empty_, material);
   }
 

@@ -155,7 +155,7 @@ TEST_F(GltfFeatures, DecodesImagesAndKeepsWhatAMaterialSaysOfThem) {
   EXPECT_EQ(scene->textures[0].between_mips, TextureFilter::Nearest);
   EXPECT_EQ(scene->textures[0].wrap_u, TextureWrap::ClampToEdge);
   EXPECT_EQ(scene->textures[0].wrap_v, TextureWrap::MirroredRepeat);
-  const Material& material = scene->materials.at(0);
+  const PbrMaterial& material = scene->materials.at(0);
   const TextureUse& use = material.texture(TextureSlot::Normal);
   EXPECT_EQ(use.texture, 0U);
   EXPECT_EQ(use.coordinates, 1U);

@@ -107,7 +107,7 @@ TEST_F(GltfLoader, ReadsMaterialFactorsAndExtensions) {
     "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}}})");
   const core::Result<Scene> scene = load(document);
   ASSERT_TRUE(scene) << scene.error().message;
-  const Material& material = scene->materials.at(0);
+  const PbrMaterial& material = scene->materials.at(0);
   EXPECT_EQ(material.base_color, glm::vec4(0.1F, 0.2F, 0.3F, 0.4F));
   EXPECT_EQ(material.emissive, glm::vec3(4, 2, 0));
   EXPECT_EQ(material.metallic, 0.0F);

@@ -123,7 +123,7 @@ scene::NodeIndex add(scene::Scene& scene, std::string name, scene::Primitive pri
   return static_cast<scene::NodeIndex>(scene.nodes.size() - 1);
 }
 
-std::uint32_t add_material(scene::Scene& scene, scene::Material material) {
+std::uint32_t add_material(scene::Scene& scene, scene::PbrMaterial material) {
   scene.materials.push_back(std::move(material));
   return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }

@@ -22,7 +22,7 @@ scene::Primitive lever(std::uint32_t material, double half_width, double half_th
 // Adds a node that shows a mesh of one primitive.
 scene::NodeIndex add(scene::Scene& scene, std::string name, scene::Primitive primitive,
                      const glm::dmat4& room_from_node);
-std::uint32_t add_material(scene::Scene& scene, scene::Material material);
+std::uint32_t add_material(scene::Scene& scene, scene::PbrMaterial material);
 
 struct TestScene {
   scene::Scene scene;

@@ -7,11 +7,21 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "input/hid_mapping.h"
 #include "input/hid_report.h"
 
 namespace afm::input {
+
+// A device with a protocol that is compiled in: a row of the catalog.
+struct HidModel {
+  std::uint16_t vendor;
+  std::uint16_t product;
+  std::string_view name;
+  std::unique_ptr<HidDriver> (*make)();  // null: known not to be a wand
+};
+std::span<const HidModel> hid_models();
 
 // As an HID device introduces itself.
 struct HidIdentity {

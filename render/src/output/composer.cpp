@@ -15,6 +15,8 @@
 namespace afm::render {
 namespace {
 
+using scene::EyeArrangement;
+
 constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
 constexpr ImageUse kDrawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
                           vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal};
@@ -44,55 +46,37 @@ vk::raii::DescriptorPool create_pool(const Device& device) {
                                             .pPoolSizes = sizes.data()});
 }
 
-// In the order of AnaglyphBlock.
-constexpr std::array kAnaglyphs{scene::StereoMode::AnaglyphRedCyan, scene::StereoMode::AnaglyphGreenMagenta,
-                                scene::StereoMode::AnaglyphAmberBlue};
-static_assert(kAnaglyphs.size() == AFM_ANAGLYPH_COUNT);
+// Anaglyphs stand in the block in the order of kStereoModes.
+std::size_t anaglyph_index(scene::StereoMode mode) {
+  const auto* const end = scene::kStereoModes.begin() + static_cast<std::size_t>(mode);
+  return static_cast<std::size_t>(
+      std::count_if(scene::kStereoModes.begin(), end, [](const auto& row) { return row.anaglyph.has_value(); }));
+}
+
+static_assert(std::count_if(scene::kStereoModes.begin(), scene::kStereoModes.end(),
+                            [](const auto& row) { return row.anaglyph.has_value(); }) <= AFM_MOST_ANAGLYPHS);
 
 Buffer upload_anaglyphs(const Device& device) {
-  AnaglyphBlock block;
-  for (std::size_t i = 0; i < kAnaglyphs.size(); ++i) {
-    const auto matrices = *scene::anaglyph_matrices(kAnaglyphs[i]);
-    block.left[i] = glm::mat4(glm::mat3(matrices.left));
-    block.right[i] = glm::mat4(glm::mat3(matrices.right));
+  AnaglyphBlock block{};
+  for (const scene::StereoModeTraits& row : scene::kStereoModes) {
+    if (!row.anaglyph) {
+      continue;
+    }
+    const std::size_t i = anaglyph_index(row.mode);
+    block.left[i] = glm::mat4(glm::mat3(row.anaglyph->left));
+    block.right[i] = glm::mat4(glm::mat3(row.anaglyph->right));
   }
   return upload_buffer(device, "anaglyph matrices", std::as_bytes(std::span(&block, 1)),
                        vk::BufferUsageFlagBits::eUniformBuffer);
 }
 
-// The whole picture of each eye; with two of them, layer 1 is the right eye's.
-std::int32_t shader_mode(scene::StereoMode mode, std::uint32_t layer) {
-  using Mode = scene::StereoMode;
-  switch (mode) {
-    case Mode::Mono:
-    case Mode::Left:
-      return AFM_COMPOSE_LEFT;
-    case Mode::Right:
-      return AFM_COMPOSE_RIGHT;
-    case Mode::SideBySide:
-    case Mode::SideBySideHalf:
-      return AFM_COMPOSE_SIDE_BY_SIDE;
-    case Mode::TopBottom:
-    case Mode::TopBottomHalf:
-      return AFM_COMPOSE_TOP_BOTTOM;
-    case Mode::Row:
-      return AFM_COMPOSE_ROW;
-    case Mode::Column:
-      return AFM_COMPOSE_COLUMN;
-    case Mode::Checkerboard:
-      return AFM_COMPOSE_CHECKERBOARD;
-    case Mode::AnaglyphRedCyan:
-    case Mode::AnaglyphGreenMagenta:
-    case Mode::AnaglyphAmberBlue:
-      return AFM_COMPOSE_ANAGLYPH;
-    case Mode::FramePacked720p:
-    case Mode::FramePacked1080p:
-      return AFM_COMPOSE_FRAME_PACKED;
-    case Mode::QuadBuffer:
-    case Mode::Dual:
-      break;
+// Of one layer: with two pictures, layer 1 is the right eye's.
+EyeArrangement arrangement_of(scene::StereoMode mode, std::uint32_t layer) {
+  const EyeArrangement arrangement = scene::traits_of(mode).arrangement;
+  if (arrangement != EyeArrangement::TwoPictures) {
+    return arrangement;
   }
-  return layer == 0 ? AFM_COMPOSE_LEFT : AFM_COMPOSE_RIGHT;
+  return layer == 0 ? EyeArrangement::Left : EyeArrangement::Right;
 }
 
 ComposeBlock compose_block(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place,
@@ -100,17 +84,17 @@ ComposeBlock compose_block(const EyeTargets& eyes, const Composition& compositio
   const auto mode = composition.mode;
   const bool swapped = composition.order == scene::EyeOrder::Swapped && mode != scene::StereoMode::Mono;
   const bool keystone = composition.picture_from_output != glm::dmat3(1.0);
-  const auto* const anaglyph = std::find(kAnaglyphs.begin(), kAnaglyphs.end(), mode);
   const vk::Extent2D whole = eyes.extent(), drawn = eyes.drawing().extent;
   ComposeBlock block{
-      .mode = {shader_mode(mode, layer), swapped, keystone, static_cast<int>(anaglyph - kAnaglyphs.begin())},
+      .mode = {static_cast<int>(arrangement_of(mode, layer)), swapped, keystone,
+               static_cast<int>(anaglyph_index(mode))},
       .drawn = {static_cast<float>(drawn.width) / static_cast<float>(whole.width),
                 static_cast<float>(drawn.height) / static_cast<float>(whole.height), eyes.same_eyes() ? 1.0F : 0.0F,
                 0.0F},
       .place = {place.area.offset.x, place.area.offset.y, place.area.extent.width, place.area.extent.height},
       .screen = {place.screen_px.x, place.screen_px.y, 0, 0},
       .picture_from_output = {}};
-  if (const auto packing = scene::frame_packing(mode)) {
+  if (const auto& packing = scene::frame_packing(mode)) {
     block.screen.z = static_cast<int>(packing->eye_px.y);
     block.screen.w = static_cast<int>(packing->blank_lines);
   }
@@ -123,10 +107,8 @@ ComposeBlock compose_block(const EyeTargets& eyes, const Composition& compositio
 bool is_exact(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
   const vk::Extent2D whole = eyes.extent();
   const glm::uvec2 seen = scene::eye_size(composition.mode, {place.area.extent.width, place.area.extent.height});
-  const bool half =
-      composition.mode == scene::StereoMode::SideBySideHalf || composition.mode == scene::StereoMode::TopBottomHalf;
-  return !half && composition.picture_from_output == glm::dmat3(1.0) && eyes.drawing().extent == whole &&
-         seen == glm::uvec2(whole.width, whole.height);
+  return !scene::traits_of(composition.mode).squeezed && composition.picture_from_output == glm::dmat3(1.0) &&
+         eyes.drawing().extent == whole && seen == glm::uvec2(whole.width, whole.height);
 }
 
 // Of a pipeline for such a picture.
@@ -137,9 +119,9 @@ std::uint32_t variant_of(const EyeTargets& eyes, const Composition& composition,
 
 // Whether the target shows the eyes' images beside each other, whole, and nothing else.
 bool shows_eyes_alone(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
-  const std::int32_t mode = shader_mode(composition.mode, 0);
-  const bool beside = mode == AFM_COMPOSE_LEFT || mode == AFM_COMPOSE_RIGHT || mode == AFM_COMPOSE_SIDE_BY_SIDE ||
-                      mode == AFM_COMPOSE_TOP_BOTTOM;
+  const EyeArrangement eyes_in_it = arrangement_of(composition.mode, 0);
+  const bool beside = eyes_in_it == EyeArrangement::Left || eyes_in_it == EyeArrangement::Right ||
+                      eyes_in_it == EyeArrangement::SideBySide || eyes_in_it == EyeArrangement::TopBottom;
   const glm::uvec2 size = scene::picture_size(composition.mode, {eyes.extent().width, eyes.extent().height});
   return beside && is_exact(eyes, composition, place) && place.area.extent == place.target &&
          glm::uvec2(place.target.width, place.target.height) == size;
@@ -230,10 +212,10 @@ void Composer::copy(const vk::raii::CommandBuffer& command, const Composition& c
   const auto height = static_cast<std::int32_t>(eyes_.extent().height);
   eyes_.begin_copies(command);
   for (std::uint32_t layer = 0; layer < into.layers.size(); ++layer) {
-    const std::int32_t mode = shader_mode(composition.mode, layer);
-    put(mode == AFM_COMPOSE_RIGHT ? scene::Eye::Right : scene::Eye::Left, layer, {0, 0});
-    if (mode == AFM_COMPOSE_SIDE_BY_SIDE) put(scene::Eye::Right, layer, {width, 0});
-    if (mode == AFM_COMPOSE_TOP_BOTTOM) put(scene::Eye::Right, layer, {0, height});
+    const EyeArrangement arrangement = arrangement_of(composition.mode, layer);
+    put(arrangement == EyeArrangement::Right ? scene::Eye::Right : scene::Eye::Left, layer, {0, 0});
+    if (arrangement == EyeArrangement::SideBySide) put(scene::Eye::Right, layer, {width, 0});
+    if (arrangement == EyeArrangement::TopBottom) put(scene::Eye::Right, layer, {0, height});
   }
   eyes_.end_copies(command);
 }

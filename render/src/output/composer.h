@@ -41,7 +41,7 @@ class ComposePipeline {
   ComposePipeline(const Device& device, vk::PipelineLayout layout, vk::Format format)
       : device_(&device), layout_(layout), format_(format) {}
 
-  // `look`: AFM_FEATURE_SCALED and AFM_FEATURE_MIXED.
+  // `variant`: AFM_FEATURE_SCALED and AFM_FEATURE_MIXED.
   vk::Pipeline get(std::uint32_t variant);
 
  private:

@@ -14,7 +14,7 @@
 #include "output/readback.h"
 #include "passes/renderer_parts.h"
 #include "passes/shader_variant.h"
-#include "render/picture_memory.h"
+#include "render/eye_memory.h"
 
 namespace afm::render {
 namespace {
@@ -132,13 +132,13 @@ void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
     shadow_map.begin(command);
     scene_pass.record_shadow(command, input, slot.draws.shadow);
   } else {
-    if (step == ShadowStep::RestingAndMoving) {
-      shadow_map.begin_resting(command);
-      scene_pass.record_shadow(command, input, shadow_casters.resting());
-      shadow_map.end_resting(command);
+    if (step == ShadowStep::StaticAndDynamic) {
+      shadow_map.begin_static(command);
+      scene_pass.record_shadow(command, input, shadow_casters.static_casters());
+      shadow_map.end_static(command);
     }
-    shadow_map.begin_on_resting(command, shadow_casters.stale());
-    scene_pass.record_shadow(command, input, shadow_casters.moving());
+    shadow_map.begin_on_static(command, shadow_casters.dirty());
+    scene_pass.record_shadow(command, input, shadow_casters.dynamic_casters());
   }
   shadow_map.end(command);
   mark(command, slot_index, GpuTimer::Mark::ShadowEnd);
@@ -192,7 +192,7 @@ void Renderer::Parts::render(const FrameState& frame) {
   if (slot.painted) {
     record_painting(slot_index);
   }
-  const ShadowStep step = shadow_casters.take(frame, geometry, slot.draws);
+  const ShadowStep step = shadow_casters.update(frame, geometry, slot.draws);
   slot.shadowed = step != ShadowStep::Nothing;
   if (slot.shadowed) {
     record_shadow(slot_index, step);
@@ -227,11 +227,11 @@ core::Result<Renderer> Renderer::create(Context& context, const scene::Scene& sc
                       image.width, image.height, context.device().name(), largest));
     }
   }
-  if (const std::size_t variants = count_variants(scene); variants > kMostLooks) {
+  if (const std::size_t variants = count_variants(scene); variants > kMostShaderVariants) {
     return core::failure(core::ErrorCategory::BadInputFile,
                          fmt::format("cannot draw a scene whose materials combine their textures and extensions in {} "
                                      "ways: up to {} are drawn; make it smaller",
-                                     variants, kMostLooks));
+                                     variants, kMostShaderVariants));
   }
   auto fonts = load_panel_fonts(options.panel_texels_per_m, options.panel_millimetre_m, largest);
   if (!fonts) {

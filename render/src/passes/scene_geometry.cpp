@@ -13,9 +13,9 @@ namespace afm::render {
 namespace {
 
 // glTF: alpha, the vertices' too, is ignored unless the material blends or is a mask.
-bool ignores_alpha(const scene::Material& material) { return !material.blended && !material.alpha_cutoff; }
+bool ignores_alpha(const scene::PbrMaterial& material) { return !material.blended && !material.alpha_cutoff; }
 
-DrawBlock material_block(const scene::Material& material) {
+DrawBlock material_block(const scene::PbrMaterial& material) {
   DrawBlock block{};
   block.base_color = material.base_color;
   if (ignores_alpha(material)) {

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
+#include "core/check.h"
 #include "device/shader_interface.h"
 
 namespace afm::render {
@@ -13,7 +15,14 @@ namespace {
 
 constexpr auto kUniform = vk::DescriptorType::eUniformBuffer;
 constexpr auto kSampled = vk::DescriptorType::eCombinedImageSampler;
-static_assert(AFM_TEXTURE_SLOTS == scene::kTextureSlots);
+
+// The uniform block of material.frag: the fields that it reads, a vec4 each, then two rows of each texture's transform.
+constexpr std::size_t kFields = [] {
+  std::size_t count = 0;
+  scene::for_each_pbr_field([&](const auto& field) { count += field.use == scene::PbrUse::Plain ? 0U : 1U; });
+  return count;
+}();
+using MaterialBlock = std::array<glm::vec4, kFields + 2 * scene::kTextureSlots>;
 
 vk::raii::DescriptorSetLayout create_layout(const Device& device) {
   const std::array bindings{vk::DescriptorSetLayoutBinding{.binding = AFM_BINDING_MATERIAL,
@@ -22,17 +31,16 @@ vk::raii::DescriptorSetLayout create_layout(const Device& device) {
                                                            .stageFlags = vk::ShaderStageFlagBits::eFragment},
                             vk::DescriptorSetLayoutBinding{.binding = AFM_BINDING_TEXTURES,
                                                            .descriptorType = kSampled,
-                                                           .descriptorCount = AFM_TEXTURE_SLOTS,
+                                                           .descriptorCount = scene::kTextureSlots,
                                                            .stageFlags = vk::ShaderStageFlagBits::eFragment}};
   return vk::raii::DescriptorSetLayout(
       *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
-// Reflectance at normal incidence; KHR_materials_ior lets 0 stand for a mirror.
-float reflectance(float ior) {
-  const float ratio = (ior - 1.0F) / (ior + 1.0F);
-  return ratio * ratio;
-}
+glm::vec4 packed(float number) { return {number, 0.0F, 0.0F, 0.0F}; }
+glm::vec4 packed(const glm::vec2& pair) { return {pair, 0.0F, 0.0F}; }
+glm::vec4 packed(const glm::vec3& color) { return {color, 0.0F}; }
+glm::vec4 packed(const std::optional<float>& number) { return packed(number.value_or(0.0F)); }
 
 // KHR_texture_transform: translation * rotation * scale.
 void write_rows(const scene::TextureUse& use, glm::vec4* rows) {
@@ -41,16 +49,19 @@ void write_rows(const scene::TextureUse& use, glm::vec4* rows) {
   rows[1] = {-sine * use.scale.x, cosine * use.scale.y, use.offset.y, 0.0F};
 }
 
-MaterialBlock block_of(const scene::Material& material) {
+MaterialBlock block_of(const scene::PbrMaterial& material) {
   MaterialBlock block{};
-  block.specular = glm::vec4(material.specular_color, material.specular);
-  block.clearcoat = glm::vec4(material.clearcoat, material.clearcoat_roughness, material.clearcoat_normal_scale, 0.0F);
-  block.iridescence = glm::vec4(material.iridescence, material.iridescence_ior, material.iridescence_thickness_nm.x,
-                                material.iridescence_thickness_nm.y);
-  block.scales = glm::vec4(material.normal_scale, material.occlusion_strength, reflectance(material.ior),
-                           material.alpha_cutoff.value_or(0.0F));
+  std::size_t next = 0;
+  scene::for_each_pbr_field([&](const auto& field) {
+    if constexpr (requires { packed(material.*field.member); }) {
+      if (field.use != scene::PbrUse::Plain) {
+        block.at(next++) = packed(material.*field.member);
+      }
+    }
+  });
+  AFM_CHECK(next == kFields);
   for (std::size_t slot = 0; slot < scene::kTextureSlots; ++slot) {
-    write_rows(material.textures[slot], &block.uv_rows[2 * slot]);
+    write_rows(material.textures[slot], &block[kFields + 2 * slot]);
   }
   return block;
 }
@@ -64,7 +75,7 @@ SceneMaterials::SceneMaterials(const Device& device, const scene::Scene& scene)
   const vk::DeviceSize stride = (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
   blocks_ = create_host_buffer(device, "materials", count * stride, vk::BufferUsageFlagBits::eUniformBuffer);
   const std::array sizes{vk::DescriptorPoolSize{.type = kUniform, .descriptorCount = count},
-                         vk::DescriptorPoolSize{.type = kSampled, .descriptorCount = count * AFM_TEXTURE_SLOTS}};
+                         vk::DescriptorPoolSize{.type = kSampled, .descriptorCount = count * scene::kTextureSlots}};
   pool_ = vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                              .maxSets = count,
                                              .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
@@ -79,15 +90,15 @@ SceneMaterials::SceneMaterials(const Device& device, const scene::Scene& scene)
   }
 }
 
-void SceneMaterials::write_set(const Device& device, const scene::Material& material, std::size_t index,
+void SceneMaterials::write_set(const Device& device, const scene::PbrMaterial& material, std::size_t index,
                                vk::DeviceSize stride) const {
   const vk::DescriptorBufferInfo block{
       .buffer = *blocks_.buffer, .offset = index * stride, .range = sizeof(MaterialBlock)};
   std::array<vk::DescriptorImageInfo, scene::kTextureSlots> images;
   for (std::size_t slot = 0; slot < images.size(); ++slot) {
     const auto& texture = material.textures[slot].texture;
-    images[slot] = texture ? textures_.descriptor(*texture, scene::is_srgb(static_cast<scene::TextureSlot>(slot)))
-                           : textures_.white();
+    images[slot] =
+        texture ? textures_.descriptor(*texture, scene::kTextureSlotTraits[slot].is_srgb) : textures_.white();
   }
   const std::array writes{vk::WriteDescriptorSet{.dstSet = *sets_[index],
                                                  .dstBinding = AFM_BINDING_MATERIAL,

@@ -18,7 +18,8 @@ class SceneMaterials {
   vk::DescriptorSet set(std::uint32_t material) const { return *sets_[material]; }
 
  private:
-  void write_set(const Device& device, const scene::Material& material, std::size_t index, vk::DeviceSize stride) const;
+  void write_set(const Device& device, const scene::PbrMaterial& material, std::size_t index,
+                 vk::DeviceSize stride) const;
 
   vk::raii::DescriptorSetLayout layout_;
   SceneTextures textures_;

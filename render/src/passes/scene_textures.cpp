@@ -106,13 +106,13 @@ SceneTextures::SceneTextures(const Device& device, const scene::Scene& scene)
     image_of_.push_back(texture.image);
     samplers_.push_back(create_sampler(device, texture));
   }
-  for (const scene::Material& material : scene.materials) {
+  for (const scene::PbrMaterial& material : scene.materials) {
     for (std::size_t slot = 0; slot < scene::kTextureSlots; ++slot) {
       const auto& texture = material.textures[slot].texture;
       if (!texture) {
         continue;
       }
-      const std::pair key(image_of_.at(*texture), scene::is_srgb(static_cast<scene::TextureSlot>(slot)));
+      const std::pair key(image_of_.at(*texture), scene::kTextureSlotTraits[slot].is_srgb);
       if (images_.find(key) == images_.end()) {
         images_.emplace(key, upload(device, scene.images.at(key.first), key.second));
       }

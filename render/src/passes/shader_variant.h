@@ -18,13 +18,13 @@ struct ShaderVariant {
   bool operator==(const ShaderVariant&) const = default;
 };
 
-// The look of a primitive, or nothing where the plain pipelines draw all of it.
+// The variant of a primitive, or nothing where the plain pipelines draw all of it.
 std::optional<ShaderVariant> variant_of(const scene::Scene& scene, const scene::Primitive& primitive);
 
-// How many pipelines a scene needs for its looks. Materials that differ in numbers or in which textures they show, but
-// not in what kinds of texture they have, share one; a program that makes models can still ask for thousands, each of
-// which takes tens of milliseconds to compile.
+// How many pipelines a scene needs for its variants. Materials that differ in numbers or in which textures they show,
+// but not in what kinds of texture they have, share one; a program that makes models can still ask for thousands, each
+// of which takes tens of milliseconds to compile.
 std::size_t count_variants(const scene::Scene& scene);
-inline constexpr std::size_t kMostLooks = 256;
+inline constexpr std::size_t kMostShaderVariants = 256;
 
 }  // namespace afm::render

@@ -37,26 +37,26 @@ bool ShadowCasters::follow(const FrameState& frame, const SceneGeometry& geometr
   return others;
 }
 
-// True if drawing what rests apart spares at least half of the triangles.
-bool ShadowCasters::sort_out(const SceneGeometry& geometry) {
-  moved_before_.swap(moving_);
-  moving_.clear();
-  resting_.clear();
-  std::size_t resting = 0, moving = 0;
+// True if a static map of its own spares at least half of the triangles.
+bool ShadowCasters::separate(const SceneGeometry& geometry) {
+  dynamic_before_.swap(dynamic_);
+  dynamic_.clear();
+  static_.clear();
+  std::size_t static_indices = 0, dynamic_indices = 0;
   for (std::size_t i = 0; i < casters_.size(); ++i) {
     const std::uint32_t draw = casters_[i].draw;
     const bool rests = frames_at_rest_[i] == kSettled;
-    (rests ? resting_ : moving_).push_back(draw);
-    (rests ? resting : moving) += geometry.draws()[draw].index_count;
+    (rests ? static_ : dynamic_).push_back(draw);
+    (rests ? static_indices : dynamic_indices) += geometry.draws()[draw].index_count;
   }
-  return moving <= resting;
+  return dynamic_indices <= static_indices;
 }
 
 // With what lies about it: a texel is drawn whose middle is covered.
-vk::Rect2D ShadowCasters::drawn_by_moving(const FrameState& frame, const SceneGeometry& geometry) const {
+vk::Rect2D ShadowCasters::drawn_by_dynamic(const FrameState& frame, const SceneGeometry& geometry) const {
   constexpr double kSize = kShadowMapSize;
   glm::dvec2 low(kSize), high(0.0);
-  for (const std::uint32_t i : moving_) {
+  for (const std::uint32_t i : dynamic_) {
     const Draw& draw = geometry.draws()[i];
     const DrawBox box = bent_box(draw, frame);
     const glm::dmat4 rows = glm::transpose(glm::dmat4(map_from_room_) * frame.room_from_node[draw.node]);
@@ -73,24 +73,24 @@ vk::Rect2D ShadowCasters::drawn_by_moving(const FrameState& frame, const SceneGe
   return {.offset = {offset.x, offset.y}, .extent = {size.x, size.y}};
 }
 
-ShadowStep ShadowCasters::take(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list) {
+ShadowStep ShadowCasters::update(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list) {
   if (follow(frame, geometry, list)) {
     std::fill(frames_at_rest_.begin(), frames_at_rest_.end(), kSettled);
-    resting_drawn_ = false;
+    static_drawn_ = false;
     return ShadowStep::Everything;
   }
   if (std::find(frames_at_rest_.begin(), frames_at_rest_.end(), 0) == frames_at_rest_.end()) {
     return ShadowStep::Nothing;
   }
-  if (!sort_out(geometry)) {
-    resting_drawn_ = false;
+  if (!separate(geometry)) {
+    static_drawn_ = false;
     return ShadowStep::Everything;
   }
-  const bool same = resting_drawn_ && moving_ == moved_before_;
-  stale_ = same ? drawn_ : kWholeMap;
-  drawn_ = drawn_by_moving(frame, geometry);
-  resting_drawn_ = true;
-  return same ? ShadowStep::Moving : ShadowStep::RestingAndMoving;
+  const bool same = static_drawn_ && dynamic_ == dynamic_before_;
+  dirty_ = same ? drawn_ : kWholeMap;
+  drawn_ = drawn_by_dynamic(frame, geometry);
+  static_drawn_ = true;
+  return same ? ShadowStep::Dynamic : ShadowStep::StaticAndDynamic;
 }
 
 }  // namespace afm::render

@@ -14,25 +14,25 @@
 
 namespace afm::render {
 
-// What of the shadow map a frame draws: nothing; everything; or what moves, onto a map of what rests, which is drawn
-// first where it is another than before.
-enum class ShadowStep { Nothing, Everything, RestingAndMoving, Moving };
+// What a frame draws of the shadow map: nothing; everything; or the dynamic casters, onto a copy of the static map,
+// which is drawn first where it has changed.
+enum class ShadowStep { Nothing, Everything, StaticAndDynamic, Dynamic };
 
-// Which casters of shadows rest and which move, and where what moves was drawn. In most frames the tip alone moves: its
-// shadow is a small part of the map.
+// The static and the dynamic casters of shadows, and the part of the map that the dynamic ones cover. In most frames
+// the tip alone moves: its shadow is a small part of the map.
 class ShadowCasters {
  public:
   // To be called for each frame in turn: by what it asks for, the map follows the light and everything that casts a
   // shadow.
-  ShadowStep take(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list);
+  ShadowStep update(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list);
 
-  // Draws of the newest step. Those that rest have done so for many frames.
-  std::span<const std::uint32_t> resting() const { return resting_; }
-  std::span<const std::uint32_t> moving() const { return moving_; }
+  // Draws of the newest step. A static caster has not moved for many frames.
+  std::span<const std::uint32_t> static_casters() const { return static_; }
+  std::span<const std::uint32_t> dynamic_casters() const { return dynamic_; }
 
-  // Where the map is not that of what rests, before moving() is drawn onto it: the whole of it in the first step of
-  // two.
-  const vk::Rect2D& stale() const { return stale_; }
+  // The part of the map that differs from the static one, before the dynamic casters are drawn onto it: the whole of it
+  // in the first step of two.
+  const vk::Rect2D& dirty() const { return dirty_; }
 
  private:
   struct Caster {
@@ -45,15 +45,15 @@ class ShadowCasters {
   };
 
   bool follow(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list);
-  bool sort_out(const SceneGeometry& geometry);
-  vk::Rect2D drawn_by_moving(const FrameState& frame, const SceneGeometry& geometry) const;
+  bool separate(const SceneGeometry& geometry);
+  vk::Rect2D drawn_by_dynamic(const FrameState& frame, const SceneGeometry& geometry) const;
 
   glm::mat4 map_from_room_{0.0F};
   std::vector<Caster> casters_;
-  std::vector<int> frames_at_rest_;  // of each caster, up to those after which it is one that rests
-  std::vector<std::uint32_t> resting_, moving_, moved_before_;
-  bool resting_drawn_ = false;  // resting_ is what the map of what rests holds
-  vk::Rect2D stale_, drawn_;
+  std::vector<int> frames_at_rest_;  // of each caster, up to those after which it is static
+  std::vector<std::uint32_t> static_, dynamic_, dynamic_before_;
+  bool static_drawn_ = false;  // the static map shows static_
+  vk::Rect2D dirty_, drawn_;
 };
 
 }  // namespace afm::render

@@ -44,9 +44,9 @@ void begin_drawing(const vk::raii::CommandBuffer& command, vk::ImageView view, v
 
 ShadowMap::ShadowMap(const Device& device)
     : depth_(create_map(device, "shadow map", vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst)),
-      resting_(create_map(device, "shadow map of what rests", vk::ImageUsageFlagBits::eTransferSrc)),
+      static_(create_map(device, "static shadow map", vk::ImageUsageFlagBits::eTransferSrc)),
       view_(create_view(device, depth_, kDepth, 0, 1)),
-      resting_view_(create_view(device, resting_, kDepth, 0, 1)),
+      static_view_(create_view(device, static_, kDepth, 0, 1)),
       sampler_(*device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                               .minFilter = vk::Filter::eLinear,
                                               .addressModeU = vk::SamplerAddressMode::eClampToBorder,
@@ -66,29 +66,29 @@ void ShadowMap::end(const vk::raii::CommandBuffer& command) const {
   record_barriers(command, {image_barrier(*depth_.image, kDepth, kDrawn, kSampled)});
 }
 
-void ShadowMap::begin_resting(const vk::raii::CommandBuffer& command) const {
-  record_barriers(command, {image_barrier(*resting_.image, kDepth, kCopiedFrom.discarded(), kDrawn)});
-  begin_drawing(command, *resting_view_, vk::AttachmentLoadOp::eClear);
+void ShadowMap::begin_static(const vk::raii::CommandBuffer& command) const {
+  record_barriers(command, {image_barrier(*static_.image, kDepth, kCopiedFrom.discarded(), kDrawn)});
+  begin_drawing(command, *static_view_, vk::AttachmentLoadOp::eClear);
 }
 
-void ShadowMap::end_resting(const vk::raii::CommandBuffer& command) const {
+void ShadowMap::end_static(const vk::raii::CommandBuffer& command) const {
   command.endRendering();
-  record_barriers(command, {image_barrier(*resting_.image, kDepth, kDrawn, kCopiedFrom)});
+  record_barriers(command, {image_barrier(*static_.image, kDepth, kDrawn, kCopiedFrom)});
 }
 
-void ShadowMap::begin_on_resting(const vk::raii::CommandBuffer& command, const vk::Rect2D& stale) const {
-  if (stale.extent.width == 0 || stale.extent.height == 0) {
+void ShadowMap::begin_on_static(const vk::raii::CommandBuffer& command, const vk::Rect2D& dirty) const {
+  if (dirty.extent.width == 0 || dirty.extent.height == 0) {
     record_barriers(command, {image_barrier(*depth_.image, kDepth, kSampled, kDrawn)});
   } else {
     record_barriers(command, {image_barrier(*depth_.image, kDepth, kSampled, kCopiedTo)});
     const vk::ImageSubresourceLayers depth{.aspectMask = kDepth, .layerCount = 1};
-    const vk::Offset3D offset{stale.offset.x, stale.offset.y, 0};
-    command.copyImage(*resting_.image, kCopiedFrom.layout, *depth_.image, kCopiedTo.layout,
+    const vk::Offset3D offset{dirty.offset.x, dirty.offset.y, 0};
+    command.copyImage(*static_.image, kCopiedFrom.layout, *depth_.image, kCopiedTo.layout,
                       vk::ImageCopy{.srcSubresource = depth,
                                     .srcOffset = offset,
                                     .dstSubresource = depth,
                                     .dstOffset = offset,
-                                    .extent = {stale.extent.width, stale.extent.height, 1}});
+                                    .extent = {dirty.extent.width, dirty.extent.height, 1}});
     record_barriers(command, {image_barrier(*depth_.image, kDepth, kCopiedTo, kDrawn)});
   }
   begin_drawing(command, *view_, vk::AttachmentLoadOp::eLoad);

@@ -16,17 +16,18 @@ class ShadowMap {
   void end(const vk::raii::CommandBuffer& command) const;
 
   // Everything between them is drawn into the image of what rests, which is empty before.
-  void begin_resting(const vk::raii::CommandBuffer& command) const;
-  void end_resting(const vk::raii::CommandBuffer& command) const;
+  void begin_static(const vk::raii::CommandBuffer& command) const;
+  void end_static(const vk::raii::CommandBuffer& command) const;
 
-  // As begin(), with a map whose `stale` part, which may be empty, is what rests, and which is else as it was.
-  void begin_on_resting(const vk::raii::CommandBuffer& command, const vk::Rect2D& stale) const;
+  // As begin(), with a map whose `dirty` part, which may be empty, is copied from the static one and whose rest is as
+  // it was.
+  void begin_on_static(const vk::raii::CommandBuffer& command, const vk::Rect2D& dirty) const;
 
   vk::DescriptorImageInfo descriptor() const;
 
  private:
-  DeviceImage depth_, resting_;
-  vk::raii::ImageView view_, resting_view_;
+  DeviceImage depth_, static_;
+  vk::raii::ImageView view_, static_view_;
   vk::raii::Sampler sampler_;
 };
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
-#include <glm/matrix.hpp>
 #include <string>
 
 namespace afm::scene {
@@ -57,49 +56,42 @@ PixelEye other(PixelEye eye) {
 
 PixelSource straight_source(StereoMode mode, glm::uvec2 picture, glm::uvec2 pixel, glm::ivec2 screen_px) {
   const glm::ivec2 on_screen = screen_px + glm::ivec2(pixel);
-  switch (mode) {
-    case StereoMode::Mono:
-    case StereoMode::Left:
-    case StereoMode::QuadBuffer:
-    case StereoMode::Dual:
+  switch (traits_of(mode).arrangement) {
+    case EyeArrangement::Left:
+    case EyeArrangement::TwoPictures:
       return in_region(PixelEye::Left, pixel, picture);
-    case StereoMode::Right:
+    case EyeArrangement::Right:
       return in_region(PixelEye::Right, pixel, picture);
-    case StereoMode::SideBySide:
-    case StereoMode::SideBySideHalf:
+    case EyeArrangement::SideBySide:
       return side_by_side(picture, pixel);
-    case StereoMode::TopBottom:
-    case StereoMode::TopBottomHalf:
+    case EyeArrangement::TopBottom:
       return top_bottom(picture, pixel);
-    case StereoMode::Row:
+    case EyeArrangement::Rows:
       return in_region(interleaved(on_screen.y), pixel, picture);
-    case StereoMode::Column:
+    case EyeArrangement::Columns:
       return in_region(interleaved(on_screen.x), pixel, picture);
-    case StereoMode::Checkerboard:
+    case EyeArrangement::Checkerboard:
       return in_region(interleaved(on_screen.x + on_screen.y), pixel, picture);
-    case StereoMode::AnaglyphRedCyan:
-    case StereoMode::AnaglyphGreenMagenta:
-    case StereoMode::AnaglyphAmberBlue:
+    case EyeArrangement::Mixed:
       return in_region(PixelEye::Both, pixel, picture);
-    case StereoMode::FramePacked720p:
-    case StereoMode::FramePacked1080p:
+    case EyeArrangement::FramePacked:
       return frame_packed(*frame_packing(mode), picture, pixel);
   }
   return {};
 }
 
-// Written row by row, as in print; GLM stores columns.
-glm::dmat3 rows(const glm::dvec3& red, const glm::dvec3& green, const glm::dvec3& blue) {
-  return glm::transpose(glm::dmat3(red, green, blue));
+// How many eye images lie beside each other in the picture, each way.
+glm::uvec2 eyes_in_picture(const StereoModeTraits& mode) {
+  if (mode.squeezed) return {1, 1};
+  return {mode.arrangement == EyeArrangement::SideBySide ? 2U : 1U,
+          mode.arrangement == EyeArrangement::TopBottom ? 2U : 1U};
 }
 
 }  // namespace
 
-std::string_view name_of(StereoMode mode) { return kStereoModes[static_cast<std::size_t>(mode)].name; }
-
 core::Result<StereoMode> parse_stereo_mode(std::string_view name) {
   std::string known;
-  for (const NamedStereoMode& entry : kStereoModes) {
+  for (const StereoModeTraits& entry : kStereoModes) {
     if (entry.name == name) return entry.mode;
     known += known.empty() ? std::string(entry.name) : ", " + std::string(entry.name);
   }
@@ -107,32 +99,16 @@ core::Result<StereoMode> parse_stereo_mode(std::string_view name) {
                        fmt::format("\"{}\" is not a stereo mode; there are {}", name, known));
 }
 
-std::optional<FramePacking> frame_packing(StereoMode mode) {
-  if (mode == StereoMode::FramePacked720p) return FramePacking{{1280, 720}, 30};
-  if (mode == StereoMode::FramePacked1080p) return FramePacking{{1920, 1080}, 45};
-  return std::nullopt;
-}
-
-bool has_two_pictures(StereoMode mode) { return mode == StereoMode::QuadBuffer || mode == StereoMode::Dual; }
-
-bool is_interleaved(StereoMode mode) {
-  return mode == StereoMode::Row || mode == StereoMode::Column || mode == StereoMode::Checkerboard;
-}
-
 glm::uvec2 picture_size(StereoMode mode, glm::uvec2 eye_px) {
-  if (const auto packing = frame_packing(mode)) {
+  if (const auto& packing = frame_packing(mode)) {
     return {packing->eye_px.x, 2U * packing->eye_px.y + packing->blank_lines};
   }
-  if (mode == StereoMode::SideBySide) return {2U * eye_px.x, eye_px.y};
-  if (mode == StereoMode::TopBottom) return {eye_px.x, 2U * eye_px.y};
-  return eye_px;
+  return eyes_in_picture(traits_of(mode)) * eye_px;
 }
 
 glm::uvec2 eye_size(StereoMode mode, glm::uvec2 picture_px) {
-  if (const auto packing = frame_packing(mode)) return packing->eye_px;
-  if (mode == StereoMode::SideBySide) return {share(picture_px.x), picture_px.y};
-  if (mode == StereoMode::TopBottom) return {picture_px.x, share(picture_px.y)};
-  return picture_px;
+  if (const auto& packing = frame_packing(mode)) return packing->eye_px;
+  return glm::max(picture_px / eyes_in_picture(traits_of(mode)), 1U);
 }
 
 PixelSource source_of_pixel(StereoMode mode, EyeOrder order, glm::uvec2 picture_px, glm::uvec2 pixel,
@@ -141,22 +117,6 @@ PixelSource source_of_pixel(StereoMode mode, EyeOrder order, glm::uvec2 picture_
   // what both eyes see in mono is one image, so there is nothing to exchange
   if (order == EyeOrder::Swapped && mode != StereoMode::Mono) source.eye = other(source.eye);
   return source;
-}
-
-std::optional<AnaglyphMatrices> anaglyph_matrices(StereoMode mode) {
-  switch (mode) {
-    case StereoMode::AnaglyphRedCyan:
-      return AnaglyphMatrices{rows({0.437, 0.449, 0.164}, {-0.062, -0.062, -0.024}, {-0.048, -0.050, -0.017}),
-                              rows({-0.011, -0.032, -0.007}, {0.377, 0.761, 0.009}, {-0.026, -0.093, 1.234})};
-    case StereoMode::AnaglyphGreenMagenta:
-      return AnaglyphMatrices{rows({-0.062, -0.158, -0.039}, {0.284, 0.668, 0.143}, {-0.015, -0.027, 0.021}),
-                              rows({0.529, 0.705, 0.024}, {-0.016, -0.015, -0.065}, {0.009, 0.075, 0.937})};
-    case StereoMode::AnaglyphAmberBlue:
-      return AnaglyphMatrices{rows({1.062, -0.205, 0.299}, {-0.026, 0.908, 0.068}, {-0.038, -0.173, 0.022}),
-                              rows({-0.016, -0.123, -0.017}, {0.006, 0.062, -0.017}, {0.094, 0.185, 0.911})};
-    default:
-      return std::nullopt;
-  }
 }
 
 }  // namespace afm::scene

@@ -123,7 +123,7 @@ void measure(const std::vector<EncodedImage>& encoded, std::vector<Image>& image
 
 // Replaces the file's numbers of textures by the scene's; drops the uses of those that have no image.
 void renumber(const std::map<std::uint32_t, std::uint32_t>& places, Scene& scene) {
-  for (Material& material : scene.materials) {
+  for (PbrMaterial& material : scene.materials) {
     for (TextureUse& use : material.textures) {
       if (!use.texture) continue;
       const auto found = places.find(*use.texture);
@@ -137,7 +137,7 @@ void renumber(const std::map<std::uint32_t, std::uint32_t>& places, Scene& scene
 void read_textures(GltfModel& model, const GltfBuffers& buffers, Scene& scene, GltfWarnings& notes) {
   const std::vector<tinygltf::Texture>& textures = model.parts.textures;
   std::set<std::uint32_t> used_textures, used_images;
-  for (const Material& material : scene.materials) {
+  for (const PbrMaterial& material : scene.materials) {
     for (const TextureUse& use : material.textures) {
       if (!use.texture) continue;
       if (const int source = textures[*use.texture].source; source >= 0) {

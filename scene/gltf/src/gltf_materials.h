@@ -9,4 +9,8 @@ namespace afm::scene {
 // Materials whose textures are numbered as in the file. Throws GltfError.
 void read_materials(const tinygltf::Model& model, Scene& scene, GltfWarnings& notes);
 
+// The texture `key` of a material's extension, if it has one.
+void read_texture(const tinygltf::Value& extension, const char* key, TextureSlot slot, PbrMaterial& material,
+                  GltfWarnings& notes);
+
 }  // namespace afm::scene

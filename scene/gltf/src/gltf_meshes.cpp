@@ -284,7 +284,7 @@ void read_meshes(const tinygltf::Model& model, const GltfBuffers& buffers, const
     }
     read_weights(m, model.meshes[m], mesh);
   }
-  if (uses_default) scene.materials.push_back(Material{.name = "default"});
+  if (uses_default) scene.materials.push_back(PbrMaterial{.name = "default"});
 }
 
 }  // namespace afm::scene

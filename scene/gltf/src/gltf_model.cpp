@@ -4,24 +4,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
+#include <set>
 
 #include "gltf_error.h"
 
 namespace afm::scene {
 namespace {
-
-constexpr std::array<std::string_view, 13> kUnderstood{
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",   "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",     "KHR_materials_clearcoat",   "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_iridescence", "KHR_materials_specular",
-    "KHR_materials_unlit",     "KHR_materials_variants",    "KHR_mesh_quantization",
-    "KHR_texture_transform"};
-
-bool is_understood(const std::string& name) {
-  return std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end();
-}
 
 // What the header says, before the rest is judged by the rules of a version that it may not have.
 void check_header(const Json& document, GltfWarnings& notes) {
@@ -31,16 +20,17 @@ void check_header(const Json& document, GltfWarnings& notes) {
     throw GltfError(fmt::format("it is glTF of version '{}'; export it as glTF 2.0", version.substr(0, 20)));
   }
   notes.generator = asset.value("generator", "");
+  const std::set<std::string_view> understood = gltf_extensions();
   std::string refused;
   for (const std::string name : document.value("extensionsRequired", Json::array())) {
-    if (!is_understood(name)) refused += fmt::format("{}'{}'", refused.empty() ? "" : ", ", name.substr(0, 80));
+    if (!understood.contains(name)) refused += fmt::format("{}'{}'", refused.empty() ? "" : ", ", name.substr(0, 80));
   }
   if (!refused.empty()) {
     throw GltfError(fmt::format(
         "it requires {}, which TouchAFM does not know; export it without (docs/gltf.md lists what is known)", refused));
   }
   for (const std::string name : document.value("extensionsUsed", Json::array())) {
-    if (is_understood(name)) {
+    if (understood.contains(name)) {
       notes.extensions.push_back(name);
     } else {
       notes.ignore(fmt::format("{}: not known, and not required to show the model", name));
@@ -189,7 +179,7 @@ GltfModel read_gltf_model(const std::string& path, GltfWarnings& notes) {
   return model;
 }
 
-const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name) {
+const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const std::string& name) {
   const auto found = extensions.find(name);
   return found == extensions.end() ? nullptr : &found->second;
 }

@@ -27,7 +27,7 @@ struct GltfModel {
 GltfModel read_gltf_model(const std::string& path, GltfWarnings& notes);
 
 // The value of an extension of this name, or nothing.
-const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name);
+const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const std::string& name);
 
 // Members of an extension's value.
 double number_or(const tinygltf::Value& object, const char* key, double missing);

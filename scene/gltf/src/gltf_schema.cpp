@@ -1,38 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf_schema.h"
 
+#include "gltf_material_extensions.h"
+#include "gltf_members.h"
+
 // The tables stand in the order of section 5 of the specification of glTF 2.0, each before what holds it; the ranges
 // are the specification's, or wide enough that nothing overflows a float.
 namespace afm::scene {
 namespace {
 
-using Members = std::span<const GltfMember>;
+using namespace gltf_member;
 using Kind = GltfMember::Kind;
 
-// Of one list: the elements that tinygltf makes of them take up to two kilobytes each.
-constexpr std::size_t kMany = 250'000;
-constexpr std::size_t kMostMaterials = 16'384;
-constexpr double kLargest = 1e30;
 constexpr double kBytes = static_cast<double>(kLargestGltfBytes);
 constexpr double kRightAngle = 1.5707963267948966;
-
-constexpr GltfMember text(std::string_view name) { return {name, Kind::Text}; }
-constexpr GltfMember flag(std::string_view name) { return {name, Kind::Flag}; }
-constexpr GltfMember choice(std::string_view name, std::string_view choices) {
-  return {name, Kind::Choice, 0, 0, choices};
-}
-constexpr GltfMember number(std::string_view name, double low = -kLargest, double high = kLargest) {
-  return {name, Kind::Number, low, high};
-}
-constexpr GltfMember whole(std::string_view name, double low, double high) { return {name, Kind::Whole, low, high}; }
-constexpr GltfMember index(std::string_view name, GltfList into) { return {name, Kind::Index, 0, 0, {}, into}; }
-constexpr GltfMember object(std::string_view name, Members members) {
-  return {name, Kind::Object, 0, 0, {}, {}, members};
-}
-constexpr GltfMember accessors(std::string_view name) { return {name, Kind::Accessors}; }
-constexpr GltfMember share(std::string_view name) { return number(name, 0, 1); }
-constexpr GltfMember positive(std::string_view name) { return number(name, 0); }
-constexpr GltfMember above_zero(std::string_view name) { return number(name, 1e-30); }
 
 constexpr GltfMember kAsset[]{text("version").required(), text("minVersion"), text("generator"), text("copyright")};
 constexpr GltfMember kHeader[]{object("asset", kAsset).required(), text("extensionsUsed").list(0, kMostMaterials),
@@ -93,50 +74,9 @@ constexpr GltfMember kCamera[]{object("orthographic", kOrthographic).without("pe
 
 constexpr GltfMember kImage[]{text("uri").without("bufferView"), text("mimeType"), kView, text("name")};
 
-constexpr GltfMember kTransform[]{number("offset").list(2, 2), number("rotation"), number("scale").list(2, 2),
-                                  whole("texCoord", 0, 255)};
-constexpr GltfMember kTextureExtensions[]{object("KHR_texture_transform", kTransform)};
-constexpr GltfMember kTextureIndex = index("index", GltfList::Textures).required();
-constexpr GltfMember kTextureInfo[]{kTextureIndex, whole("texCoord", 0, 255), object("extensions", kTextureExtensions)};
-constexpr GltfMember kNormalTexture[]{kTextureIndex, whole("texCoord", 0, 255), number("scale"),
-                                      object("extensions", kTextureExtensions)};
-constexpr GltfMember kOcclusionTexture[]{kTextureIndex, whole("texCoord", 0, 255), share("strength"),
-                                         object("extensions", kTextureExtensions)};
-constexpr GltfMember texture(std::string_view name) { return object(name, kTextureInfo); }
-
-constexpr GltfMember kClearcoat[]{share("clearcoatFactor"), texture("clearcoatTexture"),
-                                  share("clearcoatRoughnessFactor"), texture("clearcoatRoughnessTexture"),
-                                  object("clearcoatNormalTexture", kNormalTexture)};
-constexpr GltfMember kIridescence[]{share("iridescenceFactor"),
-                                    texture("iridescenceTexture"),
-                                    number("iridescenceIor", 1),
-                                    positive("iridescenceThicknessMinimum"),
-                                    positive("iridescenceThicknessMaximum"),
-                                    texture("iridescenceThicknessTexture")};
-constexpr GltfMember kSpecular[]{share("specularFactor"), texture("specularTexture"),
-                                 positive("specularColorFactor").list(3, 3), texture("specularColorTexture")};
-constexpr GltfMember kStrength[]{number("emissiveStrength", 0, 1e6)};
-constexpr GltfMember kIor[]{positive("ior")};
-constexpr GltfMember kMaterialExtensions[]{object("KHR_materials_clearcoat", kClearcoat),
-                                           object("KHR_materials_emissive_strength", kStrength),
-                                           object("KHR_materials_ior", kIor),
-                                           object("KHR_materials_iridescence", kIridescence),
-                                           object("KHR_materials_specular", kSpecular),
-                                           object("KHR_materials_unlit", {})};
 constexpr GltfMember kMetallicRoughness[]{share("baseColorFactor").list(4, 4), texture("baseColorTexture"),
                                           share("metallicFactor"), share("roughnessFactor"),
                                           texture("metallicRoughnessTexture")};
-constexpr GltfMember kMaterial[]{text("name"),
-                                 object("extensions", kMaterialExtensions),
-                                 object("pbrMetallicRoughness", kMetallicRoughness),
-                                 object("normalTexture", kNormalTexture),
-                                 object("occlusionTexture", kOcclusionTexture),
-                                 texture("emissiveTexture"),
-                                 share("emissiveFactor").list(3, 3),
-                                 choice("alphaMode", "OPAQUE MASK BLEND"),
-                                 positive("alphaCutoff"),
-                                 flag("doubleSided")};
-
 constexpr GltfMember kDraco[]{kView.required(), GltfMember{"attributes", Kind::Numbers, 0, 65535}.required()};
 constexpr GltfMember kMapping[]{index("material", GltfList::Materials).required(),
                                 index("variants", GltfList::Variants).list(0, kMany).required(), text("name")};
@@ -186,25 +126,51 @@ constexpr GltfMember kVariants[]{object("variants", kVariant).list(0, kMany).req
 constexpr GltfMember kRootExtensions[]{object("KHR_lights_punctual", kLights),
                                        object("KHR_materials_variants", kVariants)};
 
-constexpr GltfMember kDocument[]{object("buffers", kBuffer).list(0, kMany),
-                                 object("bufferViews", kBufferView).list(0, kMany),
-                                 object("accessors", kAccessor).list(0, kMany),
-                                 object("animations", kAnimation).list(0, kMany),
-                                 object("cameras", kCamera).list(0, kMany),
-                                 object("images", kImage).list(0, kMostMaterials),
-                                 object("samplers", kSampler).list(0, kMostMaterials),
-                                 object("textures", kTexture).list(0, kMostMaterials),
-                                 object("materials", kMaterial).list(0, kMostMaterials),
-                                 object("meshes", kMesh).list(0, kMany),
-                                 object("nodes", kNode).list(0, kMany),
-                                 index("scene", GltfList::Scenes),
-                                 object("scenes", kScene).list(0, kMany),
-                                 object("skins", kSkin).list(0, kMany),
-                                 object("extensions", kRootExtensions)};
+void collect_extensions(std::span<const GltfMember> members, std::set<std::string_view>& names) {
+  for (const GltfMember& member : members) {
+    if (member.name == "extensions") {
+      for (const GltfMember& extension : member.members) names.insert(extension.name);
+    }
+    collect_extensions(member.members, names);
+  }
+}
 
 }  // namespace
 
 std::span<const GltfMember> gltf_header() { return kHeader; }
-std::span<const GltfMember> gltf_document() { return kDocument; }
+std::span<const GltfMember> gltf_document() {
+  static const GltfMember kMaterial[]{text("name"),
+                                      object("extensions", gltf_material_extension_members()),
+                                      object("pbrMetallicRoughness", kMetallicRoughness),
+                                      object("normalTexture", kNormalTexture),
+                                      object("occlusionTexture", kOcclusionTexture),
+                                      texture("emissiveTexture"),
+                                      share("emissiveFactor").list(3, 3),
+                                      choice("alphaMode", "OPAQUE MASK BLEND"),
+                                      positive("alphaCutoff"),
+                                      flag("doubleSided")};
+  static const GltfMember kDocument[]{object("buffers", kBuffer).list(0, kMany),
+                                      object("bufferViews", kBufferView).list(0, kMany),
+                                      object("accessors", kAccessor).list(0, kMany),
+                                      object("animations", kAnimation).list(0, kMany),
+                                      object("cameras", kCamera).list(0, kMany),
+                                      object("images", kImage).list(0, kMostMaterials),
+                                      object("samplers", kSampler).list(0, kMostMaterials),
+                                      object("textures", kTexture).list(0, kMostMaterials),
+                                      object("materials", kMaterial).list(0, kMostMaterials),
+                                      object("meshes", kMesh).list(0, kMany),
+                                      object("nodes", kNode).list(0, kMany),
+                                      index("scene", GltfList::Scenes),
+                                      object("scenes", kScene).list(0, kMany),
+                                      object("skins", kSkin).list(0, kMany),
+                                      object("extensions", kRootExtensions)};
+  return kDocument;
+}
+
+std::set<std::string_view> gltf_extensions() {
+  std::set<std::string_view> names{"KHR_mesh_quantization"};  // allows more types, and has no object of its own
+  collect_extensions(gltf_document(), names);
+  return names;
+}
 
 }  // namespace afm::scene

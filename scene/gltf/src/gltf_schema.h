@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <string_view>
 
@@ -88,5 +89,8 @@ std::span<const GltfMember> gltf_header();
 
 // All of a document but its header, with the extensions that are understood.
 std::span<const GltfMember> gltf_document();
+
+// The names of those extensions.
+std::set<std::string_view> gltf_extensions();
 
 }  // namespace afm::scene

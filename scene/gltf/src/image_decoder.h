@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/graph/material.h"
+#include "scene/graph/pbr_material.h"
 
 namespace afm::scene {
 

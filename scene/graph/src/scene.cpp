@@ -40,7 +40,7 @@ void append_nodes(Scene& scene, const Scene& part, std::string_view name, NodeIn
 }
 
 void append_looks(Scene& scene, const Scene& part, const Offsets& at) {
-  for (Material material : part.materials) {
+  for (PbrMaterial material : part.materials) {
     for (TextureUse& use : material.textures) shift(use.texture, at.texture);
     scene.materials.push_back(std::move(material));
   }

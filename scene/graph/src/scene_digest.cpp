@@ -8,7 +8,22 @@
 namespace afm::scene {
 namespace {
 
-// FNV-1a over values in a fixed order and byte order.
+// Stands for a value of any type, to count how many of them fill a struct.
+struct AnyFieldValue {
+  template <class T>
+  operator T() const;
+};
+template <class T, class... Values>
+consteval std::size_t count_fields() {
+  if constexpr (requires { T{Values{}..., AnyFieldValue{}}; }) {
+    return count_fields<T, Values..., AnyFieldValue>();
+  } else {
+    return sizeof...(Values);
+  }
+}
+static_assert(std::tuple_size_v<decltype(kPbrFields)> == count_fields<PbrMaterial>(), "a field has no row");
+
+// 64-bit FNV-1a (Fowler, Noll, Vo; draft-eastlake-fnv, section 5) over values in a fixed order and byte order.
 class Digest {
  public:
   std::uint64_t value() const { return hash_.value(); }
@@ -31,6 +46,17 @@ class Digest {
   }
   void add(const glm::vec2& v) {
     for (int i = 0; i < 2; ++i) add(v[i]);
+  }
+  void add(bool flag) { add(std::uint64_t{flag}); }
+  void add(const std::optional<float>& number) { add(number.value_or(-1.0F)); }
+  void add(const std::array<TextureUse, kTextureSlots>& textures) {
+    for (const TextureUse& use : textures) {
+      add(use.texture);
+      add(std::uint64_t{use.coordinates});
+      add(use.offset);
+      add(use.scale);
+      add(use.rotation_rad);
+    }
   }
   void add(const glm::dmat4& matrix) {
     for (int column = 0; column < 4; ++column) {
@@ -68,31 +94,6 @@ void add_primitive(Digest& digest, const Primitive& primitive) {
   for (const glm::vec4& tangent : primitive.tangents) digest.add(tangent);
 }
 
-void add_material(Digest& digest, const Material& material) {
-  digest.add(material.name);
-  digest.add(material.base_color);
-  digest.add(material.emissive);
-  digest.add(material.metallic);
-  digest.add(material.roughness);
-  digest.add(std::uint64_t{material.double_sided} | std::uint64_t{material.blended} << 1U |
-             std::uint64_t{material.unlit} << 2U);
-  digest.add(material.alpha_cutoff.value_or(-1.0F));
-  for (const float factor : {material.normal_scale, material.occlusion_strength, material.ior, material.specular,
-                             material.clearcoat, material.clearcoat_roughness, material.clearcoat_normal_scale,
-                             material.iridescence, material.iridescence_ior}) {
-    digest.add(factor);
-  }
-  digest.add(material.specular_color);
-  digest.add(material.iridescence_thickness_nm);
-  for (const TextureUse& use : material.textures) {
-    digest.add(use.texture);
-    digest.add(std::uint64_t{use.coordinates});
-    digest.add(use.offset);
-    digest.add(use.scale);
-    digest.add(use.rotation_rad);
-  }
-}
-
 void add_image(Digest& digest, const Image& image) {
   digest.add(std::uint64_t{image.width} << 32U | image.height);
 
@@ -117,7 +118,9 @@ std::uint64_t digest(const Scene& scene) {
     for (const Primitive& primitive : mesh.primitives) add_primitive(digest, primitive);
   }
   digest.add(std::uint64_t{scene.materials.size()});
-  for (const Material& material : scene.materials) add_material(digest, material);
+  for (const PbrMaterial& material : scene.materials) {
+    for_each_pbr_field([&](const auto& field) { digest.add(material.*field.member); });
+  }
   for (const Texture& texture : scene.textures) {
     digest.add(std::uint64_t{texture.image} << 32U | static_cast<std::uint64_t>(texture.magnified) |
                static_cast<std::uint64_t>(texture.minified) << 2U |

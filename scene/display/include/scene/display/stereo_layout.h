@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string_view>
 
@@ -29,54 +31,125 @@ enum class StereoMode {
   FramePacked720p,
   FramePacked1080p,
   QuadBuffer,
-  Dual
+  Dual,
+  Count
 };
 
-struct NamedStereoMode {
-  StereoMode mode;
-  std::string_view name;
+// How a picture is made of the eyes' images; compose.frag has the same list. TwoPictures shows each eye's image as a
+// picture of its own.
+enum class EyeArrangement {
+  Left,
+  Right,
+  TwoPictures,
+  SideBySide,
+  TopBottom,
+  Rows,
+  Columns,
+  Checkerboard,
+  Mixed,
+  FramePacked
 };
-
-// Every mode with the name that a person writes for it, in the order of the enumeration.
-inline constexpr std::array<NamedStereoMode, 17> kStereoModes{
-    {{StereoMode::Mono, "mono"},
-     {StereoMode::Left, "left"},
-     {StereoMode::Right, "right"},
-     {StereoMode::SideBySide, "side-by-side"},
-     {StereoMode::SideBySideHalf, "side-by-side-half"},
-     {StereoMode::TopBottom, "top-bottom"},
-     {StereoMode::TopBottomHalf, "top-bottom-half"},
-     {StereoMode::Row, "row"},
-     {StereoMode::Column, "column"},
-     {StereoMode::Checkerboard, "checkerboard"},
-     {StereoMode::AnaglyphRedCyan, "anaglyph-red-cyan"},
-     {StereoMode::AnaglyphGreenMagenta, "anaglyph-green-magenta"},
-     {StereoMode::AnaglyphAmberBlue, "anaglyph-amber-blue"},
-     {StereoMode::FramePacked720p, "frame-packed-720p"},
-     {StereoMode::FramePacked1080p, "frame-packed-1080p"},
-     {StereoMode::QuadBuffer, "quad-buffer"},
-     {StereoMode::Dual, "dual"}}};
-
-std::string_view name_of(StereoMode mode);
-
-// WrongUsage, naming what there is: no mode of this name.
-core::Result<StereoMode> parse_stereo_mode(std::string_view name);
-
-// Swapped shows the right eye's image wherever the left eye's belongs, and the other way round.
-enum class EyeOrder { Straight, Swapped };
 
 // Lines of a frame-packed picture (HDMI 1.4a, 3D structure "frame packing"): left, blank, right.
 struct FramePacking {
   glm::uvec2 eye_px;
   unsigned blank_lines;
 };
-std::optional<FramePacking> frame_packing(StereoMode mode);
 
-// Quad-buffer and dual show each eye's image as a picture of its own: two; every other mode one.
-bool has_two_pictures(StereoMode mode);
+// What glasses of two colours need: rgb = left * L + right * R in linear light, clamped to 0..1.
+struct AnaglyphMatrices {
+  glm::dmat3 left;
+  glm::dmat3 right;
+};
 
-// Row, column and checkerboard: which eye a pixel belongs to counts from the screen's corner.
-bool is_interleaved(StereoMode mode);
+// All that is known of a mode. A new one is a row here, and if its arrangement is new, a case in stereo_layout.cpp and
+// one in compose.frag (docs/adding-a-stereo-mode.md).
+struct StereoModeTraits {
+  StereoMode mode;
+  std::string_view name;  // as a person writes it
+  EyeArrangement arrangement;
+  bool squeezed = false;     // two eyes share the size of one
+  bool interleaved = false;  // which eye a pixel belongs to counts from the screen's corner
+  std::optional<FramePacking> packing{};
+  std::optional<AnaglyphMatrices> anaglyph{};
+};
+
+// A matrix written row by row, as in print; GLM stores columns.
+constexpr glm::dmat3 from_rows(const glm::dvec3& red, const glm::dvec3& green, const glm::dvec3& blue) {
+  return {red.x, green.x, blue.x, red.y, green.y, blue.y, red.z, green.z, blue.z};
+}
+
+// Every mode, in the order of the enumeration. The anaglyphs are the least-squares matrices of E. Dubois ("A projection
+// method to generate anaglyph stereo images", ICASSP 2001; numbers of his "LeastSquaresHowToPhotoshop").
+inline constexpr auto kStereoModes = std::to_array<StereoModeTraits>({
+    {.mode = StereoMode::Mono, .name = "mono", .arrangement = EyeArrangement::Left},
+    {.mode = StereoMode::Left, .name = "left", .arrangement = EyeArrangement::Left},
+    {.mode = StereoMode::Right, .name = "right", .arrangement = EyeArrangement::Right},
+    {.mode = StereoMode::SideBySide, .name = "side-by-side", .arrangement = EyeArrangement::SideBySide},
+    {.mode = StereoMode::SideBySideHalf,
+     .name = "side-by-side-half",
+     .arrangement = EyeArrangement::SideBySide,
+     .squeezed = true},
+    {.mode = StereoMode::TopBottom, .name = "top-bottom", .arrangement = EyeArrangement::TopBottom},
+    {.mode = StereoMode::TopBottomHalf,
+     .name = "top-bottom-half",
+     .arrangement = EyeArrangement::TopBottom,
+     .squeezed = true},
+    {.mode = StereoMode::Row, .name = "row", .arrangement = EyeArrangement::Rows, .interleaved = true},
+    {.mode = StereoMode::Column, .name = "column", .arrangement = EyeArrangement::Columns, .interleaved = true},
+    {.mode = StereoMode::Checkerboard,
+     .name = "checkerboard",
+     .arrangement = EyeArrangement::Checkerboard,
+     .interleaved = true},
+    {.mode = StereoMode::AnaglyphRedCyan,
+     .name = "anaglyph-red-cyan",
+     .arrangement = EyeArrangement::Mixed,
+     .anaglyph = AnaglyphMatrices{from_rows({0.437, 0.449, 0.164}, {-0.062, -0.062, -0.024}, {-0.048, -0.050, -0.017}),
+                                  from_rows({-0.011, -0.032, -0.007}, {0.377, 0.761, 0.009}, {-0.026, -0.093, 1.234})}},
+    {.mode = StereoMode::AnaglyphGreenMagenta,
+     .name = "anaglyph-green-magenta",
+     .arrangement = EyeArrangement::Mixed,
+     .anaglyph = AnaglyphMatrices{from_rows({-0.062, -0.158, -0.039}, {0.284, 0.668, 0.143}, {-0.015, -0.027, 0.021}),
+                                  from_rows({0.529, 0.705, 0.024}, {-0.016, -0.015, -0.065}, {0.009, 0.075, 0.937})}},
+    {.mode = StereoMode::AnaglyphAmberBlue,
+     .name = "anaglyph-amber-blue",
+     .arrangement = EyeArrangement::Mixed,
+     .anaglyph = AnaglyphMatrices{from_rows({1.062, -0.205, 0.299}, {-0.026, 0.908, 0.068}, {-0.038, -0.173, 0.022}),
+                                  from_rows({-0.016, -0.123, -0.017}, {0.006, 0.062, -0.017}, {0.094, 0.185, 0.911})}},
+    {.mode = StereoMode::FramePacked720p,
+     .name = "frame-packed-720p",
+     .arrangement = EyeArrangement::FramePacked,
+     .packing = FramePacking{{1280, 720}, 30}},
+    {.mode = StereoMode::FramePacked1080p,
+     .name = "frame-packed-1080p",
+     .arrangement = EyeArrangement::FramePacked,
+     .packing = FramePacking{{1920, 1080}, 45}},
+    {.mode = StereoMode::QuadBuffer, .name = "quad-buffer", .arrangement = EyeArrangement::TwoPictures},
+    {.mode = StereoMode::Dual, .name = "dual", .arrangement = EyeArrangement::TwoPictures},
+});
+static_assert(kStereoModes.size() == static_cast<std::size_t>(StereoMode::Count), "a mode has no row");
+static_assert([] {
+  for (std::size_t i = 0; i < kStereoModes.size(); ++i) {
+    const StereoModeTraits& row = kStereoModes[i];
+    if (row.mode != static_cast<StereoMode>(i)) return false;
+    if (row.packing.has_value() != (row.arrangement == EyeArrangement::FramePacked)) return false;
+    if (row.anaglyph.has_value() != (row.arrangement == EyeArrangement::Mixed)) return false;
+  }
+  return true;
+}());
+
+constexpr const StereoModeTraits& traits_of(StereoMode mode) { return kStereoModes[static_cast<std::size_t>(mode)]; }
+constexpr std::string_view name_of(StereoMode mode) { return traits_of(mode).name; }
+constexpr bool is_interleaved(StereoMode mode) { return traits_of(mode).interleaved; }
+constexpr const std::optional<FramePacking>& frame_packing(StereoMode mode) { return traits_of(mode).packing; }
+constexpr const std::optional<AnaglyphMatrices>& anaglyph_matrices(StereoMode mode) { return traits_of(mode).anaglyph; }
+constexpr bool has_two_pictures(StereoMode mode) { return traits_of(mode).arrangement == EyeArrangement::TwoPictures; }
+
+// WrongUsage, naming what there is: no mode of this name.
+core::Result<StereoMode> parse_stereo_mode(std::string_view name);
+
+// Swapped shows the right eye's image wherever the left eye's belongs, and the other way round.
+enum class EyeOrder { Straight, Swapped };
 
 // Size of the picture (of each of them) in which one pixel of an eye image of `eye_px` is one pixel; the half modes
 // squeeze two into one. Frame packing has a size of its own, whatever the eyes'.
@@ -99,14 +172,5 @@ struct PixelSource {
 // mode with two pictures: of the first.
 PixelSource source_of_pixel(StereoMode mode, EyeOrder order, glm::uvec2 picture_px, glm::uvec2 pixel,
                             glm::ivec2 screen_px = glm::ivec2(0));
-
-// What glasses of two colours need: rgb = left * L + right * R in linear light, clamped to 0..1.
-// Least-squares matrices of E. Dubois ("A projection method to generate anaglyph stereo images", ICASSP 2001; numbers
-// of his "LeastSquaresHowToPhotoshop").
-struct AnaglyphMatrices {
-  glm::dmat3 left;
-  glm::dmat3 right;
-};
-std::optional<AnaglyphMatrices> anaglyph_matrices(StereoMode mode);
 
 }  // namespace afm::scene

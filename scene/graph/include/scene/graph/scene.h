@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "scene/graph/animation.h"
-#include "scene/graph/material.h"
+#include "scene/graph/pbr_material.h"
 
 namespace afm::scene {
 
@@ -116,7 +116,7 @@ struct Node {
 struct Scene {
   std::vector<Node> nodes;
   std::vector<Mesh> meshes;
-  std::vector<Material> materials;
+  std::vector<PbrMaterial> materials;
   std::vector<Texture> textures{};
   std::vector<Image> images{};
   std::vector<Skin> skins{};
@@ -134,8 +134,8 @@ struct Scene {
 NodeIndex append(Scene& scene, const Scene& part, std::string_view name, std::optional<NodeIndex> parent,
                  const glm::dmat4& parent_from_name);
 
-// A digest of what is felt or drawn (64-bit FNV-1a): nodes, meshes, materials and images. Two programs that agree on it
-// share the same scene.
+// A digest of nodes, meshes, materials, textures and images (64-bit FNV-1a): by it a renderer knows the servo of the
+// scene that it shows, in one run. Lights, cameras, skins, morph targets, animations and variants are not in it.
 std::uint64_t digest(const Scene& scene);
 
 }  // namespace afm::scene

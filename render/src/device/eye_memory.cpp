@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/picture_memory.h"
+#include "render/eye_memory.h"
 
 #include "device/device.h"
 

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+namespace afm::scene {
+
+// Pixels as the file holds them, four bytes each, rows from top to bottom. Whether they are sRGB or linear is said by
+// the slot that reads them, not by the image.
+struct Image {
+  std::string name;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+enum class TextureFilter { Nearest, Linear };
+enum class TextureWrap { Repeat, MirroredRepeat, ClampToEdge };
+
+// An image and how it is sampled.
+struct Texture {
+  std::uint32_t image = 0;
+  TextureFilter magnified = TextureFilter::Linear;
+  TextureFilter minified = TextureFilter::Linear;
+  std::optional<TextureFilter> between_mips = TextureFilter::Linear;  // none: the image has no mipmaps
+  TextureWrap wrap_u = TextureWrap::Repeat;
+  TextureWrap wrap_v = TextureWrap::Repeat;
+
+  bool operator==(const Texture&) const = default;
+};
+
+// What a texture of a material is for; each has its number in material.frag.
+enum class TextureSlot : std::uint8_t {
+  BaseColor,             // rgb colour, a coverage
+  MetallicRoughness,     // g roughness, b metalness
+  Normal,                // tangent space
+  Occlusion,             // r
+  Emissive,              // rgb
+  Specular,              // a
+  SpecularColor,         // rgb
+  Clearcoat,             // r
+  ClearcoatRoughness,    // g
+  ClearcoatNormal,       // tangent space
+  Iridescence,           // r
+  IridescenceThickness,  // g
+  Count
+};
+inline constexpr auto kTextureSlots = static_cast<std::size_t>(TextureSlot::Count);
+
+struct TextureSlotTraits {
+  TextureSlot slot;
+  std::string_view name;
+  bool is_srgb = false;  // else linear
+};
+
+// Every slot, in the order of the enumeration.
+inline constexpr std::array kTextureSlotTraits{
+    TextureSlotTraits{TextureSlot::BaseColor, "BaseColor", true},
+    TextureSlotTraits{TextureSlot::MetallicRoughness, "MetallicRoughness"},
+    TextureSlotTraits{TextureSlot::Normal, "Normal"},
+    TextureSlotTraits{TextureSlot::Occlusion, "Occlusion"},
+    TextureSlotTraits{TextureSlot::Emissive, "Emissive", true},
+    TextureSlotTraits{TextureSlot::Specular, "Specular"},
+    TextureSlotTraits{TextureSlot::SpecularColor, "SpecularColor", true},
+    TextureSlotTraits{TextureSlot::Clearcoat, "Clearcoat"},
+    TextureSlotTraits{TextureSlot::ClearcoatRoughness, "ClearcoatRoughness"},
+    TextureSlotTraits{TextureSlot::ClearcoatNormal, "ClearcoatNormal"},
+    TextureSlotTraits{TextureSlot::Iridescence, "Iridescence"},
+    TextureSlotTraits{TextureSlot::IridescenceThickness, "IridescenceThickness"},
+};
+static_assert(kTextureSlotTraits.size() == kTextureSlots, "a slot has no row");
+static_assert([] {
+  for (std::size_t i = 0; i < kTextureSlots; ++i) {
+    if (kTextureSlotTraits[i].slot != static_cast<TextureSlot>(i)) return false;
+  }
+  return true;
+}());
+
+// How a material reads one of its textures: coordinates of set 0 or 1, scaled, turned and shifted in this order
+// (KHR_texture_transform).
+struct TextureUse {
+  std::optional<std::uint32_t> texture;
+  std::uint32_t coordinates = 0;
+  glm::vec2 offset{0.0F};
+  glm::vec2 scale{1.0F};
+  float rotation_rad = 0.0F;
+
+  bool operator==(const TextureUse&) const = default;
+};
+
+// What a surface looks like: glTF 2.0 metallic-roughness factors, linear, and those of the KHR_materials extensions
+// that are drawn.
+struct PbrMaterial {
+  std::string name;
+  glm::vec4 base_color{1.0F};
+  glm::vec3 emissive{0.0F};  // KHR_materials_emissive_strength included
+  float metallic = 1.0F;
+  float roughness = 1.0F;
+  bool double_sided = false;
+  bool blended = false;  // alphaMode BLEND: drawn after the opaque primitives, writes no depth, casts no shadow
+  bool unlit = false;    // KHR_materials_unlit
+  std::optional<float> alpha_cutoff{};  // alphaMode MASK: what covers less is not there
+  float normal_scale = 1.0F;
+  float occlusion_strength = 1.0F;
+  float ior = 1.5F;       // KHR_materials_ior
+  float specular = 1.0F;  // KHR_materials_specular
+  glm::vec3 specular_color{1.0F};
+  float clearcoat = 0.0F;  // KHR_materials_clearcoat
+  float clearcoat_roughness = 0.0F;
+  float clearcoat_normal_scale = 1.0F;
+  float iridescence = 0.0F;  // KHR_materials_iridescence
+  float iridescence_ior = 1.3F;
+  glm::vec2 iridescence_thickness_nm{100.0F, 400.0F};  // of a texture's 0 and 1; without a texture the second holds
+  std::array<TextureUse, kTextureSlots> textures{};
+
+  const TextureUse& texture(TextureSlot slot) const { return textures[static_cast<std::size_t>(slot)]; }
+  TextureUse& texture(TextureSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
+};
+
+// Which shaders a field concerns. Plain materials are those that the shader without textures draws: every field of
+// Extended and of Feature has its default.
+enum class PbrUse {
+  Plain,     // every shader draws it, or a texture has a bit of its own
+  Factor,    // material.frag alone reads it, and it says nothing without a texture or a feature
+  Extended,  // material.frag alone draws what is not the default
+  Feature,   // the same, and it switches a part of the shader on: 0 is off
+};
+
+template <class T>
+struct PbrField {
+  T PbrMaterial::* member;
+  std::string_view name;
+  PbrUse use;
+};
+
+// Every field, in the order of the struct; scene_digest.cpp does not compile if one is missing. The digest, which
+// shader draws a material and what that shader is given follow from these rows: all but Plain are the first members of
+// material.frag's block, in this order and by these names, and the features its bits.
+inline constexpr std::tuple kPbrFields{
+    PbrField{&PbrMaterial::name, "name", PbrUse::Plain},
+    PbrField{&PbrMaterial::base_color, "base_color", PbrUse::Plain},
+    PbrField{&PbrMaterial::emissive, "emissive", PbrUse::Plain},
+    PbrField{&PbrMaterial::metallic, "metallic", PbrUse::Plain},
+    PbrField{&PbrMaterial::roughness, "roughness", PbrUse::Plain},
+    PbrField{&PbrMaterial::double_sided, "double_sided", PbrUse::Plain},
+    PbrField{&PbrMaterial::blended, "blended", PbrUse::Plain},
+    PbrField{&PbrMaterial::unlit, "unlit", PbrUse::Plain},
+    PbrField{&PbrMaterial::alpha_cutoff, "alpha_cutoff", PbrUse::Extended},
+    PbrField{&PbrMaterial::normal_scale, "normal_scale", PbrUse::Factor},
+    PbrField{&PbrMaterial::occlusion_strength, "occlusion_strength", PbrUse::Factor},
+    PbrField{&PbrMaterial::ior, "ior", PbrUse::Extended},
+    PbrField{&PbrMaterial::specular, "specular", PbrUse::Extended},
+    PbrField{&PbrMaterial::specular_color, "specular_color", PbrUse::Extended},
+    PbrField{&PbrMaterial::clearcoat, "clearcoat", PbrUse::Feature},
+    PbrField{&PbrMaterial::clearcoat_roughness, "clearcoat_roughness", PbrUse::Factor},
+    PbrField{&PbrMaterial::clearcoat_normal_scale, "clearcoat_normal_scale", PbrUse::Factor},
+    PbrField{&PbrMaterial::iridescence, "iridescence", PbrUse::Feature},
+    PbrField{&PbrMaterial::iridescence_ior, "iridescence_ior", PbrUse::Factor},
+    PbrField{&PbrMaterial::iridescence_thickness_nm, "iridescence_thickness_nm", PbrUse::Factor},
+    PbrField{&PbrMaterial::textures, "textures", PbrUse::Plain},
+};
+
+template <class Visit>
+constexpr void for_each_pbr_field(Visit visit) {
+  std::apply([&](const auto&... field) { (visit(field), ...); }, kPbrFields);
+}
+
+}  // namespace afm::scene
