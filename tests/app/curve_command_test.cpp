@@ -185,7 +185,7 @@ TEST(CurveCommand, KnowsEveryModel) {
   std::vector<std::string> models{"paper-rule"};
   for (const physics::Law law : physics::laws_with(&physics::LawTraits::computed)) models.emplace_back(name_of(law));
   for (const std::string& model : models) {
-    const auto json = json_of(contact_of("gold-air", model), {.step = "1nm"});
+    const auto json = json_of(contact_of("gold-air", model.c_str()), {.step = "1nm"});
     EXPECT_EQ(json["model"], model);
     EXPECT_EQ(json["model_requested"], model);
   }
