@@ -74,8 +74,10 @@ SceneMaterials::SceneMaterials(const Device& device, const scene::Scene& scene)
   const auto alignment = device.physical().getProperties().limits.minUniformBufferOffsetAlignment;
   const vk::DeviceSize stride = (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
   blocks_ = create_host_buffer(device, "materials", count * stride, vk::BufferUsageFlagBits::eUniformBuffer);
-  const std::array sizes{vk::DescriptorPoolSize{.type = kUniform, .descriptorCount = count},
-                         vk::DescriptorPoolSize{.type = kSampled, .descriptorCount = count * scene::kTextureSlots}};
+  const std::array sizes{
+      vk::DescriptorPoolSize{.type = kUniform, .descriptorCount = count},
+      vk::DescriptorPoolSize{.type = kSampled,
+                             .descriptorCount = count * static_cast<std::uint32_t>(scene::kTextureSlots)}};
   pool_ = vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                              .maxSets = count,
                                              .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),

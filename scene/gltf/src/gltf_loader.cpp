@@ -9,7 +9,7 @@
 
 #include "gltf_animations.h"
 #include "gltf_error.h"
-#include "gltf_images.h"
+#include "images/gltf_images.h"
 #include "gltf_materials.h"
 #include "gltf_meshes.h"
 #include "gltf_model.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_decoder.h"
+#include "images/image_decoder.h"
 
 #include <fmt/core.h>
 #include <png.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf_images.h"
+#include "images/gltf_images.h"
 
 #include <fmt/core.h>
 
@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "gltf_error.h"
-#include "image_decoder.h"
+#include "images/image_decoder.h"
 
 namespace afm::scene {
 namespace {

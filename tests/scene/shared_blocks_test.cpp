@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/shared/shared_blocks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <type_traits>
+#include <utility>
+
+#include "scene/shared/shared_segment.h"
+#include "support/paper_model.h"
+
+namespace {
+
+using namespace afm::scene;
+using afm::test::paper_model;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+SharedSegment create_segment() {
+  auto segment = SharedSegment::create(paper_model(), 0);
+  EXPECT_TRUE(segment) << segment.error().message;
+  return std::move(*segment);
+}
+
+TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
+  SharedSegment segment = create_segment();
+  RendererSide renderer = segment.renderer_side();
+  ServoSide servo = segment.servo_side();
+
+  renderer.store(Selection{.material = 3, .revision = 1});
+  EXPECT_FALSE(servo.new_selection());
+  renderer.store(HandScript{.target_m = {0, kNan, 0}});
+  EXPECT_FALSE(servo.new_hand_script());
+  renderer.store(HandScript{.duration_s = -1});
+  EXPECT_FALSE(servo.new_hand_script());
+  renderer.store(SceneTransforms{.count = 3});
+  EXPECT_FALSE(servo.new_transforms());
+  renderer.store(RendererHeartbeat{.leaving = 2});
+  EXPECT_FALSE(servo.new_heartbeat());
+  EXPECT_EQ(servo.refused_blocks(), 5U);
+
+  servo.store(TipState{.tip = {.z_m = kNan}});
+  EXPECT_FALSE(renderer.tip_state());
+  servo.store(TipState{.servo_state = static_cast<ServoState>(77)});
+  EXPECT_FALSE(renderer.tip_state());
+  servo.store(TipState{.fault = static_cast<FaultCode>(7)});
+  EXPECT_FALSE(renderer.tip_state());
+  servo.push(TipEvent{.kind = static_cast<afm::physics::EventKind>(0)});
+  servo.push(TipEvent{.kind = afm::physics::EventKind::JumpToContact, .material = 3});
+  EXPECT_FALSE(renderer.pop_event());
+  // what comes after a bad sample is still found
+  servo.push(TipSample{.tip = {.force_n = kNan}});
+  servo.push(TipSample{.tick = 8});
+  EXPECT_EQ(renderer.pop_sample()->tick, 8U);
+  EXPECT_EQ(renderer.refused_blocks(), 6U);
+}
+
+TEST(SharedBlocks, OfEveryFaultAndEveryScaleModePass) {
+  SharedSegment segment = create_segment();
+  RendererSide renderer = segment.renderer_side();
+  ServoSide servo = segment.servo_side();
+  for (const FaultText& fault : kFaultTexts) {
+    servo.store(TipState{.fault = fault.code});
+    EXPECT_TRUE(renderer.tip_state()) << fault.reason;
+  }
+  for (const ScaleModeText& scale : kScaleModes) {
+    renderer.store(Selection{.material = 0, .scale_mode = scale.mode});
+    EXPECT_TRUE(servo.new_selection()) << scale.word;
+  }
+}
+
+// One after the other, each number of a block made NaN; returns how many it has.
+template <class Block>
+int expect_every_number_is_checked(const SharedModel& model) {
+  const Block good{};
+  EXPECT_TRUE(is_valid(good, model));
+  int numbers = 0;
+  const auto spoil = [&](const char* name, const double& number) {
+    Block bad = good;
+    const auto offset = reinterpret_cast<const std::byte*>(&number) - reinterpret_cast<const std::byte*>(&good);
+    std::memcpy(reinterpret_cast<std::byte*>(&bad) + offset, &kNan, sizeof(double));
+    EXPECT_FALSE(is_valid(bad, model)) << name;
+    ++numbers;
+  };
+  for_each_leaf(
+      [&]<class Value>(const char* name, const Value& value) {
+        if constexpr (std::is_same_v<Value, double>) {
+          spoil(name, value);
+        } else if constexpr (!std::is_integral_v<Value> && !std::is_enum_v<Value>) {
+          for (const double& number : value) spoil(name, number);
+        }
+      },
+      good);
+  return numbers;
+}
+
+TEST(SharedBlocks, AreRefusedForAnyNumberThatIsNotFinite) {
+  const SharedModel model = paper_model();
+  EXPECT_EQ(expect_every_number_is_checked<TipState>(model), 5 + 3 + 3 + 6 + 4 + 6);
+  EXPECT_EQ(expect_every_number_is_checked<TipSample>(model), 5 + 3 + 2 + 9 + 1);
+  EXPECT_EQ(expect_every_number_is_checked<TipEvent>(model), 3);
+}
+
+TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
+  SharedSegment segment = create_segment();
+  const auto size = static_cast<std::size_t>(::lseek(segment.descriptor(), 0, SEEK_END));
+  std::mt19937_64 random(3);
+  std::vector<std::uint64_t> noise(size / sizeof(std::uint64_t));
+  for (int round = 0; round < 20; ++round) {
+    for (auto& word : noise) word = random();
+    // everything but the header and the model, which attach() has validated
+    constexpr std::size_t kPage = 4096;
+    constexpr std::size_t kConstantPart = (1 + (sizeof(SharedModel) + kPage - 1) / kPage) * kPage;
+    ASSERT_GT(::pwrite(segment.descriptor(), noise.data(), size - kConstantPart, kConstantPart), 0);
+    RendererSide renderer = segment.renderer_side();
+    ServoSide servo = segment.servo_side();
+    EditSide edits = segment.edit_side();
+    for (int i = 0; i < 3; ++i) {
+      const auto selection = servo.new_selection();
+      EXPECT_TRUE(!selection || selection->material < 3);
+      const auto state = renderer.tip_state();
+      EXPECT_TRUE(!state || std::isfinite(state->tip.z_m));
+      servo.new_transforms();
+      servo.new_hand_script();
+      servo.new_heartbeat();
+      const auto edit = edits.new_edit(0);
+      EXPECT_FALSE(edit && validate(edit->material, 0, 0));
+      while (renderer.pop_sample()) {
+      }
+      while (renderer.pop_event()) {
+      }
+    }
+  }
+}
+
+}  // namespace
