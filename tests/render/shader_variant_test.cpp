@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "passes/shader_variant.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "device/shader_interface.h"
 #include "places.h"
 
 namespace afm::render {
@@ -51,9 +51,11 @@ TEST(ShaderVariants, HaveABitForEachFeature) {
   scene::for_each_pbr_field([&](const auto& field) {
     PbrMaterial material;
     change(material.*field.member);
-    if (field.use == PbrUse::Feature) bits.push_back(variant(material)->bits);
+    if (field.use != PbrUse::Feature) return;
+    EXPECT_EQ(variant(material)->bits, 1U << (AFM_FIRST_PBR_FEATURE + bits.size())) << field.name;
+    bits.push_back(variant(material)->bits);
   });
-  EXPECT_THAT(bits, testing::ElementsAre(1U << 18U, 1U << 19U));
+  EXPECT_GE(bits.size(), 2U);
 }
 
 std::string material_shader() {

@@ -11,7 +11,9 @@ namespace {
 // Stands for a value of any type, to count how many of them fill a struct.
 struct AnyFieldValue {
   template <class T>
-  operator T() const;
+  operator T() const {
+    return {};
+  }
 };
 template <class T, class... Values>
 consteval std::size_t count_fields() {
