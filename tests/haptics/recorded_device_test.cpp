@@ -77,8 +77,8 @@ TEST(RecordedDevice, GivesTheSameForcesAgainBitForBit) {
   ASSERT_EQ(first.size(), second.size());
   double strongest_n = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
-    ASSERT_EQ(first[i].z_m, second[i].z_m) << i;
-    ASSERT_EQ(first[i].force_n, second[i].force_n) << i;
+    ASSERT_EQ(first[i].tip.z_m, second[i].tip.z_m) << i;
+    ASSERT_EQ(first[i].tip.force_n, second[i].tip.force_n) << i;
     ASSERT_EQ(first[i].hand_force_n, second[i].hand_force_n) << i;
     ASSERT_EQ(first[i].servo_state, second[i].servo_state) << i;
     strongest_n = std::max(strongest_n, std::abs(second[i].hand_force_n));
