@@ -20,7 +20,7 @@ render::DataPanel panel_of(Law law) {
   const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
   curves::ContactSetup setup{*library.find("mica"), {}, {}};
   setup.model.law = law;
-  return data_panel(curves::make_sample_model(setup).value(), 0.0, 0.0);
+  return data_panel(curves::make_sample_model(setup).value(), {});
 }
 
 bool shows(const render::DataPanel& panel, std::string_view begin) {
