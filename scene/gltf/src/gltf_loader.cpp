@@ -9,11 +9,11 @@
 
 #include "gltf_animations.h"
 #include "gltf_error.h"
-#include "images/gltf_images.h"
 #include "gltf_materials.h"
 #include "gltf_meshes.h"
 #include "gltf_model.h"
 #include "gltf_nodes.h"
+#include "images/gltf_images.h"
 
 namespace afm::scene {
 namespace {
