@@ -59,7 +59,7 @@ void add_paper_command(CLI::App& app, CommandContext& context) {
       ->type_name("DIR");
   command
       ->add_option("--summary", options->summary_file,
-                   "summary.json of a demo, whose measurements then stand in the tables")
+                   "summary.json of a demo; the tables then include its measurements")
       ->type_name("FILE");
   command->add_option("--materials", options->materials_file, "material file (TOML); default: the built-in one")
       ->type_name("FILE");

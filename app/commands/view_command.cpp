@@ -50,7 +50,7 @@ core::Result<void> check_validation(render::Context& context) {
                        fmt::format("the Vulkan validation layer gave {} messages; they stand above", messages.size()));
 }
 
-// Who moves the hand if the device has none of its own, and on what a recorded one goes.
+// Selects who moves a simulated hand, and the settings under which a recorded hand is played.
 core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& device, ViewSettings& settings) {
   const auto choice = servo::parse_haptic_choice(device);
   if (!choice) return tl::unexpected(choice.error());

@@ -251,7 +251,7 @@ void LiveView::move_hand(const ViewInput& input, std::int64_t now_ns) {
   servo.script(person_.hand());
 }
 
-// Neither mouse nor simulated person moves a device that has a hand of its own.
+// The mouse and the simulated person do not move a real device.
 HandSource LiveView::hand() const {
   return servo_.link().device().has_own_hand != 0 ? HandSource::Device : settings_.hand;
 }

@@ -19,7 +19,7 @@ class ParameterEdits {
   explicit ParameterEdits(std::vector<curves::SampleModel> loaded)
       : loaded_(std::move(loaded)), edits_(loaded_.size()) {}
 
-  // What the target of the panel stands for, except Close: changes the parameters, and the servo's.
+  // Applies the button of the panel, except Close, to the parameters and to the servo.
   void apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo);
 
   // Back to what was loaded, of every material.
