@@ -26,7 +26,8 @@ add_library(afm_build_flags INTERFACE)
 target_compile_options(afm_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Wnon-virtual-dtor -Werror
   -ffp-contract=off
-  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+  # both let ccache keep what is compiled with a precompiled header
+  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess> "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>"
   # clang blames us for what libstdc++ 12 does within std::stable_sort; g++ still reports what is deprecated in our own lines
   $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
   # gcc 12 reports false positives of these inside libstdc++ and fmt once it inlines at -O2

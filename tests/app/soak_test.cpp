@@ -41,8 +41,8 @@ constexpr int kFewActions = 200;
 constexpr int kActionsAPlug = 50;     // at least, until the wand is plugged in, and pulled out again: two seconds
 constexpr int kMostPlugChanges = 80;  // umockdev 0.17 ends a program that has opened 50 devices, though it closes them
 constexpr auto kPause = std::chrono::milliseconds(40);
-// Between the third quarter and the last, of the least that was held in each: windows come and go in all sizes. A
-// picture of 320 x 240 that is lost with every change of the mode makes 300 MiB of an hour's 90000 actions.
+// Of the least that was held in the last quarter, above the greater of the two quarters before: windows come and go in all
+// sizes. A picture of 320 x 240 that is lost with every change of the mode makes 300 MiB of an hour's 90000 actions.
 constexpr double kMostGrowthMib = 8.0;
 constexpr auto kLongestIdle = std::chrono::minutes(10);
 
@@ -254,7 +254,7 @@ TEST_F(SoakTest, RandomHandsNeitherDisturbTheServoNorFillTheMemory) {
             << resident[resident.size() / 2] << ", at the end " << resident.back() << "; least of each quarter";
   for (std::size_t quarter = 0; quarter < 4; ++quarter) std::cout << " " << least(resident, quarter);
   std::cout << " MiB\n" << servo_line(program.said()) << "\n";
-  EXPECT_LT(least(resident, 3), least(resident, 2) + kMostGrowthMib);
+  EXPECT_LT(least(resident, 3), std::max(least(resident, 1), least(resident, 2)) + kMostGrowthMib);
 
   // beside it, as long an idle hand: a report, since the machine's own load decides here
   support::LiveProgram idle(view(), display_.name());
