@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <thread>
 
 #include "core/clock.h"
@@ -128,6 +130,57 @@ TEST(HaplyDevice, SendsZeroBeforeItLeaves) {
   device->reset();
   EXPECT_TRUE(eventually([&] { return last_force_z(service) == 0.0; }));
 }
+
+// The service holds what it was last sent, whatever it tells or does not tell.
+class HaplyReleases : public testing::TestWithParam<HaplyService::Manner> {
+ protected:
+  void SetUp() override {
+    auto device = HaplyDevice::open(kClock, service_.port());
+    ASSERT_TRUE(device) << device.error().message;
+    device_ = std::move(*device);
+    servo_.emplace(*device_);
+    ASSERT_TRUE(servo_->pulls_with_one_newton());
+    ASSERT_TRUE(eventually([&] {
+      servo_->tick();
+      return last_force_z(service_) < -0.5;
+    }));
+  }
+
+  HaplyService service_;
+  std::unique_ptr<HaplyDevice> device_;
+  std::optional<Servo> servo_;
+};
+
+TEST_P(HaplyReleases, WhenTheServiceTellsNoPlaceThoughTheServoGoesOn) {
+  service_.manner = GetParam();
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_TRUE(eventually([&] {
+    servo_->tick();
+    return last_force_z(service_) == 0.0;
+  }));
+  // the device's 20 ms and a slice of its thread's, twice
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(60));
+}
+
+TEST_P(HaplyReleases, WhenTheServoEndsMeanwhile) {
+  service_.manner = GetParam();
+  device_.reset();
+  EXPECT_TRUE(eventually([&] { return last_force_z(service_) == 0.0; }));
+}
+
+INSTANTIATE_TEST_SUITE_P(Services, HaplyReleases,
+                         testing::Values(HaplyService::Manner::Silent, HaplyService::Manner::Babbling,
+                                         HaplyService::Manner::TooLong),
+                         [](const auto& service) {
+                           switch (service.param) {
+                             case HaplyService::Manner::Silent:
+                               return "Silent";
+                             case HaplyService::Manner::Babbling:
+                               return "Babbling";
+                             default:
+                               return "TooLong";
+                           }
+                         });
 
 TEST(HaplyDevice, IsNotHealthyWhileTheServiceIsSilentOrGoneAndComesBack) {
   HaplyService service;

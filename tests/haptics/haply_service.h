@@ -24,7 +24,8 @@ namespace afm::test {
 // next state, as the service's documentation tells. One client at a time; the last one may come back.
 class HaplyService {
  public:
-  enum class Manner { Proper, Silent, Babbling, NoDevice };
+  // Silent: it takes forces and tells nothing. TooLong: it tells a state of 100 kB, then waits for what comes.
+  enum class Manner { Proper, Silent, Babbling, NoDevice, TooLong };
 
   HaplyService() : HaplyService(Manner::Proper) {}
   explicit HaplyService(Manner first)
@@ -93,23 +94,49 @@ class HaplyService {
     boost::beast::error_code error;
     stream.accept(error);
     stream.text(true);
+    boost::beast::flat_buffer buffer;
+    bool reading = false;
+    // Takes the next force, if it comes within `patience`.
+    const auto take = [&](std::chrono::milliseconds patience) {
+      if (!reading) {
+        reading = true;
+        stream.async_read(buffer, [&](const boost::beast::error_code& result, std::size_t) {
+          reading = false;
+          error = result;
+        });
+      }
+      context_.restart();
+      const auto end = std::chrono::steady_clock::now() + patience;
+      while (reading && context_.run_one_until(end) > 0) {
+      }
+      if (!reading && !error) keep(buffer);
+    };
     while (!error && !ending_) {
-      while (manner == Manner::Silent && !ending_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      stream.write(boost::asio::buffer(state()), error);
+      while (manner == Manner::Silent && !ending_ && !error) take(std::chrono::milliseconds(1));
+      if (error) break;
+      const bool too_long = manner == Manner::TooLong;
+      stream.write(boost::asio::buffer(state() + std::string(too_long ? 100'000 : 0, ' ')), error);
       if (manner == Manner::NoDevice) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (error || manner == Manner::NoDevice) continue;
-      boost::beast::flat_buffer buffer;
-      stream.read(buffer, error);
-      if (error) break;
-      const auto message = nlohmann::json::parse(
-          std::string_view(static_cast<const char*>(buffer.cdata().data()), buffer.size()), nullptr, false);
-      const auto& values = message["inverse3"][0]["commands"]["set_cursor_force"]["values"];
-      const std::lock_guard lock(mutex_);
-      forces_.push_back({values["x"], values["y"], values["z"]});
+      do take(std::chrono::milliseconds(10));
+      while (reading && !error && !ending_ && manner != Manner::Silent);
       std::this_thread::sleep_for(std::chrono::microseconds(500));
     }
+    boost::beast::error_code ignored;
+    stream.next_layer().close(ignored);
+    context_.restart();
+    context_.run();  // what refers to this frame ends now
     const std::lock_guard lock(mutex_);
     client_ = -1;
+  }
+
+  void keep(boost::beast::flat_buffer& buffer) {
+    const auto message = nlohmann::json::parse(
+        std::string_view(static_cast<const char*>(buffer.cdata().data()), buffer.size()), nullptr, false);
+    buffer.clear();
+    const auto& values = message["inverse3"][0]["commands"]["set_cursor_force"]["values"];
+    const std::lock_guard lock(mutex_);
+    forces_.push_back({values["x"], values["y"], values["z"]});
   }
 
   boost::asio::io_context context_;

@@ -21,6 +21,7 @@ namespace {
 constexpr auto kFirstPlacePatience = std::chrono::seconds(2);
 constexpr auto kReleasePatience = std::chrono::milliseconds(50);
 constexpr auto kPause = std::chrono::milliseconds(2);
+constexpr std::int64_t kComplaintNs = 1'000'000'000;  // between two lines about a service that stammers
 
 template <class Condition>
 bool wait_until(std::chrono::milliseconds patience, Condition&& condition) {
@@ -92,7 +93,10 @@ void HaplyDevice::serve() noexcept {
         if (told) core::log_line("haptics: the haply inverse service answers again");
         told = false;
         exchange();
-        released_.store(true);  // nobody is there to hold a force
+        if (!released_.exchange(true)) {
+          core::log_line(
+              "haptics: the haply inverse service could not be told to let go: it may still hold the last force");
+        }
       }
     } catch (const std::exception& error) {
       core::log_line(fmt::format("haptics: the haply inverse service cannot be spoken with: {}", error.what()));
@@ -105,24 +109,43 @@ void HaplyDevice::serve() noexcept {
   }
 }
 
-// Until the connection ends. The service speaks first; then each of its states answers a force.
+// Until the connection ends. The service speaks first; then each of its states answers a force. A service that falls
+// silent holds the last force, so that zero is sent without being asked.
 void HaplyDevice::exchange() {
   std::string device_id;
-  force_ns_ = clock_.now_ns();
+  force_ns_ = heard_ns_ = clock_.now_ns();
   trust_ns_ = 0;
-  while (const auto message = link_->receive()) {
-    const std::int64_t now_ns = clock_.now_ns();
-    if (const auto state = parse_haply_state(*message)) {
+  bool silent = false;
+  while (!link_->ended() && !closing_.load()) {
+    bool asked = false;
+    // of several that have waited, the newest
+    for (auto message = link_->receive(kPause); message; message = link_->receive(std::chrono::microseconds(0))) {
+      asked = true;
+      const auto state = parse_haply_state(*message);
+      if (!state) continue;
       device_id = state->device_id;
-      frames_.store({.time_ns = now_ns, .position_m = state->position_m, .button = state->button ? 1U : 0U});
+      heard_ns_ = clock_.now_ns();
+      frames_.store({.time_ns = heard_ns_, .position_m = state->position_m, .button = state->button ? 1U : 0U});
     }
-    if (device_id.empty()) continue;  // there is nobody to answer
+    const std::int64_t now_ns = clock_.now_ns();
     const glm::dvec3 force_n = force_for(now_ns);
-    const bool none = force_n == glm::dvec3(0.0);
-    if (!none) released_.store(false);
-    if (!link_->send(haply_force_message(device_id, force_n))) return;
-    if (none) released_.store(true);
+    const bool was_silent = std::exchange(silent, now_ns - heard_ns_ > kStallNs);
+    if (asked ? !device_id.empty() : silent && !released_.load()) tell(device_id, force_n);
+    if (silent && !was_silent && now_ns - complained_ns_ > kComplaintNs) {
+      complained_ns_ = now_ns;
+      core::log_line(
+          fmt::format("haptics: the haply inverse service has told no place for {} ms: no force until it does",
+                      kStallNs / 1'000'000));
+    }
   }
+  // whatever ended it, the service may still hold what it was last sent
+  if (!released_.load()) tell(device_id, glm::dvec3(0.0));
+}
+
+void HaplyDevice::tell(const std::string& device_id, const glm::dvec3& force_n) {
+  const bool none = force_n == glm::dvec3(0.0);
+  if (!none) released_.store(false);
+  if (link_->send(haply_force_message(device_id, force_n)) && none) released_.store(true);
 }
 
 glm::dvec3 HaplyDevice::force_for(std::int64_t now_ns) {
@@ -133,7 +156,8 @@ glm::dvec3 HaplyDevice::force_for(std::int64_t now_ns) {
   // in whole nanoseconds, so that the fade ends at exactly zero
   trust_ns_ =
       std::clamp<std::int64_t>(trust_ns_ + (stale ? -elapsed_ns * (kReturnNs / kReleaseNs) : elapsed_ns), 0, kReturnNs);
-  if (closing_.load()) trust_ns_ = 0;
+  // a force is for a known place
+  if (closing_.load() || now_ns - heard_ns_ > kStallNs) trust_ns_ = 0;
   return static_cast<double>(trust_ns_) / static_cast<double>(kReturnNs) * command_.force_n;
 }
 

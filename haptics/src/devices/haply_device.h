@@ -26,9 +26,10 @@ inline constexpr const char* kHaplyPortVariable = "TOUCHAFM_HAPLY_PORT";
 // force, and waits for nothing. Turn-On is the grip's button.
 //
 // - A force that the servo has not renewed for kStaleNs fades to exactly zero within kReleaseNs, and comes back over
-//   kReturnNs; a service that gets no message lets go by itself.
-// - Without a place for kStallNs the device is not healthy, so that the governor cuts. A service that went away is
-//   looked for again every kRetryNs.
+//   kReturnNs.
+// - Without a place for kStallNs the device is not healthy, so that the governor cuts, and zero is sent unasked: the
+//   service holds what it was last sent, also while it tells nothing. So it is before every end of a connection.
+// - A service that went away is looked for again every kRetryNs.
 class HaplyDevice final : public HapticDevice {
  public:
   static constexpr std::int64_t kStaleNs = 5'000'000;
@@ -66,6 +67,7 @@ class HaplyDevice final : public HapticDevice {
 
   void serve() noexcept;  // begins with the connection that `link_` has
   void exchange();
+  void tell(const std::string& device_id, const glm::dvec3& force_n);
   glm::dvec3 force_for(std::int64_t now_ns);
 
   const core::Clock& clock_;
@@ -84,6 +86,8 @@ class HaplyDevice final : public HapticDevice {
   // of the thread that speaks
   TimedForce command_;
   std::int64_t force_ns_ = 0;
+  std::int64_t heard_ns_ = 0;
+  std::int64_t complained_ns_ = 0;
   std::int64_t trust_ns_ = 0;  // 0: the command is not believed, kReturnNs: wholly
   std::thread thread_;
 };

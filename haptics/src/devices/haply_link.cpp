@@ -22,6 +22,7 @@ using Stream = boost::beast::websocket::stream<tcp::socket>;
 
 constexpr std::size_t kLongestMessage = 65'536;
 constexpr auto kHandshakePatience = std::chrono::seconds(2);
+constexpr auto kSendPatience = std::chrono::milliseconds(20);
 
 }  // namespace
 
@@ -30,6 +31,56 @@ struct HaplyLink::Socket {
   std::optional<Stream> stream;
   std::mutex changing;  // of `stream` and `interrupted`, against interrupt()
   bool interrupted = false;
+
+  boost::beast::flat_buffer incoming;
+  bool reading = false;  // an operation is under way, which may go on from one receive() to the next
+  bool ended = true;
+
+  // Lets what is under way go on until `done`. False: not within `patience`.
+  bool run_until(const bool& done, std::chrono::microseconds patience) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    context.restart();
+    while (!done && context.run_one_until(end) > 0) {
+    }
+    return done;
+  }
+
+  // Starts an operation and waits for its end: at most for `patience`, then the connection is cut.
+  template <class Start>
+  ErrorCode finish(Start&& start, std::chrono::microseconds patience) {
+    bool done = false;
+    ErrorCode error;
+    start([&](const ErrorCode& result, auto&&...) {
+      error = result;
+      done = true;
+    });
+    if (run_until(done, patience)) return error;
+    cut();
+    return boost::asio::error::timed_out;
+  }
+
+  // Whatever is under way ends.
+  void cut() {
+    ErrorCode ignored;
+    {
+      const std::lock_guard lock(changing);
+      if (stream) stream->next_layer().close(ignored);
+    }
+    context.restart();
+    context.run();
+  }
+
+  void read_on() {
+    if (reading || ended) return;
+    reading = true;
+    // piece by piece: whoever sends too much can still be told to let go, which Beast's own limit would prevent
+    stream->async_read_some(incoming, kLongestMessage + 1 - incoming.size(),
+                            [this](const ErrorCode& error, std::size_t) {
+                              reading = false;
+                              ended = ended || error || incoming.size() > kLongestMessage;
+                              if (!ended && !stream->is_message_done()) read_on();
+                            });
+  }
 };
 
 HaplyLink::HaplyLink() : socket_(std::make_unique<Socket>()) {}
@@ -42,46 +93,55 @@ core::Result<void> HaplyLink::connect(std::uint16_t port) {
                                      "device in",
                                      port, error.message()));
   };
-  ErrorCode error;
+  Socket& socket = *socket_;
+  socket.cut();
   {
-    const std::lock_guard lock(socket_->changing);
-    if (socket_->interrupted) return refused(boost::asio::error::operation_aborted);
-    socket_->stream.emplace(socket_->context);
-    auto& tcp_socket = socket_->stream->next_layer();
-    // this machine alone: a force must not depend on a network
-    tcp_socket.connect({boost::asio::ip::address_v4::loopback(), port}, error);
-    if (error) return refused(error);
-    tcp_socket.set_option(tcp::no_delay(true), error);
-  }
-  socket_->stream->read_message_max(kLongestMessage);
-  socket_->stream->text(true);
-
-  error = boost::asio::error::timed_out;
-  socket_->stream->async_handshake(fmt::format("localhost:{}", port), "/",
-                                   [&](const ErrorCode& done) { error = done; });
-  socket_->context.restart();
-  socket_->context.run_for(kHandshakePatience);
-  if (error) {
+    const std::lock_guard lock(socket.changing);
+    if (socket.interrupted) return refused(boost::asio::error::operation_aborted);
     ErrorCode ignored;
-    socket_->stream->next_layer().shutdown(tcp::socket::shutdown_both, ignored);
-    const ErrorCode reason = error;
-    socket_->context.run();  // the handshake ends now, if it has not
-    return refused(reason);
+    socket.stream.emplace(socket.context);
+    socket.stream->next_layer().open(tcp::v4(), ignored);
   }
+  socket.incoming.clear();
+  socket.ended = true;
+  tcp::socket& tcp_socket = socket.stream->next_layer();
+  // this machine alone: a force must not depend on a network
+  const tcp::endpoint service(boost::asio::ip::address_v4::loopback(), port);
+  ErrorCode error =
+      socket.finish([&](auto done) { tcp_socket.async_connect(service, std::move(done)); }, kHandshakePatience);
+  if (error) return refused(error);
+  tcp_socket.set_option(tcp::no_delay(true), error);
+  socket.stream->read_message_max(0);  // read_on() has a limit of its own
+  socket.stream->text(true);
+  const std::string host = fmt::format("localhost:{}", port);
+  error =
+      socket.finish([&](auto done) { socket.stream->async_handshake(host, "/", std::move(done)); }, kHandshakePatience);
+  if (error) return refused(error);
+  socket.ended = false;
   return {};
 }
 
-std::optional<std::string> HaplyLink::receive() {
-  boost::beast::flat_buffer buffer;
-  ErrorCode error;
-  socket_->stream->read(buffer, error);
-  if (error) return std::nullopt;
-  return std::string(static_cast<const char*>(buffer.cdata().data()), buffer.size());
+std::optional<std::string> HaplyLink::receive(std::chrono::microseconds patience) {
+  Socket& socket = *socket_;
+  socket.read_on();
+  const auto end = std::chrono::steady_clock::now() + patience;
+  socket.context.restart();
+  while (socket.reading && (socket.context.poll_one() > 0 || socket.context.run_one_until(end) > 0)) {
+  }
+  if (socket.reading || socket.ended) return std::nullopt;
+  std::string message(static_cast<const char*>(socket.incoming.cdata().data()), socket.incoming.size());
+  socket.incoming.clear();
+  return message;
 }
 
+bool HaplyLink::ended() const { return socket_->ended; }
+
 bool HaplyLink::send(const std::string& message) {
-  ErrorCode error;
-  socket_->stream->write(boost::asio::buffer(message), error);
+  Socket& socket = *socket_;
+  if (!socket.stream || !socket.stream->is_open()) return false;
+  const ErrorCode error = socket.finish(
+      [&](auto done) { socket.stream->async_write(boost::asio::buffer(message), std::move(done)); }, kSendPatience);
+  socket.ended = socket.ended || error;
   return !error;
 }
 
@@ -89,7 +149,8 @@ void HaplyLink::interrupt() {
   const std::lock_guard lock(socket_->changing);
   socket_->interrupted = true;
   // closing would free the number while the other thread still reads from it
-  if (socket_->stream) ::shutdown(socket_->stream->next_layer().native_handle(), SHUT_RDWR);
+  if (socket_->stream && socket_->stream->next_layer().is_open())
+    ::shutdown(socket_->stream->next_layer().native_handle(), SHUT_RDWR);
 }
 
 }  // namespace afm::haptics
