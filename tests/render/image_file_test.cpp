@@ -51,15 +51,14 @@ TEST_F(ImageFile, SaysWhichPathCannotBeWritten) {
   const auto written = render::write_png(gradient(), path);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().category, core::ErrorCategory::Failed);
-  EXPECT_EQ(written.error().message,
-            "cannot write the picture " + path + " (No such file or directory): choose a folder that can be written");
+  EXPECT_EQ(written.error().message, "cannot write " + path + ": No such file or directory");
 }
 
 TEST_F(ImageFile, DoesNotReplaceAFolder) {
   const auto path = folder_ / "taken";
   std::filesystem::create_directories(path / "inside");
   EXPECT_FALSE(render::write_png(gradient(), path.string()));
-  EXPECT_FALSE(std::filesystem::exists(path.string() + ".partial"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()), 1);
 }
 
 }  // namespace

@@ -8,11 +8,13 @@
 
 namespace afm::core {
 
-// The whole file, bytes unchanged. BadInputFile names the path and the reason.
+// The whole file, bytes unchanged, at most 1 GiB. BadInputFile names the path and the reason; a folder, a device or a
+// pipe is none, and is not waited for.
 core::Result<std::string> read_file(const std::string& path);
 
-// Writes a temporary file beside `path` and renames it, so that a file of that name is always whole. The error names
-// the path and the reason.
+// A regular file is replaced as a whole: what is written lies beside it under a name of its own until it is on the
+// disk. It keeps its permissions, and links to it stay links. Devices and pipes are written into; a pipe's reader is
+// waited for 5 s. Failed names the path and the reason; nothing partial is left.
 core::Result<void> write_file(const std::string& path, std::string_view bytes);
 
 }  // namespace afm::core

@@ -3,36 +3,11 @@
 
 #include <png.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <utility>
 
+#include "core/whole_file.h"
+
 namespace afm::render {
-namespace {
-
-core::Error write_error(const std::string& path, int error) {
-  return {core::ErrorCategory::Failed,
-          "cannot write the picture " + path + " (" + std::strerror(error) + "): choose a folder that can be written"};
-}
-
-// Writes all bytes or says why not; 0 on success, else errno.
-int write_all(const std::string& path, const std::vector<std::uint8_t>& bytes) {
-  std::FILE* file = std::fopen(path.c_str(), "wbe");
-  if (file == nullptr) {
-    return errno;
-  }
-  int error = 0;
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) {
-    error = errno;
-  }
-  if (std::fclose(file) != 0 && error == 0) {
-    error = errno;
-  }
-  return error;
-}
-
-}  // namespace
 
 Image to_image(const ImageSpan& span) {
   Image image{.width = span.width, .height = span.height, .rgba = {span.bytes.begin(), span.bytes.end()}};
@@ -67,17 +42,7 @@ core::Result<void> write_png(const ImageSpan& image, const std::string& path) {
   if (!bytes) {
     return tl::unexpected(bytes.error());
   }
-  const std::string partial = path + ".partial";
-  if (const int error = write_all(partial, *bytes); error != 0) {
-    std::remove(partial.c_str());
-    return tl::unexpected(write_error(path, error));
-  }
-  if (std::rename(partial.c_str(), path.c_str()) != 0) {
-    const int error = errno;
-    std::remove(partial.c_str());
-    return tl::unexpected(write_error(path, error));
-  }
-  return {};
+  return core::write_file(path, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
 }  // namespace afm::render

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/whole_file.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <thread>
+
+#include "core/exit_code.h"
+#include "support/scratch_folder.h"
+
+namespace afm::core {
+namespace {
+
+using ::testing::EndsWith;
+namespace fs = std::filesystem;
+
+class WholeFile : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return folder_.file(name); }
+  std::string content(const std::string& name) const { return read_file(path(name)).value_or("nothing"); }
+  std::ptrdiff_t files() const {
+    return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
+  }
+
+  support::ScratchFolder folder_;
+};
+
+TEST_F(WholeFile, IsReplacedAndKeepsItsPermissions) {
+  ASSERT_TRUE(write_file(path("a"), "one"));
+  ASSERT_EQ(::chmod(path("a").c_str(), 0640), 0);
+  ASSERT_TRUE(write_file(path("a"), std::string("t\0wo", 4)));
+  EXPECT_EQ(content("a"), std::string("t\0wo", 4));
+  EXPECT_EQ(fs::status(path("a")).permissions(), fs::perms(0640));
+  EXPECT_EQ(files(), 1);
+}
+
+// Links under the names that a temporary file had before: what they lead to must not be touched.
+TEST_F(WholeFile, FollowsNoLinkThatWasLaidForIt) {
+  folder_.write("victim", "precious");
+  for (const char* suffix : {".part", ".partial", ".tmp"}) fs::create_symlink(path("victim"), path("a") + suffix);
+  ASSERT_TRUE(write_file(path("a"), "mine"));
+  EXPECT_EQ(content("victim"), "precious");
+  EXPECT_EQ(content("a"), "mine");
+}
+
+TEST_F(WholeFile, IsWrittenThroughLinks) {
+  fs::create_directory(path("far"));
+  folder_.write("far/real", "old");
+  fs::create_symlink("real", path("far/link"));
+  fs::create_symlink("far/link", path("link"));
+  fs::create_symlink("far/later", path("dangling"));
+  ASSERT_TRUE(write_file(path("link"), "new"));
+  ASSERT_TRUE(write_file(path("dangling"), "first"));
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_TRUE(fs::is_symlink(path("far/link")));
+  EXPECT_EQ(content("far/real"), "new");
+  EXPECT_EQ(content("far/later"), "first");
+}
+
+TEST_F(WholeFile, IsNotWhatALinkInACircleNames) {
+  fs::create_symlink("b", path("a"));
+  fs::create_symlink("a", path("b"));
+  EXPECT_FALSE(write_file(path("a"), "x"));
+  EXPECT_EQ(files(), 2);
+}
+
+TEST_F(WholeFile, DevicesAndPipesStayWhatTheyAre) {
+  ASSERT_TRUE(write_file("/dev/null", "gone"));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  std::string got;
+  std::thread reader([&] {
+    const int end = ::open(path("pipe").c_str(), O_RDONLY | O_CLOEXEC);
+    char byte = 0;
+    while (::read(end, &byte, 1) == 1) got += byte;
+    ::close(end);
+  });
+  EXPECT_TRUE(write_file(path("pipe"), std::string(200'000, 'x')));
+  reader.join();
+  EXPECT_EQ(got, std::string(200'000, 'x'));
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+}
+
+TEST_F(WholeFile, APipeWithoutAReaderIsNotWaitedForForEver) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto written = write_file(path("pipe"), "x");
+  ASSERT_FALSE(written);
+  EXPECT_THAT(written.error().message, EndsWith("pipe: nobody reads from it"));
+  const auto read = read_file(path("pipe"));
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().category, ErrorCategory::BadInputFile);
+  EXPECT_THAT(read.error().message, EndsWith("it is no regular file"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+}
+
+TEST_F(WholeFile, LeavesNothingPartialWhereItCannotBeWritten) {
+  EXPECT_FALSE(write_file(path("missing/a"), "x"));
+  fs::create_directory(path("folder"));
+  EXPECT_FALSE(write_file(path("folder"), "x"));
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(WholeFile, AFullDiskIsSaid) {
+  const auto written = write_file("/dev/full", std::string(100'000, 'x'));
+  ASSERT_FALSE(written);
+  EXPECT_THAT(written.error().message, EndsWith("/dev/full: No space left on device"));
+}
+
+}  // namespace
+}  // namespace afm::core
