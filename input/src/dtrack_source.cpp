@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input/dtrack_source.h"
+#include "core/system_error.h"
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 namespace afm::input {
@@ -36,7 +36,7 @@ core::Result<void> bind_to(int socket, const DtrackSettings& settings) {
       core::ErrorCategory::DeviceMissing,
       fmt::format("cannot listen for a tracker at {}:{} ({}): name an address of this machine, and end what else "
                   "listens there",
-                  settings.address, settings.port, std::strerror(errno)));
+                  settings.address, settings.port, core::system_error(errno)));
 }
 
 std::uint32_t wand_buttons(std::uint32_t flystick) {
@@ -62,14 +62,14 @@ core::Result<std::unique_ptr<DtrackSource>> DtrackSource::open(const DtrackSetti
   core::FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket.is_open()) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("no socket for a tracker could be made ({})", std::strerror(errno)));
+                         fmt::format("no socket for a tracker could be made ({})", core::system_error(errno)));
   }
   if (auto bound = bind_to(socket.get(), settings); !bound) return tl::unexpected(bound.error());
   sockaddr_in place{};
   socklen_t size = sizeof place;
   if (::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&place), &size) != 0) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("the tracker's port cannot be asked for ({})", std::strerror(errno)));
+                         fmt::format("the tracker's port cannot be asked for ({})", core::system_error(errno)));
   }
   return std::unique_ptr<DtrackSource>(new DtrackSource(settings, clock, std::move(socket), ntohs(place.sin_port)));
 }

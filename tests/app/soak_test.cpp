@@ -41,8 +41,9 @@ constexpr int kFewActions = 200;
 constexpr int kActionsAPlug = 50;     // at least, until the wand is plugged in, and pulled out again: two seconds
 constexpr int kMostPlugChanges = 80;  // umockdev 0.17 ends a program that has opened 50 devices, though it closes them
 constexpr auto kPause = std::chrono::milliseconds(40);
-// Of the least that was held in the last quarter, above the greater of the two quarters before: windows come and go in all
-// sizes. A picture of 320 x 240 that is lost with every change of the mode makes 300 MiB of an hour's 90000 actions.
+// Of the least that was held in the last quarter, above the greater of the two quarters before: windows come and go in
+// all sizes. A picture of 320 x 240 that is lost with every change of the mode makes 300 MiB of an hour's 90000
+// actions.
 constexpr double kMostGrowthMib = 8.0;
 constexpr auto kLongestIdle = std::chrono::minutes(10);
 

@@ -8,13 +8,13 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
 
 #include "core/file_descriptor.h"
+#include "core/system_error.h"
 #include "curves/curve_error.h"
 
 namespace afm::curves {
@@ -82,10 +82,10 @@ enum ChildExit : int { kDone = 0, kFault = 1, kFailed = 2 };
 std::string in_confined_child(const std::function<std::string()>& work, const std::string& on_death) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
-    throw std::runtime_error(std::string("cannot make a pipe: ") + std::strerror(errno));
+    throw std::runtime_error(std::string("cannot make a pipe: ") + core::system_error(errno));
   core::FileDescriptor from_child(ends[0]), to_parent(ends[1]);
   const pid_t child = ::fork();
-  if (child < 0) throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(errno));
+  if (child < 0) throw std::runtime_error(std::string("cannot start a process: ") + core::system_error(errno));
   if (child == 0) run_child(work, to_parent.get());
   to_parent.close();
   std::string bytes = read_all(from_child.get());

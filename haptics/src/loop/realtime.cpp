@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "haptics/realtime.h"
+#include "core/system_error.h"
 
 #include <fmt/core.h>
 #include <pthread.h>
@@ -11,7 +12,6 @@
 #include <array>
 #include <cerrno>
 #include <cstddef>
-#include <cstring>
 #include <ctime>
 
 namespace afm::haptics {
@@ -47,16 +47,17 @@ RealtimeGrant enter_realtime(int priority, PageLock lock) {
     grant.priority = priority;
   } else {
     grant.notes.push_back(fmt::format("not real-time: SCHED_FIFO {} was refused ({}, the limit is {}); {}", priority,
-                                      std::strerror(error), limit_of(RLIMIT_RTPRIO), limit_mend("rtprio", "80")));
+                                      core::system_error(error), limit_of(RLIMIT_RTPRIO), limit_mend("rtprio", "80")));
   }
   if (::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL) != 0) {
-    grant.notes.push_back(fmt::format("timers stay coarse: a slack of 1 ns was refused ({})", std::strerror(errno)));
+    grant.notes.push_back(
+        fmt::format("timers stay coarse: a slack of 1 ns was refused ({})", core::system_error(errno)));
   }
   if (lock == PageLock::Lock) {
     grant.pages_locked = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
     if (!grant.pages_locked) {
       grant.notes.push_back(fmt::format("not real-time: locking the pages was refused ({}, the limit is {} KiB); {}",
-                                        std::strerror(errno), limit_of(RLIMIT_MEMLOCK) / 1024,
+                                        core::system_error(errno), limit_of(RLIMIT_MEMLOCK) / 1024,
                                         limit_mend("memlock", "unlimited")));
     }
   }

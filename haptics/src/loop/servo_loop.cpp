@@ -12,8 +12,6 @@
 
 namespace afm::haptics {
 
-using scene::ServoState;
-
 namespace {
 
 constexpr double kSlowestHz = 100.0;

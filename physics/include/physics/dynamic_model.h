@@ -104,7 +104,7 @@ class DynamicModel {
     std::int64_t sub_steps;
   };
   static Pace pace_of(const Setup& setup, Time step_lasts, std::int64_t most_sub_steps);
-  DynamicModel(std::shared_ptr<const Setup> setup, Time tick_period);
+  DynamicModel(const std::shared_ptr<const Setup>& setup, Time tick_period);
   DynamicModel(std::shared_ptr<const Setup> setup, const Pace& pace);
 
   // What the lever is at one instant.

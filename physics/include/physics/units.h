@@ -104,9 +104,11 @@ constexpr Energy thermal_energy(Temperature temperature) { return Energy(1.38064
 // exactly where it does not hold the small factor, so that 1000_nm == 1_um.
 namespace literals {
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type cannot stand in parentheses
 #define AFM_UNIT_LITERAL(suffix, type, per_si)                                                                  \
   constexpr type operator""_##suffix(long double value) { return type(static_cast<double>(value) / (per_si)); } \
   constexpr type operator""_##suffix(unsigned long long value) { return type(static_cast<double>(value) / (per_si)); }
+// NOLINTEND(bugprone-macro-parentheses)
 
 AFM_UNIT_LITERAL(m, Length, 1.0)
 AFM_UNIT_LITERAL(mm, Length, 1e3)

@@ -79,7 +79,7 @@ DynamicModel::DynamicModel(Law law, const ContactParameters& contact, const Leve
                            const LawOptions& options, std::uint64_t seed)
     : DynamicModel(build(law, contact, lever, options, seed), tick_period) {}
 
-DynamicModel::DynamicModel(std::shared_ptr<const Setup> setup, Time tick_period)
+DynamicModel::DynamicModel(const std::shared_ptr<const Setup>& setup, Time tick_period)
     : DynamicModel(setup, pace_of(*setup, tick_period, kSubSteps)) {}
 
 DynamicModel DynamicModel::simulating(Time per_step) const {

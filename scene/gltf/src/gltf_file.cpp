@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/system_error.h"
 #include "gltf_error.h"
 #include "gltf_uri.h"
 
@@ -35,7 +36,7 @@ Bytes read_plain_file(const fs::path& path, std::uint64_t most_bytes) {
                     size >> 20U, most_bytes >> 20U, kLargestGltfBytes >> 20U));
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw GltfError(fmt::format("it cannot be opened ({}); check its permissions", std::strerror(errno)));
+  if (!file) throw GltfError(fmt::format("it cannot be opened ({}); check its permissions", core::system_error(errno)));
   Bytes bytes(size);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   if (file.gcount() != static_cast<std::streamsize>(size)) {

@@ -8,11 +8,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <new>
 #include <utility>
 
 #include "core/check.h"
+#include "core/system_error.h"
 #include "segment_layout.h"
 
 namespace afm::scene {
@@ -58,11 +58,11 @@ core::Result<SharedSegment> SharedSegment::create(const SharedModel& model, std:
   core::FileDescriptor descriptor(::memfd_create("touchafm", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (!descriptor.is_open() || ::ftruncate(descriptor.get(), sizeof(SegmentLayout)) != 0 ||
       ::fcntl(descriptor.get(), F_ADD_SEALS, kSeals) != 0) {
-    return refusal(
-        fmt::format("cannot create a shared segment of {} bytes: {}", sizeof(SegmentLayout), std::strerror(errno)));
+    return refusal(fmt::format("cannot create a shared segment of {} bytes: {}", sizeof(SegmentLayout),
+                               core::system_error(errno)));
   }
   void* memory = map_whole(descriptor.get());
-  if (memory == MAP_FAILED) return refusal(fmt::format("cannot map the shared segment: {}", std::strerror(errno)));
+  if (memory == MAP_FAILED) return refusal(fmt::format("cannot map the shared segment: {}", core::system_error(errno)));
 
   auto* layout = new (memory) SegmentLayout;
   layout->header.total_bytes = sizeof(SegmentLayout);
@@ -75,7 +75,7 @@ core::Result<SharedSegment> SharedSegment::attach(core::FileDescriptor descripto
   struct stat status{};
   if (::fstat(descriptor.get(), &status) != 0) {
     return refusal(
-        fmt::format("cannot use descriptor {} as shared segment: {}", descriptor.get(), std::strerror(errno)));
+        fmt::format("cannot use descriptor {} as shared segment: {}", descriptor.get(), core::system_error(errno)));
   }
 
   // the header first, by a plain read, which cannot fault whatever the descriptor is
@@ -94,7 +94,7 @@ core::Result<SharedSegment> SharedSegment::attach(core::FileDescriptor descripto
   }
 
   void* memory = map_whole(descriptor.get());
-  if (memory == MAP_FAILED) return refusal(fmt::format("cannot map the shared segment: {}", std::strerror(errno)));
+  if (memory == MAP_FAILED) return refusal(fmt::format("cannot map the shared segment: {}", core::system_error(errno)));
   SharedSegment segment(std::move(descriptor), std::launder(static_cast<SegmentLayout*>(memory)));
   if (auto valid = scene::validate(segment.model()); !valid) return tl::unexpected(valid.error());
   return segment;

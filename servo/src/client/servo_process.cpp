@@ -13,12 +13,12 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <utility>
 #include <vector>
 
 #include "core/clock.h"
 #include "core/log.h"
+#include "core/system_error.h"
 
 namespace afm::servo {
 
@@ -37,7 +37,7 @@ scene::RendererHeartbeat goodbye() { return {.time_ns = core::MonotonicClock().n
 core::Error spawn_error(const std::string& program, int error) {
   return {core::ErrorCategory::Failed,
           fmt::format("cannot start the servo {}: {}; build the target touchafm-servo and keep it beside touchafm",
-                      program, std::strerror(error))};
+                      program, core::system_error(error))};
 }
 
 // What posix_spawn needs, freed in any case.

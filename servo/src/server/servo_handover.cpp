@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo/servo_handover.h"
+#include "core/system_error.h"
 
 #include <fmt/core.h>
 #include <poll.h>
@@ -136,7 +137,7 @@ core::Result<HandoverPort> HandoverPort::open(const std::string& program) {
   const auto* name = reinterpret_cast<const sockaddr*>(&address.name);
   if (!listener.is_open() || ::bind(listener.get(), name, address.size) != 0 || ::listen(listener.get(), 4) != 0) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot wait for another renderer: {}", std::strerror(errno)));
+                         fmt::format("cannot wait for another renderer: {}", core::system_error(errno)));
   }
   return HandoverPort(std::move(listener));
 }
