@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <string>
+
+#include "core/result.h"
+
+// CLI11 reads the command line. Only command_line.cpp includes it: it takes the compiler longer than all the rest of a
+// command.
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace afm::app {
+
+// One option, or one argument without dashes. A handle: a copy is the same option.
+class Option {
+ public:
+  explicit Option(CLI::Option& option) : option_(&option) {}
+
+  // What the help calls the value.
+  Option& type_name(const std::string& name);
+  // The help shows what the target holds now, or the text, as the value that holds without the option.
+  Option& show_default();
+  Option& show_default(const std::string& text);
+
+  // What is wrong usage: to leave the option out; to give it without, or together with, another.
+  Option& required();
+  Option& needs(const Option& other);
+  Option& excludes(const Option& other);
+
+  // Every other value is wrong usage. Both ends are legal; the type is the one in which values are compared.
+  Option& within(int least, int most);
+  Option& within(double least, double most);
+  Option& one_of(std::initializer_list<int> values);
+  Option& one_of(std::initializer_list<const char*> words);
+  Option& existing_folder();
+
+  // Of a list: one value each time the option is given. The help shows dots behind the value, or not.
+  Option& one_value_each();
+  Option& one_value_each_without_dots();
+
+  // False before the command line is parsed.
+  bool given() const;
+
+ private:
+  CLI::Option* option_;
+};
+
+// What may be typed behind the name of a command, or of the program: options, arguments and commands. A handle: a copy
+// is the same list. Whatever is added writes to targets that must live as long as the CommandLine.
+class OptionList {
+ public:
+  using Action = std::function<core::Result<void>()>;
+
+  // "--name" is an option, "name" an argument without dashes. command_line.cpp lists the types of values: texts,
+  // numbers, and lists of texts.
+  template <class Value>
+  Option add_option(const std::string& name, Value& target, const std::string& help);
+
+  // The text goes to `read` while the command line is parsed: what it refuses is wrong usage of that option.
+  Option add_parsed_option(const std::string& name, std::function<core::Result<void>(const std::string& text)> read,
+                           const std::string& help);
+
+  Option add_flag(const std::string& name, bool& target, const std::string& help);
+  Option add_flag(const std::string& name, std::function<void()> when_given, const std::string& help);
+
+  // Options of which exactly one must be given, under a title in the help.
+  OptionList add_alternatives(const std::string& title);
+
+  // A command, of which exactly one must be given.
+  OptionList add_command(const std::string& name, const std::string& help);
+
+  // The last lines of the help.
+  void footer(const std::string& text);
+
+  // What CommandLine::run does if this command is typed.
+  void when_chosen(Action action);
+
+ protected:
+  OptionList(CLI::App& app, Action& chosen) : app_(&app), chosen_(&chosen) {}
+
+ private:
+  CLI::App* app_;
+  Action* chosen_;
+};
+
+// The command line of a program, with --help and --version.
+class CommandLine : public OptionList {
+ public:
+  CommandLine(const std::string& program, const std::string& version, const std::string& help);
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+  ~CommandLine();
+
+  // The text that --help or --version asks for; an empty one if a command was chosen. WrongUsage: what is wrong first.
+  core::Result<std::string> parse(int count, const char* const* arguments);
+
+  // Runs what was chosen.
+  core::Result<void> run() const { return chosen_(); }
+
+ private:
+  explicit CommandLine(std::unique_ptr<CLI::App> app);
+
+  std::unique_ptr<CLI::App> app_;
+  Action chosen_;
+};
+
+}  // namespace afm::app
