@@ -2,15 +2,10 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <string>
 #include <string_view>
 
-#include "core/result.h"
-
-namespace CLI {
-class App;
-}
+#include "app/options/command_line.h"
 
 namespace afm::app {
 
@@ -18,8 +13,6 @@ namespace afm::app {
 struct CommandContext {
   std::string assets_dir;    // folder that holds models/, walls/ and materials.toml
   std::string program_path;  // the running program; touchafm-servo lies beside it
-  // set by the chosen command's callback; run by main after parsing
-  std::function<core::Result<void>()> chosen;
 };
 
 // Every command, in the order of the help. A line declares add_NAME_command, which a file in app/commands defines, and
@@ -38,14 +31,14 @@ struct CommandContext {
   COMMAND(doctor)                     \
   COMMAND(bench)
 
-// Adds one subcommand of that name with its options, whose callback only stores what to run into context.chosen.
-#define AFM_DECLARE_COMMAND(name) void add_##name##_command(CLI::App& app, CommandContext& context);
+// Adds the command of that name with its options and with what it does when it is chosen. The context must outlive it.
+#define AFM_DECLARE_COMMAND(name) void add_##name##_command(OptionList& program, const CommandContext& context);
 AFM_FOR_EACH_COMMAND(AFM_DECLARE_COMMAND)
 #undef AFM_DECLARE_COMMAND
 
 struct Command {
   std::string_view name;
-  void (*add)(CLI::App& app, CommandContext& context);
+  void (*add)(OptionList& program, const CommandContext& context);
 };
 
 #define AFM_COMMAND_ROW(name) Command{#name, add_##name##_command},

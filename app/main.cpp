@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -29,7 +29,7 @@ int fail(afm::core::ExitCode code, const std::string& message) {
   return static_cast<int>(code);
 }
 
-// CLI11 would only say that a subcommand is missing.
+// The command line would only say that a command is missing.
 bool names_unknown_command(int count, char** arguments) {
   if (count < 2 || arguments[1][0] == '-') return false;
   const std::string_view name = arguments[1];
@@ -40,29 +40,26 @@ bool names_unknown_command(int count, char** arguments) {
 int run(int count, char** arguments) {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  afm::app::CommandContext context{.assets_dir = find_assets(program), .program_path = program.string(), .chosen = {}};
+  const afm::app::CommandContext context{.assets_dir = find_assets(program), .program_path = program.string()};
 
-  CLI::App app(
+  afm::app::CommandLine command_line(
+      "touchafm", afm::core::kVersion,
       "TouchAFM: feel and see the approach-retract cycle of an atomic force microscope.\n"
-      "Exit codes: 0 done, 1 the run failed, 2 wrong usage, 3 bad input file, 4 a needed device is missing.",
-      "touchafm");
-  app.set_version_flag("--version", std::string("touchafm ") + afm::core::kVersion);
-  app.require_subcommand(1);
-  for (const afm::app::Command& command : afm::app::kCommands) command.add(app, context);
+      "Exit codes: 0 done, 1 the run failed, 2 wrong usage, 3 bad input file, 4 a needed device is missing.");
+  for (const afm::app::Command& command : afm::app::kCommands) command.add(command_line, context);
 
   if (names_unknown_command(count, arguments)) {
     return fail(afm::core::ExitCode::WrongUsage,
                 "there is no command \"" + std::string(arguments[1]) + "\"; see touchafm --help");
   }
-  try {
-    app.parse(count, arguments);
-  } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success);
-  } catch (const CLI::ParseError& wrong) {
-    return fail(afm::core::ExitCode::WrongUsage, std::string(wrong.what()) + "; see touchafm --help");
+  const auto answer = command_line.parse(count, arguments);
+  if (!answer) return fail(afm::core::ExitCode::WrongUsage, answer.error().message + "; see touchafm --help");
+  if (!answer->empty()) {
+    std::fputs(answer->c_str(), stdout);
+    return static_cast<int>(afm::core::ExitCode::Done);
   }
-  const auto done = context.chosen();
-  if (!done) return fail(afm::core::exit_code(done.error().category), done.error().message);
+  if (const auto done = command_line.run(); !done)
+    return fail(afm::core::exit_code(done.error().category), done.error().message);
   return static_cast<int>(afm::core::ExitCode::Done);
 }
 

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -173,28 +172,26 @@ std::string json(const Figures& figures, const Options& options) {
 
 }  // namespace
 
-void add_haptics_benchmarks(CLI::App& bench, CommandContext& context) {
-  CLI::App* command = bench.add_subcommand(
+void add_haptics_benchmarks(OptionList& bench, const CommandContext& context) {
+  OptionList command = bench.add_command(
       "haptics", "a tick of the servo with each law, its wake-ups beside the renderer, and its release of the hand");
   const auto options = std::make_shared<Options>();
-  command->add_option("--ticks", options->ticks, "ticks of each law, 1000 to 10000000")
-      ->check(CLI::Range(1000, 10'000'000))
-      ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "how long the servo runs beside the renderer, s, 0.5 to 600")
-      ->check(CLI::Range(0.5, 600.0))
-      ->capture_default_str();
-  command->add_option("--rounds", options->rounds, "renderers that are killed, and stopped, 1 to 1000")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "print JSON, in seconds, instead of tables");
-  command->footer("example: touchafm bench haptics --seconds 60");
-  command->callback([options, &context] {
-    context.chosen = [options, &context]() -> core::Result<void> {
-      const auto figures = measure_all(context, *options);
-      if (!figures) return tl::unexpected(figures.error());
-      std::fputs((options->json ? json(*figures, *options) : table(*figures, *options)).c_str(), stdout);
-      return {};
-    };
+  command.add_option("--ticks", options->ticks, "ticks of each law, 1000 to 10000000")
+      .within(1000, 10'000'000)
+      .show_default();
+  command.add_option("--seconds", options->seconds, "how long the servo runs beside the renderer, s, 0.5 to 600")
+      .within(0.5, 600.0)
+      .show_default();
+  command.add_option("--rounds", options->rounds, "renderers that are killed, and stopped, 1 to 1000")
+      .within(1, 1000)
+      .show_default();
+  command.add_flag("--json", options->json, "print JSON, in seconds, instead of tables");
+  command.footer("example: touchafm bench haptics --seconds 60");
+  command.when_chosen([options, &context]() -> core::Result<void> {
+    const auto figures = measure_all(context, *options);
+    if (!figures) return tl::unexpected(figures.error());
+    std::fputs((options->json ? json(*figures, *options) : table(*figures, *options)).c_str(), stdout);
+    return {};
   });
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -186,35 +185,31 @@ core::Result<void> run(const Options& options, const std::string& program) {
 
 }  // namespace
 
-void add_render_benchmarks(CLI::App& bench, CommandContext& context) {
-  CLI::App* command = bench.add_subcommand("render", "a frame of the wall and of other scenes, and the first frame");
+void add_render_benchmarks(OptionList& bench, const CommandContext& context) {
+  OptionList command = bench.add_command("render", "a frame of the wall and of other scenes, and the first frame");
   const auto options = std::make_shared<Options>();
-  command->add_option("--rounds", options->plan.rounds, "how often everything is drawn in turn, 1 to 1000")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--frames", options->plan.frames, "frames of each way in a round, 1 to 10000")
-      ->check(CLI::Range(1, 10'000))
-      ->capture_default_str();
-  command->add_option("--eye-width", options->eye_width, "width of each eye's picture in pixels")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str()
-      ->type_name("PIXELS");
-  command->add_option("--samples", options->plan.samples, "samples a pixel: 1 or 4")
-      ->check(CLI::IsMember({1, 4}))
-      ->capture_default_str();
-  command->add_option("--gltf", options->gltf, "a glTF file to draw too; may be given again")->type_name("FILE");
+  command.add_option("--rounds", options->plan.rounds, "how often everything is drawn in turn, 1 to 1000")
+      .within(1, 1000)
+      .show_default();
+  command.add_option("--frames", options->plan.frames, "frames of each way in a round, 1 to 10000")
+      .within(1, 10'000)
+      .show_default();
+  command.add_option("--eye-width", options->eye_width, "width of each eye's picture in pixels")
+      .within(16, 8192)
+      .show_default()
+      .type_name("PIXELS");
+  command.add_option("--samples", options->plan.samples, "samples a pixel: 1 or 4").one_of({1, 4}).show_default();
+  command.add_option("--gltf", options->gltf, "a glTF file to draw too; may be given again").type_name("FILE");
   command
-      ->add_option("--peer", options->plan.peers,
-                   "a shell command to run in each round, which prints a JSON object with frame_ms; may be given again")
-      ->type_name("COMMAND");
-  command->add_flag("--first-frame-alone", options->first_frame_alone,
-                    "print the ms to the first frame of the wall, as a peer does, and nothing else");
-  command->add_flag("--json", options->json, "print JSON, in seconds, instead of a table");
-  add_stage_options(*command, options->files, context);
-  command->footer("example: touchafm bench render --rounds 3 --gltf model.glb");
-  command->callback([options, &context] {
-    context.chosen = [options, program = context.program_path] { return run(*options, program); };
-  });
+      .add_option("--peer", options->plan.peers,
+                  "a shell command to run in each round, which prints a JSON object with frame_ms; may be given again")
+      .type_name("COMMAND");
+  command.add_flag("--first-frame-alone", options->first_frame_alone,
+                   "print the ms to the first frame of the wall, as a peer does, and nothing else");
+  command.add_flag("--json", options->json, "print JSON, in seconds, instead of a table");
+  add_stage_options(command, options->files, context);
+  command.footer("example: touchafm bench render --rounds 3 --gltf model.glb");
+  command.when_chosen([options, &context] { return run(*options, context.program_path); });
 }
 
 }  // namespace afm::app

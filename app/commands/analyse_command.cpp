@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -67,20 +66,21 @@ core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
   return {};
 }
 
-void add_analyse_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command = app.add_subcommand("analyse", "what a measured or computed curve says, alone or beside another");
+void add_analyse_command(OptionList& program, const CommandContext&) {
+  OptionList command =
+      program.add_command("analyse", "what a measured or computed curve says, alone or beside another");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<AnalyseOptions>();
   command
-      ->add_option("file", options->file,
-                   "TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--beside", options->beside, "another curve, measured or of `touchafm curve`, to compare with")
-      ->type_name("FILE");
+      .add_option("file", options->file,
+                  "TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw")
+      .required()
+      .type_name("FILE");
+  command.add_option("--beside", options->beside, "another curve, measured or of `touchafm curve`, to compare with")
+      .type_name("FILE");
   curves::CurveReading& reading = options->reading;
   quantity_option(
-      *command, "--spring-constant", [&reading](physics::Stiffness lever) { reading.spring_constant = lever; },
+      command, "--spring-constant", [&reading](physics::Stiffness lever) { reading.spring_constant = lever; },
       physics::kStiffnessUnits, "of the lever, in place of the file's; forces scale with it",
       std::optional(kSpringConstants));
   const auto read_sensitivity = [&reading](const std::string& text) -> core::Result<void> {
@@ -89,17 +89,15 @@ void add_analyse_command(CLI::App& app, CommandContext& context) {
     reading.sensitivity_m_per_v = *sensitivity;
     return {};
   };
-  parsed_option(*command, "--sensitivity", read_sensitivity, "of the optical lever, in place of the file's")
-      ->type_name("SENSITIVITY in um/V, nm/V, pm/V");
-  command->add_option("--curve", reading.index, "which curve of an .h5, from 0")
-      ->capture_default_str()
-      ->type_name("INDEX");
-  command->add_flag("--json", options->json, "in SI, null for what was not found");
-  command->add_option("--out", options->out, "write a picture (SVG) of the curve here")->type_name("FILE");
-  command->footer(
+  command.add_parsed_option("--sensitivity", read_sensitivity, "of the optical lever, in place of the file's")
+      .type_name("SENSITIVITY in um/V, nm/V, pm/V");
+  command.add_option("--curve", reading.index, "which curve of an .h5, from 0").show_default().type_name("INDEX");
+  command.add_flag("--json", options->json, "in SI, null for what was not found");
+  command.add_option("--out", options->out, "write a picture (SVG) of the curve here").type_name("FILE");
+  command.footer(
       "docs/curves.md defines each figure.\n"
       "example: touchafm analyse gold.jpk-force --beside model.csv --out gold.svg");
-  command->callback([options, &context] { context.chosen = [options] { return analyse_curve_file(*options); }; });
+  command.when_chosen([options] { return analyse_curve_file(*options); });
 }
 
 }  // namespace afm::app

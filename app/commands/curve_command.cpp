@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -132,51 +131,50 @@ core::Result<void> write_curve_command(const CurveOptions& options) {
   return options.sweeps.empty() ? write_curve(options, *setup, *format) : write_sweep(options, *setup, *format);
 }
 
-void add_curve_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command = app.add_subcommand(
+void add_curve_command(OptionList& program, const CommandContext& context) {
+  OptionList command = program.add_command(
       "curve", "one approach-retract cycle as CSV, as a file for other programs, or its events as JSON; or a sweep");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<CurveOptions>();
   command
-      ->add_option("--material", options->contact.material,
-                   "mica, gold, si3n4, or another of \"touchafm material\"; without it every number that the model "
-                   "needs must be given")
-      ->type_name("NAME");
-  add_contact_options(*command, options->contact, context);
+      .add_option("--material", options->contact.material,
+                  "mica, gold, si3n4, or another of \"touchafm material\"; without it every number that the model "
+                  "needs must be given")
+      .type_name("NAME");
+  add_contact_options(command, options->contact, context);
   command
-      ->add_option("--from", options->path.from,
-                   "where the cycle starts and ends, above Z_jtc: m, mm, um, nm, pm; default: a tenth above Z_joc")
-      ->type_name("LENGTH");
-  command->add_option("--to", options->path.to, "where it turns, below --from: m, mm, um, nm, pm")
-      ->capture_default_str()
-      ->type_name("LENGTH");
-  command->add_option("--step", options->path.step, "between samples: m, mm, um, nm, pm; at most 10 million samples")
-      ->capture_default_str()
-      ->type_name("LENGTH");
+      .add_option("--from", options->path.from,
+                  "where the cycle starts and ends, above Z_jtc: m, mm, um, nm, pm; default: a tenth above Z_joc")
+      .type_name("LENGTH");
+  command.add_option("--to", options->path.to, "where it turns, below --from: m, mm, um, nm, pm")
+      .show_default()
+      .type_name("LENGTH");
+  command.add_option("--step", options->path.step, "between samples: m, mm, um, nm, pm; at most 10 million samples")
+      .show_default()
+      .type_name("LENGTH");
+  command.add_option("--speed", options->path.speed, "of the base, for dynamic models: m/s, mm/s, um/s; default: 1um/s")
+      .type_name("VELOCITY");
   command
-      ->add_option("--speed", options->path.speed, "of the base, for dynamic models: m/s, mm/s, um/s; default: 1um/s")
-      ->type_name("VELOCITY");
+      .add_option("--sweep", options->sweeps,
+                  "key=from:to:count, the events of one cycle for every value of a number (its option without the "
+                  "dashes), :log behind it for equal ratios; twice for a grid; at most a million points")
+      .one_value_each()
+      .type_name("KEY=FROM:TO:COUNT");
+  command.add_flag("--json", options->json, "the events instead of the samples, in SI");
   command
-      ->add_option("--sweep", options->sweeps,
-                   "key=from:to:count, the events of one cycle for every value of a number (its option without the "
-                   "dashes), :log behind it for equal ratios; twice for a grid; at most a million points")
-      ->allow_extra_args(false)
-      ->type_name("KEY=FROM:TO:COUNT");
-  command->add_flag("--json", options->json, "the events instead of the samples, in SI");
-  command
-      ->add_option("--format", options->format,
-                   std::string("csv, json, svg, tab and h5 (afmformats), afm-workshop; default: by the ending of "
-                               "--out, else csv"))
-      ->check(CLI::IsMember({"csv", "json", "svg", "tab", "h5", "afm-workshop"}))
-      ->type_name("FORMAT");
-  command->add_option("--overlay", options->overlay, "a measured curve to draw over the model, with --format svg")
-      ->type_name("FILE");
-  command->add_option("--out", options->out, "write here instead of to stdout")->type_name("FILE");
-  command->footer(
+      .add_option("--format", options->format,
+                  std::string("csv, json, svg, tab and h5 (afmformats), afm-workshop; default: by the ending of "
+                              "--out, else csv"))
+      .one_of({"csv", "json", "svg", "tab", "h5", "afm-workshop"})
+      .type_name("FORMAT");
+  command.add_option("--overlay", options->overlay, "a measured curve to draw over the model, with --format svg")
+      .type_name("FILE");
+  command.add_option("--out", options->out, "write here instead of to stdout").type_name("FILE");
+  command.footer(
       "Each number overrides the material's or the probe's.\n"
       "example: touchafm curve --material mica --spring-constant 0.2N/m --from 20nm --to -5nm --out mica.csv\n"
       "example: touchafm curve --material pdms-air --sweep spring-constant=0.01N/m:100N/m:50:log --out sweep.csv");
-  command->callback([options, &context] { context.chosen = [options] { return write_curve_command(*options); }; });
+  command.when_chosen([options] { return write_curve_command(*options); });
 }
 
 }  // namespace afm::app

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
@@ -19,7 +18,6 @@
 #include "app/demo/report_pictures.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
-#include "app/options/parsed_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
 #include "core/log.h"
@@ -310,71 +308,71 @@ core::Result<void> read_model(const std::string& text, DemoOptions& options) {
 }
 
 // What is felt, and how.
-void add_sample_options(CLI::App& command, DemoOptions& options) {
+void add_sample_options(OptionList& command, DemoOptions& options) {
   command
       .add_option("--material", options.files.shown,
                   "a sample of the material files, by name; give it once for each; default: the paper's three")
-      ->type_name("NAME");
-  parsed_option(
-      command, "--model", [&options](const std::string& text) { return read_model(text, options); },
-      "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- before one "
-      "that can move a mass")
-      ->default_str("paper")
-      ->type_name("NAME");
+      .type_name("NAME");
   command
-      .add_option_function<std::string>(
+      .add_parsed_option(
+          "--model", [&options](const std::string& text) { return read_model(text, options); },
+          "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- before "
+          "one that can move a mass")
+      .show_default("paper")
+      .type_name("NAME");
+  command
+      .add_parsed_option(
           "--probe",
-          [&options](const std::string& text) {
+          [&options](const std::string& text) -> core::Result<void> {
             (exhibit::is_model_file(text) ? options.files.probe : options.probe) = text;
+            return {};
           },
           "a lever and tip of assets/probes.toml instead of the materials' own; or a glTF model of your own "
           "cantilever, .glb or .gltf, which changes the picture alone")
-      ->type_name("NAME|FILE");
+      .type_name("NAME|FILE");
   add_own_sample_option(command, options.files);
   command
       .add_option("--vary", options.vary,
                   "feel every sample once more at each of n values of one parameter, changed while the servo runs: "
                   "spring-constant=0.1N/m:0.4N/m:3")
-      ->type_name("KEY=FROM:TO:N");
+      .type_name("KEY=FROM:TO:N");
   command
       .add_option("--measured", options.measured,
                   "a recorded curve to be felt too (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
-      ->type_name("FILE");
+      .type_name("FILE");
   add_scale_option(command, options.scale);
 }
 
 }  // namespace
 
-void add_demo_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command = app.add_subcommand(
+void add_demo_command(OptionList& program, const CommandContext& context) {
+  OptionList command = program.add_command(
       "demo", "the main job: feel and draw one full cycle on every sample, with no hardware and no display");
-  command->footer(
+  command.footer(
       "Leaves in DIR: report.html (open it), fig5a.png to fig5e.png (side-by-side stereo), summary.json, and for "
       "every\n"
       "material curve-NAME.csv and session-NAME.afms.\n\nexample: touchafm demo --out out\n"
       "         touchafm demo --out fast --hand-speed 200mm/s --eye-width 1440\n"
       "         touchafm demo --out lever --material mica --model dmt --vary spring-constant=0.1N/m:0.4N/m:3");
   auto options = std::make_shared<DemoOptions>();
-  command->add_option("--out", options->out, "folder for the results; made if it does not exist")
-      ->required()
-      ->type_name("DIR");
-  add_stage_options(*command, options->files, context);
+  command.add_option("--out", options->out, "folder for the results; made if it does not exist")
+      .required()
+      .type_name("DIR");
+  add_stage_options(command, options->files, context);
   command
-      ->add_option("--eye-width", options->eye_width,
-                   "width of each eye's live picture in pixels; the height follows the wall")
-      ->check(CLI::Range(64, 8192))
-      ->capture_default_str()
-      ->type_name("PIXELS");
-  add_frame_budget(*command, options->frame_budget_ms);
+      .add_option("--eye-width", options->eye_width,
+                  "width of each eye's live picture in pixels; the height follows the wall")
+      .within(64, 8192)
+      .show_default()
+      .type_name("PIXELS");
+  add_frame_budget(command, options->frame_budget_ms);
   quantity_option(
-      *command, "--hand-speed", [&hand = options->hand](physics::Velocity speed) { hand.speed_m_per_s = speed.si; },
+      command, "--hand-speed", [&hand = options->hand](physics::Velocity speed) { hand.speed_m_per_s = speed.si; },
       physics::kVelocityUnits, "mean speed of the simulated hand", std::optional(kHandSpeeds))
-      ->default_str("30mm/s");
-  add_sample_options(*command, *options);
-  add_servo_mode_option(*command, options->servo.mode);
-  command->callback([options, &context] {
-    context.chosen = [options, &context] { return run_demo(*options, context.program_path); };
-  });
+      .show_default("30mm/s");
+  add_sample_options(command, *options);
+  add_servo_mode_option(command, options->servo.mode);
+  command.when_chosen([options, &context] { return run_demo(*options, context.program_path); });
 }
 
 }  // namespace afm::app

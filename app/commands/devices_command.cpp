@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -140,20 +139,18 @@ core::Result<void> list(const std::string& assets_dir, const std::string& wand_f
 
 }  // namespace
 
-void add_devices_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command = app.add_subcommand(
+void add_devices_command(OptionList& program, const CommandContext& context) {
+  OptionList command = program.add_command(
       "devices", "list the Vulkan devices, monitors, haptic devices, wands and trackers: what was tried, and why not");
   const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "print the list as JSON");
+  command.add_flag("--json", *json, "print the list as JSON");
   const auto wand_file = std::make_shared<std::string>();
-  command->add_option("--wand-file", *wand_file, "a device, or a tracker's address, of your own")->type_name("FILE");
-  command->footer(
+  command.add_option("--wand-file", *wand_file, "a device, or a tracker's address, of your own").type_name("FILE");
+  command.footer(
       fmt::format("example: touchafm devices\n{}=FILE names the library of a PHANTOM's or Touch's driver, "
                   "{}=NAME the device in its set-up.",
                   haptics::kHdLibraryVariable, haptics::kHdDeviceVariable));
-  command->callback([&context, json, wand_file] {
-    context.chosen = [&context, json, wand_file] { return list(context.assets_dir, *wand_file, *json); };
-  });
+  command.when_chosen([&context, json, wand_file] { return list(context.assets_dir, *wand_file, *json); });
 }
 
 }  // namespace afm::app

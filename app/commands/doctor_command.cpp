@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -136,23 +135,21 @@ core::Result<void> examine(const std::string& program, const DoctorOptions& opti
 
 }  // namespace
 
-void add_doctor_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command = app.add_subcommand(
+void add_doctor_command(OptionList& program, const CommandContext& context) {
+  OptionList command = program.add_command(
       "doctor", "say whether this machine can run TouchAFM well, and the line that mends what it cannot");
   const auto options = std::make_shared<DoctorOptions>();
-  command->add_option("--seconds", options->seconds, "how long to measure the jitter of a 1 kHz loop, s, 0.1 to 600")
-      ->capture_default_str()
-      ->type_name("SECONDS");
-  command->add_flag("--lab", options->lab,
-                    "run the servo itself for 60 s; ends with 1 if it missed a tick or one in 1000 came 200 us late");
-  command->add_flag("--json", options->json,
-                    "print the findings and the histogram as JSON, SI with the unit in the key");
-  command->footer(
+  command.add_option("--seconds", options->seconds, "how long to measure the jitter of a 1 kHz loop, s, 0.1 to 600")
+      .show_default()
+      .type_name("SECONDS");
+  command.add_flag("--lab", options->lab,
+                   "run the servo itself for 60 s; ends with 1 if it missed a tick or one in 1000 came 200 us late");
+  command.add_flag("--json", options->json,
+                   "print the findings and the histogram as JSON, SI with the unit in the key");
+  command.footer(
       "example: touchafm doctor --seconds 10\nIt needs no rights and changes nothing; ends with 0 whatever it finds, "
       "but for --lab.");
-  command->callback([&context, options] {
-    context.chosen = [&context, options] { return examine(context.program_path, *options); };
-  });
+  command.when_chosen([&context, options] { return examine(context.program_path, *options); });
 }
 
 }  // namespace afm::app

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -156,20 +155,19 @@ core::Result<void> print_material(const MaterialOptions& options) {
 
 }  // namespace
 
-void add_material_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command = app.add_subcommand(
+void add_material_command(OptionList& program, const CommandContext& context) {
+  OptionList command = program.add_command(
       "material", "what is known of a material, with its sources, the law that suits it and why; or a list of all");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<MaterialOptions>();
-  command->add_option("name", options->contact.material, "a material; without it all materials and probes are listed")
-      ->type_name("NAME");
-  add_contact_options(*command, options->contact, context);
-  command->add_option("--map", options->map, "write the adhesion map with this contact on it, as SVG")
-      ->type_name("FILE");
-  command->footer(
+  command.add_option("name", options->contact.material, "a material; without it all materials and probes are listed")
+      .type_name("NAME");
+  add_contact_options(command, options->contact, context);
+  command.add_option("--map", options->map, "write the adhesion map with this contact on it, as SVG").type_name("FILE");
+  command.footer(
       "Each number overrides the material's or the probe's.\n"
       "example: touchafm material gold --tip-radius 20nm --map map.svg");
-  command->callback([options, &context] { context.chosen = [options] { return print_material(*options); }; });
+  command.when_chosen([options] { return print_material(*options); });
 }
 
 }  // namespace afm::app

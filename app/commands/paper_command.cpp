@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
 #include <utility>
@@ -49,28 +48,26 @@ core::Result<void> write_paper(const PaperOptions& options) {
   return folder->commit();
 }
 
-void add_paper_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command =
-      app.add_subcommand("paper", "the paper's Tables 1 and 2, Fig. 2 and Fig. 5(e), ours beside its own");
+void add_paper_command(OptionList& program, const CommandContext& context) {
+  OptionList command =
+      program.add_command("paper", "the paper's Tables 1 and 2, Fig. 2 and Fig. 5(e), ours beside its own");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<PaperOptions>();
-  command->add_option("--out", options->out, "folder for paper.md, paper.json, the tables and the figures")
-      ->required()
-      ->type_name("DIR");
+  command.add_option("--out", options->out, "folder for paper.md, paper.json, the tables and the figures")
+      .required()
+      .type_name("DIR");
   command
-      ->add_option("--summary", options->summary_file,
-                   "summary.json of a demo; the tables then include its measurements")
-      ->type_name("FILE");
-  command->add_option("--materials", options->materials_file, "material file (TOML); default: the built-in one")
-      ->type_name("FILE");
-  command->footer("example: touchafm paper --out paper --summary out/summary.json");
-  command->callback([options, &context] {
+      .add_option("--summary", options->summary_file,
+                  "summary.json of a demo; the tables then include its measurements")
+      .type_name("FILE");
+  command.add_option("--materials", options->materials_file, "material file (TOML); default: the built-in one")
+      .type_name("FILE");
+  command.footer("example: touchafm paper --out paper --summary out/summary.json");
+  command.when_chosen([options, &context] {
     if (options->materials_file.empty()) options->materials_file = context.assets_dir + "/materials.toml";
-    context.chosen = [options]() -> core::Result<void> {
-      auto done = write_paper(*options);
-      if (done) core::log_line(fmt::format("open {}/paper.md", options->out));
-      return done;
-    };
+    auto done = write_paper(*options);
+    if (done) core::log_line(fmt::format("open {}/paper.md", options->out));
+    return done;
   });
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -170,78 +169,75 @@ core::Result<void> run_render(const RenderOptions& options) {
 }
 
 // What is said of a model.
-void add_model_options(CLI::App& command, CLI::Option* gltf, RenderOptions& options) {
+void add_model_options(OptionList& command, const Option& gltf, RenderOptions& options) {
   exhibit::ModelChoice& model = options.model;
   command.add_option("--camera", model.camera, "a camera of the model by its name, or auto, which sees all of it")
-      ->needs(gltf)
-      ->capture_default_str()
-      ->type_name("NAME");
+      .needs(gltf)
+      .show_default()
+      .type_name("NAME");
   command.add_option("--variant", model.variant, "a variant of the model's materials (KHR_materials_variants)")
-      ->needs(gltf)
-      ->type_name("NAME");
-  CLI::Option* describe = command
-                              .add_flag("--describe", options.describe,
-                                        "list what the model holds, what is ignored and why, and draw nothing")
-                              ->needs(gltf);
-  command.add_flag("--json", options.json, "the list as JSON")->needs(describe);
+      .needs(gltf)
+      .type_name("NAME");
+  Option describe = command
+                        .add_flag("--describe", options.describe,
+                                  "list what the model holds, what is ignored and why, and draw nothing")
+                        .needs(gltf);
+  command.add_flag("--json", options.json, "the list as JSON").needs(describe);
 }
 
 }  // namespace
 
-void add_render_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command = app.add_subcommand(
+void add_render_command(OptionList& program, const CommandContext& context) {
+  OptionList command = program.add_command(
       "render",
       "draw a moment of a recorded session, a place of the journey of scale, or a glTF model, without a window");
-  command->footer(
+  command.footer(
       "example: touchafm render --session out/session-gold.afms --at 5.2 --out gold.png\n"
       "         touchafm render --journey 4.5 --material mica --out lever.png\n"
       "         touchafm render --gltf my_probe.glb --stereo anaglyph-red-cyan --out probe.png");
   auto options = std::make_shared<RenderOptions>();
-  auto* what = command->add_option_group("what is drawn");
-  auto* session =
-      what->add_option("--session", options->session, "session file that the demo has written")->type_name("FILE");
-  auto* journey = what->add_option("--journey", options->journey_orders,
-                                   "a place of the journey of scale, without a session: a metre of the paper's wall "
-                                   "shows 10^-S metres, from the bench (0) to the atoms (9)")
-                      ->check(CLI::Range(0.0, exhibit::kJourneyOrders))
-                      ->type_name("S");
-  auto* gltf =
-      what->add_option("--gltf", options->model.file, "glTF 2.0 model, .glb or .gltf, drawn alone")->type_name("FILE");
-  what->require_option(1);
-  add_model_options(*command, gltf, *options);
-  command->add_option("--material", options->material, "sample of the journey")
-      ->needs(journey)
-      ->capture_default_str()
-      ->type_name("NAME");
-  command->add_flag("--analogy", options->analogy, "draw Millet's magnet on a spring instead of the instrument")
-      ->needs(session);
-  command->add_option("--out", options->out, "picture to write")->type_name("FILE.png");
-  auto* at = command
-                 ->add_option("--at", options->at_s,
-                              "time from the start of the session, or of the model's animations, in seconds; "
-                              "default: the session's start, the model at rest")
-                 ->type_name("SECONDS");
-  add_stereo_options(*command, options->picture, "the outputs of the wall file, else side-by-side; of a model mono");
-  CLI::Option* size = pixel_size_option(*command, "--size", options->picture.size_px,
+  OptionList what = command.add_alternatives("what is drawn");
+  const Option session =
+      what.add_option("--session", options->session, "session file that the demo has written").type_name("FILE");
+  const Option journey =
+      what.add_option("--journey", options->journey_orders,
+                      "a place of the journey of scale, without a session: a metre of the paper's wall "
+                      "shows 10^-S metres, from the bench (0) to the atoms (9)")
+          .within(0.0, exhibit::kJourneyOrders)
+          .type_name("S");
+  const Option gltf =
+      what.add_option("--gltf", options->model.file, "glTF 2.0 model, .glb or .gltf, drawn alone").type_name("FILE");
+  add_model_options(command, gltf, *options);
+  command.add_option("--material", options->material, "sample of the journey")
+      .needs(journey)
+      .show_default()
+      .type_name("NAME");
+  command.add_flag("--analogy", options->analogy, "draw Millet's magnet on a spring instead of the instrument")
+      .needs(session);
+  command.add_option("--out", options->out, "picture to write").type_name("FILE.png");
+  const Option at = command
+                        .add_option("--at", options->at_s,
+                                    "time from the start of the session, or of the model's animations, in seconds; "
+                                    "default: the session's start, the model at rest")
+                        .type_name("SECONDS");
+  add_stereo_options(command, options->picture, "the outputs of the wall file, else side-by-side; of a model mono");
+  const Option size = pixel_size_option(command, "--size", options->picture.size_px,
                                         "size of the whole picture in pixels; default: as the wall's outputs say, or "
                                         "from --eye-width; of a model 960x720 an eye");
   command
-      ->add_option("--eye-width", options->picture.eye_width,
-                   "width of each eye's picture in pixels; the height follows the wall")
-      ->check(CLI::Range(64, 8192))
-      ->excludes(size)
-      ->capture_default_str()
-      ->type_name("PIXELS");
-  add_stage_options(*command, options->files, context);
-  add_own_model_options(*command, options->files);
-  command->callback([options, gltf, at, &context] {
-    if (!options->describe && options->out.empty()) throw CLI::RequiredError("--out");
-    if (gltf->empty()) {
-      context.chosen = [options] { return run_render(*options); };
-      return;
-    }
-    if (!at->empty()) options->model.at_s = options->at_s;
-    context.chosen = [options] { return run_model(*options); };
+      .add_option("--eye-width", options->picture.eye_width,
+                  "width of each eye's picture in pixels; the height follows the wall")
+      .within(64, 8192)
+      .excludes(size)
+      .show_default()
+      .type_name("PIXELS");
+  add_stage_options(command, options->files, context);
+  add_own_model_options(command, options->files);
+  command.when_chosen([options, gltf, at]() -> core::Result<void> {
+    if (!options->describe && options->out.empty()) return core::wrong_usage("--out is required; see touchafm --help");
+    if (!gltf.given()) return run_render(*options);
+    if (at.given()) options->model.at_s = options->at_s;
+    return run_model(*options);
   });
 }
 

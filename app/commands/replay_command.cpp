@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -104,19 +103,19 @@ core::Result<void> run_replay(const ReplayOptions& options) {
 
 }  // namespace
 
-void add_replay_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command = app.add_subcommand(
+void add_replay_command(OptionList& program, const CommandContext&) {
+  OptionList command = program.add_command(
       "replay",
       "run a recorded hand through the servo again and compare every force with the recorded one, bit for bit");
   const auto options = std::make_shared<ReplayOptions>();
-  command->add_option("session", options->session, "session file that demo or view --record has written")
-      ->required()
-      ->type_name("SESSION");
-  command->add_flag("--json", options->json, "print the comparison as JSON, SI with the unit in the key");
-  command->footer(
+  command.add_option("session", options->session, "session file that demo or view --record has written")
+      .required()
+      .type_name("SESSION");
+  command.add_flag("--json", options->json, "print the comparison as JSON, SI with the unit in the key");
+  command.footer(
       "example: touchafm replay out/session-gold.afms\n"
       "Ends with 0 if all is the same, with 1 if not. touchafm view --haptics replay:FILE shows it on the wall.");
-  command->callback([&context, options] { context.chosen = [options] { return run_replay(*options); }; });
+  command.when_chosen([options] { return run_replay(*options); });
 }
 
 }  // namespace afm::app

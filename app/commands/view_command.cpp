@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -107,108 +106,104 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   return check_validation((*display)->context());
 }
 
-void add_picture_options(CLI::App& command, ViewOptions& options) {
+void add_picture_options(OptionList& command, ViewOptions& options) {
   add_stereo_options(command, options.display.picture, "the outputs of the wall file, else mono");
   command.add_flag("--fullscreen", options.display.window.full_screen,
                    "one window that fills the monitor it opens on; F11 does it while it runs");
   command
       .add_option("--monitor", options.display.window.monitor,
                   "one window that fills this monitor, by its name or number in touchafm devices")
-      ->type_name("NAME");
+      .type_name("NAME");
   command
       .add_option("--eye-width", options.display.eye_width,
                   "width of each eye's picture in pixels, then scaled to the window; default: the window's pixels")
-      ->check(CLI::Range(64, 8192))
-      ->type_name("PIXELS");
+      .within(64, 8192)
+      .type_name("PIXELS");
   add_frame_budget(command, options.display.frame_budget_ms);
   command
       .add_option("--pictures", options.display.saved_folder,
                   "an existing folder for the pictures that F12 saves, touchafm-001.png and on; default: this one")
-      ->check(CLI::ExistingDirectory)
-      ->type_name("DIR");
+      .existing_folder()
+      .type_name("DIR");
   command
       .add_option("--frame-rate", options.frame_rate, "most frames a second, 10 to 1000; default: the display's rate")
-      ->check(CLI::Range(kSlowestFrames, kFastestFrames))
-      ->type_name("RATE");
+      .within(kSlowestFrames, kFastestFrames)
+      .type_name("RATE");
 }
 
-void add_wand_options(CLI::App& command, ViewOptions& options) {
+void add_wand_options(OptionList& command, ViewOptions& options) {
   command
       .add_option("--wand", options.wand.source,
                   "who points beside the mouse: auto or hid for whatever wand is plugged in, now or later, dtrack or "
                   "dtrack:ADDRESS:PORT for a tracker's Flystick, sim for a simulated one, or mouse for none; default: "
                   "auto")
-      ->type_name("SOURCE");
+      .type_name("SOURCE");
   command
       .add_option("--wand-file", options.wand.file,
                   "where the hand and the tracker are, or how an HID device is read; see docs/adding-a-wand.md")
-      ->type_name("FILE");
+      .type_name("FILE");
   command
       .add_option("--head", options.wand.head,
                   "whose head the picture is drawn for: dtrack:BODY or dtrack:BODY@ADDRESS:PORT of a tracker; default: "
                   "the wand file's, else the wall's sweet spot")
-      ->type_name("SOURCE");
+      .type_name("SOURCE");
 }
 
-void add_servo_options(CLI::App& command, ViewOptions& options) {
+void add_servo_options(OptionList& command, ViewOptions& options) {
   std::string hands;
   for (const servo::HapticWord& word : servo::haptic_words()) hands += fmt::format("{}, {}; ", word.word, word.meaning);
   command
       .add_option("--haptics", options.servo.haptic_device,
                   fmt::format("whose hand feels: {}default: {}", hands, options.servo.haptic_device))
-      ->type_name("DEVICE");
+      .type_name("DEVICE");
   command.add_option("--record", options.settings.record_folder, "keep what is felt in DIR, a session for each sample")
-      ->type_name("DIR");
+      .type_name("DIR");
   add_scale_option(command, options.settings.scale);
   command.add_flag("--dead-man", options.servo.settings.dead_man, "force only as long as Turn-On is held");
   command.add_option("--servo-rate", options.servo.settings.rate_hz, "of the servo, 100 Hz to 10 kHz")
-      ->check(CLI::Range(100.0, 10'000.0))
-      ->capture_default_str()
-      ->type_name("HZ");
+      .within(100.0, 10'000.0)
+      .show_default()
+      .type_name("HZ");
   command
       .add_option(
           "--spin", options.spin_us,
           "how long the servo stays awake before each tick to be more punctual, at most half a period; default: 0")
-      ->check(CLI::Range(0, 5000))
-      ->type_name("MICROSECONDS");
+      .within(0, 5000)
+      .type_name("MICROSECONDS");
   command
       .add_option("--linger", options.servo.settings.linger_s,
                   "how long the servo keeps its device for another touchafm view if this one dies, 0 to 600")
-      ->check(CLI::Range(0.0, 600.0))
-      ->capture_default_str()
-      ->type_name("SECONDS");
+      .within(0.0, 600.0)
+      .show_default()
+      .type_name("SECONDS");
 }
 
 }  // namespace
 
-void add_view_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command = app.add_subcommand("view", "the live window: choose a sample and feel it, with a mouse alone");
-  command->footer(
+void add_view_command(OptionList& program, const CommandContext& context) {
+  OptionList command = program.add_command("view", "the live window: choose a sample and feel it, with a mouse alone");
+  command.footer(
       "F1 in the window shows its keys and buttons.\n\nexample: touchafm view\n"
       "         touchafm view --stereo side-by-side --fullscreen --material mica --material pdms-air");
   auto options = std::make_shared<ViewOptions>();
-  add_stage_options(*command, options->files, context);
-  add_own_model_options(*command, options->files);
+  add_stage_options(command, options->files, context);
+  add_own_model_options(command, options->files);
   command
-      ->add_option("--material", options->files.shown,
-                   "a material to show, up to nine; default: mica, gold and silicon nitride of the paper")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("NAME");
-  add_picture_options(*command, *options);
+      .add_option("--material", options->files.shown,
+                  "a material to show, up to nine; default: mica, gold and silicon nitride of the paper")
+      .one_value_each_without_dots()
+      .type_name("NAME");
+  add_picture_options(command, *options);
   pixel_size_option(
-      *command, "--size", options->display.window.size_px,
+      command, "--size", options->display.window.size_px,
       "one window of that size in pixels; default: a window for each output of the wall file in its place, else one "
       "of 1280x960",
       PixelRange{kSmallestWindow, kLargestWindow});
-  add_servo_mode_option(*command, options->servo.mode);
-  add_wand_options(*command, *options);
-  add_servo_options(*command, *options);
-  command->add_flag("--validate", options->display.validate,
-                    "check every Vulkan call; any message ends in exit code 1");
-  command->callback([options, &context] {
-    context.chosen = [options, &context] { return run_view(*options, context.program_path); };
-  });
+  add_servo_mode_option(command, options->servo.mode);
+  add_wand_options(command, *options);
+  add_servo_options(command, *options);
+  command.add_flag("--validate", options->display.validate, "check every Vulkan call; any message ends in exit code 1");
+  command.when_chosen([options, &context] { return run_view(*options, context.program_path); });
 }
 
 }  // namespace afm::app

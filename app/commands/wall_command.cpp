@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -15,7 +14,6 @@
 
 #include "app/command.h"
 #include "app/options/exhibit_options.h"
-#include "app/options/parsed_option.h"
 #include "app/options/pixel_size_option.h"
 #include "exhibit/calibration.h"
 #include "exhibit/exhibit_setup.h"
@@ -174,31 +172,32 @@ core::Result<void> run_wall(const WallOptions& options) {
 
 }  // namespace
 
-void add_wall_command(CLI::App& app, CommandContext& context) {
-  CLI::App* command = app.add_subcommand("wall", "check a wall file and print what each eye sees of it");
-  command->footer("example: touchafm wall assets/walls/powerwall.toml --json --head 0.2,1.7,2.1");
+void add_wall_command(OptionList& program, const CommandContext&) {
+  OptionList command = program.add_command("wall", "check a wall file and print what each eye sees of it");
+  command.footer("example: touchafm wall assets/walls/powerwall.toml --json --head 0.2,1.7,2.1");
   auto options = std::make_shared<WallOptions>();
-  command->add_option("file", options->file, "wall file (TOML), or a ParaView configuration (.pvx)")
-      ->required()
-      ->type_name("FILE");
+  command.add_option("file", options->file, "wall file (TOML), or a ParaView configuration (.pvx)")
+      .required()
+      .type_name("FILE");
   const auto read_head = [head = &options->head](const std::string& text) -> core::Result<void> {
     const auto parsed = parse_head(text);
     if (!parsed) return tl::unexpected(parsed.error());
     *head = *parsed;
     return {};
   };
-  parsed_option(*command, "--head", read_head,
-                "head position in metres, and orientation as a unit quaternion; default: the sweet spot")
-      ->type_name("X,Y,Z[,QX,QY,QZ,QW]");
-  command->add_flag(
+  command
+      .add_parsed_option("--head", read_head,
+                         "head position in metres, and orientation as a unit quaternion; default: the sweet spot")
+      .type_name("X,Y,Z[,QX,QY,QZ,QW]");
+  command.add_flag(
       "--json", options->json,
       "print each eye's projection and view, row-major, reversed infinite depth, y down, near plane 0.1 m");
-  command->add_flag("--test-pattern", options->test_pattern,
-                    "draw the picture for setting up: grid, cross, circle, ruler, L and R; with --out");
-  command->add_option("--out", options->out, "where the test pattern is written")->type_name("FILE.png");
-  pixel_size_option(*command, "--size", options->picture.size_px, "size of the whole test pattern in pixels");
-  add_stereo_options(*command, options->picture, "the outputs of the wall file, else side-by-side");
-  command->callback([options, &context] { context.chosen = [options] { return run_wall(*options); }; });
+  command.add_flag("--test-pattern", options->test_pattern,
+                   "draw the picture for setting up: grid, cross, circle, ruler, L and R; with --out");
+  command.add_option("--out", options->out, "where the test pattern is written").type_name("FILE.png");
+  pixel_size_option(command, "--size", options->picture.size_px, "size of the whole test pattern in pixels");
+  add_stereo_options(command, options->picture, "the outputs of the wall file, else side-by-side");
+  command.when_chosen([options] { return run_wall(*options); });
 }
 
 }  // namespace afm::app

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <limits>
 #include <utility>
 
@@ -98,34 +97,34 @@ core::Result<void> apply_values(const ContactOptions& options, curves::ContactSe
 
 }  // namespace
 
-void add_contact_options(CLI::App& command, ContactOptions& options, const CommandContext& context) {
+void add_contact_options(OptionList& command, ContactOptions& options, const CommandContext& context) {
   options.assets_dir = context.assets_dir;
   command
       .add_option("--materials", options.material_files,
                   "material file (TOML) of your own, may be repeated: adds to the built-in materials, a known name "
                   "replaces the built-in one")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+      .type_name("FILE")
+      .one_value_each();
   command
       .add_option("--probe", options.probe,
                   "a lever and tip of the probe file, in place of the material's; \"touchafm material\" lists them")
-      ->type_name("NAME");
+      .type_name("NAME");
   command
       .add_option("--probes", options.probe_files,
                   "probe file (TOML) of your own, may be repeated: adds to the built-in probes")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+      .type_name("FILE")
+      .one_value_each();
   command
       .add_option("--model", options.model,
                   "auto (the law that suits the contact, by its Tabor parameter), or one of " +
                       curves::known_models(curves::ModelUse::Curve))
-      ->type_name("NAME")
-      ->capture_default_str();
+      .type_name("NAME")
+      .show_default();
   for (const curves::ContactParameter& parameter : curves::contact_parameters()) {
     command
         .add_option("--" + std::string(parameter.option), options.values[std::string(parameter.option)],
                     std::string(parameter.help))
-        ->type_name(type_word(parameter.sort));
+        .type_name(type_word(parameter.sort));
   }
   command.add_flag("--exact-sphere", options.exact_sphere,
                    "Hamaker's sphere instead of Derjaguin's approximation of it");

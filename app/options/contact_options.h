@@ -25,7 +25,7 @@ struct ContactOptions {
 };
 
 // --materials, --probes, --probe, --model and one option a number. `options` must live while `command` parses.
-void add_contact_options(CLI::App& command, ContactOptions& options, const CommandContext& context);
+void add_contact_options(OptionList& command, ContactOptions& options, const CommandContext& context);
 
 // The built-in materials with the user's on top.
 core::Result<scene::MaterialLibrary> load_materials(const ContactOptions& options);

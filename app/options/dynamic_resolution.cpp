@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 
+#include "app/options/command_line.h"
 #include "core/check.h"
 #include "core/log.h"
 
@@ -86,14 +86,14 @@ void DynamicResolution::follow(render::Renderer& renderer) {
 
 render::DataRow DynamicResolution::row() const { return {"picture", text(), fmt::format("{} ms a frame", budget_ms_)}; }
 
-void add_frame_budget(CLI::App& command, double& budget_ms) {
+void add_frame_budget(OptionList& command, double& budget_ms) {
   command
       .add_option(
           "--frame-budget", budget_ms,
           "what drawing a frame may take, 1 to 1000 ms: frames that take longer are drawn with fewer pixels, down "
           "to half each way, then with one sample; default: as they are")
-      ->check(CLI::Range(1.0, 1000.0))
-      ->type_name("MS");
+      .within(1.0, 1000.0)
+      .type_name("MS");
 }
 
 }  // namespace afm::app

@@ -8,11 +8,9 @@
 #include "render/frame.h"
 #include "render/renderer.h"
 
-namespace CLI {
-class App;
-}
-
 namespace afm::app {
+
+class OptionList;
 
 // Keeps a frame within a budget by drawing it coarser: first with fewer pixels, down to half of them each way, then
 // with one sample a pixel. What is seen and where is left alone. A step coarser follows at once on frames that are too
@@ -52,6 +50,6 @@ class DynamicResolution {
 };
 
 // --frame-budget MS; 0 without it.
-void add_frame_budget(CLI::App& command, double& budget_ms);
+void add_frame_budget(OptionList& command, double& budget_ms);
 
 }  // namespace afm::app

@@ -4,15 +4,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <utility>
 
 namespace afm::app {
 
-CLI::Option* choice_option(CLI::App& command, const std::string& name, std::function<void(std::size_t row)> store,
-                           const std::string& sort, const std::vector<std::string_view>& names,
-                           const std::string& description) {
+Option choice_option(OptionList& command, const std::string& name, std::function<void(std::size_t row)> store,
+                     const std::string& sort, const std::vector<std::string_view>& names,
+                     const std::string& description) {
   const auto read = [store = std::move(store), sort, names](const std::string& text) -> core::Result<void> {
     const auto found = std::find(names.begin(), names.end(), text);
     if (found == names.end()) {
@@ -22,7 +21,7 @@ CLI::Option* choice_option(CLI::App& command, const std::string& name, std::func
     store(static_cast<std::size_t>(found - names.begin()));
     return {};
   };
-  return parsed_option(command, name, read, description)->type_name(fmt::format("{{{}}}", fmt::join(names, ",")));
+  return command.add_parsed_option(name, read, description).type_name(fmt::format("{{{}}}", fmt::join(names, ",")));
 }
 
 }  // namespace afm::app

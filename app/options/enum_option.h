@@ -7,20 +7,20 @@
 #include <string_view>
 #include <vector>
 
-#include "app/options/parsed_option.h"
+#include "app/options/command_line.h"
 
 namespace afm::app {
 
 // Use enum_option.
-CLI::Option* choice_option(CLI::App& command, const std::string& name, std::function<void(std::size_t row)> store,
-                           const std::string& sort, const std::vector<std::string_view>& names,
-                           const std::string& description);
+Option choice_option(OptionList& command, const std::string& name, std::function<void(std::size_t row)> store,
+                     const std::string& sort, const std::vector<std::string_view>& names,
+                     const std::string& description);
 
 // An option whose value is the `name` of a row of `table`; the row's `value` goes to `target`. Help and refusal list
 // the names. `sort`: "a stereo mode". The table must live as long as the command.
 template <class Target, class Table, class Row, class Name, class Value>
-CLI::Option* enum_option(CLI::App& command, const std::string& option, Target& target, const std::string& sort,
-                         const Table& table, Name Row::* name, Value Row::* value, const std::string& description) {
+Option enum_option(OptionList& command, const std::string& option, Target& target, const std::string& sort,
+                   const Table& table, Name Row::* name, Value Row::* value, const std::string& description) {
   std::vector<std::string_view> names;
   for (const Row& row : table) names.emplace_back(row.*name);
   return choice_option(

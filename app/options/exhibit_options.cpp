@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
@@ -19,32 +18,31 @@ constexpr QuantityRange<physics::Length> kEyeDistances{physics::Length(scene::kS
 
 }  // namespace
 
-void add_stereo_options(CLI::App& command, exhibit::PictureOptions& options, const std::string& default_mode) {
+void add_stereo_options(OptionList& command, exhibit::PictureOptions& options, const std::string& default_mode) {
   enum_option(command, "--stereo", options.mode, "a stereo mode", scene::kStereoModes, &scene::StereoModeTraits::name,
               &scene::StereoModeTraits::mode, "how both eyes are shown; default: " + default_mode);
-  command.add_flag_callback(
-      "--swap-eyes", [&options] { options.order = scene::EyeOrder::Swapped; }, "left and right exchanged");
+  command.add_flag("--swap-eyes", [&options] { options.order = scene::EyeOrder::Swapped; }, "left and right exchanged");
   quantity_option(
       command, "--ipd", [&options](physics::Length distance) { options.ipd_m = distance.si; }, physics::kLengthUnits,
       "distance between the eyes; default: the viewer's in the wall file", std::optional(kEyeDistances));
 }
 
-void add_own_model_options(CLI::App& command, exhibit::ExhibitFiles& files) {
+void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files) {
   command
       .add_option("--probe", files.probe,
                   "glTF model of your own cantilever, with nodes for the roles base and tip (docs/gltf.md)")
-      ->type_name("FILE");
+      .type_name("FILE");
   add_own_sample_option(command, files);
 }
 
-void add_own_sample_option(CLI::App& command, exhibit::ExhibitFiles& files) {
+void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files) {
   command
       .add_option("--sample", files.sample,
                   "glTF model of your own sample, with a node for the role surface; it is felt as it is drawn")
-      ->type_name("FILE");
+      .type_name("FILE");
 }
 
-void add_scale_option(CLI::App& command, scene::ScaleMode& mode) {
+void add_scale_option(OptionList& command, scene::ScaleMode& mode) {
   std::string meanings;
   for (const scene::ScaleModeText& row : scene::kScaleModes) meanings += fmt::format("{}, {}; ", row.word, row.meaning);
   enum_option(
@@ -53,21 +51,21 @@ void add_scale_option(CLI::App& command, scene::ScaleMode& mode) {
       fmt::format("how nm and nN become mm and N in the hand: {}default: {}", meanings, scene::text_of(mode).word));
 }
 
-void add_stage_options(CLI::App& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
+void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
   files.assets_dir = context.assets_dir;
   command
       .add_option("--wall", files.wall,
                   "wall file (TOML): the screen's corners and the viewer; default: the paper's 10 ft x 7.5 ft wall")
-      ->type_name("FILE");
+      .type_name("FILE");
   command
       .add_option("--materials", files.materials,
                   "material file (TOML) of your own, shown instead of mica, gold and silicon nitride of the paper")
-      ->type_name("FILE");
+      .type_name("FILE");
   command
       .add_option("--guidance", files.guidance,
                   "what the wall tells a person to do, in another language (TOML, such as assets/guidance/de.toml)")
-      ->type_name("FILE");
-  command.add_option("--assets", files.assets_dir, "folder of the models, walls and materials")->type_name("DIR");
+      .type_name("FILE");
+  command.add_option("--assets", files.assets_dir, "folder of the models, walls and materials").type_name("DIR");
 }
 
 }  // namespace afm::app

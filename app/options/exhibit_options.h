@@ -10,16 +10,16 @@
 namespace afm::app {
 
 // --stereo, --swap-eyes and --ipd.
-void add_stereo_options(CLI::App& command, exhibit::PictureOptions& options, const std::string& default_mode);
+void add_stereo_options(OptionList& command, exhibit::PictureOptions& options, const std::string& default_mode);
 
 // --probe and --sample; and --sample alone, beside a --probe that knows names too.
-void add_own_model_options(CLI::App& command, exhibit::ExhibitFiles& files);
-void add_own_sample_option(CLI::App& command, exhibit::ExhibitFiles& files);
+void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files);
+void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files);
 
 // --scale.
-void add_scale_option(CLI::App& command, scene::ScaleMode& mode);
+void add_scale_option(OptionList& command, scene::ScaleMode& mode);
 
 // --wall, --materials and --assets.
-void add_stage_options(CLI::App& command, exhibit::ExhibitFiles& files, const app::CommandContext& context);
+void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const app::CommandContext& context);
 
 }  // namespace afm::app

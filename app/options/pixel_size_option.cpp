@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <system_error>
 
@@ -32,8 +31,8 @@ std::optional<glm::uvec2> parse_pixel_size(std::string_view text) {
   return glm::uvec2(*width, *height);
 }
 
-CLI::Option* pixel_size_option(CLI::App& command, const std::string& name, std::optional<glm::uvec2>& size_px,
-                               const std::string& description, std::optional<PixelRange> range) {
+Option pixel_size_option(OptionList& command, const std::string& name, std::optional<glm::uvec2>& size_px,
+                         const std::string& description, std::optional<PixelRange> range) {
   const std::string legal_values = range ? fmt::format("{} to {} each", range->least, range->most) : "";
   const auto read = [&size_px, range, legal_values](const std::string& text) -> core::Result<void> {
     const auto size = parse_pixel_size(text);
@@ -45,8 +44,8 @@ CLI::Option* pixel_size_option(CLI::App& command, const std::string& name, std::
     size_px = *size;
     return {};
   };
-  return parsed_option(command, name, read, description)
-      ->type_name("WIDTHxHEIGHT" + (legal_values.empty() ? "" : " in " + legal_values));
+  return command.add_parsed_option(name, read, description)
+      .type_name("WIDTHxHEIGHT" + (legal_values.empty() ? "" : " in " + legal_values));
 }
 
 }  // namespace afm::app

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/options/parsed_option.h"
+#include "app/options/command_line.h"
 
 namespace afm::app {
 
@@ -20,7 +20,7 @@ struct PixelRange {
 std::optional<glm::uvec2> parse_pixel_size(std::string_view text);
 
 // An option whose value is the size of a picture or a window. Help and refusal give the range if there is one.
-CLI::Option* pixel_size_option(CLI::App& command, const std::string& name, std::optional<glm::uvec2>& size_px,
-                               const std::string& description, std::optional<PixelRange> range = std::nullopt);
+Option pixel_size_option(OptionList& command, const std::string& name, std::optional<glm::uvec2>& size_px,
+                         const std::string& description, std::optional<PixelRange> range = std::nullopt);
 
 }  // namespace afm::app

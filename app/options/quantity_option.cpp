@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <utility>
@@ -50,16 +49,16 @@ std::string type_word(std::string_view sort) {
   return word;
 }
 
-CLI::Option* si_option(CLI::App& command, const std::string& name, std::function<void(double si)> store,
-                       const QuantityDomain& domain, const std::string& description) {
+Option si_option(OptionList& command, const std::string& name, std::function<void(double si)> store,
+                 const QuantityDomain& domain, const std::string& description) {
   const auto read = [store = std::move(store), domain](const std::string& text) -> core::Result<void> {
     const auto si = read_si(text, domain);
     if (!si) return tl::unexpected(si.error());
     store(*si);
     return {};
   };
-  return parsed_option(command, name, read, description)
-      ->type_name(fmt::format("{} in {}", type_word(domain.sort), legal_values(domain)));
+  return command.add_parsed_option(name, read, description)
+      .type_name(fmt::format("{} in {}", type_word(domain.sort), legal_values(domain)));
 }
 
 }  // namespace afm::app

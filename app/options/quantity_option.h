@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/options/parsed_option.h"
+#include "app/options/command_line.h"
 #include "physics/quantity_text.h"
 
 namespace afm::app {
@@ -29,13 +29,13 @@ struct QuantityDomain {
 std::string type_word(std::string_view sort);
 
 // Use quantity_option.
-CLI::Option* si_option(CLI::App& command, const std::string& name, std::function<void(double si)> store,
-                       const QuantityDomain& domain, const std::string& description);
+Option si_option(OptionList& command, const std::string& name, std::function<void(double si)> store,
+                 const QuantityDomain& domain, const std::string& description);
 
 // An option whose value is a number with its unit. Help and refusal give the range if there is one, else the units.
 template <class Q, class Store>
-CLI::Option* quantity_option(CLI::App& command, const std::string& name, Store store, const physics::UnitList<Q>& units,
-                             const std::string& description, std::optional<QuantityRange<Q>> range = std::nullopt) {
+Option quantity_option(OptionList& command, const std::string& name, Store store, const physics::UnitList<Q>& units,
+                       const std::string& description, std::optional<QuantityRange<Q>> range = std::nullopt) {
   QuantityDomain domain{units.sort, units.units};
   if (range) domain.range = {range->least.si, range->most.si};
   return si_option(command, name, [store](double si) { store(Q(si)); }, domain, description);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/options/servo_options.h"
 
-#include <CLI/CLI.hpp>
 #include <array>
 
 #include "app/options/enum_option.h"
@@ -20,7 +19,7 @@ constexpr std::array kServoModes{NamedServoMode{servo::ServoMode::Process, "proc
 
 }  // namespace
 
-void add_servo_mode_option(CLI::App& command, servo::ServoMode& mode) {
+void add_servo_mode_option(OptionList& command, servo::ServoMode& mode) {
   enum_option(command, "--servo", mode, "a way to run the servo", kServoModes, &NamedServoMode::name,
               &NamedServoMode::mode,
               "how the servo runs: process, or thread for debuggers and sanitizers; default: process");

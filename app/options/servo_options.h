@@ -3,13 +3,11 @@
 
 #include "servo/servo_client.h"
 
-namespace CLI {
-class App;
-}
-
 namespace afm::app {
 
+class OptionList;
+
 // --servo.
-void add_servo_mode_option(CLI::App& command, servo::ServoMode& mode);
+void add_servo_mode_option(OptionList& command, servo::ServoMode& mode);
 
 }  // namespace afm::app

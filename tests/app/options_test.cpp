@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
-#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "app/options/command_line.h"
 #include "app/options/enum_option.h"
 #include "app/options/pixel_size_option.h"
 #include "app/options/quantity_option.h"
@@ -18,18 +20,82 @@ using testing::HasSubstr;
 
 class OptionsTest : public testing::Test {
  protected:
-  // What is refused, or nothing.
-  std::string refusal(const std::string& text) {
-    try {
-      command_.parse("--option " + text);
-    } catch (const CLI::ParseError& wrong) {
-      return wrong.what();
-    }
-    return {};
+  core::Result<std::string> parse(const std::vector<const char*>& arguments) {
+    std::vector<const char*> all{"program"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return command_.parse(static_cast<int>(all.size()), all.data());
   }
 
-  CLI::App command_;
+  // What is refused, or nothing.
+  std::string refusal(const std::string& text) {
+    const auto answer = parse({"--option", text.c_str()});
+    return answer ? "" : answer.error().message;
+  }
+
+  std::string help() { return parse({"--help"}).value_or(""); }
+
+  CommandLine command_{"program", "1.2", "what it does"};
 };
+
+TEST_F(OptionsTest, TheVersionIsAnAnswerAndAnUnknownOptionWrongUsage) {
+  EXPECT_EQ(parse({}), "");
+  EXPECT_EQ(parse({"--version"}), "program 1.2\n");
+  const auto wrong = parse({"--fast"});
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().category, core::ErrorCategory::WrongUsage);
+  EXPECT_THAT(wrong.error().message, HasSubstr("--fast"));
+}
+
+TEST_F(OptionsTest, OnlyTheChosenCommandRunsAndExactlyOneIsChosen) {
+  std::string ran;
+  OptionList first = command_.add_command("first", "one thing"), second = command_.add_command("second", "another");
+  first.when_chosen([&]() -> core::Result<void> {
+    ran += "first";
+    return {};
+  });
+  second.when_chosen([]() -> core::Result<void> { return core::wrong_usage("no"); });
+  EXPECT_FALSE(parse({}));
+  EXPECT_EQ(parse({"first"}), "");
+  EXPECT_EQ(ran, "");
+  EXPECT_TRUE(command_.run());
+  EXPECT_EQ(ran, "first");
+  EXPECT_EQ(parse({"second"}), "");
+  EXPECT_FALSE(command_.run());
+  EXPECT_EQ(ran, "first");
+}
+
+TEST_F(OptionsTest, OfAlternativesExactlyOneIsGiven) {
+  std::string left, right;
+  OptionList hands = command_.add_alternatives("a hand");
+  const Option left_hand = hands.add_option("--left", left, "the one");
+  hands.add_option("--right", right, "the other");
+  bool dominant = false;
+  command_.add_flag("--dominant", dominant, "it writes").needs(left_hand);
+  EXPECT_FALSE(parse({}));
+  EXPECT_FALSE(parse({"--left", "a", "--right", "b"}));
+  EXPECT_FALSE(parse({"--right", "b", "--dominant"}));
+  EXPECT_FALSE(left_hand.given());
+  EXPECT_TRUE(parse({"--left", "a", "--dominant"}));
+  EXPECT_TRUE(left_hand.given());
+  EXPECT_EQ(left, "a");
+}
+
+TEST_F(OptionsTest, AListTakesOneValueEachTimeItIsGiven) {
+  std::vector<std::string> files;
+  command_.add_option("--file", files, "to read").one_value_each();
+  EXPECT_TRUE(parse({"--file", "a", "--file", "b"}));
+  EXPECT_THAT(files, testing::ElementsAre("a", "b"));
+  EXPECT_FALSE(parse({"--file", "a", "b"}));
+}
+
+TEST_F(OptionsTest, ANumberStaysWithinItsRange) {
+  double seconds = 2.5;
+  command_.add_option("--option", seconds, "how long").within(0.5, 600.0).show_default();
+  for (const char* end : {"0.5", "600"}) EXPECT_EQ(refusal(end), "");
+  for (const char* wrong : {"0.4", "601", "soon"}) EXPECT_THAT(refusal(wrong), HasSubstr("not in range")) << wrong;
+  EXPECT_EQ(seconds, 600.0);
+  EXPECT_THAT(help(), HasSubstr("[0.5 - 600]=2.5"));
+}
 
 TEST_F(OptionsTest, AQuantityIsReadInSiAndRefusedWithItsUnits) {
   double read_m = 0;
@@ -40,7 +106,7 @@ TEST_F(OptionsTest, AQuantityIsReadInSiAndRefusedWithItsUnits) {
   for (const char* wrong : {"50", "50N", "nm", "nan"}) {
     EXPECT_THAT(refusal(wrong), AllOf(HasSubstr("--option"), HasSubstr("um, nm, pm"))) << wrong;
   }
-  EXPECT_THAT(command_.help(), HasSubstr("--option LENGTH in m, mm, um, nm, pm"));
+  EXPECT_THAT(help(), HasSubstr("--option LENGTH in m, mm, um, nm, pm"));
 }
 
 TEST_F(OptionsTest, AQuantityOutsideItsRangeIsRefusedWithTheRange) {
@@ -53,7 +119,7 @@ TEST_F(OptionsTest, AQuantityOutsideItsRangeIsRefusedWithTheRange) {
     EXPECT_THAT(refusal(wrong), HasSubstr("is outside 5mm/s to 200mm/s")) << wrong;
   }
   EXPECT_EQ(read_m_per_s, 0.2);
-  EXPECT_THAT(command_.help(), HasSubstr("--option VELOCITY in 5mm/s to 200mm/s"));
+  EXPECT_THAT(help(), HasSubstr("--option VELOCITY in 5mm/s to 200mm/s"));
 }
 
 TEST_F(OptionsTest, AChoiceIsARowOfItsTable) {
@@ -67,7 +133,7 @@ TEST_F(OptionsTest, AChoiceIsARowOfItsTable) {
   EXPECT_EQ(refusal("nine"), "");
   EXPECT_EQ(chosen, 9);
   EXPECT_THAT(refusal("Nine"), HasSubstr("\"Nine\" is not a lucky number; there are seven, nine"));
-  EXPECT_THAT(command_.help(), HasSubstr("--option {seven,nine}"));
+  EXPECT_THAT(help(), HasSubstr("--option {seven,nine}"));
 }
 
 TEST_F(OptionsTest, ASizeIsTwoNumbersWithinItsRange) {
@@ -78,7 +144,7 @@ TEST_F(OptionsTest, ASizeIsTwoNumbersWithinItsRange) {
   for (const char* wrong : {"63x64", "64x16385"}) {
     EXPECT_THAT(refusal(wrong), HasSubstr("is not WIDTHxHEIGHT in pixels of 64 to 16384 each")) << wrong;
   }
-  EXPECT_THAT(command_.help(), HasSubstr("--option WIDTHxHEIGHT in 64 to 16384 each"));
+  EXPECT_THAT(help(), HasSubstr("--option WIDTHxHEIGHT in 64 to 16384 each"));
 }
 
 TEST(PixelSize, IsWidthAndHeight) {
