@@ -191,7 +191,7 @@ void add_view_command(OptionList& program, const CommandContext& context) {
   command
       .add_option("--material", options->files.shown,
                   "a material to show, up to nine; default: mica, gold and silicon nitride of the paper")
-      .one_value_each_without_dots()
+      .one_value_each()
       .type_name("NAME");
   add_picture_options(command, *options);
   pixel_size_option(

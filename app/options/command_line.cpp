@@ -2,6 +2,7 @@
 #include "app/options/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -46,7 +47,11 @@ Option& Option::within(int least, int most) {
 }
 
 Option& Option::within(double least, double most) {
-  option_->check(CLI::Range(least, most));
+  // CLI11's own check lets through what is not a number
+  option_->check(CLI::Range(least, most))->check([](const std::string& text) {
+    double value = 0.0;
+    return CLI::detail::lexical_cast(text, value) && std::isnan(value) ? text + " is no number" : std::string();
+  });
   return *this;
 }
 
@@ -66,12 +71,7 @@ Option& Option::existing_folder() {
 }
 
 Option& Option::one_value_each() {
-  option_->allow_extra_args(false);
-  return *this;
-}
-
-Option& Option::one_value_each_without_dots() {
-  option_->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  option_->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   return *this;
 }
 

@@ -40,9 +40,8 @@ class Option {
   Option& one_of(std::initializer_list<const char*> words);
   Option& existing_folder();
 
-  // Of a list: one value each time the option is given. The help shows dots behind the value, or not.
+  // Of a list: one value each time the option is given.
   Option& one_value_each();
-  Option& one_value_each_without_dots();
 
   // False before the command line is parsed.
   bool given() const;

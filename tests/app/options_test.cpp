@@ -93,6 +93,7 @@ TEST_F(OptionsTest, ANumberStaysWithinItsRange) {
   command_.add_option("--option", seconds, "how long").within(0.5, 600.0).show_default();
   for (const char* end : {"0.5", "600"}) EXPECT_EQ(refusal(end), "");
   for (const char* wrong : {"0.4", "601", "soon"}) EXPECT_THAT(refusal(wrong), HasSubstr("not in range")) << wrong;
+  for (const char* wrong : {"nan", "-NaN"}) EXPECT_THAT(refusal(wrong), HasSubstr("is no number")) << wrong;
   EXPECT_EQ(seconds, 600.0);
   EXPECT_THAT(help(), HasSubstr("[0.5 - 600]=2.5"));
 }
