@@ -82,6 +82,7 @@ void dynamic_tick(benchmark::State& state) {
 bool run_quietly(const std::string& program, std::vector<std::string> arguments) {
   std::vector<char*> argv;
   arguments.insert(arguments.begin(), program);
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
 
@@ -110,6 +111,7 @@ void whole_curve(benchmark::State& state, const std::string& program) {
 std::vector<BenchmarkCase> physics_benchmarks(const std::string& program) {
   std::vector<BenchmarkCase> cases;
   const std::vector<Law> laws = physics::laws_with(&physics::LawTraits::computed);
+  cases.reserve(laws.size());
   for (const Law law : laws) {
     cases.push_back({.name = "tick " + std::string(name_of(law)),
                      .bar_s = kTickBar_s,

@@ -40,6 +40,7 @@ struct Box {
 
 std::vector<glm::dmat4> room_from_nodes(const scene::Scene& scene) {
   std::vector<glm::dmat4> room;
+  room.reserve(scene.nodes.size());
   for (const scene::Node& node : scene.nodes) {
     room.push_back(node.parent ? room[*node.parent] * node.parent_from_node : node.parent_from_node);
   }

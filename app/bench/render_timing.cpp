@@ -96,6 +96,7 @@ class Drawing {
     passes_.push_back(*newest);
     const auto median_of = [this](double render::PassTimes::* pass) {
       std::vector<double> times;
+      times.reserve(passes_.size());
       for (const render::PassTimes& each : passes_) times.push_back(each.*pass);
       return median(std::move(times));
     };
@@ -120,6 +121,7 @@ void set_ratios(std::vector<RenderFigure>& figures) {
   for (RenderFigure& figure : figures) {
     if (base == nullptr || (figure.subject != base->subject && figure.subject != "peer")) base = &figure;
     std::vector<double> ratios;
+    ratios.reserve(figure.round_ms.size());
     for (std::size_t i = 0; i < figure.round_ms.size(); ++i) {
       ratios.push_back(figure.round_ms[i] / base->round_ms[i]);
     }

@@ -55,7 +55,7 @@ std::vector<DeviceNode> nodes(const std::string& folder, std::string_view prefix
 
 std::string display() {
   for (const char* name : {"WAYLAND_DISPLAY", "DISPLAY"}) {
-    const char* value = std::getenv(name);
+    const char* value = ::secure_getenv(name);
     if (value != nullptr && *value != '\0') return std::string(name) + "=" + value;
   }
   return {};

@@ -55,6 +55,7 @@ void ViewWindows::log_monitor_change(std::size_t window, const render::WindowInp
 
 std::vector<render::Window*> ViewWindows::all() const {
   std::vector<render::Window*> all;
+  all.reserve(windows_.size());
   for (const auto& window : windows_) all.push_back(window.get());
   return all;
 }

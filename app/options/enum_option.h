@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@ template <class Target, class Table, class Row, class Name, class Value>
 Option enum_option(OptionList& command, const std::string& option, Target& target, const std::string& sort,
                    const Table& table, Name Row::* name, Value Row::* value, const std::string& description) {
   std::vector<std::string_view> names;
+  names.reserve(std::size(table));
   for (const Row& row : table) names.emplace_back(row.*name);
   return choice_option(
       command, option, [&target, &table, value](std::size_t row) { target = table[row].*value; }, sort, names,

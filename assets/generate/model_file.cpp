@@ -80,7 +80,7 @@ Json add_attributes(Writer& writer, const Surface& surface, bool colors) {
     for (const double c : components(vertex.normal)) writer.put(static_cast<float>(c));
     if (!colors) continue;
     for (const double c : components(vertex.color))
-      writer.put(static_cast<std::uint32_t>(std::clamp(c, 0.0, 1.0) * 255 + 0.5), 1);
+      writer.put(static_cast<std::uint32_t>(std::lround(std::clamp(c, 0.0, 1.0) * 255)), 1);
     writer.put(255, 1);
   }
 

@@ -62,6 +62,7 @@ Model mica() {
   for (int flake = 0; flake < kFlakes; ++flake) {
     const auto random = [&](int what) { return random_unit(flake, what, 61); };
     std::vector<V2> corners;
+    corners.reserve(6);
     for (int k = 0; k < 6; ++k) corners.push_back(hexagon[k] * ((8.2 + 2.2 * random(k) - 0.11 * flake) * kCm));
     Surface prism;
     add_prism(prism, rounded_polygon(corners, 0.6 * kCm, 1), 0, kFlake, 0.14 * kCm);

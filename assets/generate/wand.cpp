@@ -49,6 +49,7 @@ Surface sphere() {
   std::vector<V2> directions = arc({0, -1}, {1, 0}, 3);
   const std::vector<V2> upper = arc({1, 0}, {0, 1}, 3);
   directions.insert(directions.end(), upper.begin() + 1, upper.end());
+  profile.reserve(directions.size());
   for (const V2 d : directions) profile.push_back({d.x * radius, d.y * radius - radius, d.x, d.y});
   Surface surface;
   add_lathe(surface, profile, kRound);

@@ -52,7 +52,7 @@ core::Result<physics::SweepPlan> sweep_plan(const PathOptions& path, const physi
 
 core::Result<physics::Velocity> ramp_speed(const PathOptions& path) {
   if (path.speed.empty()) return physics::Velocity(1e-6);
-  const auto speed = parse_option("--speed", path.speed, physics::kVelocityUnits);
+  auto speed = parse_option("--speed", path.speed, physics::kVelocityUnits);
   if (speed && !(speed->si > 0.0)) return wrong_usage(fmt::format("--speed: {} is not positive", path.speed));
   return speed;
 }

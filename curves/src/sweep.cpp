@@ -228,6 +228,7 @@ std::string sweep_csv(const ContactSetup& setup, const std::vector<SweepAxis>& a
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   std::vector<const ContactParameter*> swept;
+  swept.reserve(axes.size());
   for (const SweepAxis& axis : axes) swept.push_back(axis.parameter);
   fmt::format_to(out, "# TouchAFM sweep\n# software: TouchAFM {}\n{}", core::kVersion, setup_header(setup, swept));
   for (const SweepAxis& axis : axes) {

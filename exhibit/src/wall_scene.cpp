@@ -38,11 +38,8 @@ std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& 
 
 }  // namespace
 
-core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
-                                        const scene::Screen& screen, const glm::dvec3& viewer_m,
-                                        const UserModels& own) {
-  WallScene w;
-
+// Where all is laid out, from the screen and who stands before it.
+void WallScene::lay_out(const scene::Screen& screen, const glm::dvec3& viewer_m) {
   // the contact point: at eye height, in the middle, as far as everything finds its place above and below it, but never
   // out of the wall's middle third
   const double unit = layout_unit_m(screen);
@@ -54,58 +51,72 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   const double contact_height = std::clamp(eye_height, std::max(kRoomBelow * unit, third_m),
                                            std::min(screen.height_m() - kRoomAbove * unit, 2.0 * third_m));
   const dvec3 contact = screen.lower_left + 0.5 * screen.width_m() * right + contact_height * up;
-  w.room_from_layout_ = frame_matrix(unit * right, unit * up, unit * out, contact);
-  w.wall_width_ = screen.width_m() / unit;
+  room_from_layout_ = frame_matrix(unit * right, unit * up, unit * out, contact);
+  wall_width_ = screen.width_m() / unit;
   const double wall_bottom = -contact_height / unit;
-  w.wall_top_ = wall_bottom + screen.height_m() / unit;
+  wall_top_ = wall_bottom + screen.height_m() / unit;
 
   // who looks down from above the wall sees what stands before it lower: then the shelf is higher
   const double eye_y = (eye_height - contact_height) / unit, eye_z = glm::dot(viewer_m - screen.lower_left, out) / unit;
   const double lowest_seen = eye_y + (wall_bottom + kPanelMargin - eye_y) * (eye_z - kShelfZ) / eye_z;
-  w.shelf_y_ = std::clamp(lowest_seen + kShelfHeight, kShelfY, kHighestShelfY);
+  shelf_y_ = std::clamp(lowest_seen + kShelfHeight, kShelfY, kHighestShelfY);
+}
 
-  ModelBuilder build(assets_dir + "/models", w.scene_);
-  w.layout_ = build.frame("layout", std::nullopt, w.room_from_layout_);
+void WallScene::add_instrument(ModelBuilder& build, const UserModels& own) {
+  layout_ = build.frame("layout", std::nullopt, room_from_layout_);
   const double c = std::cos(kSampleTiltRad), s = std::sin(kSampleTiltRad);
-  w.sample_frame_ = build.frame("sample", w.layout_, frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)));
-  w.stage_ = build.model_in_frame_of("stage", "stage.glb", "stage", w.sample_frame_);
-  w.probe_frame_ = build.frame("probe-frame", w.sample_frame_, dmat4(1.0));
-  w.lever_ =
-      own.probe ? build.part(*own.probe, "probe", w.probe_frame_) : build.model("probe.glb", "probe", w.probe_frame_);
-  w.cantilever_ = build.node("probe/cantilever");
-  w.tip_ = build.node("probe/tip");
-  w.apex_ = build.node("probe/apex");
-  w.optics_ = build.model("optics.glb", "optics", w.layout_);
-  w.laser_ = build.node("optics/laser");
-  w.photodiode_ = build.node("optics/photodiode");
-  w.beam_in_ = build.node("optics/beam");
-  w.spot_ = build.node("optics/spot");
-  build.model("wand.glb", "wand", w.layout_);
-  w.wand_ = build.node("wand/wand");
-  w.ray_ = build.node("wand/ray");
-  w.marks_ = WallMarks(build, w.scene_, w.layout_, w.sample_frame_);
-  w.analogy_ = Analogy(build, w.scene_, w.sample_frame_);
-  w.journey_ = Journey(build, w.scene_, w.layout_);
+  sample_frame_ = build.frame("sample", layout_, frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)));
+  stage_ = build.model_in_frame_of("stage", "stage.glb", "stage", sample_frame_);
+  probe_frame_ = build.frame("probe-frame", sample_frame_, dmat4(1.0));
+  lever_ = own.probe ? build.part(*own.probe, "probe", probe_frame_) : build.model("probe.glb", "probe", probe_frame_);
+  cantilever_ = build.node("probe/cantilever");
+  tip_ = build.node("probe/tip");
+  apex_ = build.node("probe/apex");
+  optics_ = build.model("optics.glb", "optics", layout_);
+  laser_ = build.node("optics/laser");
+  photodiode_ = build.node("optics/photodiode");
+  beam_in_ = build.node("optics/beam");
+  spot_ = build.node("optics/spot");
+  build.model("wand.glb", "wand", layout_);
+  wand_ = build.node("wand/wand");
+  ray_ = build.node("wand/ray");
+  marks_ = WallMarks(build, scene_, layout_, sample_frame_);
+  analogy_ = Analogy(build, scene_, sample_frame_);
+  journey_ = Journey(build, scene_, layout_);
+}
+
+void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir, const scene::MaterialEntry& material,
+                             const UserModels& own) {
+  const physics::ApproachRetractEvents events = physics::approach_retract_events(material.contact);
+  MaterialLook look{};
+  const std::string model = model_of(assets_dir, material);
+  const std::string sample = "sample-" + material.name;
+  look.sample = own.sample ? build.part(sample_as(*own.sample, material), sample, sample_frame_)
+                           : build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, sample_frame_);
+  const scene::NodeIndex surface = build.node(sample + "/surface");
+  look.ground = journey_.add_ground(build, scene_, model);
+  look.height_field = build.error() ? scene::kNoHeightField : height_field_of(own.sample ? "own" : model, surface);
+  const std::string swatch = "swatch-" + material.name;
+  look.swatch = build.model("swatch-" + model + ".glb", swatch, layout_);
+  look.label = build.node(swatch + "/label");
+  look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
+  look.thickness_m = build.error() ? 0.0 : -bounds_below(scene_, surface).low.z;
+  look.full_deflection_m = events.f_ad.si / material.contact.spring_constant.si;
+  looks_.push_back(look);
+}
+
+core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
+                                        const scene::Screen& screen, const glm::dvec3& viewer_m,
+                                        const UserModels& own) {
+  WallScene w;
+  w.lay_out(screen, viewer_m);
+  ModelBuilder build(assets_dir + "/models", w.scene_);
+  w.add_instrument(build, own);
   for (const scene::MaterialEntry& material : materials.materials) {
-    const physics::ApproachRetractEvents events = physics::approach_retract_events(material.contact);
-    MaterialLook look{};
-    const std::string model = model_of(assets_dir, material);
-    const std::string sample = "sample-" + material.name;
-    look.sample = own.sample ? build.part(sample_as(*own.sample, material), sample, w.sample_frame_)
-                             : build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, w.sample_frame_);
-    const scene::NodeIndex surface = build.node(sample + "/surface");
-    look.ground = w.journey_.add_ground(build, w.scene_, model);
-    look.height_field = build.error() ? scene::kNoHeightField : w.height_field_of(own.sample ? "own" : model, surface);
-    const std::string swatch = "swatch-" + material.name;
-    look.swatch = build.model("swatch-" + model + ".glb", swatch, w.layout_);
-    look.label = build.node(swatch + "/label");
-    look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
-    look.thickness_m = build.error() ? 0.0 : -bounds_below(w.scene_, surface).low.z;
-    look.full_deflection_m = events.f_ad.si / material.contact.spring_constant.si;
-    w.looks_.push_back(look);
+    w.add_material(build, assets_dir, material, own);
     const auto of_this_title = [&](const scene::MaterialEntry& other) { return other.title == material.title; };
     const bool alone = std::count_if(materials.materials.begin(), materials.materials.end(), of_this_title) == 1;
-    w.titles_.push_back(alone ? material.title : material.title + ", " + material.medium);
+    w.titles_.push_back(alone ? material.title : fmt::format("{}, {}", material.title, material.medium));
   }
   if (build.error()) return tl::unexpected(*build.error());
 
@@ -169,6 +180,7 @@ glm::dvec3 WallScene::swatch_place(std::size_t i) const {
 std::vector<input::Target> WallScene::swatch_targets() const {
   const double radius = looks_.size() <= kFewSwatches ? kSwatchRadius : kSlimSwatchRadius;
   std::vector<input::Target> targets;
+  targets.reserve(looks_.size());
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     targets.push_back({dvec3(room_from_layout_ * glm::dvec4(swatch_place(i) + kSwatchCenter, 1.0)),
                        radius * glm::length(dvec3(room_from_layout_[0]))});

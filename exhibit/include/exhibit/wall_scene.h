@@ -24,6 +24,8 @@
 
 namespace afm::exhibit {
 
+class ModelBuilder;
+
 // How large things are drawn: metres of the nanoworld (or of the instrument) shown as one metre on the wall.
 struct DrawnScale {
   double sample_m_per_m = 0;  // sample, displacement, deflection
@@ -90,6 +92,10 @@ class WallScene {
     std::uint32_t height_field;
   };
 
+  void lay_out(const scene::Screen& screen, const glm::dvec3& viewer_m);
+  void add_instrument(ModelBuilder& build, const UserModels& own);
+  void add_material(ModelBuilder& build, const std::string& assets_dir, const scene::MaterialEntry& material,
+                    const UserModels& own);
   std::uint32_t height_field_of(const std::string& model, scene::NodeIndex surface);
   void place_probe(const WallState& state, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
   void place_sample(const WallState& state, std::vector<glm::dmat4>& local) const;

@@ -64,7 +64,7 @@ struct HaplyLink::Socket {
     ErrorCode ignored;
     {
       const std::lock_guard lock(changing);
-      if (stream) stream->next_layer().close(ignored);
+      if (stream) ignored = stream->next_layer().close(ignored);
     }
     context.restart();
     context.run();
@@ -100,7 +100,7 @@ core::Result<void> HaplyLink::connect(std::uint16_t port) {
     if (socket.interrupted) return refused(boost::asio::error::operation_aborted);
     ErrorCode ignored;
     socket.stream.emplace(socket.context);
-    socket.stream->next_layer().open(tcp::v4(), ignored);
+    ignored = socket.stream->next_layer().open(tcp::v4(), ignored);
   }
   socket.incoming.clear();
   socket.ended = true;
@@ -110,7 +110,7 @@ core::Result<void> HaplyLink::connect(std::uint16_t port) {
   ErrorCode error =
       socket.finish([&](auto done) { tcp_socket.async_connect(service, std::move(done)); }, kHandshakePatience);
   if (error) return refused(error);
-  tcp_socket.set_option(tcp::no_delay(true), error);
+  error = tcp_socket.set_option(tcp::no_delay(true), error);
   socket.stream->read_message_max(0);  // read_on() has a limit of its own
   socket.stream->text(true);
   const std::string host = fmt::format("localhost:{}", port);

@@ -29,7 +29,7 @@ class Binder {
 };
 
 std::string linker_error() {
-  const char* text = ::dlerror();
+  const char* text = ::dlerror();  // NOLINT(concurrency-mt-unsafe): glibc keeps one for each thread
   return text == nullptr ? "the dynamic linker gave no reason" : text;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "physics/quantity_text.h"
 
@@ -88,7 +89,7 @@ Length sample_z(const SweepPlan& plan, std::uint64_t index) {
   return plan.from - plan.step * static_cast<double>(steps);
 }
 
-ForceCurve record_curve(ApproachRetractModel model, const SweepPlan& plan) { return record(model, plan); }
-ForceCurve record_curve(DirectionRuleModel model, const SweepPlan& plan) { return record(model, plan); }
+ForceCurve record_curve(ApproachRetractModel model, const SweepPlan& plan) { return record(std::move(model), plan); }
+ForceCurve record_curve(DirectionRuleModel model, const SweepPlan& plan) { return record(std::move(model), plan); }
 
 }  // namespace afm::physics

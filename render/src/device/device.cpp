@@ -125,7 +125,7 @@ core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::r
       return found;
     }
   } catch (const vk::SystemError&) {
-    // said below
+    // said by the failure below
   }
   return core::failure(core::ErrorCategory::DeviceMissing, std::string("found no Vulkan device: ") + kInstallDriver);
 }

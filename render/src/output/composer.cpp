@@ -278,6 +278,7 @@ std::vector<Image> Composer::compose(const Composition& composition, const ReadA
     copy.record(device_, command, target_.image);
   });
   std::vector<Image> pictures;
+  pictures.reserve(target_.image.layers);
   for (std::uint32_t layer = 0; layer < target_.image.layers; ++layer) {
     pictures.push_back(to_image(copy.picture(layer)));
   }

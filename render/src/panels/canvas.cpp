@@ -43,11 +43,12 @@ float Canvas::draw_text_run(glm::vec2 position, TextStyle style, float scale, Co
                             bool visible) const {
   const ImFont* font = fonts_.fonts[static_cast<std::size_t>(style)];
   const float size = font->FontSize * scale;
-  const char* end = run.data() + run.size();
+  const char* const begin = run.data();
+  const char* const end = begin + run.size();
   if (visible) {
-    list_.AddText(font, size, texel(position), packed(color), run.data(), end);
+    list_.AddText(font, size, texel(position), packed(color), begin, end);
   }
-  return font->CalcTextSizeA(size, 1e9F, 0.0F, run.data(), end).x / fonts_.texels_per_mm;
+  return font->CalcTextSizeA(size, 1e9F, 0.0F, begin, end).x / fonts_.texels_per_mm;
 }
 
 float Canvas::text_pass(glm::vec2 position, TextStyle style, float scale, Color color, std::string_view text,

@@ -48,7 +48,7 @@ class AccessorReader {
       fail("has a byteOffset but no bufferView");
     }
     if (source_.sparse.isSparse) read_sparse(size);
-    return std::move(accessor_);
+    return accessor_;
   }
 
  private:

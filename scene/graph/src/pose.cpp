@@ -95,6 +95,7 @@ void settle_directions(Primitive& primitive) {
 
 std::vector<glm::mat4> joint_matrices(const Skin& skin, const std::vector<glm::dmat4>& scene_from_node) {
   std::vector<glm::mat4> matrices;
+  matrices.reserve(skin.joints.size());
   for (std::size_t i = 0; i < skin.joints.size(); ++i) {
     matrices.emplace_back(scene_from_node[skin.joints[i]] * glm::dmat4(skin.joint_from_mesh[i]));
   }

@@ -106,6 +106,7 @@ core::Result<std::unique_ptr<ServoProcess>> ServoProcess::spawn(const std::strin
                                      fmt::format("{}", settings.linger_s)};
   for (std::string& argument : servo_arguments(settings, device)) arguments.push_back(std::move(argument));
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
 

@@ -83,7 +83,7 @@ core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choic
 
 haptics::Environment environment() {
   return [](const char* variable) {
-    const char* value = std::getenv(variable);
+    const char* value = ::secure_getenv(variable);
     return value == nullptr ? std::string() : std::string(value);
   };
 }

@@ -2,8 +2,10 @@
 #include "servo/replay.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <utility>
@@ -51,7 +53,9 @@ template <class Record>
 std::optional<Difference> difference(std::size_t index, const Record& recorded, const Record& replayed) {
   std::optional<Difference> first;
   const auto compare = [&]<class Value>(const char* quantity, const Value& was, const Value& is) {
-    if (first || std::memcmp(&was, &is, sizeof(Value)) == 0) return;
+    // bit for bit: -0.0 is not 0.0, and one NaN is another only if it looks the same
+    using Bytes = std::array<std::byte, sizeof(Value)>;
+    if (first || std::bit_cast<Bytes>(was) == std::bit_cast<Bytes>(is)) return;
     first = Difference{index, quantity, static_cast<double>(was), static_cast<double>(is)};
   };
   for_each_result(

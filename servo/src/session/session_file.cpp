@@ -46,7 +46,8 @@ template <class T>
 bool take(std::string_view& bytes, T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
   if (bytes.size() < sizeof(T)) return false;
-  std::memcpy(&value, bytes.data(), sizeof(T));
+  const std::string_view here = bytes.substr(0, sizeof(T));
+  std::copy(here.begin(), here.end(), reinterpret_cast<char*>(&value));
   bytes.remove_prefix(sizeof(T));
   return true;
 }

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <algorithm>
-#include <cstdint>
 #include <string>
+#include <utility>
 
 #include "core/result.h"
 
@@ -20,22 +18,23 @@ struct Fault {
   std::string what;
 };
 
-// Parses the file and hands its root to `read`, which throws Faults. The error names `kind` ("wall file"), path, line
-// and key.
+// The root of the file, of at most 4 MiB and with keys of at most 16 parts. The error names `kind` ("wall file"), path
+// and line.
+core::Result<toml::table> parse_toml(const char* kind, const std::string& path);
+
+// The same with the key.
+core::Error toml_error(const char* kind, const std::string& path, const Fault& fault);
+
+// Parses the file and hands its root to `read`, which throws Faults.
 template <class Read>
 auto read_toml(const char* kind, const std::string& path, const Read& read)
     -> core::Result<decltype(read(toml::table()))> {
-  const auto bad = [&](const std::string& what) {
-    return core::failure(core::ErrorCategory::BadInputFile, fmt::format("{} {}: {}", kind, path, what));
-  };
+  auto root = parse_toml(kind, path);
+  if (!root) return tl::unexpected(root.error());
   try {
-    return read(toml::parse_file(path));
+    return read(std::move(*root));
   } catch (const Fault& fault) {
-    return bad(
-        fmt::format("line {}: {}: {}", std::max<std::uint32_t>(1, fault.where.begin.line), fault.key, fault.what));
-  } catch (const toml::parse_error& error) {
-    if (error.source().begin.line == 0) return bad("cannot be read; check the path and its rights");
-    return bad(fmt::format("line {}: {}", error.source().begin.line, error.description()));
+    return tl::unexpected(toml_error(kind, path, fault));
   }
 }
 

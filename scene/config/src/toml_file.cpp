@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/config/toml_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/whole_file.h"
+
+namespace afm::scene {
+
+namespace {
+
+constexpr std::size_t kLargestBytes = std::size_t{4} << 20U;
+constexpr std::size_t kMostParts = 16;
+
+core::Error bad(const char* kind, const std::string& path, const std::string& what) {
+  return {core::ErrorCategory::BadInputFile, fmt::format("{} {}: {}", kind, path, what)};
+}
+
+// The text behind a string that begins at `at`; the text's end if it does not end.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string long_quote(3, quote);
+  const bool is_long = text.substr(at).starts_with(long_quote);
+  for (std::size_t i = at + (is_long ? 3 : 1); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (is_long ? text.substr(i).starts_with(long_quote) : text[i] == quote) {
+      return i + (is_long ? 3 : 1);
+    } else if (!is_long && text[i] == '\n') {
+      return i;
+    }
+  }
+  return text.size();
+}
+
+// The line of the first key or header of more parts than kMostParts. toml++ nests a table for each and calls itself for
+// each, until the stack ends.
+std::optional<std::size_t> line_of_too_long_key(std::string_view text) {
+  std::size_t line = 1, dots = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      const std::size_t end = end_of_string(text, i);
+      line += static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                                                  text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+      i = end;
+      continue;
+    }
+    if (c == '#') {
+      i = std::min(text.find('\n', i), text.size());
+      continue;
+    }
+    if (c == '.' && ++dots >= kMostParts) return line;
+    if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) dots = 0;
+    line += c == '\n' ? 1U : 0U;
+    ++i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+core::Result<toml::table> parse_toml(const char* kind, const std::string& path) {
+  const auto text = core::read_file(path);
+  if (!text) return tl::unexpected(bad(kind, path, "cannot be read; check the path and its rights"));
+  if (text->size() > kLargestBytes) return tl::unexpected(bad(kind, path, "is larger than 4 MiB"));
+  if (const auto line = line_of_too_long_key(*text)) {
+    return tl::unexpected(bad(kind, path, fmt::format("line {}: a key has more than {} parts", *line, kMostParts)));
+  }
+  try {
+    return toml::parse(*text, path);
+  } catch (const toml::parse_error& error) {
+    return tl::unexpected(bad(kind, path, fmt::format("line {}: {}", error.source().begin.line, error.description())));
+  }
+}
+
+core::Error toml_error(const char* kind, const std::string& path, const Fault& fault) {
+  return bad(kind, path,
+             fmt::format("line {}: {}: {}", std::max<std::uint32_t>(1, fault.where.begin.line), fault.key, fault.what));
+}
+
+}  // namespace afm::scene

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/config/toml_file.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "support/scratch_folder.h"
+
+namespace afm::scene {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string outcome(const std::string& text) {
+  const support::ScratchFolder folder;
+  const auto root = parse_toml("test file", folder.write("a.toml", text));
+  return root ? "read" : root.error().message;
+}
+
+std::string dotted(int parts) {
+  std::string key = "a";
+  for (int i = 1; i < parts; ++i) key += ".a";
+  return key;
+}
+
+// Each of these ended the program: 100 kB are enough for the stack.
+TEST(TomlFile, RefusesKeysThatWouldFillTheStack) {
+  const std::string deep = dotted(50'000);
+  for (const std::string& text : {deep + " = 1", "[" + deep + "]", "[[" + deep + "]]", "b = { " + deep + " = 1 }",
+                                  "[ \"a\" . " + deep + "]", "b = [{ c = 1 }, { " + deep + " = 1 }]"}) {
+    EXPECT_THAT(outcome("x = 1\n\n" + text + "\n"), HasSubstr("a.toml: line 3: a key has more than 16 parts"));
+  }
+}
+
+TEST(TomlFile, CountsThePartsOfKeysAlone) {
+  EXPECT_EQ(outcome(dotted(16) + " = 1"), "read");
+  EXPECT_THAT(outcome(dotted(17) + " = 1"), HasSubstr("line 1: a key has more than 16 parts"));
+  const std::string dots(100, '.');
+  for (const std::string& text :
+       {"a = \"" + dots + "\"", "a = '" + dots + "' # " + dots, "a = \"\\\"" + dots + "\"",
+        "a = \"\"\"\n" + dots + "\n\"" + dots + "\"\"\"", "\"" + dots + "\" = 1",
+        std::string("a = [1.5, 2.5, 3.5,\n 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 10.5, 11.5, 12.5, 13.5, 14.5, 15.5, 16.5]")}) {
+    EXPECT_EQ(outcome(text), "read") << text;
+  }
+}
+
+TEST(TomlFile, RefusesWhatNoPersonWrites) {
+  EXPECT_THAT(outcome(std::string((4U << 20U) + 1, '\n')), HasSubstr("a.toml: is larger than 4 MiB"));
+}
+
+TEST(TomlFile, LeavesUnfinishedStringsToTheParser) {
+  for (const char* text : {"a = \"", "a = '", "a = \"\"\"", "a = '''x", "a = \"\\", "a = \"\n.\""}) {
+    EXPECT_THAT(outcome(text), HasSubstr("a.toml: line ")) << text;
+  }
+}
+
+}  // namespace
+}  // namespace afm::scene
