@@ -24,7 +24,7 @@ using std::chrono::steady_clock;
 
 constexpr int kKills = 1000;
 constexpr std::uint64_t kSeedsOfWriter = 1'000'000;  // more than one can use
-constexpr std::uint64_t kSuccessor = kKills * kSeedsOfWriter;
+constexpr std::uint64_t kSuccessor = (kKills + 1) * kSeedsOfWriter;
 
 // A number that is plausible wherever a block wants one, and differs from word to word.
 double number(std::uint64_t seed, int word) {
@@ -102,25 +102,32 @@ pid_t start_writer(std::uint64_t seed, Write&& write) {
   for (;;) write(seed++);
 }
 
-// Runs one writer after the other; `read` is called all the while, and once more when each has died. It returns the
-// seed of the newest value that it has found; that of one more writer must get through to it in the end.
+// Runs one writer after the other, each for a random time after its first value has come through; `read` is called all
+// the while, and once more when each has died. It returns the seed of the newest value that it has found; that of one
+// more writer must get through to it in the end.
 template <class Write, class Read>
 void kill_writers(Write&& write, Read&& read) {
   std::mt19937 random(11);
-  std::uniform_int_distribution<int> life_us(200, 3000);
-  for (int i = 0; i < kKills; ++i) {
-    const pid_t writer = start_writer(static_cast<std::uint64_t>(i) * kSeedsOfWriter, write);
+  std::uniform_int_distribution<int> life_us(0, 2000);
+  const auto first_value = [&](std::uint64_t seed) {
+    for (const auto end = steady_clock::now() + std::chrono::seconds(60); steady_clock::now() < end;) {
+      if (read() >= seed) return true;
+    }
+    return false;
+  };
+  for (int i = 1; i <= kKills; ++i) {
+    const std::uint64_t seed = static_cast<std::uint64_t>(i) * kSeedsOfWriter;
+    const pid_t writer = start_writer(seed, write);
     ASSERT_GT(writer, 0);
+    const bool began = first_value(seed);
     for (const auto end = steady_clock::now() + microseconds(life_us(random)); steady_clock::now() < end;) read();
     ASSERT_EQ(::kill(writer, SIGKILL), 0);
     ASSERT_EQ(::waitpid(writer, nullptr, 0), writer);
+    ASSERT_TRUE(began) << "writer " << i << " was never heard of";
     read();
   }
   const pid_t successor = start_writer(kSuccessor, write);
-  const auto end = steady_clock::now() + std::chrono::seconds(60);
-  while (read() < kSuccessor && steady_clock::now() < end) {
-  }
-  EXPECT_GE(read(), kSuccessor);
+  EXPECT_TRUE(first_value(kSuccessor));
   ::kill(successor, SIGKILL);
   ::waitpid(successor, nullptr, 0);
 }
