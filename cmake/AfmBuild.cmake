@@ -17,8 +17,9 @@ option(AFM_BUILD_FUZZERS "build the libFuzzer targets (clang only)" OFF)
 find_program(AFM_CCACHE ccache)
 if(AFM_CCACHE)
   # precompiled headers are cacheable only when time macros and pch defines are declared harmless; paths below the source
-  # folder are hashed relative to it, so that a fresh clone finds what another has compiled
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+  # folder are hashed relative to it, so that a fresh clone finds what another has compiled; what a source includes is taken
+  # from the compiler's own list of it, which spares preprocessing everything once more when the cache is empty
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros
       CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${AFM_CCACHE})
 endif()
 
@@ -30,6 +31,8 @@ target_compile_options(afm_build_flags INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess> "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>"
   # clang blames us for what libstdc++ 12 does within std::stable_sort; g++ still reports what is deprecated in our own lines
   $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
+  # memory is there: cleaning it up while compiling takes a twelfth of the time
+  "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-expand=1000 --param ggc-min-heapsize=2000000>"
   # gcc 12 reports false positives of these inside libstdc++ and fmt once it inlines at -O2
   $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow -Wno-array-bounds -Wno-restrict -Wno-maybe-uninitialized>)
 if(AFM_SANITIZE)
@@ -44,17 +47,40 @@ endif()
 # GLM's conventions are fixed here once: depth 0..1, no implicit or ambiguous conversions.
 add_library(afm_glm INTERFACE)
 target_compile_definitions(afm_glm INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_EXPLICIT_CTOR GLM_ENABLE_EXPERIMENTAL)
+target_link_libraries(afm_build_flags INTERFACE afm_glm)
 
-# What most files include and the compiler needs seconds to read is read once for each library. It replaces no include: the
-# public headers are compiled alone, without it (all_verify_interface_header_sets).
+# What runs a few times a frame or less gains nothing from -O2, and takes the compiler a third longer with it; a sanitizer's
+# instructions cost a compiler that optimises twice as long as one that does not.
+set(AFM_COLD_CODE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
+
+# What most files include and the compiler needs seconds to read is read once. It replaces no include: the public headers are
+# compiled alone, without it (all_verify_interface_header_sets). Those who share it must agree about what they optimise and
+# about fmt's macros.
 set(AFM_PRECOMPILED_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
-    <optional> <random> <span> <stdexcept> <string> <string_view> <thread> <utility> <vector>)
-set(AFM_PRECOMPILED_GLM <glm/geometric.hpp> <glm/gtc/matrix_transform.hpp> <glm/gtc/quaternion.hpp> <glm/mat4x4.hpp>)
+    <optional> <random> <span> <stdexcept> <string> <string_view> <thread> <utility> <vector>
+    <glm/geometric.hpp> <glm/gtc/matrix_transform.hpp> <glm/gtc/quaternion.hpp> <glm/mat4x4.hpp> <tl/expected.hpp>)
+file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp CONTENT "")
+function(afm_precompiled name)
+  cmake_parse_arguments(P "" "" "OPTIONS;LIBRARIES;HEADERS" ${ARGN})
+  add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/precompiled.cpp)
+  target_link_libraries(${name} PRIVATE ${P_LIBRARIES} glm::glm afm_build_flags)
+  target_compile_options(${name} PRIVATE ${P_OPTIONS})
+  target_precompile_headers(${name} PRIVATE ${AFM_PRECOMPILED_HEADERS} ${P_HEADERS})
+endfunction()
+find_package(fmt REQUIRED)
+find_package(glm REQUIRED)
+find_package(nlohmann_json REQUIRED)
+afm_precompiled(afm_plain_headers)
+afm_precompiled(afm_formatting_headers LIBRARIES fmt::fmt HEADERS <fmt/format.h>)
+afm_precompiled(afm_cold_headers OPTIONS ${AFM_COLD_CODE} LIBRARIES fmt::fmt nlohmann_json::nlohmann_json
+                HEADERS <fmt/format.h> <nlohmann/json.hpp>)
 
-# What runs a few times a frame or less gains nothing from -O2, and takes the compiler a third longer with it.
-set(AFM_COLD_CODE $<$<CONFIG:Release>:-O1>)
+# With CMAKE_UNITY_BUILD (the presets release and tsan) so many sources of a module are compiled as one, which takes a third of the
+# time: what they name for themselves must differ within the module. The preset asan compiles each alone, so that none lacks an
+# include.
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 10)
 
-# afm_module(NAME [COLD] PUBLIC ... PRIVATE ... PRECOMPILED ...)
+# afm_module(NAME [COLD] PUBLIC ... PRIVATE ... [PRECOMPILED ...])
 # A folder is a static library afm::NAME of all that lies in its include/ and src/. Only include/ is exported, so that including a
 # module that is not linked fails; every public header is compiled alone by the target all_verify_interface_header_sets.
 function(afm_module name)
@@ -66,9 +92,15 @@ function(afm_module name)
   target_sources(afm_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${headers})
   target_include_directories(afm_${name} PRIVATE src)
   target_link_libraries(afm_${name} PUBLIC ${M_PUBLIC} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:afm_build_flags>)
-  target_precompile_headers(afm_${name} PRIVATE ${AFM_PRECOMPILED_HEADERS} ${M_PRECOMPILED})
-  if(M_COLD)
+  if(M_PRECOMPILED)
+    target_precompile_headers(afm_${name} PRIVATE ${AFM_PRECOMPILED_HEADERS} ${M_PRECOMPILED})
+  elseif(M_COLD)
     target_compile_options(afm_${name} PRIVATE ${AFM_COLD_CODE})
+    target_precompile_headers(afm_${name} REUSE_FROM afm_cold_headers)
+  elseif("fmt::fmt" IN_LIST M_PRIVATE)
+    target_precompile_headers(afm_${name} REUSE_FROM afm_formatting_headers)
+  else()
+    target_precompile_headers(afm_${name} REUSE_FROM afm_plain_headers)
   endif()
   set_target_properties(afm_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()

@@ -5,14 +5,11 @@ include(GoogleTest)
 # What the tsan preset builds and runs: the tests in which more than one thread or process takes part.
 add_custom_target(threaded_tests)
 
-# GoogleTest is read once for all tests. Their own code is optimised less than what they test: it compiles sooner, and none of
-# it is timed.
-set(AFM_TEST_OPTIMISATION $<$<CONFIG:Release>:-O1>)
-file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp "")
-add_library(afm_test_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
-target_link_libraries(afm_test_headers PRIVATE GTest::gmock_main afm_build_flags)
-target_compile_options(afm_test_headers PRIVATE ${AFM_TEST_OPTIMISATION})
-target_precompile_headers(afm_test_headers PRIVATE ${AFM_PRECOMPILED_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
+# GoogleTest is read once for all tests. Their own code is not optimised: it compiles sooner, and none of it is timed. That of
+# the few that compute for seconds is (OPTIMISED).
+set(AFM_TEST_OPTIMISATION -O0)
+afm_precompiled(afm_test_headers OPTIONS ${AFM_TEST_OPTIMISATION} LIBRARIES GTest::gmock_main
+                HEADERS <gmock/gmock.h> <gtest/gtest.h>)
 
 # Where the sources and the build lie, for the tests that ask. In a header, not on every command line: a compiler's cache finds
 # the other tests in whatever folder they are compiled.
@@ -28,12 +25,12 @@ find_program(AFM_UMOCKDEV_WRAPPER umockdev-wrapper REQUIRED)
 pkg_check_modules(UMOCKDEV REQUIRED IMPORTED_TARGET umockdev-1.0)
 set(AFM_WITH_PRETENDED_DEVICES ${CMAKE_SOURCE_DIR}/tests/input/with_pseudo_terminals.sh ${AFM_UMOCKDEV_WRAPPER})
 
-# afm_test(NAME folder.unit SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT seconds] [WHOLE] [PRETENDED_DEVICES])
+# afm_test(NAME folder.unit SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT seconds] [OPTIMISED] [WHOLE] [PRETENDED_DEVICES])
 # One executable test_folder_unit; every TEST in it becomes a CTest case named folder.Suite.Case. With WHOLE the executable is
 # one case, for suites whose set-up is dear. Nothing runs beside it, nor beside a test of real time. PRETENDED_DEVICES is
 # WHOLE and runs under umockdev.
 function(afm_test)
-  cmake_parse_arguments(T "WHOLE;PRETENDED_DEVICES" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(T "OPTIMISED;WHOLE;PRETENDED_DEVICES" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   string(REPLACE "." "_" target "test_${T_NAME}")
   string(REGEX REPLACE "\\..*" "" folder "${T_NAME}")
   if(NOT T_TIMEOUT)
@@ -44,8 +41,12 @@ function(afm_test)
   endif()
   add_executable(${target} ${T_SOURCES})
   target_link_libraries(${target} PRIVATE ${T_LIBRARIES} GTest::gmock_main afm_build_flags)
-  target_compile_options(${target} PRIVATE ${AFM_TEST_OPTIMISATION})
-  target_precompile_headers(${target} REUSE_FROM afm_test_headers)
+  if(T_OPTIMISED)
+    target_compile_options(${target} PRIVATE -O1)
+  else()
+    target_compile_options(${target} PRIVATE ${AFM_TEST_OPTIMISATION})
+    target_precompile_headers(${target} REUSE_FROM afm_test_headers)
+  endif()
   target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/tests ${AFM_TEST_PLACES})
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(T_LABELS MATCHES "^(threads|realtime)$")

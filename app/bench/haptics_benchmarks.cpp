@@ -31,7 +31,7 @@ constexpr double kDeathBar_ms = 30.0;
 constexpr double kHangBar_ms = 350.0;
 constexpr std::uint32_t kEyeWidth_px = 640;
 
-struct Options {
+struct HapticsBenchOptions {
   std::size_t ticks = 200'000;
   double seconds = 10.0;
   int rounds = 20;
@@ -46,7 +46,8 @@ struct Figures {
 };
 
 // The servo beside the real renderer, which draws the wall with no window and no limit to its rate.
-core::Result<void> measure_beside_renderer(const CommandContext& context, const Options& options, Figures& figures) {
+core::Result<void> measure_beside_renderer(const CommandContext& context, const HapticsBenchOptions& options,
+                                           Figures& figures) {
   exhibit::ExhibitFiles files;
   files.assets_dir = context.assets_dir;
   auto stage = exhibit::load_exhibit(files);
@@ -74,7 +75,7 @@ core::Result<void> measure_beside_renderer(const CommandContext& context, const 
   return {};
 }
 
-core::Result<Figures> measure_all(const CommandContext& context, const Options& options) {
+core::Result<Figures> measure_all(const CommandContext& context, const HapticsBenchOptions& options) {
   Figures figures;
   auto work = measure_servo_work(options.ticks);
   if (!work) return tl::unexpected(work.error());
@@ -97,7 +98,7 @@ double share(std::uint64_t missed, std::uint64_t ticks) {
   return static_cast<double>(missed) / static_cast<double>(std::max<std::uint64_t>(1, missed + ticks));
 }
 
-std::string table(const Figures& figures, const Options& options) {
+std::string table(const Figures& figures, const HapticsBenchOptions& options) {
   std::string text = fmt::format("work of a tick, us, {} ticks flat out\n{:<22}{:>8}{:>8}{:>8}{:>9}   {:<24}{}\n",
                                  options.ticks, "", "p50", "p99", "p99.9", "max", "bar", "met");
   for (const WorkFigure& each : figures.work) {
@@ -138,7 +139,7 @@ nlohmann::ordered_json in_seconds(const core::Percentiles& values, double unit_s
           {"max_s", unit_s * values.max}};
 }
 
-std::string json(const Figures& figures, const Options& options) {
+std::string json(const Figures& figures, const HapticsBenchOptions& options) {
   constexpr double kMicrosecond = 1e-6, kMillisecond = 1e-3;
   nlohmann::ordered_json root{{"version", core::kVersion}};
   for (const WorkFigure& each : figures.work) {
@@ -175,7 +176,7 @@ std::string json(const Figures& figures, const Options& options) {
 void add_haptics_benchmarks(OptionList& bench, const CommandContext& context) {
   OptionList command = bench.add_command(
       "haptics", "a tick of the servo with each law, its wake-ups beside the renderer, and its release of the hand");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<HapticsBenchOptions>();
   command.add_option("--ticks", options->ticks, "ticks of each law, 1000 to 10000000")
       .within(1000, 10'000'000)
       .show_default();

@@ -30,7 +30,7 @@ constexpr std::uint32_t kBoxes = 10;   // each way
 constexpr double kFrameBar_ms = 1000.0 / 15.0;
 constexpr double kFirstFrameBar_ms = 1000.0;
 
-struct Options {
+struct RenderBenchOptions {
   exhibit::ExhibitFiles files;
   std::uint32_t eye_width = 960;
   RenderTimingPlan plan;
@@ -43,10 +43,12 @@ struct FirstFrame {
   double cold_ms = 0, warm_ms = 0;
 };
 
-core::Result<exhibit::Stage> load_wall(const Options& options) { return exhibit::load_exhibit(options.files); }
+core::Result<exhibit::Stage> load_wall(const RenderBenchOptions& options) {
+  return exhibit::load_exhibit(options.files);
+}
 
 // From before the device is opened to the end of the first stereo frame of the wall.
-core::Result<double> first_frame_ms(const Options& options) {
+core::Result<double> first_frame_ms(const RenderBenchOptions& options) {
   const core::MonotonicClock clock;
   const auto stage = load_wall(options);
   if (!stage) return tl::unexpected(stage.error());
@@ -71,7 +73,7 @@ std::string in_quotes(const std::string& text) {
 }
 
 // By this program in a process of its own, whose driver finds an empty shader cache, and then the one that it has left.
-core::Result<FirstFrame> first_frames(const std::string& program, const Options& options) {
+core::Result<FirstFrame> first_frames(const std::string& program, const RenderBenchOptions& options) {
   std::string folder = (std::filesystem::temp_directory_path() / "touchafm-shader-cache-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) {
     return core::failure(core::ErrorCategory::Failed, "cannot make the folder " + folder +
@@ -89,7 +91,7 @@ core::Result<FirstFrame> first_frames(const std::string& program, const Options&
   return FirstFrame{.cold_ms = *cold, .warm_ms = *warm};
 }
 
-core::Result<std::vector<RenderSubject>> subjects_of(const Options& options) {
+core::Result<std::vector<RenderSubject>> subjects_of(const RenderBenchOptions& options) {
   const auto stage = load_wall(options);
   if (!stage) return tl::unexpected(stage.error());
   std::vector<RenderSubject> subjects;
@@ -107,7 +109,7 @@ core::Result<std::vector<RenderSubject>> subjects_of(const Options& options) {
   return subjects;
 }
 
-std::string table(const RenderFigures& result, const FirstFrame& first, const Options& options) {
+std::string table(const RenderFigures& result, const FirstFrame& first, const RenderBenchOptions& options) {
   std::string text = fmt::format(
       "ms a frame, {} samples, {} rounds of {} frames on {}\n{:<34}{:>8}{:>8}{:>8}{:>8}{:>8}   "
       "{:>8}{:>8}{:>8}{:>8}{:>8}\n",
@@ -135,7 +137,7 @@ std::string table(const RenderFigures& result, const FirstFrame& first, const Op
   return text;
 }
 
-std::string json(const RenderFigures& result, const FirstFrame& first, const Options& options) {
+std::string json(const RenderFigures& result, const FirstFrame& first, const RenderBenchOptions& options) {
   constexpr double kMillisecond = 1e-3;
   nlohmann::ordered_json root{{"version", core::kVersion},
                               {"device", result.device},
@@ -168,7 +170,7 @@ std::string json(const RenderFigures& result, const FirstFrame& first, const Opt
   return root.dump(2) + "\n";
 }
 
-core::Result<void> run(const Options& options, const std::string& program) {
+core::Result<void> run(const RenderBenchOptions& options, const std::string& program) {
   if (options.first_frame_alone) {
     const auto time_ms = first_frame_ms(options);
     if (!time_ms) return tl::unexpected(time_ms.error());
@@ -187,7 +189,7 @@ core::Result<void> run(const Options& options, const std::string& program) {
 
 void add_render_benchmarks(OptionList& bench, const CommandContext& context) {
   OptionList command = bench.add_command("render", "a frame of the wall and of other scenes, and the first frame");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RenderBenchOptions>();
   command.add_option("--rounds", options->plan.rounds, "how often everything is drawn in turn, 1 to 1000")
       .within(1, 1000)
       .show_default();

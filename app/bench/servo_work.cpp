@@ -130,7 +130,7 @@ class Bench {
   bool down_ = false;
 };
 
-core::Result<WorkFigure> measure(const Felt& felt, std::size_t ticks) {
+core::Result<WorkFigure> measure_case(const Felt& felt, std::size_t ticks) {
   auto segment = scene::SharedSegment::create(model_of(felt), 0);
   if (!segment) return tl::unexpected(segment.error());
   haptics::SimulatedDevice hand;
@@ -173,7 +173,7 @@ core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks) {
   const std::vector<Felt> all = all_felt();
   for (const Felt& felt : all) {
     core::log_line(fmt::format("measuring a tick: {} ({} of {})", felt.name, figures.size() + 1, all.size()));
-    auto figure = measure(felt, ticks);
+    auto figure = measure_case(felt, ticks);
     if (!figure) return tl::unexpected(figure.error());
     figures.push_back(std::move(*figure));
   }

@@ -21,7 +21,7 @@ namespace afm::app {
 namespace {
 
 constexpr double kPatienceSeconds = 20.0;  // beyond the time that the step itself takes
-constexpr int kMostRestarts = 5;
+constexpr int kMostServosLost = 5;
 
 }  // namespace
 
@@ -93,7 +93,7 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, D
     if (auto stepped = step(result); !stepped) return tl::unexpected(stepped.error());
     if (person_.restarts() != restarts) {
       restarts = person_.restarts();
-      if (restarts > kMostRestarts) {
+      if (restarts > kMostServosLost) {
         return core::failure(
             core::ErrorCategory::Failed,
             fmt::format("{}: the servo released the hand {} times ({}); run again, with less load on the machine",

@@ -97,15 +97,14 @@ void LiveView::run_frame(std::int64_t now_ns) {
 }
 
 void LiveView::handle(const ViewEvent& input, std::int64_t now_ns) {
-  using Kind = render::WindowEvent::Kind;
   const render::WindowEvent& event = input.event;
   render::WindowEvent on_desktop = event;
   on_desktop.cursor_px = windows_.on_desktop(input.window, event.cursor_px);
   hand_.apply(on_desktop, hand_m_per_px(input.window), now_ns);
-  if (event.kind == Kind::ButtonDown && event.button == render::MouseButton::Left) {
+  if (event.kind == render::WindowEvent::Kind::ButtonDown && event.button == render::MouseButton::Left) {
     press(pointed_at(input.window, event.cursor_px));
   }
-  if (event.kind != Kind::KeyDown) return;
+  if (event.kind != render::WindowEvent::Kind::KeyDown) return;
   for (const LiveKey& row : live_keys()) {
     if (!row.holds(event.key) || row.press == nullptr) continue;
     row.press(*this, static_cast<std::size_t>(event.key) - static_cast<std::size_t>(row.key));

@@ -17,11 +17,11 @@ bool ParameterEdits::changed(std::size_t material) const {
 }
 
 void ParameterEdits::apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo) {
-  using Kind = render::ControlTarget::Kind;
   curves::LiveParameters& now = parameters(material);
   bool changed = false;
-  if (target.kind != Kind::Button) {
-    changed = now.step(static_cast<curves::LiveParameters::Row>(target.index), target.kind == Kind::More ? 1 : -1);
+  if (target.kind != render::ControlTarget::Kind::Button) {
+    changed = now.step(static_cast<curves::LiveParameters::Row>(target.index),
+                       target.kind == render::ControlTarget::Kind::More ? 1 : -1);
   } else if (static_cast<exhibit::PanelButton>(target.index) == exhibit::PanelButton::Reset) {
     changed = now.reset();
   }

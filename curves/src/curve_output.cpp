@@ -14,14 +14,13 @@
 #include <span>
 
 #include "core/version.h"
+#include "curves/plot_units.h"
 
 namespace afm::curves {
 namespace {
 
 using json = nlohmann::ordered_json;
 using physics::EventKind;
-
-constexpr double kNano = 1e9;  // nm in a metre, nN in a newton
 
 const char* name_of(physics::Phase phase) {
   switch (phase) {
@@ -225,16 +224,16 @@ SvgPlot curve_plot(const CurveRun& run) {
     if (!approaching && retract.points.empty() && !approach.points.empty()) {
       retract.points.push_back(approach.points.back());  // the turn belongs to both
     }
-    (approaching ? approach : retract).points.push_back({sample.z.si * kNano, sample.force.si * kNano});
+    (approaching ? approach : retract).points.push_back({sample.z.si * kNmPerM, sample.force.si * kNnPerN});
   }
   plot.lines = {std::move(approach), std::move(retract)};
   for (const physics::ModelEvent& event : run.curve.events) {
     const bool in = event.kind == EventKind::JumpToContact;
-    const double force = (in ? event.force_after : event.force_before).si * kNano;
-    const std::string text = fmt::format("{}: {:.4g} nm, {}{:.4g} nN", in ? "snap-in" : "pull-off", event.z.si * kNano,
-                                         force < 0.0 ? "\u2212" : "", std::abs(force));
+    const double force = (in ? event.force_after : event.force_before).si * kNnPerN;
+    const std::string text = fmt::format("{}: {:.4g} nm, {}{:.4g} nN", in ? "snap-in" : "pull-off",
+                                         event.z.si * kNmPerM, force < 0.0 ? "\u2212" : "", std::abs(force));
     plot.marks.push_back(
-        {{event.z.si * kNano, force}, text, "#1d2329", in ? SvgMark::Side::Right : SvgMark::Side::Left});
+        {{event.z.si * kNmPerM, force}, text, "#1d2329", in ? SvgMark::Side::Right : SvgMark::Side::Left});
   }
   return plot;
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "curves/plot_units.h"
 #include "physics/quantity_text.h"
 
 namespace afm::curves {
@@ -17,8 +18,6 @@ namespace {
 
 using physics::CurveFeatures;
 using json = nlohmann::ordered_json;
-
-constexpr double kPerNano = 1e9;
 
 // One line of the report and one key of the JSON.
 struct Figure {
@@ -160,7 +159,7 @@ std::vector<SvgLine> curve_lines(const AnalysedCurve& curve, const std::string& 
   for (const physics::CurvePoint& point : curve.curve.points) {
     SvgLine& line = point.branch == physics::Branch::Approach ? approach : retract;
     line.points.push_back(
-        {(point.z.si - zero) * kPerNano, (point.force - curve.features.baseline.at(point.z)).si * kPerNano});
+        {(point.z.si - zero) * kNmPerM, (point.force - curve.features.baseline.at(point.z)).si * kNnPerN});
   }
   return {std::move(approach), std::move(retract)};
 }
@@ -176,7 +175,7 @@ SvgPlot features_plot(const AnalysedCurve& measured, const AnalysedCurve* other)
   }
   const CurveFeatures& found = measured.features;
   const auto mark = [&](physics::Length z, physics::Force force, const char* what) {
-    plot.marks.push_back({{(z.si - zero_of(found)) * kPerNano, force.si * kPerNano},
+    plot.marks.push_back({{(z.si - zero_of(found)) * kNmPerM, force.si * kNnPerN},
                           fmt::format("{} {}", what, kForceText(force.si)),
                           std::string(distinct_color(0)),
                           SvgMark::Side::Right});

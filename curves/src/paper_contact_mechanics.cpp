@@ -13,6 +13,8 @@
 namespace afm::curves {
 namespace {
 
+using json = nlohmann::ordered_json;
+
 // Where the attached branch crosses zero: the contact line's own zero of Z.
 double zero_of_contact_m(const physics::LawTables& tables) {
   double pressed = -1e-7, pulled = tables.figures.z_joc.si;
@@ -92,7 +94,6 @@ std::string contact_mechanics_markdown(const scene::MaterialLibrary& library) {
 }
 
 nlohmann::ordered_json contact_mechanics_json(const scene::MaterialLibrary& library) {
-  using json = nlohmann::ordered_json;
   json result = json::object();
   for (const scene::MaterialEntry& material : library.materials) {
     const Comparison c = compare(material);

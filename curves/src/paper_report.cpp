@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "curves/plot_units.h"
 #include "curves/svg_plot.h"
 #include "paper_contact_mechanics.h"
 #include "physics/contact.h"
@@ -17,8 +18,6 @@ namespace afm::curves {
 namespace {
 
 using json = nlohmann::ordered_json;
-
-constexpr double kNano = 1e9;  // nm in a metre, nN in a newton
 
 std::string percent(double value, double reference) { return fmt::format("{:+.3f} %", (value / reference - 1) * 100); }
 
@@ -116,7 +115,7 @@ void add_cycle(SvgPlot& plot, const scene::MaterialEntry& material, std::string_
   SvgLine approach{material.title + ", approach", std::string(color), LineStyle::Dashed, {}};
   SvgLine retract{material.title + ", retract", std::string(color), LineStyle::Solid, {}};
   for (const auto& sample : curve.samples) {
-    const SvgPoint point{sample.z.si * kNano, sample.force.si * kNano};
+    const SvgPoint point{sample.z.si * kNmPerM, sample.force.si * kNnPerN};
     if (!window.holds(point)) continue;
     const bool approaching = sample.branch == physics::Branch::Approach;
     if (!approaching && retract.points.empty()) retract.points.push_back(approach.points.back());
@@ -193,10 +192,10 @@ std::string figure2_svg(const scene::MaterialEntry& material) {
   add_cycle(plot, material, distinct_color(0), {});
 
   const std::string ink = "#1d2329";
-  const double z_jtc = events.z_jtc.si * kNano;
-  const double z_joc = events.z_joc.si * kNano;
-  const double f_attr = events.f_attr.si * kNano;
-  const double f_ad = events.f_ad.si * kNano;
+  const double z_jtc = events.z_jtc.si * kNmPerM;
+  const double z_joc = events.z_joc.si * kNmPerM;
+  const double f_attr = events.f_attr.si * kNnPerN;
+  const double f_ad = events.f_ad.si * kNnPerN;
   const std::vector<SvgPoint>& approach = plot.lines.front().points;
   plot.marks = {{approach.front(), "A", ink, Side::Above},
                 {{z_joc, 0}, fmt::format("B: Z_joc {:.3f} nm", z_joc), ink, Side::Above},
@@ -219,7 +218,7 @@ std::string figure5e_svg(const scene::MaterialLibrary& library) {
       const auto events = physics::approach_retract_events(material.contact);
       const std::string_view color = distinct_color(index++);
       add_cycle(plots[p], material, color, windows[p]);
-      const SvgPoint pull_off{events.z_joc.si * kNano, -events.f_ad.si * kNano};
+      const SvgPoint pull_off{events.z_joc.si * kNmPerM, -events.f_ad.si * kNnPerN};
       if (!windows[p].holds(pull_off)) continue;
       plots[p].marks.push_back({pull_off, fmt::format("{} \u2212{:.4f} nN", material.title, -pull_off.y),
                                 std::string(color), SvgMark::Side::Right});

@@ -25,6 +25,8 @@
 namespace afm::curves {
 namespace {
 
+using json = nlohmann::ordered_json;
+
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 tl::unexpected<core::Error> wrong_axis(const std::string& text, const std::string& why) {
@@ -263,7 +265,6 @@ std::string sweep_csv(const ContactSetup& setup, const std::vector<SweepAxis>& a
 
 nlohmann::ordered_json sweep_json(const ContactSetup& setup, const std::vector<SweepAxis>& axes,
                                   const std::vector<SweepRow>& rows) {
-  using json = nlohmann::ordered_json;
   json points = json::array();
   for (const SweepRow& row : rows) {
     json point = json::object();

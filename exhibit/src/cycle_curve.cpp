@@ -3,19 +3,20 @@
 
 #include <utility>
 
-#include "plot_units.h"
+#include "curves/plot_units.h"
 
 namespace afm::exhibit {
 
 void CycleCurve::add(const scene::TipSample& sample) {
   const bool with_force =
       sample.servo_state == scene::ServoState::Running && sample.phase != physics::Phase::WaitForLift;
-  if (with_force) add_point({.z_nm = sample.tip.z_m * kNmPerM, .force_nn = sample.tip.force_n * kNnPerN});
+  if (with_force)
+    add_point({.z_nm = sample.tip.z_m * curves::kNmPerM, .force_nn = sample.tip.force_n * curves::kNnPerN});
 }
 
 void CycleCurve::add(const scene::TipEvent& event) {
-  add_point({.z_nm = event.z_m * kNmPerM, .force_nn = event.force_before_n * kNnPerN});
-  add_point({.z_nm = event.z_m * kNmPerM, .force_nn = event.force_after_n * kNnPerN});
+  add_point({.z_nm = event.z_m * curves::kNmPerM, .force_nn = event.force_before_n * curves::kNnPerN});
+  add_point({.z_nm = event.z_m * curves::kNmPerM, .force_nn = event.force_after_n * curves::kNnPerN});
 }
 
 void CycleCurve::add_point(const render::PlotPoint& point) {

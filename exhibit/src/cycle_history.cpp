@@ -11,7 +11,7 @@ namespace afm::exhibit {
 namespace {
 
 // Hand's millimetres mean the same for every material: its stroke is 50 of them.
-constexpr double kTurnM = 0.001;
+constexpr double kHandTurnM = 0.001;
 constexpr double kKeptM = 0.00005;
 
 }  // namespace
@@ -32,7 +32,7 @@ void CycleHistory::add(const scene::TipSample& sample) {
 
   const double height = sample.hand_height_m;
   turn_height_m_ = ascending_ ? std::max(turn_height_m_, height) : std::min(turn_height_m_, height);
-  if (std::abs(height - turn_height_m_) > kTurnM) {
+  if (std::abs(height - turn_height_m_) > kHandTurnM) {
     ascending_ = !ascending_;
     turn_height_m_ = height;
   }

@@ -7,9 +7,10 @@
 #include <string>
 #include <string_view>
 
+#include "curves/plot_units.h"
 #include "exhibit/frame_builder.h"
+#include "panel_conventions.h"
 #include "physics/quantity_text.h"
-#include "plot_units.h"
 
 namespace afm::exhibit {
 
@@ -17,8 +18,6 @@ namespace {
 
 using physics::format_quantity;
 using physics::Law;
-
-constexpr int kDigits = 3;
 
 // With a typographic minus, and no sign on what rounds to zero.
 std::string signed_text(double value, int decimals, const char* unit) {
@@ -95,16 +94,16 @@ render::DataPanel data_panel(const curves::SampleModel& material, const scene::T
   }
   panel.rows.push_back({"Law of force", curves::law_name(material.parameters), curves::law_reason(material)});
   if (figures.hysteretic) {
-    panel.rows.push_back(
-        {"Snap-in / pull-off",
-         fmt::format("{:.3f} / {:.3f} nN", std::abs(figures.force_after_jtc.si) * kNnPerN,
-                     std::abs(figures.force_before_joc.si) * kNnPerN),
-         fmt::format("at Z = {:.2f} nm / {:.2f} nm", figures.z_jtc.si * kNmPerM, figures.z_joc.si * kNmPerM)});
+    panel.rows.push_back({"Snap-in / pull-off",
+                          fmt::format("{:.3f} / {:.3f} nN", std::abs(figures.force_after_jtc.si) * curves::kNnPerN,
+                                      std::abs(figures.force_before_joc.si) * curves::kNnPerN),
+                          fmt::format("at Z = {:.2f} nm / {:.2f} nm", figures.z_jtc.si * curves::kNmPerM,
+                                      figures.z_joc.si * curves::kNmPerM)});
   }
-  panel.rows.push_back(
-      {"Energy of the loop", fmt::format("{:.3g} aJ", figures.loop_energy.si * kAjPerJ), hysteresis_text(figures)});
-  panel.rows.push_back({"Force on the tip", signed_text(tip.force_n * kNnPerN, 3, "nN"),
-                        fmt::format("lever bent by {}", signed_text(tip.deflection_m * kNmPerM, 2, "nm"))});
+  panel.rows.push_back({"Energy of the loop", fmt::format("{:.3g} aJ", figures.loop_energy.si * curves::kAjPerJ),
+                        hysteresis_text(figures)});
+  panel.rows.push_back({"Force on the tip", signed_text(tip.force_n * curves::kNnPerN, 3, "nN"),
+                        fmt::format("lever bent by {}", signed_text(tip.deflection_m * curves::kNmPerM, 2, "nm"))});
   return panel;
 }
 
@@ -117,10 +116,11 @@ render::DataPanel results_panel(std::span<const CycleResult> results) {
       panel.rows.push_back({result.title, "no jumps", fmt::format("law {}, a lever too stiff for them", result.law)});
       continue;
     }
-    panel.rows.push_back({result.title,
-                          fmt::format("{:.3f} / {:.3f} nN", result.f_attr_n * kNnPerN, result.f_ad_n * kNnPerN),
-                          fmt::format("at {:.2f} nm / {:.2f} nm, law {}", result.z_jtc_m * kNmPerM,
-                                      result.z_joc_m * kNmPerM, result.law)});
+    panel.rows.push_back(
+        {result.title,
+         fmt::format("{:.3f} / {:.3f} nN", result.f_attr_n * curves::kNnPerN, result.f_ad_n * curves::kNnPerN),
+         fmt::format("at {:.2f} nm / {:.2f} nm, law {}", result.z_jtc_m * curves::kNmPerM,
+                     result.z_joc_m * curves::kNmPerM, result.law)});
   }
   return panel;
 }

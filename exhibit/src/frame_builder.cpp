@@ -7,10 +7,11 @@
 #include <array>
 #include <cmath>
 
+#include "curves/plot_units.h"
 #include "exhibit/data_panel.h"
 #include "haptics/scaling.h"
+#include "panel_conventions.h"
 #include "physics/quantity_text.h"
-#include "plot_units.h"
 
 namespace afm::exhibit {
 
@@ -20,7 +21,6 @@ using physics::format_quantity;
 
 // Axes around the loop, in units of the reach of the pull and of its strength.
 constexpr double kAxisBelow = 0.42, kAxisAbove = 1.42;
-constexpr double kForceBelow = 1.22, kForceAbove = 0.52;
 constexpr double kPushShare = 0.4;  // of the reach: the deepest push
 constexpr double kHardlyPulled = 0.05;
 
@@ -59,9 +59,9 @@ class Axes {
   void include(const curves::SampleModel& material) {
     const double reach_m = material.scaling.release_z_m();
     const double push_n = material.tables->attached.force(physics::Length(-kPushShare * reach_m)).si;
-    reach_nm_ = std::max(reach_nm_, reach_m * kNmPerM);
-    pull_nn_ = std::max(pull_nn_, haptics::strongest_pull_n(*material.tables) * kNnPerN);
-    push_nn_ = std::max(push_nn_, push_n * kNnPerN);
+    reach_nm_ = std::max(reach_nm_, reach_m * curves::kNmPerM);
+    pull_nn_ = std::max(pull_nn_, haptics::strongest_pull_n(*material.tables) * curves::kNnPerN);
+    push_nn_ = std::max(push_nn_, push_n * curves::kNnPerN);
   }
 
   // A tip that is hardly pulled is pushed; otherwise the pull gives the measure.
@@ -81,10 +81,10 @@ class Axes {
 // the paper's F_attr; and the pull-off.
 std::vector<render::PlotMarker> jump_markers(const physics::CycleFigures& figures) {
   using Kind = render::PlotMarker::Kind;
-  const double z_jtc_nm = figures.z_jtc.si * kNmPerM, z_joc_nm = figures.z_joc.si * kNmPerM;
-  const double fold_nn = figures.force_before_jtc.si * kNnPerN;
-  const double after_nn = figures.force_after_jtc.si * kNnPerN;
-  const double pull_off_nn = figures.force_before_joc.si * kNnPerN;
+  const double z_jtc_nm = figures.z_jtc.si * curves::kNmPerM, z_joc_nm = figures.z_joc.si * curves::kNmPerM;
+  const double fold_nn = figures.force_before_jtc.si * curves::kNnPerN;
+  const double after_nn = figures.force_after_jtc.si * curves::kNnPerN;
+  const double pull_off_nn = figures.force_before_joc.si * curves::kNnPerN;
   std::vector<render::PlotMarker> markers{
       {Kind::VerticalLine, z_jtc_nm, fmt::format("Z_jtc {:.2f} nm", z_jtc_nm)},
       {Kind::VerticalLine, z_joc_nm, fmt::format("Z_joc {:.2f} nm", z_joc_nm)},
@@ -179,7 +179,7 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   if (figures.hysteretic) panel.markers = jump_markers(figures);
   panel.stage = stage_of_cycle(moment, figures.z_jtc.si);
   if (moment.phase != physics::Phase::WaitForLift) {
-    panel.cursor = render::PlotPoint{moment.wall.tip.z_m * kNmPerM, moment.wall.tip.force_n * kNnPerN};
+    panel.cursor = render::PlotPoint{moment.wall.tip.z_m * curves::kNmPerM, moment.wall.tip.force_n * curves::kNnPerN};
   }
   return panel;
 }

@@ -6,16 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curves/plot_units.h"
+#include "panel_conventions.h"
 #include "physics/quantity_text.h"
-#include "plot_units.h"
 
 namespace afm::exhibit {
 
 namespace {
 
-constexpr double kForceAbove = 0.52, kForceBelow = 1.22;  // of the axis, in units of the strongest pull
 constexpr glm::vec3 kPredictionColor{0.80F, 0.82F, 0.86F};
-constexpr int kDigits = 3;
 
 std::string length(physics::Length value) {
   return curves::typographic(format_quantity(value, physics::kLengthUnits, kDigits));
@@ -90,13 +89,13 @@ void add_prediction(const curves::LiveParameters& parameters, render::ForcePanel
       .label = "predicted", .color = kPredictionColor, .faded = true, .approach = {}, .retract = {}};
   for (const physics::CurveSample& sample : parameters.curve().samples) {
     auto& branch = sample.branch == physics::Branch::Approach ? predicted.approach : predicted.retract;
-    branch.push_back({.z_nm = sample.z.si * kNmPerM, .force_nn = sample.force.si * kNnPerN});
+    branch.push_back({.z_nm = sample.z.si * curves::kNmPerM, .force_nn = sample.force.si * curves::kNnPerN});
   }
   panel.curves.insert(panel.curves.begin(), std::move(predicted));
 
-  const double reach_nm = curves::cycle_reach_m(parameters.felt()) * kNmPerM;
-  const double deepest_nn = std::abs(parameters.curve().samples.back().force.si) * kNnPerN;
-  const double pull_nn = strongest_pull_n(parameters.curve()) * kNnPerN;
+  const double reach_nm = curves::cycle_reach_m(parameters.felt()) * curves::kNmPerM;
+  const double deepest_nn = std::abs(parameters.curve().samples.back().force.si) * curves::kNnPerN;
+  const double pull_nn = strongest_pull_n(parameters.curve()) * curves::kNnPerN;
   const double span_nn = pull_nn > 0.0 ? pull_nn : std::max(deepest_nn, 1e-3);
   panel.z_min_nm = -curves::kReachBelow * reach_nm;
   panel.z_max_nm = curves::kReachAbove * reach_nm;
@@ -105,8 +104,9 @@ void add_prediction(const curves::LiveParameters& parameters, render::ForcePanel
   panel.markers.clear();
   if (!figures.hysteretic) return;
   using Kind = render::PlotMarker::Kind;
-  const double z_jtc = figures.z_jtc.si * kNmPerM, z_joc = figures.z_joc.si * kNmPerM;
-  const double f_attr = -figures.force_after_jtc.si * kNnPerN, f_ad = -figures.force_before_joc.si * kNnPerN;
+  const double z_jtc = figures.z_jtc.si * curves::kNmPerM, z_joc = figures.z_joc.si * curves::kNmPerM;
+  const double f_attr = -figures.force_after_jtc.si * curves::kNnPerN,
+               f_ad = -figures.force_before_joc.si * curves::kNnPerN;
   panel.markers = {{Kind::VerticalLine, z_jtc, fmt::format("Z_jtc {:.3g} nm", z_jtc)},
                    {Kind::VerticalLine, z_joc, fmt::format("Z_joc {:.3g} nm", z_joc)},
                    {Kind::HorizontalLine, -f_attr, fmt::format("F_attr {:.3g} nN", f_attr)},

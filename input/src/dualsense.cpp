@@ -2,7 +2,6 @@
 #include "input/dualsense.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "input/wand.h"
 
@@ -17,13 +16,8 @@ constexpr std::size_t kBluetoothSize = 78;
 constexpr std::uint8_t kInputSeed = 0xA1;
 constexpr std::uint8_t kCalibrationReport = 0x05;
 constexpr std::size_t kCalibrationSize = 41;
-constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 constexpr double kNominalGyroCountsPerDegree = 16.0;  // 2048 degrees a second in 15 bits
 constexpr double kNominalCountsPerG = 8192.0;
-
-std::array<std::int16_t, 3> triple(Bytes bytes, std::size_t at) {
-  return {signed16(bytes, at), signed16(bytes, at + 2), signed16(bytes, at + 4)};
-}
 
 double stick(std::uint8_t raw) { return std::fmax(-1.0, (raw - 128.0) / 127.0); }
 
@@ -99,8 +93,8 @@ std::optional<DualSenseReport> parse_dualsense(Bytes report) {
                          .triggers = {r[5], r[6]},
                          .sequence = r[7],
                          .buttons = {r[8], r[9], r[10]},
-                         .gyro = triple(r, 16),
-                         .acceleration = triple(r, 22),
+                         .gyro = signed16_triple(r, 16),
+                         .acceleration = signed16_triple(r, 22),
                          .ticks = unsigned32(r, 28)};
 }
 

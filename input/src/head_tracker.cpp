@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/clock.h"
+
 namespace afm::input {
 
 namespace {
@@ -12,8 +14,6 @@ namespace {
 constexpr double kVelocityMemoryS = 0.03;  // over which the velocity is averaged
 constexpr double kLongestGapS = 0.1;       // after which two poses say nothing about a velocity
 constexpr double kFastestHeadMPerS = 3.0;  // beyond it the tracker has swapped its markers
-
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 bool finite(const scene::HeadPose& head) {
   const auto& p = head.position_m;
@@ -28,7 +28,7 @@ double eased(double share) { return share * share * (3.0 - 2.0 * share); }
 
 void HeadTracker::add(const scene::HeadPose& head, std::int64_t time_ns) {
   if (!finite(head) || (newest_ && time_ns <= newest_ns_)) return;
-  const double step_s = newest_ ? seconds(time_ns - newest_ns_) : kLongestGapS;
+  const double step_s = newest_ ? core::seconds(time_ns - newest_ns_) : kLongestGapS;
   if (step_s < kLongestGapS) {
     const glm::dvec3 velocity = (head.position_m - newest_->position_m) / step_s;
     const double weight = -std::expm1(-step_s / kVelocityMemoryS);
@@ -41,7 +41,7 @@ void HeadTracker::add(const scene::HeadPose& head, std::int64_t time_ns) {
 }
 
 scene::HeadPose HeadTracker::head(std::int64_t now_ns, double latency_s) {
-  const double frame_s = shown_ns_ == 0 ? 0.0 : std::max(0.0, seconds(now_ns - shown_ns_));
+  const double frame_s = shown_ns_ == 0 ? 0.0 : std::max(0.0, core::seconds(now_ns - shown_ns_));
   shown_ns_ = now_ns;
   if (!newest_) return shown_;
   const bool tracked = now_ns - newest_ns_ <= kHoldNs;
@@ -51,7 +51,7 @@ scene::HeadPose HeadTracker::head(std::int64_t now_ns, double latency_s) {
   if (tracked) {
     target_ = *newest_;
     const double ahead_s =
-        std::clamp(std::max(0.0, seconds(now_ns - newest_ns_)) + latency_s, 0.0, kLongestPredictionS);
+        std::clamp(std::max(0.0, core::seconds(now_ns - newest_ns_)) + latency_s, 0.0, kLongestPredictionS);
     glm::dvec3 way = velocity_m_per_s_ * ahead_s;
     const double length = glm::length(way);
     if (length > kFarthestPredictionM) way *= kFarthestPredictionM / length;

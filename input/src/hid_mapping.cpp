@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace afm::input {
 
 namespace {
-
-constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 
 std::optional<double> raw_value(const HidMapping::Axis& axis, Bytes report) {
   const std::size_t last = axis.byte + (axis.bit + axis.bits - 1) / 8;

@@ -6,11 +6,12 @@
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
+#include "core/clock.h"
+
 namespace afm::input {
 
 namespace {
 
-constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);
 constexpr double kSteerRadPerS = 1.0;
 constexpr double kLargestYawRad = 1.3;
 constexpr double kLargestPitchRad = 1.0;
@@ -20,8 +21,6 @@ constexpr double kShortestMotionS = 1e-4;
 constexpr double kFirstMotionS = 0.01;
 constexpr double kDeadZone = 0.1;
 constexpr double kSharpness = 2.5;  // of the exponential response
-
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 }  // namespace
 
@@ -47,7 +46,7 @@ bool HidWand::take(Bytes report, std::int64_t now_ns) {
   if (input->push) state_.push = *input->push;
   if (input->turn) state_.turn = *input->turn;
   if (input->imu_count > 0) {
-    const double since_s = motion_ns_ == 0 ? kFirstMotionS : seconds(now_ns - motion_ns_);
+    const double since_s = motion_ns_ == 0 ? kFirstMotionS : core::seconds(now_ns - motion_ns_);
     const double each_s = std::clamp(since_s, kShortestMotionS, kLongestStepS) / static_cast<double>(input->imu_count);
     motion_ns_ = now_ns;
     for (std::size_t i = 0; i < input->imu_count; ++i) filter_.add(input->imu[i], each_s, input->has_gyro);
@@ -82,7 +81,7 @@ void HidWand::recenter() {
 
 // Twisting, tilting and shifting the cap all steer, whichever a person tries first.
 void HidWand::steer(std::int64_t now_ns) {
-  const double step_s = std::clamp(seconds(now_ns - steered_ns_), 0.0, kLongestStepS);
+  const double step_s = std::clamp(core::seconds(now_ns - steered_ns_), 0.0, kLongestStepS);
   steered_ns_ = now_ns;
   if (state_.pressed(WandButton::Grab) || state_.pressed(WandButton::Scale)) return;
   const double yaw = rate_response(state_.turn.y) - rate_response(state_.turn.z) - rate_response(state_.push.x);

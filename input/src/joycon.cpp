@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "input/wand.h"
 
@@ -14,19 +13,15 @@ namespace {
 constexpr std::uint8_t kFullReport = 0x30;
 constexpr std::size_t kFullSize = 49;
 constexpr std::size_t kMotionSize = 12;
-constexpr double kCountsPerG = 4096.0;
+constexpr double kJoyConCountsPerG = 4096.0;
 constexpr double kCountsPerDegree = 14.247;
-constexpr double kRadPerCount = std::numbers::pi / 180.0 / kCountsPerDegree;
+constexpr double kRadPerCount = kRadPerDegree / kCountsPerDegree;
 constexpr double kStickMiddle = 2048.0;
 constexpr double kStickReach = 1400.0;
 
 std::array<std::uint16_t, 2> stick_at(Bytes r, std::size_t at) {
   return {static_cast<std::uint16_t>(r[at] | ((r[at + 1] & 0x0F) << 8)),
           static_cast<std::uint16_t>((r[at + 1] >> 4) | (r[at + 2] << 4))};
-}
-
-std::array<std::int16_t, 3> triple(Bytes bytes, std::size_t at) {
-  return {signed16(bytes, at), signed16(bytes, at + 2), signed16(bytes, at + 4)};
 }
 
 double pushed(std::uint16_t raw) { return std::clamp((raw - kStickMiddle) / kStickReach, -1.0, 1.0); }
@@ -58,7 +53,7 @@ class JoyCon final : public HidDriver {
     HidInput input;
     for (std::size_t i = 0; i < parsed->motion.size(); ++i) {
       input.imu[i].rate_rad_per_s = kRadPerCount * in_wand(parsed->motion[i].gyro);
-      input.imu[i].acceleration_g = in_wand(parsed->motion[i].acceleration) / kCountsPerG;
+      input.imu[i].acceleration_g = in_wand(parsed->motion[i].acceleration) / kJoyConCountsPerG;
     }
     input.imu_count = parsed->motion.size();
     const auto& stick = parsed->sticks[side_ == JoyConSide::Right ? 1 : 0];
@@ -97,8 +92,8 @@ std::optional<JoyConReport> parse_joycon(Bytes report) {
   parsed.buttons = {report[3], report[4], report[5]};
   parsed.sticks = {stick_at(report, 6), stick_at(report, 9)};
   for (std::size_t i = 0; i < parsed.motion.size(); ++i) {
-    parsed.motion[i].acceleration = triple(report, 13 + kMotionSize * i);
-    parsed.motion[i].gyro = triple(report, 19 + kMotionSize * i);
+    parsed.motion[i].acceleration = signed16_triple(report, 13 + kMotionSize * i);
+    parsed.motion[i].gyro = signed16_triple(report, 19 + kMotionSize * i);
   }
   return parsed;
 }

@@ -11,7 +11,6 @@ namespace afm::input {
 
 namespace {
 
-constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);
 constexpr double kGravityGainPerS = 0.8;      // how fast the tilt follows gravity beside the gyroscope
 constexpr double kGravityAlonePerS = 10.0;    // and without one
 constexpr double kGravityToleranceG = 0.15;   // a hand that shakes more than this does not show where down is

@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::size_t kZcm1Size = 49;
 constexpr std::size_t kZcm2Size = 44;
-constexpr std::uint8_t kCalibrationReport = 0x10;
+constexpr std::uint8_t kMoveCalibrationReport = 0x10;
 constexpr std::size_t kBlockSize = 49;
 constexpr std::size_t kBlockHeader = 2;
 constexpr std::uint8_t kTriggerPressed = 100;
-constexpr double kNominalCountsPerG = 4326.0;  // RPCS3's estimate
+constexpr double kMoveCountsPerG = 4326.0;  // RPCS3's estimate
 constexpr double kRadPerSPerRpm = 2.0 * std::numbers::pi / 60.0;
 constexpr double kNominalGyroGain = 80.0 * kRadPerSPerRpm / 8192.0;  // within a factor of 1.5 of any device
 
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> joined(std::span<const std::uint8_t> order,
   std::vector<std::uint8_t> all;
   for (const std::uint8_t number : order) {
     const auto block = std::find_if(reports.begin(), reports.end(), [&](const auto& r) {
-      return r.size() >= kBlockSize && r[0] == kCalibrationReport && r[1] == number;
+      return r.size() >= kBlockSize && r[0] == kMoveCalibrationReport && r[1] == number;
     });
     if (block == reports.end()) return {};
     all.insert(all.end(), block->begin() + (all.empty() ? 0 : kBlockHeader), block->begin() + kBlockSize);
@@ -87,7 +87,8 @@ class PsMove final : public HidDriver {
   }
 
   std::optional<FeatureRequest> calibration() const override {
-    return FeatureRequest{.id = kCalibrationReport, .size = kBlockSize, .times = model_ == PsMoveModel::Zcm1 ? 3 : 2};
+    return FeatureRequest{
+        .id = kMoveCalibrationReport, .size = kBlockSize, .times = model_ == PsMoveModel::Zcm1 ? 3 : 2};
   }
 
   void calibrate(std::span<const std::vector<std::uint8_t>> reports) override {
@@ -123,7 +124,7 @@ std::optional<PsMoveReport> parse_psmove(PsMoveModel model, Bytes report) {
 PsMoveCalibration parse_psmove_calibration(PsMoveModel model, std::span<const std::vector<std::uint8_t>> reports) {
   PsMoveCalibration calibration;
   calibration.gyro_gain.fill(kNominalGyroGain);
-  calibration.acceleration_gain.fill(1.0 / kNominalCountsPerG);
+  calibration.acceleration_gain.fill(1.0 / kMoveCountsPerG);
 
   constexpr std::array<std::uint8_t, 3> kZcm1Blocks{0x00, 0x01, 0x82};
   constexpr std::array<std::uint8_t, 2> kZcm2Blocks{0x00, 0x81};

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/clock.h"
+
 namespace afm::input {
 
 namespace {
@@ -13,8 +15,6 @@ namespace {
 constexpr double kTremorRad = 0.0015;
 constexpr double kTremorHz = 9.0;
 constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
-
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 std::int64_t later(std::int64_t now_ns, double duration_s) {
   return now_ns + static_cast<std::int64_t>(duration_s * 1e9);
@@ -55,7 +55,7 @@ glm::dvec3 SimulatedWand::aim_direction(std::int64_t now_ns) const {
 }
 
 WandState SimulatedWand::state(std::int64_t now_ns) const {
-  const double phase = kTwoPi * kTremorHz * seconds(now_ns - aim_start_ns_);
+  const double phase = kTwoPi * kTremorHz * core::seconds(now_ns - aim_start_ns_);
   const glm::dvec3 tremor(kTremorRad * std::sin(phase), kTremorRad * std::cos(1.17 * phase), 0.0);
   WandState state;
   state.time_ns = now_ns;

@@ -12,10 +12,6 @@ namespace {
 
 constexpr double kFullDeflection = 350.0;  // some reach 500
 
-std::array<std::int16_t, 3> triple(Bytes report, std::size_t at) {
-  return {signed16(report, at), signed16(report, at + 2), signed16(report, at + 4)};
-}
-
 // From the device's axes (x right, y towards the user, z down) to the room's.
 glm::dvec3 in_room(const std::array<std::int16_t, 3>& raw) {
   return glm::clamp(glm::dvec3(raw[0], -raw[2], raw[1]) / kFullDeflection, -1.0, 1.0);
@@ -54,12 +50,12 @@ std::optional<SpaceMouseReport> parse_spacemouse(Bytes report) {
   switch (report[0]) {
     case 1:
       if (report.size() != 7 && report.size() < 13) return std::nullopt;
-      parsed.translation = triple(report, 1);
-      if (report.size() > 7) parsed.rotation = triple(report, 7);
+      parsed.translation = signed16_triple(report, 1);
+      if (report.size() > 7) parsed.rotation = signed16_triple(report, 7);
       return parsed;
     case 2:
       if (report.size() != 7) return std::nullopt;
-      parsed.rotation = triple(report, 1);
+      parsed.rotation = signed16_triple(report, 1);
       return parsed;
     case 3: {
       if (report.size() < 2) return std::nullopt;

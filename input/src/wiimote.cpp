@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint16_t kButtonBits = 0x9F1F;
 constexpr double kRestCount = 512.0;
-constexpr double kCountsPerG = 104.0;
+constexpr double kWiimoteCountsPerG = 104.0;
 // the camera sees 33 degrees across its 1024 columns (WiiBrew)
 constexpr double kRadPerColumn = 33.0 / 1024.0 * std::numbers::pi / 180.0;
 constexpr double kMiddleColumn = 511.5;
@@ -60,7 +60,7 @@ glm::dvec3 in_wand(const std::array<double, 3>& left_back_up) {
 ImuSample sample_of(const std::array<std::uint16_t, 3>& acceleration, const std::optional<MotionPlusReport>& turn) {
   std::array<double, 3> pull{}, rate{};
   for (std::size_t i = 0; i < 3; ++i) {
-    pull[i] = (acceleration[i] - kRestCount) / kCountsPerG;
+    pull[i] = (acceleration[i] - kRestCount) / kWiimoteCountsPerG;
     if (turn) rate[i] = (turn->rates[i] - kGyroRestCount) * (turn->slow[i] ? kSlowRadPerS : kFastRadPerS);
   }
   return {.rate_rad_per_s = in_wand(rate), .acceleration_g = in_wand(pull)};

@@ -21,14 +21,22 @@ foreach(top ${production} assets tests)
   endforeach()
 endforeach()
 
-# Each source is compiled once. Not counted are the files that the build generates (precompiled headers, and the public headers that
-# are compiled alone) and what is compiled in two ways on purpose.
+# Each source is compiled once, alone or in a unity build's file of several. Not counted are the other files that the build
+# generates (precompiled headers, and the public headers that are compiled alone) and what is compiled in two ways on purpose.
 set(compiled_in_two_ways tests/support/mock_libhd/mock_functions.cpp)  # with and without one function of the driver
 file(READ ${BUILD}/compile_commands.json commands)
 string(REGEX MATCHALL "\"file\": \"[^\"]*\"" entries "${commands}")
-set(compiled 0)
+set(files "")
 foreach(entry ${entries})
   string(REGEX REPLACE "\"file\": \"(.*)\"" "\\1" file "${entry}")
+  if(file MATCHES "/Unity/unity_")
+    file(STRINGS ${file} lines REGEX "^#include ")
+    string(REGEX REPLACE "#include \"([^\"]*)\"" "\\1" file "${lines}")
+  endif()
+  list(APPEND files ${file})
+endforeach()
+set(compiled 0)
+foreach(file ${files})
   string(FIND "${file}" "${BUILD}/" generated)
   file(RELATIVE_PATH source ${ROOT} ${file})
   if(generated EQUAL 0 OR source IN_LIST compiled_in_two_ways)

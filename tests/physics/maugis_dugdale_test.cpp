@@ -254,7 +254,7 @@ TEST(MaugisLaw, EveryCycleDissipatesAndEveryJumpLosesEnergy) {
       EXPECT_TRUE(!figures.hysteretic || stiffness < 1.001 * figures.critical_stiffness.si || !joined.single_valued());
     }
   };
-  constexpr int kTabulated = 3'000;
+  constexpr int kTabulated = 1'500;
   for_random_laws(check, kTabulated);
 }
 

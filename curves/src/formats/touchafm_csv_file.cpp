@@ -11,12 +11,12 @@ namespace afm::curves {
 namespace {
 
 void read_comment(std::string_view line, const Lines& lines, CurveMetadata& metadata) {
-  constexpr std::string_view kSpringConstant = "# spring_constant_N_per_m: ", kMaterial = "# material: ";
-  if (line.starts_with(kSpringConstant)) {
+  constexpr std::string_view kSpringConstantLine = "# spring_constant_N_per_m: ", kMaterialLine = "# material: ";
+  if (line.starts_with(kSpringConstantLine)) {
     metadata.spring_constant =
-        physics::Stiffness(number_in(line.substr(kSpringConstant.size()), "spring_constant_N_per_m", lines));
-  } else if (line.starts_with(kMaterial)) {
-    metadata.curve_id = line.substr(kMaterial.size());
+        physics::Stiffness(number_in(line.substr(kSpringConstantLine.size()), "spring_constant_N_per_m", lines));
+  } else if (line.starts_with(kMaterialLine)) {
+    metadata.curve_id = line.substr(kMaterialLine.size());
   }
 }
 

@@ -11,13 +11,12 @@
 #include <iterator>
 
 #include "curves/curve_error.h"
+#include "curves/plot_units.h"
 #include "formats/text_table.h"
 
 namespace afm::curves {
 
 namespace {
-
-constexpr double kPerNano = 1e9;
 
 constexpr std::array<std::string_view, 12> kMonths{"January",   "February", "March",    "April",
                                                    "May",       "June",     "July",     "August",
@@ -113,7 +112,7 @@ Columns columns_of(const Header& header, std::string_view branch) {
   };
   const std::size_t height = column_in(header.columns, fmt::format("{} Z-Sense(nm)", branch));
   const std::string force = fmt::format("{} Force(nN)", branch), volts = fmt::format("{} T-B(V)", branch);
-  if (has(force)) return {height, column_in(header.columns, force), 1.0 / kPerNano};
+  if (has(force)) return {height, column_in(header.columns, force), 1.0 / kNnPerN};
   const std::size_t signal = column_in(header.columns, volts);
   const CurveMetadata& made = header.metadata;
   if (!made.sensitivity_m_per_v || !made.spring_constant) {
@@ -178,8 +177,8 @@ std::string workshop_bytes(const RecordedCurve& curve) {
   }
   fmt::format_to(out, "\r\nExtend Z-Sense(nm),Extend Force(nN),Retract Z-Sense(nm),Retract Force(nN)\r\n");
   for (std::size_t i = 0; i < approach.size(); ++i) {
-    fmt::format_to(out, "{},{},{},{}\r\n", -kPerNano * approach[i].z.si + 0.0, kPerNano * approach[i].force.si + 0.0,
-                   -kPerNano * retract[i].z.si + 0.0, kPerNano * retract[i].force.si + 0.0);
+    fmt::format_to(out, "{},{},{},{}\r\n", -kNmPerM * approach[i].z.si + 0.0, kNnPerN * approach[i].force.si + 0.0,
+                   -kNmPerM * retract[i].z.si + 0.0, kNnPerN * retract[i].force.si + 0.0);
   }
   return fmt::to_string(text);
 }
@@ -204,7 +203,7 @@ RecordedCurve read_workshop(std::string_view bytes, const CurveReading& reading)
     if (2 * retract.size() >= kMostCurvePoints) throw CurveError("it has more points than a curve may have");
     const auto point = [&](const Columns& columns, physics::Branch branch) {
       return physics::CurvePoint{
-          physics::Length(-number_in(fields[columns.height], "Z-Sense", lines) / kPerNano),
+          physics::Length(-number_in(fields[columns.height], "Z-Sense", lines) / kNmPerM),
           physics::Force(number_in(fields[columns.signal], "force", lines) * columns.newton_per_signal), branch};
     };
     curve.points.push_back(point(extend, physics::Branch::Approach));

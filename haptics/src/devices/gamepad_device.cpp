@@ -17,7 +17,7 @@ namespace afm::haptics {
 
 namespace {
 
-constexpr auto kPause = std::chrono::milliseconds(4);
+constexpr auto kPollPause = std::chrono::milliseconds(4);
 constexpr double kDeadZone = 0.12;  // of a stick that nobody touches
 constexpr double kFastestPlacedMPerS = 0.30;
 constexpr std::int64_t kRepeatNs = 30'000'000;  // a rumble that lasts is ordered again in time
@@ -155,7 +155,7 @@ void GamepadDevice::run() {
     frames_.store(frame);
 
     if (attached) show(feelings_.try_load().value_or(Feeling{}), now_ns);
-    std::this_thread::sleep_for(kPause);
+    std::this_thread::sleep_for(kPollPause);
   }
 }
 

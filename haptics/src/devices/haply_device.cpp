@@ -13,25 +13,15 @@
 #include "core/log.h"
 #include "devices/haply_link.h"
 #include "devices/haply_message.h"
+#include "devices/release_patience.h"
 
 namespace afm::haptics {
 
 namespace {
 
 constexpr auto kFirstPlacePatience = std::chrono::seconds(2);
-constexpr auto kReleasePatience = std::chrono::milliseconds(50);
-constexpr auto kPause = std::chrono::milliseconds(2);
+constexpr auto kReceivePatience = std::chrono::milliseconds(2);
 constexpr std::int64_t kComplaintNs = 1'000'000'000;  // between two lines about a service that stammers
-
-template <class Condition>
-bool wait_until(std::chrono::milliseconds patience, Condition&& condition) {
-  const auto end = std::chrono::steady_clock::now() + patience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(kPause);
-  }
-  return true;
-}
 
 // The service tells no limits. The force is what careful drivers give a hand (Isaac Lab clips at 2 N); the stiffness
 // that of a Touch; the workspace a part of the reach in front of the arm that every Inverse3 has, around the place
@@ -105,7 +95,7 @@ void HaplyDevice::serve() noexcept {
     if (!told) core::log_line("haptics: the haply inverse service does not answer: no force reaches the hand");
     told = true;
     const auto end = std::chrono::steady_clock::now() + std::chrono::nanoseconds(kRetryNs);
-    while (!closing_.load() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kPause);
+    while (!closing_.load() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kReceivePatience);
   }
 }
 
@@ -119,7 +109,8 @@ void HaplyDevice::exchange() {
   while (!link_->ended() && !closing_.load()) {
     bool asked = false;
     // of several that have waited, the newest
-    for (auto message = link_->receive(kPause); message; message = link_->receive(std::chrono::microseconds(0))) {
+    for (auto message = link_->receive(kReceivePatience); message;
+         message = link_->receive(std::chrono::microseconds(0))) {
       asked = true;
       const auto state = parse_haply_state(*message);
       if (!state) continue;

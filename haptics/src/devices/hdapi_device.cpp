@@ -13,6 +13,7 @@
 #include "core/log.h"
 #include "devices/hdapi_numbers.h"
 #include "devices/hdapi_setup.h"
+#include "devices/release_patience.h"
 
 namespace afm::haptics {
 
@@ -21,22 +22,12 @@ namespace {
 constexpr std::int64_t kSchedulerPeriodNs = 1'000'000;
 constexpr auto kSupervisionPause = std::chrono::milliseconds(5);
 constexpr auto kFirstFramePatience = std::chrono::seconds(1);
-constexpr auto kReleasePatience = std::chrono::milliseconds(50);
 constexpr int kMostErrorsInAFrame = 8;
 constexpr std::int64_t kForEver = std::numeric_limits<std::int64_t>::max();
 
 // Between two callbacks a hand moves a millimetre at most; beside the workspace the figures have some play.
 constexpr double kLongestLeapM = 0.05;
 constexpr double kWorkspacePlayM = 0.1;
-
-bool wait_until(std::chrono::milliseconds patience, const std::atomic<bool>& condition) {
-  const auto end = std::chrono::steady_clock::now() + patience;
-  while (!condition.load()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -93,7 +84,7 @@ core::Result<void> HdapiDevice::start(Supervision supervision) {
                                                                   spec_.name, hdapi::error_text(hd_, error.code)));
   }
   if (supervision == Supervision::Caller) return {};
-  if (!wait_until(kFirstFramePatience, called_)) {
+  if (!wait_until(kFirstFramePatience, [this] { return called_.load(); })) {
     return core::failure(core::ErrorCategory::Failed,
                          fmt::format("cannot start {}: its driver did not call within {} s; switch it off and on",
                                      spec_.name, kFirstFramePatience.count()));
@@ -111,7 +102,7 @@ HdapiDevice::~HdapiDevice() {
   closing_.store(true);
   if (supervisor_.joinable()) supervisor_.join();
   // a scheduler that has stalled cannot take the zero; its output is off already
-  if (scheduler_started_) wait_until(kReleasePatience, released_);
+  if (scheduler_started_) wait_until(kReleasePatience, [this] { return released_.load(); });
   hd_.make_current_device(handle_);
   hd_.disable(hdapi::kForceOutput);
   if (scheduler_started_) hd_.stop_scheduler();

@@ -3,30 +3,14 @@
 
 #include <dlfcn.h>
 
+#include "devices/function_binder.h"
+
 namespace afm::haptics {
 
 namespace {
 
 // 3.4 drives the Touch (USB, Ethernet), 3.0 the Omni (FireWire).
 constexpr const char* kLibraryNames[] = {"libHD.so.3.4", "libHD.so.3.0", "libHD.so"};
-
-// Looks up functions of one library and remembers the first that is missing.
-class Binder {
- public:
-  explicit Binder(void* library) : library_(library) {}
-
-  template <class Function>
-  void bind(const char* name, Function*& function) {
-    function = reinterpret_cast<Function*>(::dlsym(library_, name));
-    if (function == nullptr && missing_.empty()) missing_ = name;
-  }
-
-  const std::string& missing() const { return missing_; }
-
- private:
-  void* library_;
-  std::string missing_;
-};
 
 std::string linker_error() {
   const char* text = ::dlerror();  // NOLINT(concurrency-mt-unsafe): glibc keeps one for each thread
@@ -35,7 +19,7 @@ std::string linker_error() {
 
 // Empty if everything was found.
 std::string bind_all(void* library, HdapiFunctions& hd) {
-  Binder binder(library);
+  FunctionBinder binder(library);
   binder.bind("hdInitDevice", hd.init_device);
   binder.bind("hdDisableDevice", hd.disable_device);
   binder.bind("hdMakeCurrentDevice", hd.make_current_device);

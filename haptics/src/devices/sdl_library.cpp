@@ -4,29 +4,9 @@
 #include <dlfcn.h>
 #include <fmt/core.h>
 
+#include "devices/function_binder.h"
+
 namespace afm::haptics {
-
-namespace {
-
-// Looks up functions and remembers the first that is missing.
-class Binder {
- public:
-  explicit Binder(void* library) : library_(library) {}
-
-  template <class Function>
-  void bind(const char* name, Function& function) {
-    function = reinterpret_cast<Function>(::dlsym(library_, name));
-    if (function == nullptr && missing_.empty()) missing_ = name;
-  }
-
-  const std::string& missing() const { return missing_; }
-
- private:
-  void* library_;
-  std::string missing_;
-};
-
-}  // namespace
 
 core::Result<SdlFunctions> load_sdl() {
   void* library = ::dlopen(kSdlLibrary, RTLD_NOW | RTLD_LOCAL);
@@ -35,7 +15,7 @@ core::Result<SdlFunctions> load_sdl() {
     return core::failure(core::ErrorCategory::DeviceMissing, text == nullptr ? "it cannot be loaded" : text);
   }
   SdlFunctions sdl;
-  Binder binder(library);
+  FunctionBinder binder(library);
   binder.bind("SDL_SetHint", sdl.set_hint);
   binder.bind("SDL_InitSubSystem", sdl.init);
   binder.bind("SDL_QuitSubSystem", sdl.quit);

@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kSpacingM = 1e-4;
 
-struct Branch {
+struct BranchEnergy {
   std::vector<double> energy_j;  // zero at the highest node
   double stiffness_n_per_m = 0;
 };
 
 // From the highest node down, by Simpson's rule in every interval.
-Branch integrate(const PotentialEnergy::ForceOverHeight& force_n, double lowest_m, std::size_t nodes) {
-  Branch branch{.energy_j = std::vector<double>(nodes, 0.0)};
+BranchEnergy integrate(const PotentialEnergy::ForceOverHeight& force_n, double lowest_m, std::size_t nodes) {
+  BranchEnergy branch{.energy_j = std::vector<double>(nodes, 0.0)};
   double above_n = force_n(lowest_m + kSpacingM * static_cast<double>(nodes - 1));
   for (std::size_t i = nodes - 1; i-- > 0;) {
     const double height_m = lowest_m + kSpacingM * static_cast<double>(i);
@@ -42,8 +42,8 @@ PotentialEnergy::PotentialEnergy(const ForceOverHeight& free_n, const ForceOverH
     : lowest_m_(range.lowest_m) {
   AFM_CHECK(range.highest_m > range.lowest_m && std::isfinite(range.highest_m - range.lowest_m));
   const auto nodes = static_cast<std::size_t>(std::ceil((range.highest_m - range.lowest_m) / kSpacingM)) + 1;
-  Branch free = integrate(free_n, lowest_m_, nodes);
-  Branch attached = integrate(attached_n, lowest_m_, nodes);
+  BranchEnergy free = integrate(free_n, lowest_m_, nodes);
+  BranchEnergy attached = integrate(attached_n, lowest_m_, nodes);
   stiffness_n_per_m_ = std::max(free.stiffness_n_per_m, attached.stiffness_n_per_m);
   free_j_ = std::move(free.energy_j);
   attached_j_ = std::move(attached.energy_j);

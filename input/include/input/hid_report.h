@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,12 +17,17 @@ namespace afm::input {
 
 using Bytes = std::span<const std::uint8_t>;
 
+inline constexpr double kRadPerDegree = std::numbers::pi / 180.0;
+
 // Little-endian numbers; `at` must lie within the bytes.
 constexpr std::uint16_t unsigned16(Bytes bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] | (bytes[at + 1] << 8));
 }
 constexpr std::int16_t signed16(Bytes bytes, std::size_t at) {
   return static_cast<std::int16_t>(unsigned16(bytes, at));
+}
+constexpr std::array<std::int16_t, 3> signed16_triple(Bytes bytes, std::size_t at) {
+  return {signed16(bytes, at), signed16(bytes, at + 2), signed16(bytes, at + 4)};
 }
 constexpr std::uint32_t unsigned32(Bytes bytes, std::size_t at) {
   return unsigned16(bytes, at) | (static_cast<std::uint32_t>(unsigned16(bytes, at + 2)) << 16);

@@ -8,6 +8,8 @@
 
 namespace afm::input {
 
+inline constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);  // of the level frame and of the room
+
 // How a wand is turned, from its gyroscope and accelerometer: Mahony, Hamel and Pflimlin (2008), the explicit
 // complementary filter, with the direction of gravity alone. Tilt is absolute; heading starts at zero and drifts with
 // what is left of the gyroscope's bias, which is measured whenever the wand lies still. One thread.
@@ -18,7 +20,7 @@ class OrientationFilter {
   void add(const ImuSample& sample, double duration_s, bool has_gyro = true);
 
   bool valid() const { return started_; }
-  const glm::dquat& level_from_wand() const { return level_from_wand_; }  // +y of the level frame is up
+  const glm::dquat& level_from_wand() const { return level_from_wand_; }
   const glm::dvec3& bias_rad_per_s() const { return bias_; }
 
   // Angle from -z to where the wand points, about +y; 0 where it points straight up or down.

@@ -14,7 +14,7 @@ using std::numbers::pi;
 
 // Between these every contact lies that a force microscope can have: beyond the first it is 10^12 times its cohesive
 // zone, beyond the second it is a point to the last digit.
-constexpr double kDeepest = -30.0;
+constexpr double kDeepestPoint = -30.0;
 constexpr double kPoint = -1e-32;
 
 // sin(x) - x cos(x), which cancels for small x: there by its series.
@@ -96,14 +96,14 @@ MaugisPoint maugis_point(double lambda, double s) {
 }
 
 double maugis_pull_off(double lambda) {
-  return turning_point(kDeepest, kPoint, [=](double s) { return maugis_point(lambda, s).dload_ds < 0.0; });
+  return turning_point(kDeepestPoint, kPoint, [=](double s) { return maugis_point(lambda, s).dload_ds < 0.0; });
 }
 
 double maugis_fixed_grips_end(double lambda) {
   // where d delta/dc = 0 for a zone without contact, if the contact gets so far
   const double zone_end = std::log(point_zone_radius(lambda) / (8.0 / (3.0 * pi) * lambda));
   if (zone_end > 0.0) return zone_end;
-  return turning_point(kDeepest, kPoint, [=](double s) { return maugis_point(lambda, s).dindentation_ds < 0.0; });
+  return turning_point(kDeepestPoint, kPoint, [=](double s) { return maugis_point(lambda, s).dindentation_ds < 0.0; });
 }
 
 double maugis_at_load(double lambda, double load) {
@@ -113,7 +113,7 @@ double maugis_at_load(double lambda, double load) {
     throw std::invalid_argument("load of " + std::to_string(load) + " pi W R tears the contact off, which holds " +
                                 std::to_string(least) + " pi W R");
   }
-  return turning_point(kDeepest, pull_off, [=](double s) { return maugis_point(lambda, s).load > load; });
+  return turning_point(kDeepestPoint, pull_off, [=](double s) { return maugis_point(lambda, s).load > load; });
 }
 
 MaugisUnits maugis_units(const AdhesiveContact& contact) noexcept {

@@ -19,6 +19,22 @@ struct ImageUse {
   constexpr ImageUse discarded() const { return {stages, access, vk::ImageLayout::eUndefined}; }
 };
 
+// The uses that several passes have.
+inline constexpr ImageUse kColorWritten{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+                                        vk::AccessFlagBits2::eColorAttachmentWrite,
+                                        vk::ImageLayout::eColorAttachmentOptimal};
+inline constexpr ImageUse kDepthTested{
+    vk::PipelineStageFlagBits2::eEarlyFragmentTests | vk::PipelineStageFlagBits2::eLateFragmentTests,
+    vk::AccessFlagBits2::eDepthStencilAttachmentRead | vk::AccessFlagBits2::eDepthStencilAttachmentWrite,
+    vk::ImageLayout::eDepthAttachmentOptimal};
+inline constexpr ImageUse kCopiedFrom{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferRead,
+                                      vk::ImageLayout::eTransferSrcOptimal};
+inline constexpr ImageUse kCopiedTo{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferWrite,
+                                    vk::ImageLayout::eTransferDstOptimal};
+
+inline constexpr auto kColorAspect = vk::ImageAspectFlagBits::eColor;
+inline constexpr auto kDepthAspect = vk::ImageAspectFlagBits::eDepth;
+
 struct LayerRange {
   std::uint32_t first = 0;
   std::uint32_t count = VK_REMAINING_ARRAY_LAYERS;

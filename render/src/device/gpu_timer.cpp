@@ -4,11 +4,11 @@
 namespace afm::render {
 namespace {
 
-constexpr std::uint32_t kMarks = 6;
+constexpr std::uint32_t kFrameMarks = 6;
 
 }  // namespace
 
-GpuTimer::GpuTimer(const Device& device) : stopwatch_(device, kMarks) {}
+GpuTimer::GpuTimer(const Device& device) : stopwatch_(device, kFrameMarks) {}
 
 void GpuTimer::mark(const vk::raii::CommandBuffer& command, Mark mark) const {
   if (mark == Mark::PanelsBegin || mark == Mark::ShadowBegin || mark == Mark::EyesBegin) {

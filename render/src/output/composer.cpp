@@ -17,18 +17,12 @@ namespace {
 
 using scene::EyeArrangement;
 
-constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
-constexpr ImageUse kDrawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-                          vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal};
-constexpr ImageUse kCopiedTo{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferWrite,
-                             vk::ImageLayout::eTransferDstOptimal};
-
 vk::DescriptorSetLayoutBinding binding(std::uint32_t index, vk::DescriptorType type) {
   return {
       .binding = index, .descriptorType = type, .descriptorCount = 1, .stageFlags = vk::ShaderStageFlagBits::eFragment};
 }
 
-vk::raii::DescriptorSetLayout create_set_layout(const Device& device) {
+vk::raii::DescriptorSetLayout create_composing_set_layout(const Device& device) {
   const std::array bindings{binding(AFM_BINDING_TEXTURE, vk::DescriptorType::eCombinedImageSampler),
                             binding(AFM_BINDING_LINEAR, vk::DescriptorType::eCombinedImageSampler),
                             binding(AFM_BINDING_ANAGLYPH, vk::DescriptorType::eUniformBuffer)};
@@ -36,7 +30,7 @@ vk::raii::DescriptorSetLayout create_set_layout(const Device& device) {
       *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
-vk::raii::DescriptorPool create_pool(const Device& device) {
+vk::raii::DescriptorPool create_composing_pool(const Device& device) {
   const std::array sizes{
       vk::DescriptorPoolSize{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2},
       vk::DescriptorPoolSize{.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = 1}};
@@ -112,7 +106,7 @@ bool is_exact(const EyeTargets& eyes, const Composition& composition, const Comp
 }
 
 // Of a pipeline for such a picture.
-std::uint32_t variant_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
+std::uint32_t composing_variant_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
   const bool mixed = scene::anaglyph_matrices(composition.mode).has_value();
   return (is_exact(eyes, composition, place) ? 0U : AFM_FEATURE_SCALED) | (mixed ? AFM_FEATURE_MIXED : 0U);
 }
@@ -146,7 +140,7 @@ vk::Pipeline ComposePipeline::get(std::uint32_t variant) {
 Composer::Composer(const Device& device, const EyeTargets& eyes)
     : device_(device),
       eyes_(eyes),
-      set_layout_(create_set_layout(device)),
+      set_layout_(create_composing_set_layout(device)),
       layout_(create_pipeline_layout(device, {.sets = {&*set_layout_, 1},
                                               .push_stages = vk::ShaderStageFlagBits::eFragment,
                                               .push_size = sizeof(ComposeBlock)})),
@@ -156,7 +150,7 @@ Composer::Composer(const Device& device, const EyeTargets& eyes)
                                               .addressModeU = vk::SamplerAddressMode::eClampToEdge,
                                               .addressModeV = vk::SamplerAddressMode::eClampToEdge}),
       anaglyphs_(upload_anaglyphs(device)),
-      pool_(create_pool(device)) {
+      pool_(create_composing_pool(device)) {
   set_ = std::move(vk::raii::DescriptorSets(
                        *device, {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &*set_layout_})
                        .front());
@@ -223,18 +217,18 @@ void Composer::copy(const vk::raii::CommandBuffer& command, const Composition& c
 void Composer::record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
                       const ComposePlace& place, const ComposeInto& into) const {
   if (into.takes_copies && shows_eyes_alone(eyes_, composition, place)) {
-    record_barriers(command, {image_barrier(into.image, kColor, into.before.discarded(), kCopiedTo)});
+    record_barriers(command, {image_barrier(into.image, kColorAspect, into.before.discarded(), kCopiedTo)});
     copy(command, composition, into);
-    record_barriers(command, {image_barrier(into.image, kColor, kCopiedTo, into.after)});
+    record_barriers(command, {image_barrier(into.image, kColorAspect, kCopiedTo, into.after)});
     return;
   }
-  const vk::Pipeline chosen = pipeline.get(variant_of(eyes_, composition, place));
+  const vk::Pipeline chosen = pipeline.get(composing_variant_of(eyes_, composition, place));
   const bool covered = place.area.extent == place.target;
-  record_barriers(command, {image_barrier(into.image, kColor, into.before.discarded(), kDrawn)});
+  record_barriers(command, {image_barrier(into.image, kColorAspect, into.before.discarded(), kColorWritten)});
   for (std::uint32_t i = 0; i < into.layers.size(); ++i) {
     const vk::RenderingAttachmentInfo color{
         .imageView = into.layers[i],
-        .imageLayout = kDrawn.layout,
+        .imageLayout = kColorWritten.layout,
         .loadOp = covered ? vk::AttachmentLoadOp::eDontCare : vk::AttachmentLoadOp::eClear,
         .storeOp = vk::AttachmentStoreOp::eStore,
         .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
@@ -245,7 +239,7 @@ void Composer::record(const vk::raii::CommandBuffer& command, ComposePipeline& p
     draw(command, chosen, composition, place, i);
     command.endRendering();
   }
-  record_barriers(command, {image_barrier(into.image, kColor, kDrawn, into.after)});
+  record_barriers(command, {image_barrier(into.image, kColorAspect, kColorWritten, into.after)});
 }
 
 void Composer::record(const vk::raii::CommandBuffer& command, const Composition& composition, const ReadArea& area,
@@ -260,14 +254,14 @@ void Composer::record(const vk::raii::CommandBuffer& command, const Composition&
                                  .usage = vk::ImageUsageFlagBits::eColorAttachment |
                                           vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
                                  .layers = count});
-    for (std::uint32_t i = 0; i < count; ++i) target.views[i] = create_view(device_, target.image, kColor, i, 1);
+    for (std::uint32_t i = 0; i < count; ++i) target.views[i] = create_view(device_, target.image, kColorAspect, i, 1);
   }
   const std::array layers{*target.views[0], *target.views[1]};
   record(command, pipeline_, composition, {.target = size, .area = {.extent = size}, .screen_px = area.screen_px},
          {.image = *target.image.image,
           .layers = std::span(layers).first(count),
-          .before = kCopied,
-          .after = kCopied,
+          .before = kCopiedFrom,
+          .after = kCopiedFrom,
           .takes_copies = true});
 }
 

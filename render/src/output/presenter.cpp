@@ -18,8 +18,7 @@
 namespace afm::render {
 namespace {
 
-constexpr std::uint64_t kTurnNs = 5'000'000;  // from one call of while_waiting to the next
-constexpr int kMostSurfacesLost = 20;         // one after the other
+constexpr int kMostSurfacesLost = 20;  // one after the other
 
 }  // namespace
 

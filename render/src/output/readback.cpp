@@ -46,9 +46,9 @@ Image read_back(const Device& device, vk::Image image, std::uint32_t layer, vk::
   const ImageUse shown{vk::PipelineStageFlagBits2::eAllCommands, vk::AccessFlagBits2::eNone,
                        vk::ImageLayout::eShaderReadOnlyOptimal};
   device.run_once([&](const vk::raii::CommandBuffer& command) {
-    record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, shown, kCopied)});
+    record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, shown, kCopiedFrom)});
     record_copy(command, image, layer, 1, extent, host);
-    record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, kCopied, shown)});
+    record_barriers(command, {image_barrier(image, vk::ImageAspectFlagBits::eColor, kCopiedFrom, shown)});
   });
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(host.mapped);
   return to_image({extent.width, extent.height, {bytes, bytes_of(extent)}, kOrder});

@@ -7,10 +7,6 @@
 
 namespace afm::render {
 
-// How an image is left and found by what copies it to the host.
-inline constexpr ImageUse kCopied{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferRead,
-                                  vk::ImageLayout::eTransferSrcOptimal};
-
 // All layers of an image of kEyeFormat in host memory, which is kept for the next one.
 class HostCopy {
  public:

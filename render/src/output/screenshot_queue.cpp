@@ -15,21 +15,20 @@
 #include "passes/renderer_parts.h"
 
 namespace afm::render {
-namespace {
 
-enum class Mark : std::uint32_t { Begin, Composed, Copied };
-constexpr std::uint32_t kMarks = 3;
+enum class QueueMark : std::uint32_t { Begin, Composed, Copied };
+constexpr std::uint32_t kPictureMarks = 3;
 
 // One picture on its way: composed into an image, copied to the host, written from there.
-struct Place {
-  Place(const Device& device, bool timed)
+struct QueuedPicture {
+  QueuedPicture(const Device& device, bool timed)
       : pool(*device, vk::CommandPoolCreateInfo{.queueFamilyIndex = device.queue_family()}),
         commands(std::move(
             vk::raii::CommandBuffers(
                 *device, {.commandPool = *pool, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1})
                 .front())),
         copied(*device, vk::FenceCreateInfo{}) {
-    if (timed && TimestampQueries::works_on(device)) clock.emplace(device, kMarks);
+    if (timed && TimestampQueries::works_on(device)) clock.emplace(device, kPictureMarks);
   }
 
   vk::raii::CommandPool pool;
@@ -41,8 +40,6 @@ struct Place {
   std::string path;
 };
 
-}  // namespace
-
 // In the order of creation.
 struct ScreenshotQueue::Parts {
   Parts(const Device& the_device, Renderer::Parts& the_renderer) : device(the_device), renderer(the_renderer) {
@@ -52,55 +49,55 @@ struct ScreenshotQueue::Parts {
   Parts& operator=(const Parts&) = delete;
   ~Parts() { device.wait_idle(); }
 
-  Place& place(std::size_t picture) { return places[picture % kMostPictures]; }
-  bool is_copied(const Place& place) const;
-  void mark(const Place& place, Mark mark) const;
-  void begin(Place& place, const Composition& composition, const ReadArea& area);
+  QueuedPicture& place(std::size_t picture) { return places[picture % kMostPictures]; }
+  bool is_copied(const QueuedPicture& place) const;
+  void mark(const QueuedPicture& place, QueueMark mark) const;
+  void begin(QueuedPicture& place, const Composition& composition, const ReadArea& area);
   void hand_on();
 
   const Device& device;
   Renderer::Parts& renderer;
-  std::vector<Place> places;
+  std::vector<QueuedPicture> places;
   PngWriter writer;
 
   // how many pictures have come so far; the places of those that are not written are in use
   std::size_t begun = 0, handed = 0, written = 0;
 };
 
-void ScreenshotQueue::Parts::mark(const Place& place, Mark mark) const {
+void ScreenshotQueue::Parts::mark(const QueuedPicture& place, QueueMark mark) const {
   if (!place.clock) return;
-  if (mark == Mark::Begin) place.clock->reset(place.commands, 0, kMarks);
+  if (mark == QueueMark::Begin) place.clock->reset(place.commands, 0, kPictureMarks);
   place.clock->mark(place.commands, static_cast<std::uint32_t>(mark));
 }
 
 // Does not wait.
-bool ScreenshotQueue::Parts::is_copied(const Place& place) const {
+bool ScreenshotQueue::Parts::is_copied(const QueuedPicture& place) const {
   return place.copied.getStatus() == vk::Result::eSuccess;
 }
 
-void ScreenshotQueue::Parts::begin(Place& place, const Composition& composition, const ReadArea& area) {
+void ScreenshotQueue::Parts::begin(QueuedPicture& place, const Composition& composition, const ReadArea& area) {
   device->resetFences(*place.copied);
   place.pool.reset();
   const auto& command = place.commands;
   command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-  mark(place, Mark::Begin);
+  mark(place, QueueMark::Begin);
   renderer.composer.record(command, composition, area, place.target);
-  mark(place, Mark::Composed);
+  mark(place, QueueMark::Composed);
   place.host.record(device, command, place.target.image);
-  mark(place, Mark::Copied);
+  mark(place, QueueMark::Copied);
   command.end();
   const vk::CommandBufferSubmitInfo submit{.commandBuffer = *command};
   device.queue().submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submit}, *place.copied);
 }
 
 void ScreenshotQueue::Parts::hand_on() {
-  Place& place = this->place(handed++);
+  QueuedPicture& place = this->place(handed++);
   if (place.clock) {
-    const auto between_ms = [&](Mark from, Mark to) {
+    const auto between_ms = [&](QueueMark from, QueueMark to) {
       return place.clock->between_ms(static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to));
     };
-    renderer.compose_ms = between_ms(Mark::Begin, Mark::Composed);
-    renderer.readback_ms = between_ms(Mark::Composed, Mark::Copied);
+    renderer.compose_ms = between_ms(QueueMark::Begin, QueueMark::Composed);
+    renderer.readback_ms = between_ms(QueueMark::Composed, QueueMark::Copied);
   }
   writer.write(place.host.picture(0), std::move(place.path));
 }
@@ -122,7 +119,7 @@ bool ScreenshotQueue::save(const Composition& composition, std::string path, con
   Parts& parts = *parts_;
   AFM_CHECK(parts.renderer.eyes_drawn && !scene::has_two_pictures(composition.mode));
   if (parts.begun - parts.written == kMostPictures) return false;
-  Place& place = parts.place(parts.begun);
+  QueuedPicture& place = parts.place(parts.begun);
   rethrow_as_device_failure(parts.device, "saving a picture", [&] { parts.begin(place, composition, area); });
   place.path = std::move(path);
   ++parts.begun;
@@ -144,7 +141,7 @@ std::vector<SavedPicture> ScreenshotQueue::finish() {
   Parts& parts = *parts_;
   rethrow_as_device_failure(parts.device, "saving a picture", [&] {
     while (parts.handed < parts.begun) {
-      const Place& place = parts.place(parts.handed);
+      const QueuedPicture& place = parts.place(parts.handed);
       AFM_CHECK(parts.device->waitForFences(*place.copied, VK_TRUE, std::numeric_limits<std::uint64_t>::max()) ==
                 vk::Result::eSuccess);
       parts.hand_on();

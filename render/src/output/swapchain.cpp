@@ -47,10 +47,10 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
     : layer_count_(layers) {
   const auto capabilities = device.physical().getSurfaceCapabilitiesKHR(surface);
   extent_ = choose_extent(capabilities, wanted);
-  constexpr auto kCopiedTo = vk::ImageUsageFlagBits::eTransferDst;
-  takes_copies_ = static_cast<bool>(capabilities.supportedUsageFlags & kCopiedTo);
+  constexpr auto kCopies = vk::ImageUsageFlagBits::eTransferDst;
+  takes_copies_ = static_cast<bool>(capabilities.supportedUsageFlags & kCopies);
   vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eColorAttachment;
-  if (takes_copies_) usage |= kCopiedTo;
+  if (takes_copies_) usage |= kCopies;
   swapchain_ =
       vk::raii::SwapchainKHR(*device, {.surface = surface,
                                        .minImageCount = choose_image_count(capabilities),

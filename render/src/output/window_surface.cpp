@@ -9,8 +9,7 @@
 namespace afm::render {
 namespace {
 
-constexpr std::uint64_t kTurnNs = 5'000'000;  // from one call of while_waiting to the next
-constexpr int kMostTurns = 40;                // how long a display may keep all its images before the loop goes on
+constexpr int kMostTurns = 40;  // how long a display may keep all its images before the loop goes on
 
 constexpr ImageUse kAcquired{kFilling, vk::AccessFlagBits2::eNone, vk::ImageLayout::eUndefined};
 constexpr ImageUse kPresented{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagBits2::eNone,

@@ -11,6 +11,8 @@
 
 namespace afm::render {
 
+inline constexpr std::uint64_t kTurnNs = 5'000'000;  // from one call of while_waiting to the next
+
 // What waits until an image that was acquired may be filled.
 inline constexpr auto kFilling = vk::PipelineStageFlagBits2::eColorAttachmentOutput | vk::PipelineStageFlagBits2::eCopy;
 

@@ -8,7 +8,7 @@
 namespace afm::render {
 namespace {
 
-constexpr double kMargin = 28.0;
+constexpr double kControlMargin = 28.0;
 constexpr double kTop = 124.0;  // below the title and the buttons beside it
 constexpr double kTallestRow = 104.0;
 constexpr double kTargetWidth = 88.0;
@@ -42,13 +42,13 @@ void paint_target(Canvas& canvas, const ControlBox& box, std::string_view text, 
 void paint_row(Canvas& canvas, const ControlPanel& panel, std::size_t row, double top, double pitch) {
   const ControlRow& content = panel.rows[row];
   const glm::dvec2 size(canvas.size_mm());
-  const auto room = static_cast<float>(size.x - 2.0 * kMargin - 2.0 * kTargetWidth - 2.0 * kGap);
+  const auto room = static_cast<float>(size.x - 2.0 * kControlMargin - 2.0 * kTargetWidth - 2.0 * kGap);
   const auto y = static_cast<float>(top + 0.5 * (pitch - 84.0));
-  canvas.fitted_text({kMargin, y}, TextStyle::Body, palette::kMuted, content.name, room);
+  canvas.fitted_text({kControlMargin, y}, TextStyle::Body, palette::kMuted, content.name, room);
   const float scale =
       std::min(kValueScale, room / std::max(canvas.text_width_mm(TextStyle::Title, content.value), 1.0F));
-  canvas.text({kMargin, y + 36.0F}, TextStyle::Title, content.changed ? palette::kOrange : palette::kInk, content.value,
-              Align::Left, scale);
+  canvas.text({kControlMargin, y + 36.0F}, TextStyle::Title, content.changed ? palette::kOrange : palette::kInk,
+              content.value, Align::Left, scale);
   for (const auto kind : {ControlTarget::Kind::Less, ControlTarget::Kind::More}) {
     const ControlTarget target{kind, row};
     paint_target(canvas, control_box(panel, size, target), kind == ControlTarget::Kind::Less ? "\u2212" : "+",
@@ -61,12 +61,13 @@ void paint_row(Canvas& canvas, const ControlPanel& panel, std::size_t row, doubl
 ControlBox control_box(const ControlPanel& panel, const glm::dvec2& size_mm, const ControlTarget& target) {
   if (target.kind == ControlTarget::Kind::Button) {
     const auto from_right = static_cast<double>(panel.buttons.size() - target.index);
-    const double left = size_mm.x - kMargin + kGap - from_right * (kButtonWidth + kGap);
+    const double left = size_mm.x - kControlMargin + kGap - from_right * (kButtonWidth + kGap);
     return {{left, 2.0 * kGap}, {left + kButtonWidth, kTop - kGap}};
   }
   const double pitch = row_pitch(panel, size_mm.y);
   const double top = kTop + pitch * static_cast<double>(target.index) + 0.5 * kGap;
-  const double right = size_mm.x - kMargin - (target.kind == ControlTarget::Kind::Less ? kTargetWidth + kGap : 0.0);
+  const double right =
+      size_mm.x - kControlMargin - (target.kind == ControlTarget::Kind::Less ? kTargetWidth + kGap : 0.0);
   return {{right - kTargetWidth, top}, {right, top + pitch - kGap}};
 }
 
@@ -92,18 +93,18 @@ std::optional<ControlTarget> control_at(const ControlPanel& panel, const glm::dv
 void paint(Canvas& canvas, const ControlPanel& panel) {
   canvas.panel_background();
   const glm::dvec2 size(canvas.size_mm());
-  const auto width = static_cast<float>(size.x - 2.0 * kMargin);
+  const auto width = static_cast<float>(size.x - 2.0 * kControlMargin);
   const float beside = static_cast<float>(static_cast<double>(panel.buttons.size()) * (kButtonWidth + kGap));
-  canvas.fitted_text({kMargin, 34.0F}, TextStyle::Title, palette::kInk, panel.title, width - beside);
+  canvas.fitted_text({kControlMargin, 34.0F}, TextStyle::Title, palette::kInk, panel.title, width - beside);
   const double pitch = row_pitch(panel, size.y);
   for (std::size_t row = 0; row < panel.rows.size(); ++row) {
     paint_row(canvas, panel, row, kTop + pitch * static_cast<double>(row), pitch);
   }
   double y = kTop + pitch * static_cast<double>(panel.rows.size()) + kGap;
-  canvas.fitted_text({kMargin, static_cast<float>(y)}, TextStyle::Body, palette::kYellow, panel.status, width);
+  canvas.fitted_text({kControlMargin, static_cast<float>(y)}, TextStyle::Body, palette::kYellow, panel.status, width);
   for (const std::string& note : panel.notes) {
     y += kNoteHeight;
-    canvas.fitted_text({kMargin, static_cast<float>(y)}, TextStyle::Body, palette::kInk, note, width);
+    canvas.fitted_text({kControlMargin, static_cast<float>(y)}, TextStyle::Body, palette::kInk, note, width);
   }
   for (std::size_t button = 0; button < panel.buttons.size(); ++button) {
     const ControlTarget target{ControlTarget::Kind::Button, button};

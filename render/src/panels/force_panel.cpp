@@ -10,7 +10,6 @@
 namespace afm::render {
 namespace {
 
-constexpr float kMargin = 34.0F;
 constexpr float kColumn = 1.0F;  // a third of a pixel at 960 pixels on a wall of 3 m
 constexpr float kRetractWidth = 7.0F;
 constexpr float kApproachWidth = 4.5F;

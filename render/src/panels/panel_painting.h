@@ -6,6 +6,8 @@
 
 namespace afm::render {
 
+inline constexpr float kMargin = 34.0F;  // mm, of texts and plots
+
 void paint(Canvas& canvas, const ForcePanel& panel);
 void paint(Canvas& canvas, const DataPanel& panel);
 void paint(Canvas& canvas, const Banner& banner);

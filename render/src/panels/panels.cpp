@@ -22,12 +22,12 @@ namespace {
 
 constexpr vk::Format kTextureFormat = vk::Format::eR8G8B8A8Unorm;
 constexpr double kLargestTexture = 4096.0;
-constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
 
 const Label kNoLabel{.text = {}, .highlighted = false, .placement = kNoPlacement};
 
-constexpr std::array<vk::VertexInputBindingDescription, 1> kBindings{{{.binding = 0, .stride = sizeof(ImDrawVert)}}};
-constexpr std::array<vk::VertexInputAttributeDescription, 3> kAttributes{
+constexpr std::array<vk::VertexInputBindingDescription, 1> kPanelBindings{
+    {{.binding = 0, .stride = sizeof(ImDrawVert)}}};
+constexpr std::array<vk::VertexInputAttributeDescription, 3> kPanelAttributes{
     {{.location = 0, .format = vk::Format::eR32G32Sfloat, .offset = offsetof(ImDrawVert, pos)},
      {.location = 1, .format = vk::Format::eR32G32Sfloat, .offset = offsetof(ImDrawVert, uv)},
      {.location = 2, .format = vk::Format::eR8G8B8A8Unorm, .offset = offsetof(ImDrawVert, col)}}};
@@ -45,8 +45,8 @@ vk::raii::Pipeline create_canvas_pipeline(const Device& device, vk::PipelineLayo
                                   .vertex_code = shaders::canvas_vert,
                                   .fragment_code = shaders::canvas_frag,
                                   .layout = layout,
-                                  .bindings = kBindings,
-                                  .attributes = kAttributes,
+                                  .bindings = kPanelBindings,
+                                  .attributes = kPanelAttributes,
                                   .color_format = kTextureFormat,
                                   .blending = Blending::Premultiplied});
 }
@@ -143,13 +143,13 @@ void Panels::upload_atlas() {
   const ImageUse sampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
                          vk::ImageLayout::eShaderReadOnlyOptimal};
   device_.run_once([&](const vk::raii::CommandBuffer& command) {
-    record_barriers(command, {image_barrier(*atlas_.image, kColor, fresh, copied)});
+    record_barriers(command, {image_barrier(*atlas_.image, kColorAspect, fresh, copied)});
     command.copyBufferToImage(*staging.buffer, *atlas_.image, copied.layout,
-                              vk::BufferImageCopy{.imageSubresource = {.aspectMask = kColor, .layerCount = 1},
+                              vk::BufferImageCopy{.imageSubresource = {.aspectMask = kColorAspect, .layerCount = 1},
                                                   .imageExtent = {extent.width, extent.height, 1}});
-    record_barriers(command, {image_barrier(*atlas_.image, kColor, copied, sampled)});
+    record_barriers(command, {image_barrier(*atlas_.image, kColorAspect, copied, sampled)});
   });
-  atlas_view_ = create_view(device_, atlas_, kColor, 0, 1);
+  atlas_view_ = create_view(device_, atlas_, kColorAspect, 0, 1);
   atlas_pool_ = create_pool();
   atlas_set_ = create_set(atlas_pool_, *atlas_view_);
 }
@@ -182,7 +182,7 @@ Panels::Texture Panels::create_texture(vk::Extent2D extent) const {
                                {.format = kTextureFormat,
                                 .extent = extent,
                                 .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
-  texture.view = create_view(device_, texture.image, kColor, 0, 1);
+  texture.view = create_view(device_, texture.image, kColorAspect, 0, 1);
   texture.pool = create_pool();
   texture.set = create_set(texture.pool, *texture.view);
   return texture;
@@ -299,7 +299,7 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
                        vk::ImageLayout::eColorAttachmentOptimal};
   const ImageUse sampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
                          vk::ImageLayout::eShaderReadOnlyOptimal};
-  record_barriers(command, {image_barrier(*panel.texture.image.image, kColor, discarded, drawn)});
+  record_barriers(command, {image_barrier(*panel.texture.image.image, kColorAspect, discarded, drawn)});
   const vk::RenderingAttachmentInfo color{.imageView = *panel.texture.view,
                                           .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
                                           .loadOp = vk::AttachmentLoadOp::eClear,
@@ -327,7 +327,7 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
                         static_cast<std::int32_t>(painting.first_vertex + draw.VtxOffset), 0);
   }
   command.endRendering();
-  record_barriers(command, {image_barrier(*panel.texture.image.image, kColor, drawn, sampled)});
+  record_barriers(command, {image_barrier(*panel.texture.image.image, kColorAspect, drawn, sampled)});
 }
 
 void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,

@@ -9,8 +9,6 @@
 namespace afm::render {
 namespace {
 
-constexpr float kMargin = 34.0F;
-
 void paint_shape(Canvas& canvas, StateShape shape, glm::vec2 c, float r, Color color) {
   switch (shape) {
     case StateShape::Circle:

@@ -26,7 +26,7 @@ struct DepthBits {
   std::uint32_t greatest = 0;
 };
 
-vk::raii::DescriptorSetLayout create_set_layout(const Device& device) {
+vk::raii::DescriptorSetLayout create_range_set_layout(const Device& device) {
   const auto binding = [](std::uint32_t index, vk::DescriptorType type) {
     return vk::DescriptorSetLayoutBinding{.binding = index,
                                           .descriptorType = type,
@@ -40,7 +40,7 @@ vk::raii::DescriptorSetLayout create_set_layout(const Device& device) {
       *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
-vk::raii::DescriptorPool create_pool(const Device& device) {
+vk::raii::DescriptorPool create_range_pool(const Device& device) {
   const std::array sizes{
       vk::DescriptorPoolSize{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2},
       vk::DescriptorPoolSize{.type = vk::DescriptorType::eStorageBuffer, .descriptorCount = 1}};
@@ -72,7 +72,7 @@ struct DepthMeter::Parts {
   Parts(const Device& the_device, Renderer& the_renderer)
       : device(the_device),
         renderer(the_renderer),
-        set_layout(create_set_layout(device)),
+        set_layout(create_range_set_layout(device)),
         layout(create_pipeline_layout(device, {.sets = {&*set_layout, 1},
                                                .push_stages = vk::ShaderStageFlagBits::eCompute,
                                                .push_size = sizeof(glm::ivec4)})),
@@ -80,7 +80,7 @@ struct DepthMeter::Parts {
         sampler(*device, vk::SamplerCreateInfo{.addressModeU = vk::SamplerAddressMode::eClampToEdge,
                                                .addressModeV = vk::SamplerAddressMode::eClampToEdge}),
         range(create_host_buffer(device, "depth range", sizeof(DepthBits), vk::BufferUsageFlagBits::eStorageBuffer)),
-        pool(create_pool(device)),
+        pool(create_range_pool(device)),
         commands_pool(*device, vk::CommandPoolCreateInfo{.queueFamilyIndex = device.queue_family()}),
         commands(std::move(vk::raii::CommandBuffers(*device, {.commandPool = *commands_pool,
                                                               .level = vk::CommandBufferLevel::ePrimary,

@@ -10,27 +10,14 @@
 namespace afm::render {
 namespace {
 
-constexpr ImageUse kColorWritten{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-                                 vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal};
-constexpr ImageUse kDepthTested{
-    vk::PipelineStageFlagBits2::eEarlyFragmentTests | vk::PipelineStageFlagBits2::eLateFragmentTests,
-    vk::AccessFlagBits2::eDepthStencilAttachmentRead | vk::AccessFlagBits2::eDepthStencilAttachmentWrite,
-    vk::ImageLayout::eDepthAttachmentOptimal};
 // a resolve writes depth, too, in the stage and with the access of colour
 constexpr ImageUse kDepthResolved{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
                                   vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eDepthAttachmentOptimal};
 
 // The eyes' colour and depth between frames: composed, measured or copied by whoever asks.
-constexpr ImageUse kRead{vk::PipelineStageFlagBits2::eFragmentShader | vk::PipelineStageFlagBits2::eCopy,
-                         vk::AccessFlagBits2::eShaderSampledRead | vk::AccessFlagBits2::eTransferRead,
-                         vk::ImageLayout::eShaderReadOnlyOptimal};
-constexpr ImageUse kCopiedFrom{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferRead,
-                               vk::ImageLayout::eTransferSrcOptimal};
-constexpr ImageUse kCopiedTo{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferWrite,
-                             vk::ImageLayout::eTransferDstOptimal};
-
-constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
-constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
+constexpr ImageUse kEyesRead{vk::PipelineStageFlagBits2::eFragmentShader | vk::PipelineStageFlagBits2::eCopy,
+                             vk::AccessFlagBits2::eShaderSampledRead | vk::AccessFlagBits2::eTransferRead,
+                             vk::ImageLayout::eShaderReadOnlyOptimal};
 
 // Objects may reach this many half screens beyond the screen's middle.
 constexpr float kLargestGuardBand = 8.0F;
@@ -58,7 +45,7 @@ EyeTargets::EyeTargets(const Device& device, const RendererOptions& options)
 EyeTargets::Target EyeTargets::create_target(const char* name, vk::Format format, std::uint32_t layers) const {
   using Usage = vk::ImageUsageFlagBits;
   const bool is_depth = format == kDepthFormat;
-  const auto aspect = is_depth ? kDepth : kColor;
+  const auto aspect = is_depth ? kDepthAspect : kColorAspect;
   Target target;
   target.image = create_image(*device_, name,
                               {.format = format,
@@ -84,11 +71,11 @@ EyeTargets::Multisampled EyeTargets::create_multisampled(std::uint32_t layers) c
                        .samples = drawing_.samples};
   Multisampled made;
   made.color = create_image(*device_, "eyes multisampled", request);
-  made.color_view = create_view(*device_, made.color, kColor, 0, layers);
+  made.color_view = create_view(*device_, made.color, kColorAspect, 0, layers);
   request.format = kDepthFormat;
   request.usage = Usage::eDepthStencilAttachment | Usage::eTransientAttachment;
   made.depth = create_image(*device_, "eyes multisampled depth", request);
-  made.depth_view = create_view(*device_, made.depth, kDepth, 0, layers);
+  made.depth_view = create_view(*device_, made.depth, kDepthAspect, 0, layers);
   return made;
 }
 
@@ -129,13 +116,14 @@ void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass)
                                     .loadOp = vk::AttachmentLoadOp::eClear,
                                     .storeOp = vk::AttachmentStoreOp::eStore,
                                     .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};
-  record_barriers(command, {image_barrier(*to.color.image.image, kColor, kRead.discarded(), kColorWritten, to.layers),
-                            image_barrier(*to.depth.image.image, kDepth, kRead.discarded(),
-                                          resolves() ? kDepthResolved : kDepthTested, to.layers)});
+  record_barriers(command,
+                  {image_barrier(*to.color.image.image, kColorAspect, kEyesRead.discarded(), kColorWritten, to.layers),
+                   image_barrier(*to.depth.image.image, kDepthAspect, kEyesRead.discarded(),
+                                 resolves() ? kDepthResolved : kDepthTested, to.layers)});
   if (resolves()) {
     const Multisampled& drawn = multisampled();
-    record_barriers(command, {image_barrier(*drawn.color.image, kColor, kColorWritten.discarded(), kColorWritten),
-                              image_barrier(*drawn.depth.image, kDepth, kDepthTested.discarded(), kDepthTested)});
+    record_barriers(command, {image_barrier(*drawn.color.image, kColorAspect, kColorWritten.discarded(), kColorWritten),
+                              image_barrier(*drawn.depth.image, kDepthAspect, kDepthTested.discarded(), kDepthTested)});
     resolve(color, *drawn.color_view, vk::ResolveModeFlagBits::eAverage);
     resolve(depth, *drawn.depth_view, vk::ResolveModeFlagBits::eSampleZero);
   }
@@ -151,9 +139,9 @@ void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass)
 void EyeTargets::end(const vk::raii::CommandBuffer& command, std::size_t pass) const {
   const Filled to = filled(pass);
   command.endRendering();
-  record_barriers(command, {image_barrier(*to.color.image.image, kColor, kColorWritten, kRead, to.layers),
-                            image_barrier(*to.depth.image.image, kDepth, resolves() ? kDepthResolved : kDepthTested,
-                                          kRead, to.layers)});
+  record_barriers(command, {image_barrier(*to.color.image.image, kColorAspect, kColorWritten, kEyesRead, to.layers),
+                            image_barrier(*to.depth.image.image, kDepthAspect,
+                                          resolves() ? kDepthResolved : kDepthTested, kEyesRead, to.layers)});
   if (copies(pass)) {
     copy_second(command);
   }
@@ -162,33 +150,34 @@ void EyeTargets::end(const vk::raii::CommandBuffer& command, std::size_t pass) c
 void EyeTargets::copy_second(const vk::raii::CommandBuffer& command) const {
   const LayerRange second{1, 1};
   const auto copy = [&](const Target& from, const Target& to, vk::ImageAspectFlags aspect) {
-    record_barriers(command, {image_barrier(*from.image.image, aspect, kRead, kCopiedFrom),
-                              image_barrier(*to.image.image, aspect, kRead.discarded(), kCopiedTo, second)});
+    record_barriers(command, {image_barrier(*from.image.image, aspect, kEyesRead, kCopiedFrom),
+                              image_barrier(*to.image.image, aspect, kEyesRead.discarded(), kCopiedTo, second)});
     const vk::ImageCopy region{.srcSubresource = {.aspectMask = aspect, .baseArrayLayer = 0, .layerCount = 1},
                                .dstSubresource = {.aspectMask = aspect, .baseArrayLayer = 1, .layerCount = 1},
                                .extent = {drawing_.extent.width, drawing_.extent.height, 1}};
     command.copyImage(*from.image.image, kCopiedFrom.layout, *to.image.image, kCopiedTo.layout, region);
-    record_barriers(command, {image_barrier(*to.image.image, aspect, kCopiedTo, kRead, second)});
+    record_barriers(command, {image_barrier(*to.image.image, aspect, kCopiedTo, kEyesRead, second)});
   };
-  copy(second_color_, color_, kColor);
-  copy(second_depth_, depth_, kDepth);
+  copy(second_color_, color_, kColorAspect);
+  copy(second_depth_, depth_, kDepthAspect);
 }
 
 void EyeTargets::begin_copies(const vk::raii::CommandBuffer& command) const {
-  record_barriers(command, {image_barrier(*color_.image.image, kColor, kRead, kCopiedFrom)});
+  record_barriers(command, {image_barrier(*color_.image.image, kColorAspect, kEyesRead, kCopiedFrom)});
 }
 
 void EyeTargets::copy(const vk::raii::CommandBuffer& command, scene::Eye eye, vk::Image to, std::uint32_t to_layer,
                       vk::Offset2D place) const {
-  const vk::ImageCopy region{.srcSubresource = {.aspectMask = kColor, .baseArrayLayer = layer(eye), .layerCount = 1},
-                             .dstSubresource = {.aspectMask = kColor, .baseArrayLayer = to_layer, .layerCount = 1},
-                             .dstOffset = {place.x, place.y, 0},
-                             .extent = {extent_.width, extent_.height, 1}};
+  const vk::ImageCopy region{
+      .srcSubresource = {.aspectMask = kColorAspect, .baseArrayLayer = layer(eye), .layerCount = 1},
+      .dstSubresource = {.aspectMask = kColorAspect, .baseArrayLayer = to_layer, .layerCount = 1},
+      .dstOffset = {place.x, place.y, 0},
+      .extent = {extent_.width, extent_.height, 1}};
   command.copyImage(*color_.image.image, kCopiedFrom.layout, to, vk::ImageLayout::eTransferDstOptimal, region);
 }
 
 void EyeTargets::end_copies(const vk::raii::CommandBuffer& command) const {
-  record_barriers(command, {image_barrier(*color_.image.image, kColor, kCopiedFrom, kRead)});
+  record_barriers(command, {image_barrier(*color_.image.image, kColorAspect, kCopiedFrom, kEyesRead)});
 }
 
 EyeTargets::EyeImage EyeTargets::eye(scene::Eye eye) const {

@@ -8,9 +8,7 @@
 namespace afm::render {
 namespace {
 
-constexpr auto kUniform = vk::DescriptorType::eUniformBuffer;
 constexpr auto kDynamicUniform = vk::DescriptorType::eUniformBufferDynamic;
-constexpr auto kSampled = vk::DescriptorType::eCombinedImageSampler;
 
 constexpr std::uint32_t kMostPasses = 2;
 
@@ -20,10 +18,11 @@ std::uint32_t aligned_stride(const Device& device, std::size_t size) {
   return static_cast<std::uint32_t>((size + alignment - 1) / alignment * alignment);
 }
 
-vk::raii::DescriptorPool create_pool(const Device& device, std::uint32_t sets) {
-  const std::array sizes{vk::DescriptorPoolSize{.type = kUniform, .descriptorCount = sets},
-                         vk::DescriptorPoolSize{.type = kDynamicUniform, .descriptorCount = sets},
-                         vk::DescriptorPoolSize{.type = kSampled, .descriptorCount = sets}};
+vk::raii::DescriptorPool create_frame_pool(const Device& device, std::uint32_t sets) {
+  const std::array sizes{
+      vk::DescriptorPoolSize{.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = sets},
+      vk::DescriptorPoolSize{.type = kDynamicUniform, .descriptorCount = sets},
+      vk::DescriptorPoolSize{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = sets}};
   return vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                             .maxSets = sets,
                                             .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
@@ -36,7 +35,7 @@ void write_uniforms(const Device& device, vk::DescriptorSet set, const Buffer& u
   const std::array writes{vk::WriteDescriptorSet{.dstSet = set,
                                                  .dstBinding = AFM_BINDING_FRAME,
                                                  .descriptorCount = 1,
-                                                 .descriptorType = kUniform,
+                                                 .descriptorType = vk::DescriptorType::eUniformBuffer,
                                                  .pBufferInfo = &uniform_info},
                           vk::WriteDescriptorSet{.dstSet = set,
                                                  .dstBinding = AFM_BINDING_DRAW,
@@ -51,7 +50,7 @@ void write_shadow_map(const Device& device, vk::DescriptorSet set, const ShadowM
   device->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
                                                       .dstBinding = AFM_BINDING_SHADOW,
                                                       .descriptorCount = 1,
-                                                      .descriptorType = kSampled,
+                                                      .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                                       .pImageInfo = &shadow_info},
                                nullptr);
 }
@@ -61,11 +60,16 @@ void write_shadow_map(const Device& device, vk::DescriptorSet set, const ShadowM
 vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowMapUse use) {
   const auto both = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
   std::vector<vk::DescriptorSetLayoutBinding> bindings{
-      {.binding = AFM_BINDING_FRAME, .descriptorType = kUniform, .descriptorCount = 1, .stageFlags = both},
+      {.binding = AFM_BINDING_FRAME,
+       .descriptorType = vk::DescriptorType::eUniformBuffer,
+       .descriptorCount = 1,
+       .stageFlags = both},
       {.binding = AFM_BINDING_DRAW, .descriptorType = kDynamicUniform, .descriptorCount = 1, .stageFlags = both}};
   if (use == ShadowMapUse::Read) {
-    bindings.push_back(
-        {.binding = AFM_BINDING_SHADOW, .descriptorType = kSampled, .descriptorCount = 1, .stageFlags = both});
+    bindings.push_back({.binding = AFM_BINDING_SHADOW,
+                        .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                        .descriptorCount = 1,
+                        .stageFlags = both});
   }
   return vk::raii::DescriptorSetLayout(
       *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
@@ -79,7 +83,7 @@ FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::D
       draw_stride_(aligned_stride(device, sizeof(DrawBlock))),
       draw_blocks_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * draw_stride_,
                                       vk::BufferUsageFlagBits::eUniformBuffer)),
-      descriptor_pool_(create_pool(device, kMostPasses + 1)) {
+      descriptor_pool_(create_frame_pool(device, kMostPasses + 1)) {
   const auto allocate = [&](vk::DescriptorSetLayout of) {
     return std::move(vk::raii::DescriptorSets(
                          *device, {.descriptorPool = *descriptor_pool_, .descriptorSetCount = 1, .pSetLayouts = &of})

@@ -13,9 +13,6 @@
 namespace afm::render {
 namespace {
 
-constexpr auto kUniform = vk::DescriptorType::eUniformBuffer;
-constexpr auto kSampled = vk::DescriptorType::eCombinedImageSampler;
-
 // The uniform block of material.frag: the fields that it reads, a vec4 each, then two rows of each texture's transform.
 constexpr std::size_t kFields = [] {
   std::size_t count = 0;
@@ -26,11 +23,11 @@ using MaterialBlock = std::array<glm::vec4, kFields + 2 * scene::kTextureSlots>;
 
 vk::raii::DescriptorSetLayout create_layout(const Device& device) {
   const std::array bindings{vk::DescriptorSetLayoutBinding{.binding = AFM_BINDING_MATERIAL,
-                                                           .descriptorType = kUniform,
+                                                           .descriptorType = vk::DescriptorType::eUniformBuffer,
                                                            .descriptorCount = 1,
                                                            .stageFlags = vk::ShaderStageFlagBits::eFragment},
                             vk::DescriptorSetLayoutBinding{.binding = AFM_BINDING_TEXTURES,
-                                                           .descriptorType = kSampled,
+                                                           .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                                            .descriptorCount = scene::kTextureSlots,
                                                            .stageFlags = vk::ShaderStageFlagBits::eFragment}};
   return vk::raii::DescriptorSetLayout(
@@ -75,8 +72,8 @@ SceneMaterials::SceneMaterials(const Device& device, const scene::Scene& scene)
   const vk::DeviceSize stride = (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
   blocks_ = create_host_buffer(device, "materials", count * stride, vk::BufferUsageFlagBits::eUniformBuffer);
   const std::array sizes{
-      vk::DescriptorPoolSize{.type = kUniform, .descriptorCount = count},
-      vk::DescriptorPoolSize{.type = kSampled,
+      vk::DescriptorPoolSize{.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = count},
+      vk::DescriptorPoolSize{.type = vk::DescriptorType::eCombinedImageSampler,
                              .descriptorCount = count * static_cast<std::uint32_t>(scene::kTextureSlots)}};
   pool_ = vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                              .maxSets = count,
@@ -105,12 +102,12 @@ void SceneMaterials::write_set(const Device& device, const scene::PbrMaterial& m
   const std::array writes{vk::WriteDescriptorSet{.dstSet = *sets_[index],
                                                  .dstBinding = AFM_BINDING_MATERIAL,
                                                  .descriptorCount = 1,
-                                                 .descriptorType = kUniform,
+                                                 .descriptorType = vk::DescriptorType::eUniformBuffer,
                                                  .pBufferInfo = &block},
                           vk::WriteDescriptorSet{.dstSet = *sets_[index],
                                                  .dstBinding = AFM_BINDING_TEXTURES,
                                                  .descriptorCount = static_cast<std::uint32_t>(images.size()),
-                                                 .descriptorType = kSampled,
+                                                 .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                                  .pImageInfo = images.data()}};
   device->updateDescriptorSets(writes, nullptr);
 }

@@ -10,18 +10,18 @@
 namespace afm::render {
 namespace {
 
-constexpr ImageUse kNothing{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagBits2::eNone, vk::ImageLayout::eUndefined};
-constexpr ImageUse kWritten{vk::PipelineStageFlagBits2::eAllTransfer, vk::AccessFlagBits2::eTransferWrite,
-                            vk::ImageLayout::eTransferDstOptimal};
-constexpr ImageUse kRead{vk::PipelineStageFlagBits2::eAllTransfer, vk::AccessFlagBits2::eTransferRead,
-                         vk::ImageLayout::eTransferSrcOptimal};
-constexpr ImageUse kSampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
-                            vk::ImageLayout::eShaderReadOnlyOptimal};
-constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
+constexpr ImageUse kLevelUnused{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagBits2::eNone,
+                                vk::ImageLayout::eUndefined};
+constexpr ImageUse kLevelWritten{vk::PipelineStageFlagBits2::eAllTransfer, vk::AccessFlagBits2::eTransferWrite,
+                                 vk::ImageLayout::eTransferDstOptimal};
+constexpr ImageUse kLevelRead{vk::PipelineStageFlagBits2::eAllTransfer, vk::AccessFlagBits2::eTransferRead,
+                              vk::ImageLayout::eTransferSrcOptimal};
+constexpr ImageUse kTextureSampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
+                                   vk::ImageLayout::eShaderReadOnlyOptimal};
 
 vk::ImageMemoryBarrier2 level_barrier(vk::Image image, std::uint32_t level, const ImageUse& before,
                                       const ImageUse& after) {
-  auto barrier = image_barrier(image, kColor, before, after);
+  auto barrier = image_barrier(image, kColorAspect, before, after);
   barrier.subresourceRange.baseMipLevel = level;
   barrier.subresourceRange.levelCount = 1;
   return barrier;
@@ -35,16 +35,16 @@ vk::Offset3D corner(vk::Extent2D extent, std::uint32_t level) {
 // Each level from the one above it; blits of an sRGB image average light, not codes.
 void record_mipmaps(const vk::raii::CommandBuffer& command, const DeviceImage& image, std::uint32_t levels) {
   for (std::uint32_t level = 1; level < levels; ++level) {
-    record_barriers(command, {level_barrier(*image.image, level - 1, kWritten, kRead)});
-    vk::ImageBlit blit{.srcSubresource = {.aspectMask = kColor, .mipLevel = level - 1, .layerCount = 1},
-                       .dstSubresource = {.aspectMask = kColor, .mipLevel = level, .layerCount = 1}};
+    record_barriers(command, {level_barrier(*image.image, level - 1, kLevelWritten, kLevelRead)});
+    vk::ImageBlit blit{.srcSubresource = {.aspectMask = kColorAspect, .mipLevel = level - 1, .layerCount = 1},
+                       .dstSubresource = {.aspectMask = kColorAspect, .mipLevel = level, .layerCount = 1}};
     blit.srcOffsets[1] = corner(image.extent, level - 1);
     blit.dstOffsets[1] = corner(image.extent, level);
     command.blitImage(*image.image, vk::ImageLayout::eTransferSrcOptimal, *image.image,
                       vk::ImageLayout::eTransferDstOptimal, blit, vk::Filter::eLinear);
-    record_barriers(command, {level_barrier(*image.image, level - 1, kRead, kSampled)});
+    record_barriers(command, {level_barrier(*image.image, level - 1, kLevelRead, kTextureSampled)});
   }
-  record_barriers(command, {level_barrier(*image.image, levels - 1, kWritten, kSampled)});
+  record_barriers(command, {level_barrier(*image.image, levels - 1, kLevelWritten, kTextureSampled)});
 }
 
 vk::Filter filter(scene::TextureFilter wanted) {
@@ -84,15 +84,15 @@ SceneTextures::Uploaded SceneTextures::upload(const Device& device, const scene:
                                  .extent = {image.width, image.height},
                                  .usage = Usage::eTransferDst | Usage::eTransferSrc | Usage::eSampled,
                                  .mip_levels = levels});
-  uploaded.view = create_view(device, uploaded.image, kColor, 0, 1);
+  uploaded.view = create_view(device, uploaded.image, kColorAspect, 0, 1);
   const Buffer staging =
       create_host_buffer(device, "texture staging", image.rgba.size(), vk::BufferUsageFlagBits::eTransferSrc);
   std::memcpy(staging.mapped, image.rgba.data(), image.rgba.size());
   device.run_once([&](const vk::raii::CommandBuffer& command) {
-    record_barriers(command, {image_barrier(*uploaded.image.image, kColor, kNothing, kWritten)});
+    record_barriers(command, {image_barrier(*uploaded.image.image, kColorAspect, kLevelUnused, kLevelWritten)});
     command.copyBufferToImage(
         *staging.buffer, *uploaded.image.image, vk::ImageLayout::eTransferDstOptimal,
-        vk::BufferImageCopy{.imageSubresource = {.aspectMask = kColor, .mipLevel = 0, .layerCount = 1},
+        vk::BufferImageCopy{.imageSubresource = {.aspectMask = kColorAspect, .mipLevel = 0, .layerCount = 1},
                             .imageExtent = {image.width, image.height, 1}});
     record_mipmaps(command, uploaded.image, levels);
   });

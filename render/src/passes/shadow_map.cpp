@@ -9,19 +9,10 @@
 namespace afm::render {
 namespace {
 
-constexpr ImageUse kSampled{vk::PipelineStageFlagBits2::eVertexShader | vk::PipelineStageFlagBits2::eFragmentShader,
-                            vk::AccessFlagBits2::eShaderSampledRead, vk::ImageLayout::eShaderReadOnlyOptimal};
-constexpr ImageUse kDrawn{
-    vk::PipelineStageFlagBits2::eEarlyFragmentTests | vk::PipelineStageFlagBits2::eLateFragmentTests,
-    vk::AccessFlagBits2::eDepthStencilAttachmentRead | vk::AccessFlagBits2::eDepthStencilAttachmentWrite,
-    vk::ImageLayout::eDepthAttachmentOptimal};
+constexpr ImageUse kShadowSampled{
+    vk::PipelineStageFlagBits2::eVertexShader | vk::PipelineStageFlagBits2::eFragmentShader,
+    vk::AccessFlagBits2::eShaderSampledRead, vk::ImageLayout::eShaderReadOnlyOptimal};
 
-constexpr ImageUse kCopiedFrom{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferRead,
-                               vk::ImageLayout::eTransferSrcOptimal};
-constexpr ImageUse kCopiedTo{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferWrite,
-                             vk::ImageLayout::eTransferDstOptimal};
-
-constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
 constexpr vk::Extent2D kSize{kShadowMapSize, kShadowMapSize};
 
 DeviceImage create_map(const Device& device, const char* name, vk::ImageUsageFlags usage) {
@@ -32,7 +23,7 @@ DeviceImage create_map(const Device& device, const char* name, vk::ImageUsageFla
 
 void begin_drawing(const vk::raii::CommandBuffer& command, vk::ImageView view, vk::AttachmentLoadOp before) {
   const vk::RenderingAttachmentInfo depth{.imageView = view,
-                                          .imageLayout = kDrawn.layout,
+                                          .imageLayout = kDepthTested.layout,
                                           .loadOp = before,
                                           .storeOp = vk::AttachmentStoreOp::eStore,
                                           .clearValue = vk::ClearDepthStencilValue{.depth = 1.0F}};
@@ -45,8 +36,8 @@ void begin_drawing(const vk::raii::CommandBuffer& command, vk::ImageView view, v
 ShadowMap::ShadowMap(const Device& device)
     : depth_(create_map(device, "shadow map", vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst)),
       static_(create_map(device, "static shadow map", vk::ImageUsageFlagBits::eTransferSrc)),
-      view_(create_view(device, depth_, kDepth, 0, 1)),
-      static_view_(create_view(device, static_, kDepth, 0, 1)),
+      view_(create_view(device, depth_, kDepthAspect, 0, 1)),
+      static_view_(create_view(device, static_, kDepthAspect, 0, 1)),
       sampler_(*device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                               .minFilter = vk::Filter::eLinear,
                                               .addressModeU = vk::SamplerAddressMode::eClampToBorder,
@@ -57,31 +48,31 @@ ShadowMap::ShadowMap(const Device& device)
                                               .borderColor = vk::BorderColor::eFloatOpaqueWhite}) {}
 
 void ShadowMap::begin(const vk::raii::CommandBuffer& command) const {
-  record_barriers(command, {image_barrier(*depth_.image, kDepth, kSampled.discarded(), kDrawn)});
+  record_barriers(command, {image_barrier(*depth_.image, kDepthAspect, kShadowSampled.discarded(), kDepthTested)});
   begin_drawing(command, *view_, vk::AttachmentLoadOp::eClear);
 }
 
 void ShadowMap::end(const vk::raii::CommandBuffer& command) const {
   command.endRendering();
-  record_barriers(command, {image_barrier(*depth_.image, kDepth, kDrawn, kSampled)});
+  record_barriers(command, {image_barrier(*depth_.image, kDepthAspect, kDepthTested, kShadowSampled)});
 }
 
 void ShadowMap::begin_static(const vk::raii::CommandBuffer& command) const {
-  record_barriers(command, {image_barrier(*static_.image, kDepth, kCopiedFrom.discarded(), kDrawn)});
+  record_barriers(command, {image_barrier(*static_.image, kDepthAspect, kCopiedFrom.discarded(), kDepthTested)});
   begin_drawing(command, *static_view_, vk::AttachmentLoadOp::eClear);
 }
 
 void ShadowMap::end_static(const vk::raii::CommandBuffer& command) const {
   command.endRendering();
-  record_barriers(command, {image_barrier(*static_.image, kDepth, kDrawn, kCopiedFrom)});
+  record_barriers(command, {image_barrier(*static_.image, kDepthAspect, kDepthTested, kCopiedFrom)});
 }
 
 void ShadowMap::begin_on_static(const vk::raii::CommandBuffer& command, const vk::Rect2D& dirty) const {
   if (dirty.extent.width == 0 || dirty.extent.height == 0) {
-    record_barriers(command, {image_barrier(*depth_.image, kDepth, kSampled, kDrawn)});
+    record_barriers(command, {image_barrier(*depth_.image, kDepthAspect, kShadowSampled, kDepthTested)});
   } else {
-    record_barriers(command, {image_barrier(*depth_.image, kDepth, kSampled, kCopiedTo)});
-    const vk::ImageSubresourceLayers depth{.aspectMask = kDepth, .layerCount = 1};
+    record_barriers(command, {image_barrier(*depth_.image, kDepthAspect, kShadowSampled, kCopiedTo)});
+    const vk::ImageSubresourceLayers depth{.aspectMask = kDepthAspect, .layerCount = 1};
     const vk::Offset3D offset{dirty.offset.x, dirty.offset.y, 0};
     command.copyImage(*static_.image, kCopiedFrom.layout, *depth_.image, kCopiedTo.layout,
                       vk::ImageCopy{.srcSubresource = depth,
@@ -89,7 +80,7 @@ void ShadowMap::begin_on_static(const vk::raii::CommandBuffer& command, const vk
                                     .dstSubresource = depth,
                                     .dstOffset = offset,
                                     .extent = {dirty.extent.width, dirty.extent.height, 1}});
-    record_barriers(command, {image_barrier(*depth_.image, kDepth, kCopiedTo, kDrawn)});
+    record_barriers(command, {image_barrier(*depth_.image, kDepthAspect, kCopiedTo, kDepthTested)});
   }
   begin_drawing(command, *view_, vk::AttachmentLoadOp::eLoad);
 }

@@ -25,9 +25,9 @@ namespace {
 constexpr int kLargestPixel = 65536;
 constexpr double kLargestEyeFromHeadM = 0.5;
 
-class Reader {
+class TableReader {
  public:
-  Reader(const toml::table& table, std::string section) : table_(table), section_(std::move(section)) {}
+  TableReader(const toml::table& table, std::string section) : table_(table), section_(std::move(section)) {}
 
   void allow_only(std::initializer_list<std::string_view> keys) const {
     for (const auto& [key, node] : table_) {
@@ -114,7 +114,7 @@ class Reader {
 };
 
 Screen read_screen(const toml::table& table) {
-  const Reader reader(table, "screen");
+  const TableReader reader(table, "screen");
   reader.allow_only({"name", "lower_left", "lower_right", "upper_left"});
   Screen screen{.name = reader.text("name"),
                 .lower_left = reader.point("lower_left"),
@@ -129,7 +129,7 @@ Screen read_screen(const toml::table& table) {
 // A homography as a person measures it: where on the output the corners of the picture are to appear. Returned is the
 // way back. It must keep every place of the picture before the projector and must not mirror it, which would exchange
 // near and far.
-glm::dmat3 read_keystone(const Reader& reader, std::string_view key) {
+glm::dmat3 read_keystone(const TableReader& reader, std::string_view key) {
   const auto v = reader.numbers<9>(key, "nine numbers, a 3 x 3 matrix row by row");
   const glm::dmat3 output_from_picture(v[0], v[3], v[6], v[1], v[4], v[7], v[2], v[5], v[8]);
   const double determinant = glm::determinant(output_from_picture);
@@ -149,7 +149,7 @@ glm::dmat3 read_keystone(const Reader& reader, std::string_view key) {
 }
 
 Output read_output(const toml::table& table, const std::vector<Screen>& screens) {
-  const Reader reader(table, "output");
+  const TableReader reader(table, "output");
   reader.allow_only({"name", "screen", "mode", "eye", "swap", "monitor", "rect", "homography"});
   Output output;
   output.name = reader.text("name");
@@ -192,7 +192,7 @@ bool overlap(const PixelRect& a, const PixelRect& b) {
 
 // What two outputs may not share, and the pair that dual needs.
 void check_together(const Output& output, const std::vector<Output>& earlier, const toml::table& table) {
-  const Reader reader(table, "output");
+  const TableReader reader(table, "output");
   for (const Output& other : earlier) {
     if (other.name == output.name) reader.fail("name", fmt::format("\"{}\" is used twice", output.name));
     if (!output.monitor.empty() && output.monitor == other.monitor) {
@@ -214,7 +214,7 @@ void check_pairs(const std::vector<Output>& outputs, const toml::array& tables) 
       return other.screen == output.screen && other.eye && other.eye != output.eye;
     });
     if (output.eye && !paired) {
-      Reader(*tables[i].as_table(), "output")
+      TableReader(*tables[i].as_table(), "output")
           .fail("eye", "no output of mode \"dual\" shows the other eye of this screen");
     }
   }
@@ -226,7 +226,7 @@ bool is_digits(std::string_view text) {
 }
 
 Viewer read_viewer(const toml::table& table) {
-  const Reader reader(table, "viewer");
+  const TableReader reader(table, "viewer");
   reader.allow_only({"name", "ipd", "head", "eye_from_head", "sweet_spot", "sweet_spot_orientation"});
   Viewer viewer;
   viewer.name = reader.text("name");
@@ -273,7 +273,7 @@ void read_tables(const toml::table& root, std::string_view key, const Read& read
 }
 
 Wall read_wall(const toml::table& root) {
-  Reader(root, "wall").allow_only({"screen", "output", "viewer"});
+  TableReader(root, "wall").allow_only({"screen", "output", "viewer"});
   Wall wall;
   std::set<std::string> names;
   read_tables(root, "screen", [&](const toml::table& table) {

@@ -94,7 +94,7 @@ T load(const std::uint8_t* bytes) {
 }
 
 // glTF 2.0, section 3.6.2.2: c / 255, max(c / 127, -1) and so on.
-float number(const std::uint8_t* bytes, int type, bool normalized) {
+float number_at(const std::uint8_t* bytes, int type, bool normalized) {
   switch (type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE: {
       const auto value = static_cast<float>(load<std::int8_t>(bytes));
@@ -160,7 +160,7 @@ std::vector<float> GltfAccessors::floats(int index) const {
   std::vector<float> values(accessor.count * components, 0.0F);
   for_each_element(accessor, index, [&](std::size_t element, const std::uint8_t* bytes) {
     for (std::size_t i = 0; i < components; ++i) {
-      const float value = number(bytes + i * width, accessor.type, accessor.normalized);
+      const float value = number_at(bytes + i * width, accessor.type, accessor.normalized);
       if (!std::isfinite(value)) throw GltfError(fmt::format("/accessors/{} holds what is not a finite number", index));
       values[element * components + i] = value;
     }

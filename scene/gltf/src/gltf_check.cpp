@@ -39,7 +39,7 @@ std::string quoted(const Json& value) {
 }
 
 // JSON knows one kind of number: 4 may be written as 4.0.
-std::optional<std::uint64_t> whole(const Json& value) {
+std::optional<std::uint64_t> whole_number(const Json& value) {
   constexpr double kLargestExact = 9007199254740992.0;
   if (value.is_number_unsigned()) return value.get<std::uint64_t>();
   if (!value.is_number_float()) return std::nullopt;
@@ -160,7 +160,7 @@ class Checker {
   }
 
   static void check_choice(Json& value, const GltfMember& member, const Place& place) {
-    const auto number = whole(value);
+    const auto number = whole_number(value);
     if (number) value = *number;
     const std::string chosen = number ? std::to_string(*number) : value.is_string() ? value.get<std::string>() : "";
     const bool is_number = member.choices[0] >= '0' && member.choices[0] <= '9';
@@ -178,7 +178,7 @@ class Checker {
   }
 
   static void check_whole(Json& value, const GltfMember& member, const Place& place) {
-    const auto number = whole(value);
+    const auto number = whole_number(value);
     if (!number || static_cast<double>(*number) < member.low || static_cast<double>(*number) > member.high) {
       place.fail(fmt::format("is {}, not a whole number of {:.0f} to {:.0f}", quoted(value), member.low, member.high));
     }
@@ -186,7 +186,7 @@ class Checker {
   }
 
   void check_index(Json& value, GltfList into, const Place& place) const {
-    const auto number = whole(value);
+    const auto number = whole_number(value);
     const std::size_t size = sizes_[static_cast<std::size_t>(into)];
     if (!number || *number >= size) {
       place.fail(fmt::format("is {}, which does not exist: there are {}", quoted(value), size));

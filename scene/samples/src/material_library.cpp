@@ -19,29 +19,29 @@
 namespace afm::scene {
 namespace {
 
-constexpr std::array<std::string_view, 23> kKeys{"name",
-                                                 "title",
-                                                 "tip",
-                                                 "medium",
-                                                 "note",
-                                                 "look",
-                                                 "tip_radius",
-                                                 "spring_constant",
-                                                 "hamaker",
-                                                 "sample_stiffness",
-                                                 "atomic_distance",
-                                                 "mean_surface_energy",
-                                                 "work_of_adhesion",
-                                                 "reduced_modulus",
-                                                 "tip_modulus",
-                                                 "tip_poisson_ratio",
-                                                 "sample_modulus",
-                                                 "sample_poisson_ratio",
-                                                 "resonance",
-                                                 "quality_factor",
-                                                 "temperature",
-                                                 "experiment_f_attr",
-                                                 "experiment_f_ad"};
+constexpr std::array<std::string_view, 23> kMaterialKeys{"name",
+                                                         "title",
+                                                         "tip",
+                                                         "medium",
+                                                         "note",
+                                                         "look",
+                                                         "tip_radius",
+                                                         "spring_constant",
+                                                         "hamaker",
+                                                         "sample_stiffness",
+                                                         "atomic_distance",
+                                                         "mean_surface_energy",
+                                                         "work_of_adhesion",
+                                                         "reduced_modulus",
+                                                         "tip_modulus",
+                                                         "tip_poisson_ratio",
+                                                         "sample_modulus",
+                                                         "sample_poisson_ratio",
+                                                         "resonance",
+                                                         "quality_factor",
+                                                         "temperature",
+                                                         "experiment_f_attr",
+                                                         "experiment_f_ad"};
 
 // One [[material]].
 class MaterialReader {
@@ -49,7 +49,7 @@ class MaterialReader {
   explicit MaterialReader(const toml::table& table) : table_(table, "material") {}
 
   MaterialEntry read() {
-    table_.refuse_keys_other_than(kKeys);
+    table_.refuse_keys_other_than(kMaterialKeys);
     entry_.name = table_.text("name");
     entry_.title = table_.text("title");
     entry_.tip = table_.text("tip");
@@ -169,7 +169,7 @@ class MaterialReader {
   MaterialEntry entry_;
 };
 
-MaterialLibrary read_library(const toml::table& root) {
+MaterialLibrary read_materials(const toml::table& root) {
   MaterialLibrary library;
   for (const toml::table* table : tables_of(root, "material")) {
     MaterialEntry entry = MaterialReader(*table).read();
@@ -202,7 +202,7 @@ core::Result<MaterialLibrary> MaterialLibrary::only(std::span<const std::string>
 void MaterialLibrary::add(MaterialLibrary other) { add_named(materials, std::move(other.materials)); }
 
 core::Result<MaterialLibrary> load_materials(const std::string& path) {
-  return read_toml("material file", path, read_library);
+  return read_toml("material file", path, read_materials);
 }
 
 core::Result<MaterialLibrary> load_materials(std::span<const std::string> paths) {

@@ -18,26 +18,26 @@
 namespace afm::scene {
 namespace {
 
-constexpr std::array<std::string_view, 20> kKeys{"name",
-                                                 "title",
-                                                 "shape",
-                                                 "tip",
-                                                 "note",
-                                                 "tip_radius",
-                                                 "spring_constant",
-                                                 "length",
-                                                 "width",
-                                                 "thickness",
-                                                 "base_width",
-                                                 "arm_width",
-                                                 "lever_modulus",
-                                                 "lever_density",
-                                                 "tip_modulus",
-                                                 "tip_poisson_ratio",
-                                                 "resonance_in_air",
-                                                 "resonance_in_liquid",
-                                                 "quality_factor_in_air",
-                                                 "quality_factor_in_liquid"};
+constexpr std::array<std::string_view, 20> kProbeKeys{"name",
+                                                      "title",
+                                                      "shape",
+                                                      "tip",
+                                                      "note",
+                                                      "tip_radius",
+                                                      "spring_constant",
+                                                      "length",
+                                                      "width",
+                                                      "thickness",
+                                                      "base_width",
+                                                      "arm_width",
+                                                      "lever_modulus",
+                                                      "lever_density",
+                                                      "tip_modulus",
+                                                      "tip_poisson_ratio",
+                                                      "resonance_in_air",
+                                                      "resonance_in_liquid",
+                                                      "quality_factor_in_air",
+                                                      "quality_factor_in_liquid"};
 
 // One [[probe]].
 class ProbeReader {
@@ -45,7 +45,7 @@ class ProbeReader {
   explicit ProbeReader(const toml::table& table) : table_(table, "probe") {}
 
   ProbeEntry read() {
-    table_.refuse_keys_other_than(kKeys);
+    table_.refuse_keys_other_than(kProbeKeys);
     entry_.name = table_.text("name");
     entry_.title = table_.text("title");
     entry_.shape = table_.text("shape");
@@ -149,7 +149,7 @@ class ProbeReader {
   ProbeEntry entry_;
 };
 
-ProbeLibrary read_library(const toml::table& root) {
+ProbeLibrary read_probes(const toml::table& root) {
   ProbeLibrary library;
   for (const toml::table* table : tables_of(root, "probe")) {
     ProbeEntry entry = ProbeReader(*table).read();
@@ -185,7 +185,7 @@ core::Result<const ProbeEntry*> ProbeLibrary::require(std::string_view name) con
 
 void ProbeLibrary::add(ProbeLibrary other) { add_named(probes, std::move(other.probes)); }
 
-core::Result<ProbeLibrary> load_probes(const std::string& path) { return read_toml("probe file", path, read_library); }
+core::Result<ProbeLibrary> load_probes(const std::string& path) { return read_toml("probe file", path, read_probes); }
 
 core::Result<ProbeLibrary> load_probes(std::span<const std::string> paths) {
   ProbeLibrary library;

@@ -62,7 +62,7 @@ bool within(std::int32_t material, const SharedModel& model) {
   return material >= -1 && material < static_cast<std::int32_t>(std::min(model.material_count, kMaxMaterials));
 }
 
-auto refusal(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
+auto model_refused(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
 
 bool rising_and_sane(std::span<const physics::MeasuredPoint> branch) {
   for (std::size_t i = 0; i < branch.size(); ++i) {
@@ -107,70 +107,74 @@ physics::LawOptions law_options(const SharedContact& material) {
 
 core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count,
                             std::uint32_t height_field_count) {
-  if (!terminated(material.name)) return refusal("it has a name without an end");
+  if (!terminated(material.name)) return model_refused("it has a name without an end");
   if (!physics::is_known(material.law) || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
       material.dynamic > 1) {
-    return refusal("it has a law or an option that is not known");
+    return model_refused("it has a law or an option that is not known");
   }
   if (material.law == physics::Law::Measured && material.measured_curve >= curve_count) {
-    return refusal("it has no measured curve");
+    return model_refused("it has no measured curve");
   }
   if (material.dynamic != 0 && !physics::has_dynamics(material.law)) {
-    return refusal(fmt::format("the law {} has no dynamics", physics::name_of(material.law)));
+    return model_refused(fmt::format("the law {} has no dynamics", physics::name_of(material.law)));
   }
   if (material.height_field != kNoHeightField && material.height_field >= height_field_count) {
-    return refusal("it has a surface that is not there");
+    return model_refused("it has a surface that is not there");
   }
-  if (!(material.retardation_wavelength_m >= 0)) return refusal("its retardation wavelength is not a length");
+  if (!(material.retardation_wavelength_m >= 0)) return model_refused("its retardation wavelength is not a length");
   try {
     physics::validate(material.contact);
     physics::validate(law_options(material));
     if (material.dynamic != 0) physics::validate(material.lever);
   } catch (const std::invalid_argument& error) {
-    return refusal(error.what());
+    return model_refused(error.what());
   }
   return {};
 }
 
 core::Result<void> validate(const SharedModel& model) {
   if (model.node_count == 0 || model.node_count > kMaxNodes) {
-    return refusal(fmt::format("the shared scene has {} nodes: 1 to {} fit", model.node_count, kMaxNodes));
+    return model_refused(fmt::format("the shared scene has {} nodes: 1 to {} fit", model.node_count, kMaxNodes));
   }
   if (model.material_count == 0 || model.material_count > kMaxMaterials) {
-    return refusal(fmt::format("the shared scene has {} materials: 1 to {} fit", model.material_count, kMaxMaterials));
+    return model_refused(
+        fmt::format("the shared scene has {} materials: 1 to {} fit", model.material_count, kMaxMaterials));
   }
   if (model.sample_node >= model.node_count) {
-    return refusal(fmt::format("the sample is node {} of a shared scene of {}", model.sample_node, model.node_count));
+    return model_refused(
+        fmt::format("the sample is node {} of a shared scene of {}", model.sample_node, model.node_count));
   }
   for (std::uint32_t i = 0; i < model.node_count; ++i) {
     const SharedNode& node = model.nodes[i];
-    if (!terminated(node.name)) return refusal(fmt::format("shared node {} has a name without an end", i));
+    if (!terminated(node.name)) return model_refused(fmt::format("shared node {} has a name without an end", i));
     if (node.parent != kNoParent && node.parent >= i) {
-      return refusal(fmt::format("shared node {} stands before its parent {}", i, node.parent));
+      return model_refused(fmt::format("shared node {} stands before its parent {}", i, node.parent));
     }
-    if (!all_sane(node.parent_from_node)) return refusal(fmt::format("shared node {} has a transform of no use", i));
+    if (!all_sane(node.parent_from_node))
+      return model_refused(fmt::format("shared node {} has a transform of no use", i));
   }
   if (model.curve_count > kMaxMeasuredCurves) {
-    return refusal(
+    return model_refused(
         fmt::format("the shared scene has {} measured curves: {} fit", model.curve_count, kMaxMeasuredCurves));
   }
   for (std::uint32_t i = 0; i < model.curve_count; ++i) {
-    if (!is_valid(model.curves[i])) return refusal(fmt::format("measured curve {} is not along rising Z", i));
+    if (!is_valid(model.curves[i])) return model_refused(fmt::format("measured curve {} is not along rising Z", i));
   }
   const bool no_scale = model.common_hand_m_per_m == 0 && model.common_hand_n_per_n == 0;
   if (!no_scale && !(std::isnormal(model.common_hand_m_per_m) && model.common_hand_m_per_m > 0 &&
                      std::isnormal(model.common_hand_n_per_n) && model.common_hand_n_per_n > 0)) {
-    return refusal("the common scale of the shared scene is of no use");
+    return model_refused("the common scale of the shared scene is of no use");
   }
   if (model.height_field_count > kMaxHeightFields) {
-    return refusal(fmt::format("the shared scene has {} surfaces: {} fit", model.height_field_count, kMaxHeightFields));
+    return model_refused(
+        fmt::format("the shared scene has {} surfaces: {} fit", model.height_field_count, kMaxHeightFields));
   }
   for (std::uint32_t i = 0; i < model.height_field_count; ++i) {
-    if (!is_valid(model.height_fields[i])) return refusal(fmt::format("surface {} is no grid of heights", i));
+    if (!is_valid(model.height_fields[i])) return model_refused(fmt::format("surface {} is no grid of heights", i));
   }
   for (std::uint32_t i = 0; i < model.material_count; ++i) {
     if (auto valid = validate(model.materials[i], model.curve_count, model.height_field_count); !valid) {
-      return refusal(fmt::format("material {} of the shared scene: {}", i, valid.error().message));
+      return model_refused(fmt::format("material {} of the shared scene: {}", i, valid.error().message));
     }
   }
   return {};

@@ -23,7 +23,7 @@ namespace {
 // SIGBUS.
 constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
 
-auto refusal(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
+auto segment_refused(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
 
 void* map_whole(int descriptor) {
   return ::mmap(nullptr, sizeof(SegmentLayout), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
@@ -31,16 +31,16 @@ void* map_whole(int descriptor) {
 
 core::Result<void> validate(const SegmentHeader& header) {
   if (header.magic != kSegmentMagic) {
-    return refusal("cannot use the shared segment: its descriptor refers to something else");
+    return segment_refused("cannot use the shared segment: its descriptor refers to something else");
   }
   if (header.version != kSegmentVersion) {
-    return refusal(
+    return segment_refused(
         fmt::format("cannot use a shared segment of version {}: this program speaks version {}; "
                     "start touchafm and touchafm-servo of one build",
                     header.version, kSegmentVersion));
   }
   if (header.total_bytes != sizeof(SegmentLayout) || header.block_bytes != kBlockSizes) {
-    return refusal(
+    return segment_refused(
         fmt::format("cannot use the shared segment: its blocks differ from this program's ({} against {} bytes); "
                     "start touchafm and touchafm-servo of one build",
                     header.total_bytes, sizeof(SegmentLayout)));
@@ -58,11 +58,12 @@ core::Result<SharedSegment> SharedSegment::create(const SharedModel& model, std:
   core::FileDescriptor descriptor(::memfd_create("touchafm", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (!descriptor.is_open() || ::ftruncate(descriptor.get(), sizeof(SegmentLayout)) != 0 ||
       ::fcntl(descriptor.get(), F_ADD_SEALS, kSeals) != 0) {
-    return refusal(fmt::format("cannot create a shared segment of {} bytes: {}", sizeof(SegmentLayout),
-                               core::system_error(errno)));
+    return segment_refused(fmt::format("cannot create a shared segment of {} bytes: {}", sizeof(SegmentLayout),
+                                       core::system_error(errno)));
   }
   void* memory = map_whole(descriptor.get());
-  if (memory == MAP_FAILED) return refusal(fmt::format("cannot map the shared segment: {}", core::system_error(errno)));
+  if (memory == MAP_FAILED)
+    return segment_refused(fmt::format("cannot map the shared segment: {}", core::system_error(errno)));
 
   auto* layout = new (memory) SegmentLayout;
   layout->header.total_bytes = sizeof(SegmentLayout);
@@ -74,27 +75,28 @@ core::Result<SharedSegment> SharedSegment::create(const SharedModel& model, std:
 core::Result<SharedSegment> SharedSegment::attach(core::FileDescriptor descriptor) {
   struct stat status{};
   if (::fstat(descriptor.get(), &status) != 0) {
-    return refusal(
+    return segment_refused(
         fmt::format("cannot use descriptor {} as shared segment: {}", descriptor.get(), core::system_error(errno)));
   }
 
   // the header first, by a plain read, which cannot fault whatever the descriptor is
   SegmentHeader header;
   if (::pread(descriptor.get(), &header, sizeof(header), 0) != static_cast<ssize_t>(sizeof(header))) {
-    return refusal("cannot use the shared segment: it is shorter than its header");
+    return segment_refused("cannot use the shared segment: it is shorter than its header");
   }
   if (auto valid = validate(header); !valid) return tl::unexpected(valid.error());
   if (status.st_size != static_cast<off_t>(sizeof(SegmentLayout))) {
-    return refusal(fmt::format("cannot use the shared segment: it has {} bytes instead of {}", status.st_size,
-                               sizeof(SegmentLayout)));
+    return segment_refused(fmt::format("cannot use the shared segment: it has {} bytes instead of {}", status.st_size,
+                                       sizeof(SegmentLayout)));
   }
   const int seals = ::fcntl(descriptor.get(), F_GET_SEALS);
   if (seals < 0 || (seals & F_SEAL_SHRINK) == 0) {
-    return refusal("cannot use the shared segment: it is not sealed against shrinking");
+    return segment_refused("cannot use the shared segment: it is not sealed against shrinking");
   }
 
   void* memory = map_whole(descriptor.get());
-  if (memory == MAP_FAILED) return refusal(fmt::format("cannot map the shared segment: {}", core::system_error(errno)));
+  if (memory == MAP_FAILED)
+    return segment_refused(fmt::format("cannot map the shared segment: {}", core::system_error(errno)));
   SharedSegment segment(std::move(descriptor), std::launder(static_cast<SegmentLayout*>(memory)));
   if (auto valid = scene::validate(segment.model()); !valid) return tl::unexpected(valid.error());
   return segment;

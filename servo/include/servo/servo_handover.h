@@ -52,6 +52,7 @@ struct WaitingServo {
 std::optional<WaitingServo> find_waiting_servo(const std::string& program);
 
 // Waits for the process behind a pidfd; false if it still runs after so long.
+inline constexpr int kLeaveMs = 2000;  // for a servo that was told to leave
 bool process_ended_within(const core::FileDescriptor& process, int milliseconds);
 
 }  // namespace afm::servo

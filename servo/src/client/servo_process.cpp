@@ -24,7 +24,6 @@ namespace afm::servo {
 
 namespace {
 
-constexpr int kLeaveMs = 2000;
 constexpr int kTerminateMs = 500;
 
 // The numbers under which the child finds what it inherits.

@@ -12,8 +12,6 @@ namespace afm::servo {
 
 namespace {
 
-constexpr int kLeaveMs = 2000;
-
 // Bit by bit, but for the padding behind a height field.
 bool same_model(const scene::SharedModel& a, const scene::SharedModel& b) {
   constexpr std::size_t kWithoutPadding = offsetof(scene::SharedModel, height_fields);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace afm::exhibit {
+namespace afm::curves {
 
 // What panels and plots show in place of SI.
 inline constexpr double kNmPerM = 1e9;
 inline constexpr double kNnPerN = 1e9;
 inline constexpr double kAjPerJ = 1e18;
 
-}  // namespace afm::exhibit
+}  // namespace afm::curves

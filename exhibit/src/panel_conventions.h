@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace afm::exhibit {
+
+// What the panels agree about. Of the axis of force, what lies above and below zero, in units of the greatest force
+// towards the one and the other side.
+inline constexpr double kForceAbove = 0.52, kForceBelow = 1.22;
+inline constexpr int kDigits = 3;  // of a number
+
+}  // namespace afm::exhibit

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <dlfcn.h>
+
+#include <string>
+
+namespace afm::haptics {
+
+// Looks up functions of one library and remembers the first that is missing.
+class FunctionBinder {
+ public:
+  explicit FunctionBinder(void* library) : library_(library) {}
+
+  template <class Function>
+  void bind(const char* name, Function*& function) {
+    function = reinterpret_cast<Function*>(::dlsym(library_, name));
+    if (function == nullptr && missing_.empty()) missing_ = name;
+  }
+
+  const std::string& missing() const { return missing_; }
+
+ private:
+  void* library_;
+  std::string missing_;
+};
+
+}  // namespace afm::haptics

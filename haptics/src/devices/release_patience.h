@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <thread>
+
+namespace afm::haptics {
+
+// How long a driver's end waits until its thread has taken the force off the hand.
+inline constexpr auto kReleasePatience = std::chrono::milliseconds(50);
+
+// False if the condition does not come true in time. It is asked every millisecond.
+template <class Condition>
+bool wait_until(std::chrono::milliseconds patience, Condition&& condition) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+}  // namespace afm::haptics
