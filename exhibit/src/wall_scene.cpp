@@ -29,7 +29,7 @@ using glm::dvec3;
 std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& material) {
   for (const std::string& name : {material.name, material.look}) {
     std::error_code ignored;
-    if (std::filesystem::exists(assets_dir + "/models/sample-" + name + ".glb", ignored)) return name;
+    if (std::filesystem::exists(fmt::format("{}/models/sample-{}.glb", assets_dir, name), ignored)) return name;
   }
   core::log_line(fmt::format("material {}: {}/models/sample-{}.glb is missing; it is shown in plain grey",
                              material.name, assets_dir, material.look));

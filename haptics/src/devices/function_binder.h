@@ -7,6 +7,12 @@
 
 namespace afm::haptics {
 
+// Why this thread's last dlopen() failed.
+inline std::string linker_error() {
+  const char* text = ::dlerror();  // NOLINT(concurrency-mt-unsafe): glibc keeps one for each thread
+  return text == nullptr ? "the dynamic linker gave no reason" : text;
+}
+
 // Looks up functions of one library and remembers the first that is missing.
 class FunctionBinder {
  public:

@@ -12,11 +12,6 @@ namespace {
 // 3.4 drives the Touch (USB, Ethernet), 3.0 the Omni (FireWire).
 constexpr const char* kLibraryNames[] = {"libHD.so.3.4", "libHD.so.3.0", "libHD.so"};
 
-std::string linker_error() {
-  const char* text = ::dlerror();  // NOLINT(concurrency-mt-unsafe): glibc keeps one for each thread
-  return text == nullptr ? "the dynamic linker gave no reason" : text;
-}
-
 // Empty if everything was found.
 std::string bind_all(void* library, HdapiFunctions& hd) {
   FunctionBinder binder(library);

@@ -10,10 +10,7 @@ namespace afm::haptics {
 
 core::Result<SdlFunctions> load_sdl() {
   void* library = ::dlopen(kSdlLibrary, RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) {
-    const char* text = ::dlerror();
-    return core::failure(core::ErrorCategory::DeviceMissing, text == nullptr ? "it cannot be loaded" : text);
-  }
+  if (library == nullptr) return core::failure(core::ErrorCategory::DeviceMissing, linker_error());
   SdlFunctions sdl;
   FunctionBinder binder(library);
   binder.bind("SDL_SetHint", sdl.set_hint);
