@@ -8,8 +8,8 @@
 #include <system_error>
 
 #include "app/command.h"
-#include "app/interruption.h"
 #include "core/exit_code.h"
+#include "core/interruption.h"
 #include "core/log.h"
 #include "core/version.h"
 
@@ -66,7 +66,7 @@ int run(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  afm::app::catch_interruptions();
+  afm::core::take_interruptions();
   try {
     return run(count, arguments);
   } catch (const std::exception& error) {

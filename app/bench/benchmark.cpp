@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/interruption.h"
 #include "core/log.h"
 #include "core/version.h"
 
@@ -57,7 +56,6 @@ core::Result<BenchmarkFigure> run_benchmark(const BenchmarkCase& each) {
   Collector collector(each.clock);
   benchmark::RunSpecifiedBenchmarks(&collector, "all");
   benchmark::ClearRegisteredBenchmarks();
-  if (interrupted()) return core::failure(core::ErrorCategory::Failed, "interrupted");
   std::vector<double>& seconds = collector.seconds();
   if (!collector.error().empty() || seconds.empty()) {
     return core::failure(core::ErrorCategory::Failed,

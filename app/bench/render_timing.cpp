@@ -15,7 +15,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/interruption.h"
 #include "core/log.h"
 #include "render/context.h"
 #include "render/screenshot_queue.h"
@@ -177,7 +176,6 @@ core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& sub
   for (int round = 0; round < plan.rounds; ++round) {
     core::log_line(fmt::format("round {} of {}", round + 1, plan.rounds));
     for (std::size_t i = 0; i < result.figures.size(); ++i) {
-      if (interrupted()) return core::failure(core::ErrorCategory::Failed, "interrupted");
       RenderFigure& figure = result.figures[i];
       if (i < drawings.size()) {
         drawings[i].draw_round(plan.frames, clock, figure);

@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "app/bench/servo_work.h"
-#include "app/interruption.h"
 #include "core/clock.h"
 #include "servo/servo_client.h"
 
@@ -24,7 +23,6 @@ core::Result<ServoWake> measure_servo_wake(const std::string& program, double se
   const std::int64_t end_ns = clock.now_ns() + static_cast<std::int64_t>(1e9 * seconds);
   while (ran && clock.now_ns() < end_ns) {
     if (const auto update = (*link)->poll(clock.now_ns()); !update) ran = tl::unexpected(update.error());
-    if (interrupted()) ran = core::failure(core::ErrorCategory::Failed, "interrupted");
     if (draw) {
       draw();
       ++wake.frames;

@@ -15,7 +15,6 @@
 #include <thread>
 
 #include "app/bench/servo_work.h"
-#include "app/interruption.h"
 #include "core/clock.h"
 #include "core/log.h"
 #include "scene/shared/shared_segment.h"
@@ -40,7 +39,7 @@ bool holds(scene::RendererSide& side) {
 bool until(const std::function<void()>& act, const std::function<bool()>& condition) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (!condition()) {
-    if (interrupted() || std::chrono::steady_clock::now() > end) return false;
+    if (std::chrono::steady_clock::now() > end) return false;
     act();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -117,7 +116,6 @@ core::Result<std::vector<double>> measure_reaction(const std::string& program, R
   const char* what = fate == RendererFate::Killed ? "killed" : "stopped";
   std::vector<double> lasted_ms;
   for (int tried = 0; static_cast<int>(lasted_ms.size()) < rounds; ++tried) {
-    if (interrupted()) return core::failure(core::ErrorCategory::Failed, "interrupted");
     if (tried >= rounds * kTriesPerRound) {
       return core::failure(core::ErrorCategory::Failed,
                            "the servo does not hold the hand long enough to measure: close what else runs");

@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "app/interruption.h"
 #include "core/clock.h"
 #include "core/log.h"
 #include "haptics/servo_loop.h"
@@ -144,7 +143,6 @@ core::Result<WorkFigure> measure_case(const Felt& felt, std::size_t ticks) {
   }
   std::vector<double> us(ticks);
   for (double& each : us) each = bench.tick_us();
-  if (interrupted()) return core::failure(core::ErrorCategory::Failed, "interrupted");
   return WorkFigure{felt.name, core::percentiles(std::move(us)), felt.p50_bar_us, felt.p99_bar_us};
 }
 

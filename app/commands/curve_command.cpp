@@ -8,7 +8,6 @@
 
 #include "app/command.h"
 #include "app/commands/standard_output.h"
-#include "app/interruption.h"
 #include "core/log.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
@@ -102,7 +101,7 @@ core::Result<void> write_sweep(const CurveOptions& options, const curves::Contac
     }
     axes.push_back(*axis);
   }
-  const auto rows = curves::run_sweep(setup, axes, options.path, interrupted);
+  const auto rows = curves::run_sweep(setup, axes, options.path);
   if (!rows) return tl::unexpected(rows.error());
   return write_text(
       format == "json" ? curves::sweep_json(setup, axes, *rows).dump(1) + "\n" : curves::sweep_csv(setup, axes, *rows),

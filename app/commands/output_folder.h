@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/file_descriptor.h"
+#include "core/interruption.h"
 #include "core/result.h"
 
 namespace afm::app {
 
 // A folder of results that appears whole or not at all: files are written into a folder beside it, and moved into place
-// by commit(). Without a commit nothing is left. One thread.
+// by commit(). Without a commit nothing is left, also after a signal. One thread.
 class OutputFolder {
  public:
   // Makes sure at once, before hours of work, that `path` can be written.
@@ -29,10 +32,12 @@ class OutputFolder {
   core::Result<void> commit();
 
  private:
-  OutputFolder(std::string path, std::string staging) : path_(std::move(path)), staging_(std::move(staging)) {}
+  OutputFolder(std::string path, std::string staging, core::FileDescriptor lock);
 
   std::string path_;
   std::string staging_;
+  core::FileDescriptor lock_;  // of the staging folder, for as long as this process lives
+  std::unique_ptr<core::OnInterruption> undo_;
 };
 
 }  // namespace afm::app

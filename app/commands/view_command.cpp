@@ -14,6 +14,8 @@
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
 #include "app/options/servo_options.h"
+#include "core/exit_code.h"
+#include "core/interruption.h"
 #include "core/log.h"
 #include "curves/sample_model.h"
 #include "exhibit/exhibit_setup.h"
@@ -71,6 +73,7 @@ core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& devi
 }
 
 core::Result<void> run_view(const ViewOptions& options, const std::string& program) {
+  const core::CodeOfInterruption released(core::ExitCode::Done);
   const core::MonotonicClock clock;
   auto stage = exhibit::load_exhibit(options.files);
   if (!stage) return tl::unexpected(stage.error());

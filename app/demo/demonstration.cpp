@@ -11,7 +11,6 @@
 #include <thread>
 #include <utility>
 
-#include "app/interruption.h"
 #include "core/log.h"
 #include "exhibit/servo_rows.h"
 #include "exhibit/shared_model.h"
@@ -121,8 +120,6 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, D
 
 core::Result<void> Demonstration::keep_patience(const std::string& title, double step_seconds,
                                                 const DemoResult& result) const {
-  if (interrupted())
-    return core::failure(core::ErrorCategory::Failed, "interrupted: the hand was released, nothing was written");
   if (person_.seconds_in_step(clock_.now_ns()) <= kPatienceSeconds + step_seconds) return {};
   return core::failure(core::ErrorCategory::Failed,
                        fmt::format("{}: waited {:.0f} s for {}, in vain ({}; a frame took {:.0f} ms); run again, with "

@@ -42,8 +42,8 @@ class Demonstration {
                 servo::ServoClient& servo, const core::Clock& clock, const HandPath& path,
                 std::function<void()> chosen);
 
-  // Until every cycle is done. Fails when the servo dies, when something that must happen does not, or on SIGINT or
-  // SIGTERM. Fills sessions, variations, frame times and the servo's timing of the result.
+  // Until every cycle is done. Fails when the servo dies, or when something that must happen does not.
+  // Fills sessions, variations, frame times and the servo's timing of the result.
   core::Result<void> run(DemoResult& result, const Progress& progress);
 
  private:

@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "app/interruption.h"
+#include "core/interruption.h"
 #include "core/log.h"
 #include "exhibit/servo_rows.h"
 #include "exhibit/shared_model.h"
@@ -61,11 +61,12 @@ void LiveView::begin_with(servo::ServoClient& servo, std::optional<std::size_t> 
 }
 
 core::Result<void> LiveView::run() {
+  const core::OrderlyEnd by_itself;
   if (auto started = servo_.start(); !started) return started;
   hand_moved_ns_ = clock_.now_ns();
   std::optional<core::Error> lost;
   try {
-    while (!leaving_ && !interrupted()) run_frame(clock_.now_ns());
+    while (!leaving_ && !core::interrupted()) run_frame(clock_.now_ns());
   } catch (const render::DeviceFailure& failure) {
     lost = core::Error{core::ErrorCategory::Failed, failure.what()};
   }

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "core/file_descriptor.h"
+#include "core/interruption.h"
 #include "core/system_error.h"
 
 namespace afm::core {
@@ -61,6 +62,7 @@ int replace(const fs::path& path, std::string_view bytes, std::optional<mode_t> 
   const std::string part = (path.parent_path() / (".touchafm-" + std::to_string(random) + ".part")).string();
   FileDescriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kNewFileMode));
   if (!file.is_open()) return errno;
+  const OnInterruption undo([part] { ::unlink(part.c_str()); });
   int error = write_all(file.get(), bytes);
   if (error == 0 && permissions && ::fchmod(file.get(), *permissions) != 0) error = errno;
   if (error == 0 && ::fsync(file.get()) != 0) error = errno;

@@ -120,17 +120,6 @@ TEST(CurveProgram, DrawsAMeasuredCurveOverTheModel) {
   expect_refusal("curve --material mica --format svg --overlay " + cut, 3, "cut.tab");
 }
 
-TEST(CurveProgram, LeavesNothingWhenASweepIsInterrupted) {
-  const support::ScratchFolder folder;
-  const ProgramResult result =
-      support::run_program("timeout --preserve-status -s INT 2 " AFM_PROGRAM
-                           " curve --material mica --sweep tip-radius=1nm:100nm:1000000 --out " +
-                           folder.file("sweep.csv"));
-  EXPECT_EQ(result.exit_code, 1) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("interrupted; nothing was written"));
-  EXPECT_TRUE(fs::is_empty(folder.path()));
-}
-
 TEST(MaterialProgram, ListsMaterialsAndProbes) {
   const ProgramResult list = touchafm("material");
   ASSERT_EQ(list.exit_code, 0) << list.err;

@@ -56,14 +56,23 @@ TEST(OutputFolder, ReplacesItsOwnFilesAndKeepsTheOthers) {
 
 TEST(OutputFolder, ClearsWhatAKilledRunHasLeft) {
   const support::ScratchFolder scratch;
-  fs::create_directory(scratch.file(".unfinished"));
-  scratch.write(".unfinished/a.txt", "half");
+  fs::create_directory(scratch.file(".unfinished-a1b2c3"));
+  scratch.write(".unfinished-a1b2c3/a.txt", "half");
   {
     auto out = OutputFolder::open(scratch.path());
     ASSERT_TRUE(out.has_value());
     ASSERT_TRUE(out->commit().has_value());
   }
   EXPECT_EQ(entries(scratch.path()), 0U);
+}
+
+TEST(OutputFolder, LeavesWhatAnotherRunIsWriting) {
+  const support::ScratchFolder scratch;
+  auto other = OutputFolder::open(scratch.path());
+  ASSERT_TRUE(other && other->write("a.txt", "a"));
+  auto out = OutputFolder::open(scratch.path());
+  ASSERT_TRUE(out && out->commit() && other->commit());
+  EXPECT_EQ(core::read_file(scratch.file("a.txt")).value(), "a");
 }
 
 TEST(OutputFolder, ThatIsAFileIsRefusedAtOnce) {

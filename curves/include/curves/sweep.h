@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -51,11 +50,10 @@ struct SweepRow {
 
 // Every point of one axis or of the grid of two, the last axis running fastest, over all cores. The rows are in the
 // grid's order whatever the threads did. Dynamic models record a curve at each point, with the path's step and speed;
-// the others need none. Tells progress on stderr when it takes longer than a second. Fails when `stopped`, which any
-// thread calls, says so, and when not one point has a curve.
-core::Result<std::vector<SweepRow>> run_sweep(
-    const ContactSetup& setup, const std::vector<SweepAxis>& axes, const PathOptions& path,
-    const std::function<bool()>& stopped = [] { return false; });
+// the others need none. Tells progress on stderr when it takes longer than a second. Fails when not
+// one point has a curve.
+core::Result<std::vector<SweepRow>> run_sweep(const ContactSetup& setup, const std::vector<SweepAxis>& axes,
+                                              const PathOptions& path);
 
 // CSV in SI: a # header with every number that is not swept, then one line a point.
 std::string sweep_csv(const ContactSetup& setup, const std::vector<SweepAxis>& axes, const std::vector<SweepRow>& rows);

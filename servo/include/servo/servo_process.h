@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/file_descriptor.h"
+#include "core/interruption.h"
 #include "core/result.h"
 #include "haptics/servo_loop.h"
 #include "scene/shared/shared_segment.h"
@@ -56,8 +57,7 @@ class ServoProcess final : public Servo {
   pid_t pid() const noexcept { return pid_; }
 
  private:
-  ServoProcess(pid_t pid, core::FileDescriptor lifeline, scene::RendererSide& side)
-      : pid_(pid), lifeline_(std::move(lifeline)), side_(side) {}
+  ServoProcess(pid_t pid, core::FileDescriptor lifeline, scene::RendererSide& side);
 
   bool ended_within(int milliseconds) noexcept;
 
@@ -65,6 +65,7 @@ class ServoProcess final : public Servo {
   core::FileDescriptor lifeline_;
   scene::RendererSide& side_;
   std::optional<int> exit_status_;
+  core::OnInterruption terminate_;
 };
 
 // A servo that another renderer started, which has died. It is no child of this process.
@@ -108,6 +109,7 @@ class ServoThread final : public Servo {
   scene::RendererSide& side_;
   std::atomic<int> exit_status_{kRunning};
   std::thread thread_;
+  core::OnInterruption release_;
 
   static constexpr int kRunning = -1;
 };

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo/servo_process.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -16,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "child_process.h"
 #include "core/clock.h"
 #include "core/log.h"
 #include "core/system_error.h"
@@ -25,59 +23,9 @@ namespace afm::servo {
 namespace {
 
 constexpr int kTerminateMs = 500;
-
-// The numbers under which the child finds what it inherits.
-constexpr int kSegmentInChild = 3;
-constexpr int kLifelineInChild = 4;
-constexpr int kFirstClosedInChild = 5;
+constexpr int kReleaseMs = 200;
 
 scene::RendererHeartbeat goodbye() { return {.time_ns = core::MonotonicClock().now_ns(), .frame = 0, .leaving = 1}; }
-
-core::Error spawn_error(const std::string& program, int error) {
-  return {core::ErrorCategory::Failed,
-          fmt::format("cannot start the servo {}: {}; build the target touchafm-servo and keep it beside touchafm",
-                      program, core::system_error(error))};
-}
-
-// What posix_spawn needs, freed in any case.
-class SpawnPlan {
- public:
-  SpawnPlan() {
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawnattr_init(&attributes);
-  }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
-  ~SpawnPlan() {
-    ::posix_spawn_file_actions_destroy(&actions);
-    ::posix_spawnattr_destroy(&attributes);
-  }
-
-  // The two descriptors and the standard streams, and no others: a lifeline that a third process also held would not
-  // break. A process group of its own, so that Ctrl-C in a terminal reaches the servo through the renderer, in good
-  // order.
-  int fill(int segment, int lifeline) {
-    sigset_t none;
-    ::sigemptyset(&none);
-    for (const int error :
-         {::posix_spawn_file_actions_adddup2(&actions, segment, kSegmentInChild),
-          ::posix_spawn_file_actions_adddup2(&actions, lifeline, kLifelineInChild),
-          ::posix_spawn_file_actions_addclosefrom_np(&actions, kFirstClosedInChild),
-          ::posix_spawnattr_setsigmask(&attributes, &none), ::posix_spawnattr_setpgroup(&attributes, 0),
-          ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP)}) {
-      if (error != 0) return error;
-    }
-    return 0;
-  }
-
-  posix_spawn_file_actions_t actions{};
-  posix_spawnattr_t attributes{};
-};
-
-// A copy whose number does not collide with those that the child will use.
-core::FileDescriptor out_of_the_way(int descriptor) {
-  return core::FileDescriptor(::fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstClosedInChild));
-}
 
 }  // namespace
 
@@ -88,34 +36,23 @@ core::Result<std::unique_ptr<ServoProcess>> ServoProcess::spawn(const std::strin
                                                                 const std::string& device) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    return tl::unexpected(spawn_error(program, errno));
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("cannot start the servo {}: {}", program, core::system_error(errno)));
   }
   core::FileDescriptor ours(ends[0]);
-  core::FileDescriptor theirs(ends[1]);
-  const core::FileDescriptor segment_copy = out_of_the_way(segment.descriptor());
-  const core::FileDescriptor lifeline_copy = out_of_the_way(theirs.get());
-  if (!segment_copy.is_open() || !lifeline_copy.is_open()) return tl::unexpected(spawn_error(program, errno));
-
-  std::vector<std::string> arguments{program,
-                                     "--segment",
-                                     std::to_string(kSegmentInChild),
-                                     "--parent-socket",
-                                     std::to_string(kLifelineInChild),
-                                     "--linger",
-                                     fmt::format("{}", settings.linger_s)};
+  const core::FileDescriptor theirs(ends[1]);
+  std::vector<std::string> arguments{"--segment",       std::to_string(kInherited[0]),
+                                     "--parent-socket", std::to_string(kInherited[1]),
+                                     "--linger",        fmt::format("{}", settings.linger_s)};
   for (std::string& argument : servo_arguments(settings, device)) arguments.push_back(std::move(argument));
-  std::vector<char*> argv;
-  argv.reserve(arguments.size() + 1);
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-
-  SpawnPlan plan;
-  pid_t pid = -1;
-  int error = plan.fill(segment_copy.get(), lifeline_copy.get());
-  if (error == 0) error = ::posix_spawn(&pid, program.c_str(), &plan.actions, &plan.attributes, argv.data(), environ);
-  if (error != 0) return tl::unexpected(spawn_error(program, error));
-  return std::unique_ptr<ServoProcess>(new ServoProcess(pid, std::move(ours), side));
+  const auto process = start_child(program, std::move(arguments), {segment.descriptor(), theirs.get()});
+  if (!process) return tl::unexpected(process.error());
+  return std::unique_ptr<ServoProcess>(new ServoProcess(*process, std::move(ours), side));
 }
+
+// On SIGTERM it releases the hand, and says nothing of a renderer that died.
+ServoProcess::ServoProcess(pid_t pid, core::FileDescriptor lifeline, scene::RendererSide& side)
+    : pid_(pid), lifeline_(std::move(lifeline)), side_(side), terminate_([pid] { ::kill(pid, SIGTERM); }) {}
 
 ServoProcess::~ServoProcess() {
   if (!alive()) return;
@@ -130,21 +67,16 @@ ServoProcess::~ServoProcess() {
 bool ServoProcess::alive() noexcept { return !exit_status().has_value(); }
 
 std::optional<int> ServoProcess::exit_status() noexcept {
-  if (!exit_status_) {
-    int status = 0;
-    const pid_t ended = ::waitpid(pid_, &status, WNOHANG);
-    if (ended == pid_) exit_status_ = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-    if (ended < 0 && errno == ECHILD) exit_status_ = 1;  // somebody else has reaped it
-  }
+  ended_within(0);
   return exit_status_;
 }
 
 bool ServoProcess::ended_within(int milliseconds) noexcept {
-  for (int waited = 0; alive(); ++waited) {
-    if (waited >= milliseconds) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  int status = 0;
+  if (!exit_status_ && child_ended_within(pid_, milliseconds, status)) {
+    exit_status_ = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   }
-  return true;
+  return exit_status_.has_value();
 }
 
 std::unique_ptr<AdoptedServo> AdoptedServo::adopt(WaitingServo waiting, scene::RendererSide& side) {
@@ -176,12 +108,23 @@ core::Result<std::unique_ptr<ServoThread>> ServoThread::start(scene::SharedSegme
 
 ServoThread::ServoThread(std::unique_ptr<haptics::HapticDevice> device, std::unique_ptr<haptics::ServoLoop> loop,
                          scene::RendererSide& side)
-    : device_(std::move(device)), loop_(std::move(loop)), edits_(loop_->edits()), side_(side), thread_([this] {
+    : device_(std::move(device)),
+      loop_(std::move(loop)),
+      edits_(loop_->edits()),
+      side_(side),
+      thread_([this] {
         const haptics::RealtimeGrant grant = haptics::enter_realtime(haptics::kServoPriority, haptics::PageLock::Leave);
         for (const std::string& note : grant.notes) core::log_line(note);
         loop_->note_grant(grant);
         loop_->run(core::MonotonicClock());
         exit_status_.store(0);
+      }),
+      release_([this] {
+        loop_->stop();
+        // 90 ms; what does not answer within twice that will not
+        for (int waited_ms = 0; alive() && waited_ms < kReleaseMs; ++waited_ms) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
       }) {}
 
 ServoThread::~ServoThread() {

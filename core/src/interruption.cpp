@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/interruption.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "core/log.h"
+
+namespace afm::core {
+
+namespace {
+
+constexpr auto kBeforeUndoing = std::chrono::milliseconds(400);
+constexpr auto kBeforeTheEnd = std::chrono::seconds(5);
+constexpr auto kTwice = std::chrono::seconds(1);  // timeout(1) and others signal a process and its group
+
+struct Interruptions {
+  std::recursive_mutex undoing;  // of `undos`; held while they run, and by whoever must not be interrupted
+  std::map<int, std::function<void()>> undos;
+  int next_number = 0;
+
+  std::mutex asking;  // of what follows
+  std::condition_variable heard;
+  ExitCode code = ExitCode::RunFailed;
+  bool orderly = false;
+  bool come = false;
+  std::chrono::steady_clock::time_point first_come;
+  bool asked_since = false;
+};
+
+// Never destroyed: the signals' thread outlives main's statics.
+Interruptions& interruptions() {
+  static auto* const all = new Interruptions;
+  return *all;
+}
+
+void undo_all() {
+  Interruptions& all = interruptions();
+  const std::lock_guard lock(all.undoing);
+  for (auto undo = all.undos.rbegin(); undo != all.undos.rend(); ++undo) undo->second();
+}
+
+// With the lock, so that nothing begins that would have to be undone.
+[[noreturn]] void end(ExitCode code) {
+  const std::lock_guard lock(interruptions().undoing);
+  undo_all();
+  log_line("interrupted");
+  ::_exit(static_cast<int>(code));
+}
+
+// Returns if the run ends by itself.
+void interrupt() {
+  Interruptions& all = interruptions();
+  std::unique_lock lock(all.asking);
+  const ExitCode code = all.code;
+  const auto now = std::chrono::steady_clock::now();
+  const bool first = !std::exchange(all.come, true);
+  if (first) all.first_come = now;
+  if (!first && all.orderly && now - all.first_come < kTwice) return;
+  const auto asked = [&] { return all.asked_since; };
+  if (first && all.orderly) {
+    if (all.heard.wait_for(lock, kBeforeUndoing, asked)) return;
+    lock.unlock();
+    undo_all();
+    lock.lock();
+    if (all.heard.wait_for(lock, kBeforeTheEnd, asked)) return;
+  }
+  lock.unlock();
+  end(code);
+}
+
+}  // namespace
+
+void take_interruptions() {
+  sigset_t ending;
+  ::sigemptyset(&ending);
+  ::sigaddset(&ending, SIGINT);
+  ::sigaddset(&ending, SIGTERM);
+  ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+  std::thread([ending] {
+    for (int signal = 0; ::sigwait(&ending, &signal) == 0;) interrupt();
+  }).detach();
+}
+
+OnInterruption::OnInterruption(std::function<void()> undo) {
+  Interruptions& all = interruptions();
+  const std::lock_guard lock(all.undoing);
+  number_ = all.next_number++;
+  all.undos.emplace(number_, std::move(undo));
+}
+
+OnInterruption::~OnInterruption() {
+  Interruptions& all = interruptions();
+  const std::lock_guard lock(all.undoing);
+  all.undos.erase(number_);
+}
+
+Uninterrupted::Uninterrupted() { interruptions().undoing.lock(); }
+Uninterrupted::~Uninterrupted() { interruptions().undoing.unlock(); }
+
+CodeOfInterruption::CodeOfInterruption(ExitCode code) {
+  const std::lock_guard lock(interruptions().asking);
+  interruptions().code = code;
+}
+
+CodeOfInterruption::~CodeOfInterruption() {
+  const std::lock_guard lock(interruptions().asking);
+  interruptions().code = ExitCode::RunFailed;
+}
+
+OrderlyEnd::OrderlyEnd() {
+  const std::lock_guard lock(interruptions().asking);
+  interruptions().orderly = true;
+}
+
+OrderlyEnd::~OrderlyEnd() {
+  const std::lock_guard lock(interruptions().asking);
+  interruptions().orderly = false;
+}
+
+bool interrupted() {
+  Interruptions& all = interruptions();
+  const std::lock_guard lock(all.asking);
+  if (all.come) {
+    all.asked_since = true;
+    all.heard.notify_all();
+  }
+  return all.come;
+}
+
+}  // namespace afm::core

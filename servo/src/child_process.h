@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+namespace afm::servo {
+
+// The numbers under which a child finds the two descriptors that it inherits.
+inline constexpr std::array<int, 2> kInherited{3, 4};
+
+// Starts a program in a process group of its own, so that Ctrl-C in a terminal reaches it through its parent, in good
+// order. It inherits the standard streams and two descriptors as kInherited, and nothing else: a lifeline that a third
+// process also held would not break.
+core::Result<pid_t> start_child(const std::string& program, std::vector<std::string> arguments,
+                                const std::array<int, 2>& descriptors);
+
+// Whether it ends within so long; then it is reaped and `status` is what waitpid() says.
+bool child_ended_within(pid_t child, int milliseconds, int& status) noexcept;
+
+}  // namespace afm::servo

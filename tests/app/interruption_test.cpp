@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/live_program.h"
+#include "support/scratch_folder.h"
+#include "support/virtual_display.h"
+
+// SIGINT and SIGTERM, at moments when the program computes, draws, starts and writes. It ends within 500 ms, and twice
+// that counts.
+namespace afm {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::EndsWith;
+namespace fs = std::filesystem;
+
+constexpr auto kBound = milliseconds(2 * 500);
+
+struct Ended {
+  int exit_code = -1;
+  std::string said;
+  std::chrono::duration<double, std::milli> after{};
+};
+
+Ended interrupt(support::LiveProgram& program, int number) {
+  program.signal(number);
+  const auto begin = std::chrono::steady_clock::now();
+  Ended ended;
+  ended.exit_code = program.ends().value_or(-1);
+  ended.after = std::chrono::steady_clock::now() - begin;
+  ended.said = program.said();
+  std::printf("%s: ended after %.0f ms\n", number == SIGINT ? "SIGINT" : "SIGTERM", ended.after.count());
+  return ended;
+}
+
+class InterruptedDemonstration : public testing::TestWithParam<milliseconds> {};
+
+TEST(Interruption, OfASweepLeavesNoFile) {
+  for (const int number : {SIGINT, SIGTERM}) {
+    const support::ScratchFolder folder;
+    support::LiveProgram sweep({AFM_PROGRAM, "curve", "--material", "mica", "--sweep", "tip-radius=1nm:100nm:1000000",
+                                "--out", folder.file("sweep.csv")},
+                               "");
+    ASSERT_TRUE(sweep.says("sweep: "));
+    const Ended ended = interrupt(sweep, number);
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.said, EndsWith("touchafm: interrupted\n"));
+    EXPECT_LT(ended.after, kBound);
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+  }
+}
+
+// While it loads, starts its servo, lets a cycle be felt, and draws the pictures of the report.
+TEST_P(InterruptedDemonstration, LeavesNoFile) {
+  const support::ScratchFolder folder;
+  support::LiveProgram demo({AFM_PROGRAM, "demo", "--out", folder.file("out"), "--material", "mica"}, "");
+  std::this_thread::sleep_for(GetParam());
+  const Ended ended = interrupt(demo, SIGTERM);
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.said, testing::HasSubstr("touchafm: interrupted\n"));
+  EXPECT_LT(ended.after, kBound);
+  EXPECT_TRUE(!fs::exists(folder.file("out")) || fs::is_empty(folder.file("out")));
+}
+INSTANTIATE_TEST_SUITE_P(After, InterruptedDemonstration,
+                         testing::Values(milliseconds(100), milliseconds(800), milliseconds(2500), milliseconds(6000)),
+                         [](const auto& test) { return std::to_string(test.param.count()) + "ms"; });
+
+TEST(Interruption, OfAViewThatStartsIsItsEnd) {
+  const support::VirtualDisplay display(64, 64);
+  for (const int wait_ms : {300, 900}) {
+    support::LiveProgram view({AFM_PROGRAM, "view", "--size", "64x64"}, display.name());
+    std::this_thread::sleep_for(milliseconds(wait_ms));
+    const Ended ended = interrupt(view, SIGTERM);
+    EXPECT_EQ(ended.exit_code, 0) << ended.said;
+    EXPECT_LT(ended.after, kBound);
+  }
+}
+
+}  // namespace
+}  // namespace afm
