@@ -21,9 +21,10 @@
 #include "servo/haptic_choice.h"
 #include "servo/renderer_monitor.h"
 #include "servo/servo_handover.h"
+#include "servo/watchdog.h"
 
 // touchafm-servo: the process that holds the hand. Its main thread is the servo; a second thread watches the renderer,
-// a third, which is not real-time, builds what a visitor changes.
+// a third, which is not real-time, builds what a visitor changes. The same program is its watchdog, a second process.
 namespace {
 
 using namespace std::string_view_literals;
@@ -32,6 +33,7 @@ using afm::core::ExitCode;
 struct Options {
   int segment = -1;
   int parent_socket = -1;
+  int watched_servo = -1;  // this process is the watchdog of the servo behind this socket
   afm::haptics::ServoSettings settings;
   int dead_man = 0;  // 0 or 1
   std::string_view haptics = "sim";
@@ -51,14 +53,16 @@ std::optional<Options> parse_options(int count, char** arguments) {
     const std::string_view value = arguments[i + 1];
     const bool parsed = (name == "--segment"sv && parse(value, options.segment)) ||
                         (name == "--parent-socket"sv && parse(value, options.parent_socket)) ||
+                        (name == "--watch-servo"sv && parse(value, options.watched_servo)) ||
                         (name == "--rate"sv && parse(value, options.settings.rate_hz)) ||
                         (name == "--linger"sv && parse(value, options.settings.linger_s)) ||
+                        (name == "--max-force"sv && parse(value, options.settings.max_force_n)) ||
                         (name == "--spin"sv && parse(value, options.settings.spin_ns)) ||
                         (name == "--dead-man"sv && parse(value, options.dead_man)) || name == "--haptics"sv;
     if (name == "--haptics"sv) options.haptics = value;
     if (!parsed) return std::nullopt;
   }
-  if (options.segment < 0 || options.parent_socket < 0) return std::nullopt;
+  if (options.segment < 0 || (options.parent_socket < 0) == (options.watched_servo < 0)) return std::nullopt;
   options.settings.dead_man = options.dead_man != 0;
   return options;
 }
@@ -73,7 +77,15 @@ afm::core::FileDescriptor catch_signals() {
   return afm::core::FileDescriptor(::signalfd(-1, &ending, SFD_CLOEXEC));
 }
 
-afm::core::ExitCode run(const Options& options) {
+ExitCode watch(const Options& options) {
+  const afm::core::FileDescriptor servo(options.watched_servo);
+  auto segment = afm::scene::SharedSegment::attach(afm::core::FileDescriptor(options.segment));
+  if (!segment) return ExitCode::RunFailed;  // the servo cannot either, and says so
+  afm::servo::watch_servo(servo, *segment);
+  return ExitCode::Done;
+}
+
+ExitCode run(const Options& options) {
   afm::core::FileDescriptor parent_socket(options.parent_socket);
   auto segment = afm::scene::SharedSegment::attach(afm::core::FileDescriptor(options.segment));
   if (!segment) {
@@ -82,9 +94,15 @@ afm::core::ExitCode run(const Options& options) {
   }
   // a device may bring threads of its own, which must leave the signals to the monitor
   const afm::core::FileDescriptor signals = catch_signals();
+  const auto watchdog = afm::servo::Watchdog::start(afm::servo::executable_path(), segment->descriptor());
+  if (!watchdog) {
+    afm::core::log_line(watchdog.error().message);
+    return afm::core::exit_code(watchdog.error().category);
+  }
   const afm::core::MonotonicClock clock;
+  const auto offer = [&](const afm::haptics::ReleasePath& path) { (*watchdog)->offer(path); };
   const auto choice = afm::servo::parse_haptic_choice(options.haptics);
-  auto opened = choice ? afm::servo::open_haptic_device(*choice, clock) : tl::unexpected(choice.error());
+  auto opened = choice ? afm::servo::open_haptic_device(*choice, clock, offer) : tl::unexpected(choice.error());
   if (!opened) {
     afm::core::log_line(opened.error().message);
     return afm::core::exit_code(opened.error().category);
@@ -99,7 +117,7 @@ afm::core::ExitCode run(const Options& options) {
   {
     const afm::haptics::EditThread edits((*loop)->edits());
     const afm::servo::RendererMonitor watch(
-        **loop, std::move(parent_socket), signals,
+        **loop, std::move(parent_socket), signals, (*watchdog)->descriptor(),
         {.seconds = options.settings.linger_s,
          .program = afm::servo::executable_path(),
          .segment = segment->descriptor(),
@@ -108,12 +126,13 @@ afm::core::ExitCode run(const Options& options) {
     for (const std::string& note : grant.notes) afm::core::log_line(note);
     (*loop)->note_grant(grant);
     exit = (*loop)->run(clock);
+    (*watchdog)->expect_end();
   }
   if (exit == afm::haptics::ServoExit::RendererDied) {
     afm::core::log_line("the renderer died: force released");
-    return afm::core::ExitCode::RunFailed;
+    return ExitCode::RunFailed;
   }
-  return afm::core::ExitCode::Done;
+  return ExitCode::Done;
 }
 
 }  // namespace
@@ -124,7 +143,7 @@ int main(int count, char** arguments) {
   const auto options = parse_options(count, arguments);
   if (!options) {
     afm::core::log_line("touchafm-servo is started by touchafm; run 'touchafm demo --out DIR' instead");
-    return static_cast<int>(afm::core::ExitCode::WrongUsage);
+    return static_cast<int>(ExitCode::WrongUsage);
   }
-  return static_cast<int>(run(*options));
+  return static_cast<int>(options->watched_servo < 0 ? run(*options) : watch(*options));
 }

@@ -13,6 +13,7 @@
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
+#include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
 #include "core/exit_code.h"
 #include "core/interruption.h"
@@ -32,6 +33,7 @@ constexpr std::uint32_t kSmallestWindow = 64, kLargestWindow = 16384;
 constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // a second; the servo lets go after 250 ms of silence
 
 constexpr double kLingerS = 10.0;
+constexpr QuantityRange kForceLimits{physics::Force(haptics::kLeastForceLimitN), physics::Force(2.0)};
 
 struct ViewOptions {
   exhibit::ExhibitFiles files;
@@ -163,7 +165,13 @@ void add_servo_options(OptionList& command, ViewOptions& options) {
       .type_name("DIR");
   add_scale_option(command, options.settings.scale);
   command.add_flag("--dead-man", options.servo.settings.dead_man, "force only as long as Turn-On is held");
-  command.add_option("--servo-rate", options.servo.settings.rate_hz, "of the servo, 100 Hz to 10 kHz")
+  quantity_option(
+      command, "--max-force", [&options](physics::Force most) { options.servo.settings.max_force_n = most.si; },
+      physics::kForceUnits, "the most that the hand is pushed or pulled with; default: 2 N, or 0.9 of the device's",
+      std::optional(kForceLimits));
+  command
+      .add_option("--servo-rate", options.servo.settings.rate_hz,
+                  "of the servo, 100 Hz to 10 kHz; a force-feedback device needs 400 Hz or more")
       .within(100.0, 10'000.0)
       .show_default()
       .type_name("HZ");

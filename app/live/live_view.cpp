@@ -169,6 +169,7 @@ void LiveView::follow_head(std::int64_t now_ns) {
 void LiveView::follow_wand(std::int64_t now_ns) {
   const WallPicture shown = picture_.picture(0);
   view_wand_.update(now_ns, servo_.link().tip(), 0.5 * (shown.eyes[0].eye_position_m + shown.eyes[1].eye_position_m));
+  if (view_wand_.stop_pressed()) stop_force();
   if (view_wand_.select_pressed()) press(wand_pointed_at());
   const glm::dmat3 turned(view_wand_.navigation());
   const glm::dvec3 normal = glm::normalize(turned * stage_.wall_scene.sample_normal());
@@ -225,6 +226,10 @@ void LiveView::begin_again() {
   } else if (auto started = servo_.start(); !started) {
     core::log_line(started.error().message);
   }
+}
+
+void LiveView::stop_force() {
+  if (servo_.running()) servo_.link().stop(clock_.now_ns());
 }
 
 // So that the tip follows the cursor.

@@ -60,6 +60,7 @@ class LiveView {
   void take_force_away(std::int64_t now_ns);
   void travel(std::int64_t now_ns);
   void begin_again();
+  void stop_force();
   void bring_to_wall();
   void bring_home();
   void turn_journey_round();

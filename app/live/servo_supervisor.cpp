@@ -91,8 +91,10 @@ void ServoSupervisor::log_state() {
   logged_state_ = tip.servo_state;
   if (logged_state_ == scene::ServoState::Running) core::log_line("force on");
   const bool off = logged_state_ == scene::ServoState::Disarmed || logged_state_ == scene::ServoState::Fault;
+  if (!off) return;
+  if (tip.fault == scene::FaultCode::ServoSilent) return core::log_line(scene::reason(tip.fault));  // whatever it does
   const bool fault = tip.fault != scene::FaultCode::None;
-  if (off) core::log_line(fault ? std::string("force off: ") + scene::reason(tip.fault) : "force off");
+  core::log_line(fault ? std::string("force off: ") + scene::reason(tip.fault) : "force off");
 }
 
 void ServoSupervisor::replace(const core::Error& error, std::int64_t now_ns) {

@@ -17,6 +17,7 @@ std::span<const LiveKey> live_keys() {
               "left click", Key::Digit9},
       LiveKey{MouseHand::kGripKey, "Space", "Move the hand", nullptr, "right drag, wheel"},
       LiveKey{MouseHand::kTurnOnKey, "T", "Turn-On", nullptr, "middle click"},
+      LiveKey{Key::Enter, "Enter", "Stop: no force, at once", [](LiveView& view, std::size_t) { view.stop_force(); }},
       LiveKey{Key::F2, "F2", "Parameters", [](LiveView& view, std::size_t) { view.panels_.toggle_parameters(); }},
       LiveKey{Key::M, "M", "Next scale of the hand", [](LiveView& view, std::size_t) { view.next_scale(); }},
       LiveKey{Key::J, "J", "Journey of scale, and back",

@@ -162,7 +162,9 @@ void ViewWand::update(std::int64_t now_ns, const scene::TipState& tip, const glm
       updated_ns_ == 0 ? 0.0 : std::clamp(static_cast<double>(now_ns - updated_ns_) * 1e-9, 0.0, kLongestFrameS);
   updated_ns_ = now_ns;
   const bool pressed_before = wand_.pressed(input::WandButton::Select);
+  const std::uint32_t stops_before = wand_.stops;
   if (wand_thread_) wand_ = wand_thread_->newest();
+  stop_pressed_ = wand_.stops > stops_before;
   if (simulated_) aim_simulated(now_ns);
   select_pressed_ = points() && wand_.pressed(input::WandButton::Select) && !pressed_before;
   pointing_ = selector_.update(wand_, eye_m, swatches_);

@@ -56,6 +56,7 @@ class ViewWand {
   // What the ray has snapped to, and whether the select button went down in this frame.
   std::optional<std::size_t> hovered() const { return pointing_.hovered; }
   bool select_pressed() const { return select_pressed_; }
+  bool stop_pressed() const { return stop_pressed_; }  // since the frame before
 
   glm::dmat4 navigation() const { return navigation_.room_from_scene(); }
   void home() { navigation_.home(); }
@@ -81,6 +82,7 @@ class ViewWand {
   input::Navigation navigation_;
   input::WandState wand_;
   bool select_pressed_ = false;
+  bool stop_pressed_ = false;
   bool was_locked_ = false;
   bool was_moved_ = false;
   std::int64_t updated_ns_ = 0;

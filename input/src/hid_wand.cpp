@@ -59,6 +59,7 @@ bool HidWand::take(Bytes report, std::int64_t now_ns) {
 
 void HidWand::press(std::uint32_t buttons, std::int64_t now_ns) {
   const std::uint32_t down = buttons & ~state_.buttons;
+  if ((down & bit(WandButton::Stop)) != 0) ++state_.stops;
   const bool grab = (buttons & bit(WandButton::Grab)) != 0;
   if (driver_->steered()) {
     // two quick presses of Grab: a cap has no button to spare for Home

@@ -178,14 +178,15 @@ HidMapping::Axis read_axis(const Table& table) {
 
 HidMapping::Button read_button(const Table& table) {
   table.allow_only({"button", "report", "byte", "bit"});
-  constexpr std::array<std::pair<std::string_view, WandButton>, 5> kButtons{{{"select", WandButton::Select},
+  constexpr std::array<std::pair<std::string_view, WandButton>, 6> kButtons{{{"select", WandButton::Select},
                                                                              {"grab", WandButton::Grab},
                                                                              {"scale", WandButton::Scale},
                                                                              {"home", WandButton::Home},
-                                                                             {"recenter", WandButton::Recenter}}};
+                                                                             {"recenter", WandButton::Recenter},
+                                                                             {"stop", WandButton::Stop}}};
   const std::string name = table.text("button");
   const auto found = std::find_if(kButtons.begin(), kButtons.end(), [&](const auto& b) { return b.first == name; });
-  if (found == kButtons.end()) table.refuse("button", "must be select, grab, scale, home or recenter");
+  if (found == kButtons.end()) table.refuse("button", "must be select, grab, scale, home, recenter or stop");
   HidMapping::Button button;
   button.button = found->second;
   read_place(table, button.report, button.byte, button.bit);
@@ -201,6 +202,10 @@ HidMapping read_device(const Table& root) {
   mapping.product = table.hexadecimal("product");
   root.each("axis", [&](const Table& axis) { mapping.axes.push_back(read_axis(axis)); });
   root.each("button", [&](const Table& button) { mapping.buttons.push_back(read_button(button)); });
+  const auto is_stop = [](const HidMapping::Button& button) { return button.button == WandButton::Stop; };
+  const bool stops_alone =
+      !mapping.buttons.empty() && std::all_of(mapping.buttons.begin(), mapping.buttons.end(), is_stop);
+  if (mapping.axes.empty() && stops_alone) return mapping;  // a pedal
   if (mapping.axes.empty()) table.refuse("name", "the device needs at least one [[axis]]");
   const bool selects = std::any_of(mapping.buttons.begin(), mapping.buttons.end(),
                                    [](const auto& button) { return button.button == WandButton::Select; });

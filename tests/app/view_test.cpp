@@ -163,6 +163,9 @@ TEST_F(ViewTest, AHandGoesThroughTheWholeProcedureWithAMouse) {
   EXPECT_GT(share_that_differs(chosen, cycle->down), 0.005);
   EXPECT_GT(share_that_differs(cycle->down, cycle->whole), 0.005);
 
+  xdotool("key Return");
+  ASSERT_TRUE(view.says("force off: Stop was pressed")) << view.said();
+
   // a stiffer lever, by pointing at its + : felt once the force is gone
   xdotool("key F2");
   click(pixel_of(render::ControlTarget{render::ControlTarget::Kind::More, 1}));

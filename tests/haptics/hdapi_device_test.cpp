@@ -123,6 +123,26 @@ TEST(HdapiDevice, TellsHowHotTheMotorsAreAndTheForceGivesWay) {
   EXPECT_EQ(bench.health(), HdapiHealth::Ready);
 }
 
+TEST(HdapiDevice, IsNotDrivenBySlowerTicksThanItsForcesLast) {
+  HdapiBench bench;
+  for (const double rate_hz : {100.0, 399.0}) {
+    const auto loop = ServoLoop::create(bench.segment, *bench.device, {.rate_hz = rate_hz});
+    ASSERT_FALSE(loop);
+    EXPECT_THAT(loop.error().message, testing::HasSubstr("older than 5 ms; choose 400 Hz or more"));
+  }
+  EXPECT_TRUE(ServoLoop::create(bench.segment, *bench.device, {.rate_hz = 400.0}));
+}
+
+TEST(HdapiDevice, SeesAHotMotorBehindASensorThatTellsNoNumber) {
+  HdapiBench bench;
+  bench.hold_attached();
+  mock_hd_break_first_sensor();
+  mock_hd_set_limit(kMotorTemperatureProperty, 1.0);
+  bench.run(150);
+  EXPECT_EQ(bench.force_n, 0.0);
+  EXPECT_EQ(bench.state().fault, FaultCode::MotorsHot);
+}
+
 TEST(HdapiDevice, GoesWithoutATemperatureThatTheDeviceDoesNotMeasure) {
   HdapiBench bench([] { mock_hd_set_limit(kMotorTemperatureProperty, -1.0); });
   bench.run(100);

@@ -59,7 +59,7 @@ TEST(GovernorFuzz, StaysFiniteWithinCapAndSlewWhateverComesIn) {
     input.pulled_off = random() % 100 == 0;
     input.turn_on = random() % 4 == 0;
     input.device_healthy = calm || random() % 100 != 0;
-    input.renderer = calm ? RendererLink::Alive : static_cast<RendererLink>(random() % 5);
+    input.renderer = calm ? RendererLink::Alive : static_cast<RendererLink>(random() % 6);
 
     const glm::dvec3 force_n = governor.step(input).command.force_n();
     const double length_n = glm::length(force_n);

@@ -25,7 +25,7 @@ const char* name(ServoState state) {
 
 // Every state that the servo can be in when a tick begins; what it remembers of an earlier fault differs from any that
 // a tick could give.
-constexpr FaultCode kEarlier{7};
+constexpr FaultCode kEarlier{13};
 std::vector<SafetyState> all_states() {
   return {{Disarmed, kEarlier, 0},         {Arming, FaultCode::None, 0},     {Running, FaultCode::None, 0},
           {Fading, kEarlier, kSlowFadeNs}, {Fading, kEarlier, kQuickFadeNs}, {Fault, kEarlier, 0}};
@@ -34,7 +34,8 @@ std::vector<SafetyState> all_states() {
 // Everything that a tick can find.
 std::vector<SafetyConditions> all_conditions() {
   std::vector<SafetyConditions> all;
-  for (const FaultCode cut : {FaultCode::None, FaultCode::DeviceError, FaultCode::NotFinite, FaultCode::VelocityTrip}) {
+  for (const FaultCode cut : {FaultCode::None, FaultCode::DeviceError, FaultCode::NotFinite, FaultCode::StopPressed,
+                              FaultCode::VelocityTrip}) {
     for (const RendererLink renderer :
          {RendererLink::Absent, RendererLink::Alive, RendererLink::Hung, RendererLink::Leaving, RendererLink::Died}) {
       for (const auto& [edge, held] : {std::pair(false, false), std::pair(false, true), std::pair(true, true)}) {
@@ -82,6 +83,8 @@ std::vector<Row> table() {
        FaultCode::DeviceError, 0},
       {kAny, "no number", [](const SafetyConditions& f) { return f.cut == FaultCode::NotFinite; }, Fault,
        FaultCode::NotFinite, 0},
+      {kAny, "Stop", [](const SafetyConditions& f) { return f.cut == FaultCode::StopPressed; }, Fault,
+       FaultCode::StopPressed, 0},
       {kForce, "too fast", [](const SafetyConditions& f) { return f.cut == FaultCode::VelocityTrip; }, Fault,
        FaultCode::VelocityTrip, 0},
       {{Disarmed},
@@ -145,7 +148,7 @@ TEST(SafetyStates, FollowTheTableForEveryStateAndEverythingThatATickCanFind) {
       ++looked;
     }
   }
-  EXPECT_EQ(looked, 6 * 4 * 5 * 3 * 64);
+  EXPECT_EQ(looked, 6 * 5 * 5 * 3 * 64);
   for (const Row& row : rows) EXPECT_GT(row.used, 0) << "never taken: " << row.when;
 }
 

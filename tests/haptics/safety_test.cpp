@@ -124,6 +124,19 @@ TEST_F(Governor, ReleasesWithin20MsOfTheRenderersDeath) {
   EXPECT_EQ(governor_.fault(), FaultCode::RendererDied);
 }
 
+TEST_F(Governor, CutsInTheTickThatHearsStopAndWantsAPressAfterwards) {
+  hold(kCapN);
+  input_.renderer = RendererLink::Stopped;
+  EXPECT_EQ(step(), 0.0);
+  EXPECT_TRUE(dropped_);
+  EXPECT_EQ(governor_.state(), ServoState::Fault);
+  EXPECT_EQ(governor_.fault(), FaultCode::StopPressed);
+  input_.renderer = RendererLink::Alive;
+  steps(1000);
+  EXPECT_EQ(governor_.state(), ServoState::Fault);
+  EXPECT_EQ(force_n_, glm::dvec3(0.0));
+}
+
 TEST_F(Governor, FadesIn90MsWhenTheRendererHangsOrLeaves) {
   for (const RendererLink link : {RendererLink::Hung, RendererLink::Leaving}) {
     restart();

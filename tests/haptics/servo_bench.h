@@ -43,11 +43,11 @@ inline std::unique_ptr<haptics::ContactModel> model_of(const scene::SharedContac
 class ServoBench {
  public:
   explicit ServoBench(const scene::SharedModel& model = paper_model(), double rate_hz = 1000.0,
-                      const haptics::DeviceFlaws& flaws = {})
+                      const haptics::DeviceFlaws& flaws = {}, double max_force_n = HUGE_VAL)
       : segment(required(scene::SharedSegment::create(model, 0))),
         renderer(segment.renderer_side()),
         device(glm::dvec3(0.0, kTop, 0.0), {}, flaws),
-        loop(required(haptics::ServoLoop::create(segment, device, {.rate_hz = rate_hz}))) {}
+        loop(required(haptics::ServoLoop::create(segment, device, {.rate_hz = rate_hz, .max_force_n = max_force_n}))) {}
 
   // One tick `late_ns` after its time.
   void tick(std::int64_t late_ns = 0) {

@@ -323,6 +323,47 @@ TEST(ServoLoop, GoesOnInASegmentWhereItsPredecessorDied) {
   EXPECT_EQ(bench.hand_force_n(), 0.0);
 }
 
+// Whatever is felt fits below the limit: the scale is another one, nothing is cut off.
+TEST(ServoLoop, GivesNoMoreThanAnOperatorAllows) {
+  for (const double most_n : {0.1, 1.0, 1.7}) {
+    ServoBench bench(paper_model(), 1000.0, {}, most_n);
+    bench.arm(kMica);
+    bench.move(-0.025, 0.5);
+    bench.move(0.060, 0.5);
+    EXPECT_LE(bench.state().safety.force_cap_n, most_n);
+    double strongest_n = 0.0;
+    for (const TipSample& sample : bench.samples) strongest_n = std::max(strongest_n, std::abs(sample.hand_force_n));
+    EXPECT_LE(strongest_n, most_n);
+    EXPECT_GT(strongest_n, 0.7 * most_n);
+    EXPECT_GE(bench.events.size(), 2U);
+  }
+  auto segment = SharedSegment::create(paper_model(), 0);
+  SimulatedDevice device;
+  for (const double most_n : {0.0, 0.09, -1.0, kNan}) {
+    EXPECT_THAT(ServoLoop::create(*segment, device, {.max_force_n = most_n}).error().message,
+                testing::HasSubstr("choose 0.1 N or more"));
+  }
+}
+
+TEST(ServoLoop, CutsTheForceInTheTickThatHearsStop) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  bench.renderer.store(RendererHeartbeat{.time_ns = bench.now_ns, .frame = ++bench.frame, .stop = 1});
+  bench.heartbeats = false;
+  bench.tick();
+  EXPECT_EQ(bench.hand_force_n(), 0.0);
+  EXPECT_EQ(bench.state().fault, FaultCode::StopPressed);
+  bench.heartbeats = true;
+  bench.run(1.0);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Fault);
+  bench.aim(ServoBench::kTop, 0.3, true);  // acknowledges
+  bench.run(0.5);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
+  bench.aim(ServoBench::kTop, 0.0);
+  bench.run(0.1);
+  bench.arm(kMica);
+}
+
 TEST(ServoLoop, RefusesARateThatNoServoCanKeep) {
   auto segment = SharedSegment::create(paper_model(), 0);
   SimulatedDevice device;

@@ -71,7 +71,8 @@ void write_all(ServoBench& bench, Garbage& garbage) {
     side.store(garbage.flipped(Selection{.material = kMica, .revision = 1}));
     side.store(garbage.flipped(HandScript{.target_m = {0, 0.02, 0}, .duration_s = 0.5, .revision = ++bench.script}));
     RendererHeartbeat heartbeat = garbage.flipped(RendererHeartbeat{});
-    heartbeat.leaving &= ~1U;  // a goodbye is believed
+    heartbeat.leaving &= ~1U;  // a goodbye is believed, and so is Stop
+    heartbeat.stop &= ~1U;
     side.store(heartbeat);
   }
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "input/hid_wand.h"
 #include "places.h"
 #include "support/scratch_folder.h"
 
@@ -51,6 +52,28 @@ TEST(WandFile, SaysWhatADeviceSends) {
   EXPECT_EQ(good->device->buttons.front().bit, 2U);
 }
 
+TEST(WandFile, OfAPedalNeedsNothingButStop) {
+  const std::string device = "[device]\nname = \"pedal\"\nvendor = \"0c45\"\nproduct = \"7403\"\n";
+  const auto pedal = load(device + "[[button]]\nbutton = \"stop\"\nreport = 0\nbyte = 3\nbit = 0\n");
+  ASSERT_TRUE(pedal) << pedal.error().message;
+  HidWand wand(mapped_driver(*pedal->device), {});
+  const std::vector<std::uint8_t> down{0, 0, 0, 5, 0}, up{0, 0, 0, 0, 0};
+  EXPECT_TRUE(wand.take(down, 1));
+  EXPECT_TRUE(wand.take(up, 2));
+  EXPECT_TRUE(wand.take(down, 3));
+  EXPECT_TRUE(wand.take(down, 4));
+  EXPECT_TRUE(wand.take(up, 5));
+  const WandState state = wand.state(6);
+  EXPECT_EQ(state.stops, 2U) << "a press between two frames counts";
+  EXPECT_FALSE(state.orientation_valid) << "a pedal points nowhere";
+
+  const auto mixed = load(
+      device +
+      "[[button]]\nbutton = \"stop\"\nreport = 0\nbyte = 3\n[[button]]\nbutton = \"grab\"\nreport = 0\nbyte = 4\n");
+  ASSERT_FALSE(mixed);
+  EXPECT_THAT(mixed.error().message, HasSubstr("at least one [[axis]]"));
+}
+
 struct Mistake {
   const char* from;
   const char* to;
@@ -73,7 +96,7 @@ TEST(WandFile, NamesLineAndKeyOfEveryMistake) {
       {"report = 1\nbyte = 1", "report = 256\nbyte = 1", "line 7: axis.report: must be a whole number from 0 to 255"},
       {"report = 1\nbyte = 1", "report = 1\nbyte = 0", "line 8: axis.byte: must be a whole number from 1 to 1023"},
       {"bit = 2", "bit = 8", "line 14: button.bit: must be a whole number from 0 to 7"},
-      {"\"select\"", "\"fire\"", "line 11: button.button: must be select, grab, scale, home or recenter"},
+      {"\"select\"", "\"fire\"", "line 11: button.button: must be select, grab, scale, home, recenter or stop"},
       {"\"select\"", "\"grab\"", "the device needs a [[button]] with button = \"select\""},
       {"[[axis]]", "[[wheel]]", "line 5: wheel: unknown key"},
       {"[[axis]]", "[axis]", "axis: must be written [[axis]]"},

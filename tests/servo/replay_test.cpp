@@ -75,7 +75,8 @@ class Recording {
 
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i, ++tick_) {
-      if (heartbeats && tick_ % 16 == 0) renderer_.store(scene::RendererHeartbeat{.frame = ++frame_});
+      if (heartbeats && tick_ % 16 == 0)
+        renderer_.store(scene::RendererHeartbeat{.frame = ++frame_, .stop = stop ? 1U : 0U});
       now_ns += 1'000'000 + 37'000 * (tick_ % 11) - (tick_ % 7) * 51'000;
       loop_->tick(now_ns, 0);
       while (const auto sample = renderer_.pop_sample()) record(*sample);
@@ -105,6 +106,7 @@ class Recording {
   FaultyDevice device;
   std::vector<RecordedSession> sessions;
   bool heartbeats = true;
+  bool stop = false;
   std::int64_t now_ns = 7'000'000'000;
 
  private:
@@ -213,6 +215,16 @@ TEST(Replay, GivesFaultsHangsAndLateTicksAgain) {
     recording.aim(0.062, 0.3, true);  // acknowledges
     recording.run(500);
   }
+  recording.arm();
+  recording.aim(0.010, 0.3);
+  recording.run(400);
+  recording.stop = true;
+  recording.run(250);
+  EXPECT_EQ(recording.state().fault, FaultCode::StopPressed);
+  recording.stop = false;
+  recording.run(50);
+  recording.aim(0.062, 0.3, true);
+  recording.run(500);
   // a material that is chosen in a fault
   recording.device.healthy = false;
   recording.run(10);

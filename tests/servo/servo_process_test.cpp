@@ -220,9 +220,10 @@ TEST(ServoProcess, InheritsTheTwoDescriptorsAndNoOthers) {
     if (std::stoi(entry.path().filename()) > STDERR_FILENO)
       targets.push_back(std::filesystem::read_symlink(entry.path()));
   }
-  // and what it opened itself: its signals and its monitor's wake-up
-  EXPECT_THAT(targets, testing::UnorderedElementsAre(HasSubstr("memfd:touchafm"), HasSubstr("socket:"),
-                                                     HasSubstr("signalfd"), HasSubstr("eventfd")));
+  // and what it opened itself: its watchdog's socket, its signals and its monitor's wake-up
+  EXPECT_THAT(targets,
+              testing::UnorderedElementsAre(HasSubstr("memfd:touchafm"), HasSubstr("socket:"), HasSubstr("socket:"),
+                                            HasSubstr("signalfd"), HasSubstr("eventfd")));
 }
 
 TEST(ServoProcess, SaysWhatIsMissingWhenItCannotBeStarted) {

@@ -19,7 +19,8 @@ struct DeviceSpec {
   double max_stiffness_n_per_m = 0;                                    // stable at the servo's rate
   double max_slew_n_per_s = std::numeric_limits<double>::infinity();   // beyond it the driver cuts the force
   double max_speed_m_per_s = std::numeric_limits<double>::infinity();  // likewise
-  bool has_own_hand = true;                                            // false: it goes where follow() says
+  double force_lasts_s = std::numeric_limits<double>::infinity();  // not renewed for so long, its driver takes it away
+  bool has_own_hand = true;                                        // false: it goes where follow() says
   glm::dvec3 workspace_min_m{0.0};
   glm::dvec3 workspace_max_m{0.0};
   glm::dvec3 contact_point_m{0.0};  // where the hand is when the tip touches the undeformed sample (Z = 0)
@@ -41,6 +42,10 @@ DeviceSpec spec_of(const scene::SharedDevice& device);
 // The force that the servo lets a device have at most: 2.0 N, the default of careful drivers for hands
 // (sawSensablePhantom), and less for a device whose nominal peak leaves no reserve of a tenth.
 double force_cap_n(const DeviceSpec& spec);
+
+// The same device for an operator who wants less: its nominal peak is such that force_cap_n() is not above `max_n`.
+inline constexpr double kLeastForceLimitN = 0.1;
+DeviceSpec limited_to(DeviceSpec spec, double max_n);
 
 // What a device's limits of slew and speed leave for use: a driver that sees its own limit exceeded cuts the force.
 inline constexpr double kUsableLimitShare = 0.8;

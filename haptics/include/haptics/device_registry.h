@@ -12,6 +12,7 @@
 #include "core/clock.h"
 #include "core/result.h"
 #include "haptics/device.h"
+#include "haptics/release_path.h"
 
 // The haptic devices that TouchAFM can use, what each is called, and how a person gets one.
 namespace afm::haptics {
@@ -56,6 +57,7 @@ struct DeviceRequest {
   const Environment& environment;
   const core::Clock& clock;  // outlives the device
   DeviceChoice choice = DeviceChoice::ByName;
+  OfferReleasePath offer{};  // may be empty; for a device that another process can be let into
 };
 
 // A kind of device: one row of the registry (docs/adding-a-device.md).
@@ -87,11 +89,12 @@ struct OpenedDevice {
 
 // DeviceMissing: it is not there; the message has all that was tried. `clock` outlives the device. Takes up to some
 // seconds.
-core::Result<OpenedDevice> open_device(const DeviceKind& kind, const Environment& environment,
-                                       const core::Clock& clock);
+core::Result<OpenedDevice> open_device(const DeviceKind& kind, const Environment& environment, const core::Clock& clock,
+                                       const OfferReleasePath& offer = {});
 
 // The first one that opens.
-OpenedDevice open_best_device(const Environment& environment, const core::Clock& clock);
+OpenedDevice open_best_device(const Environment& environment, const core::Clock& clock,
+                              const OfferReleasePath& offer = {});
 
 // Looks for every kind of device without starting any.
 std::vector<ProbeLine> probe_devices(const Environment& environment);

@@ -9,15 +9,15 @@
 //
 //   Disarmed --Turn-On pressed, nothing in the way--> Arming --ramp at its top--> Running
 //   Arming, Running --a reason to fade--> Fading --no force left--> Disarmed
-//   any --the device failed, or what it says is no number--> Fault --cause gone, Turn-On pressed--> Disarmed
-//   Arming, Running, Fading --the hand flies--> Fault
+//   any --the device failed, what it says is no number, or Stop was pressed--> Fault --cause gone, Turn-On pressed-->
+//   Disarmed Arming, Running, Fading --the hand flies--> Fault
 //
 // A device that is missing or not calibrated is one that failed. Nothing but these edges is taken.
 namespace afm::haptics {
 
 // What one tick found.
 struct SafetyConditions {
-  scene::FaultCode cut = scene::FaultCode::None;  // DeviceError, NotFinite, VelocityTrip
+  scene::FaultCode cut = scene::FaultCode::None;  // DeviceError, NotFinite, StopPressed, VelocityTrip
   scene::RendererLink renderer = scene::RendererLink::Absent;
   bool turn_on_edge = false;  // pressed in this tick
   bool turn_on_held = false;

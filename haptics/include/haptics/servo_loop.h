@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -22,8 +23,9 @@ namespace afm::haptics {
 
 // How a servo is run; what touchafm's options say.
 struct ServoSettings {
-  double rate_hz = 1000.0;   // 100 Hz to 10 kHz
-  bool dead_man = false;     // the force lasts only as long as Turn-On is held
+  double rate_hz = 1000.0;                                       // 100 Hz to 10 kHz
+  double max_force_n = std::numeric_limits<double>::infinity();  // what an operator allows, kLeastForceLimitN or more
+  bool dead_man = false;                                         // the force lasts only as long as Turn-On is held
   std::int64_t spin_ns = 0;  // the end of every wait that is spent awake, for a punctual tick; 0 to half a period
   double linger_s = 0;       // how long touchafm-servo keeps the device for another renderer after one has died
 };
@@ -85,6 +87,7 @@ class ServoLoop {
 
   scene::ServoSide shared_;
   HapticDevice& device_;
+  const DeviceSpec spec_;  // of the device, within what the operator allows
   ServoSettings settings_;
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
@@ -108,6 +111,7 @@ class ServoLoop {
 
   bool heard_renderer_ = false;
   bool leaving_ = false;
+  bool stop_pressed_ = false;
   std::int64_t heartbeat_seen_ns_ = 0;
   std::uint32_t refused_transforms_ = 0;
   enum class Presence { Here, Lost, Died };

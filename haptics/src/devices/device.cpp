@@ -61,6 +61,13 @@ DeviceSpec spec_of(const scene::SharedDevice& device) {
 
 double force_cap_n(const DeviceSpec& spec) { return std::min(kDefaultCapN, kUsableShare * spec.max_force_n); }
 
+DeviceSpec limited_to(DeviceSpec spec, double max_n) {
+  spec.max_force_n = std::min(spec.max_force_n, max_n / kUsableShare);
+  // the division may have been rounded up
+  while (force_cap_n(spec) > max_n) spec.max_force_n = std::nextafter(spec.max_force_n, 0.0);
+  return spec;
+}
+
 double usable_slew_n_per_s(const DeviceSpec& spec, double wanted_n_per_s) {
   return std::min(wanted_n_per_s, kUsableLimitShare * spec.max_slew_n_per_s);
 }

@@ -73,19 +73,19 @@ const DeviceKind* find_device_kind(std::string_view word) {
   return found == kDevices.end() ? nullptr : &*found;
 }
 
-core::Result<OpenedDevice> open_device(const DeviceKind& kind, const Environment& environment,
-                                       const core::Clock& clock) {
+core::Result<OpenedDevice> open_device(const DeviceKind& kind, const Environment& environment, const core::Clock& clock,
+                                       const OfferReleasePath& offer) {
   OpenedDevice opened;
-  auto device = open_kind(kind, {environment, clock, DeviceChoice::ByName}, opened.lines);
+  auto device = open_kind(kind, {environment, clock, DeviceChoice::ByName, offer}, opened.lines);
   if (!device) return tl::unexpected(device.error());
   opened.device = std::move(*device);
   return opened;
 }
 
-OpenedDevice open_best_device(const Environment& environment, const core::Clock& clock) {
+OpenedDevice open_best_device(const Environment& environment, const core::Clock& clock, const OfferReleasePath& offer) {
   OpenedDevice opened;
   for (const DeviceKind& kind : kDevices) {
-    auto device = open_kind(kind, {environment, clock, DeviceChoice::Automatic}, opened.lines);
+    auto device = open_kind(kind, {environment, clock, DeviceChoice::Automatic, offer}, opened.lines);
     if (!device) continue;
     opened.device = std::move(*device);
     break;

@@ -31,6 +31,7 @@ DeviceSpec inverse3() {
           .max_force_n = 2.2,
           .max_continuous_force_n = 0.9,
           .max_stiffness_n_per_m = 400.0,
+          .force_lasts_s = core::seconds(HaplyDevice::kStaleNs),
           .workspace_min_m = {-0.08, 0.08, 0.04},
           .workspace_max_m = {0.08, 0.20, 0.20},
           .contact_point_m = {0.0, 0.12, 0.12}};
@@ -38,10 +39,11 @@ DeviceSpec inverse3() {
 
 }  // namespace
 
-core::Result<std::unique_ptr<HaplyDevice>> HaplyDevice::open(const core::Clock& clock, std::uint16_t port) {
+core::Result<std::unique_ptr<HaplyDevice>> HaplyDevice::open(const core::Clock& clock, std::uint16_t port,
+                                                             OfferReleasePath offer) {
   auto link = std::make_unique<HaplyLink>();
   if (auto connected = link->connect(port); !connected) return tl::unexpected(connected.error());
-  std::unique_ptr<HaplyDevice> device(new HaplyDevice(clock, port, std::move(link)));
+  std::unique_ptr<HaplyDevice> device(new HaplyDevice(clock, port, std::move(link), std::move(offer)));
   if (!wait_until(kFirstPlacePatience, [&] { return device->frames_.try_load().has_value(); })) {
     return core::failure(core::ErrorCategory::DeviceMissing,
                          fmt::format("the haply inverse service at port {} tells the place of no inverse3 within {} s: "
@@ -53,8 +55,11 @@ core::Result<std::unique_ptr<HaplyDevice>> HaplyDevice::open(const core::Clock& 
 
 core::Result<void> HaplyDevice::query(std::uint16_t port) { return HaplyLink().connect(port); }
 
-HaplyDevice::HaplyDevice(const core::Clock& clock, std::uint16_t port, std::unique_ptr<HaplyLink> link)
-    : clock_(clock), port_(port), spec_(inverse3()), link_(std::move(link)), thread_([this] { serve(); }) {}
+HaplyDevice::HaplyDevice(const core::Clock& clock, std::uint16_t port, std::unique_ptr<HaplyLink> link,
+                         OfferReleasePath offer)
+    : clock_(clock), port_(port), spec_(inverse3()), link_(std::move(link)), offer_(std::move(offer)), thread_([this] {
+        serve();
+      }) {}
 
 HaplyDevice::~HaplyDevice() {
   closing_.store(true);
@@ -114,7 +119,7 @@ void HaplyDevice::exchange() {
       asked = true;
       const auto state = parse_haply_state(*message);
       if (!state) continue;
-      device_id = state->device_id;
+      if (std::exchange(device_id, state->device_id) != state->device_id) offer_release(device_id);
       heard_ns_ = clock_.now_ns();
       frames_.store({.time_ns = heard_ns_, .position_m = state->position_m, .button = state->button ? 1U : 0U});
     }
@@ -131,6 +136,10 @@ void HaplyDevice::exchange() {
   }
   // whatever ended it, the service may still hold what it was last sent
   if (!released_.load()) tell(device_id, glm::dvec3(0.0));
+}
+
+void HaplyDevice::offer_release(const std::string& device_id) const {
+  if (offer_) offer_({link_->descriptor(), text_frame(haply_force_message(device_id, glm::dvec3(0.0)))});
 }
 
 void HaplyDevice::tell(const std::string& device_id, const glm::dvec3& force_n) {
@@ -169,7 +178,7 @@ std::uint16_t service_port(const Environment& environment) {
 }  // namespace
 
 core::Result<std::unique_ptr<HapticDevice>> open_haply(const DeviceRequest& request, ProbeLog& log) {
-  auto device = HaplyDevice::open(request.clock, service_port(request.environment));
+  auto device = HaplyDevice::open(request.clock, service_port(request.environment), request.offer);
   if (!device) {
     log.missing(device.error().message);
     return tl::unexpected(device.error());

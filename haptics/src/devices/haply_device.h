@@ -39,9 +39,10 @@ class HaplyDevice final : public HapticDevice {
   static constexpr std::int64_t kRetryNs = 200'000'000;
 
   // DeviceMissing: no service, or no Inverse3 that tells its place within two seconds. `clock` outlives the device and
-  // is the one whose time read() is given.
+  // is the one whose time read() is given. `offer` is called for each connection.
   static core::Result<std::unique_ptr<HaplyDevice>> open(const core::Clock& clock,
-                                                         std::uint16_t port = kHaplyServicePort);
+                                                         std::uint16_t port = kHaplyServicePort,
+                                                         OfferReleasePath offer = {});
 
   // Whether the service answers; nothing is started.
   static core::Result<void> query(std::uint16_t port = kHaplyServicePort);
@@ -63,10 +64,11 @@ class HaplyDevice final : public HapticDevice {
     glm::dvec3 force_n{0.0};
   };
 
-  HaplyDevice(const core::Clock& clock, std::uint16_t port, std::unique_ptr<HaplyLink> link);
+  HaplyDevice(const core::Clock& clock, std::uint16_t port, std::unique_ptr<HaplyLink> link, OfferReleasePath offer);
 
   void serve() noexcept;  // begins with the connection that `link_` has
   void exchange();
+  void offer_release(const std::string& device_id) const;
   void tell(const std::string& device_id, const glm::dvec3& force_n);
   glm::dvec3 force_for(std::int64_t now_ns);
 
@@ -74,6 +76,7 @@ class HaplyDevice final : public HapticDevice {
   std::uint16_t port_;
   DeviceSpec spec_;
   std::unique_ptr<HaplyLink> link_;
+  OfferReleasePath offer_;
 
   core::LatestValue<Frame> frames_;
   core::LatestValue<TimedForce> commands_;

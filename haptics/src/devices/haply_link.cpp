@@ -12,6 +12,8 @@
 #include <mutex>
 #include <optional>
 
+#include "core/check.h"
+
 namespace afm::haptics {
 
 namespace {
@@ -64,6 +66,8 @@ struct HaplyLink::Socket {
     ErrorCode ignored;
     {
       const std::lock_guard lock(changing);
+      // a duplicate of the descriptor keeps the connection open: it is not the last close() that has to end it
+      if (stream) ignored = stream->next_layer().shutdown(tcp::socket::shutdown_both, ignored);
       if (stream) ignored = stream->next_layer().close(ignored);
     }
     context.restart();
@@ -145,12 +149,34 @@ bool HaplyLink::send(const std::string& message) {
   return !error;
 }
 
+int HaplyLink::descriptor() const {
+  return socket_->stream && socket_->stream->next_layer().is_open() ? socket_->stream->next_layer().native_handle()
+                                                                    : -1;
+}
+
 void HaplyLink::interrupt() {
   const std::lock_guard lock(socket_->changing);
   socket_->interrupted = true;
   // closing would free the number while the other thread still reads from it
   if (socket_->stream && socket_->stream->next_layer().is_open())
     ::shutdown(socket_->stream->next_layer().native_handle(), SHUT_RDWR);
+}
+
+std::string text_frame(std::string_view text) {
+  AFM_CHECK(text.size() <= 0xFFFF);
+  constexpr char kFinalText = '\x81';
+  constexpr int kMasked = 0x80, kLongestShort = 125, kTwoByteLength = 126;
+  std::string frame{kFinalText};
+  if (text.size() <= kLongestShort) {
+    frame += static_cast<char>(kMasked | static_cast<int>(text.size()));
+  } else {
+    frame += static_cast<char>(kMasked | kTwoByteLength);
+    frame += static_cast<char>(text.size() >> 8U);
+    frame += static_cast<char>(text.size() & 0xFFU);
+  }
+  frame.append(4, '\0');  // the mask
+  frame += text;
+  return frame;
 }
 
 }  // namespace afm::haptics

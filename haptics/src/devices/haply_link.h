@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/result.h"
 
@@ -34,6 +35,9 @@ class HaplyLink {
   // Within 20 ms. False, and ended(): the other side left, or does not read.
   bool send(const std::string& message);
 
+  // Of the connection's socket, for whoever sends text_frame() there in this one's place; -1 without a connection.
+  int descriptor() const;
+
   // Ends the connection, so that whoever waits goes on; there will be no other. From any thread.
   void interrupt();
 
@@ -41,5 +45,9 @@ class HaplyLink {
   struct Socket;
   std::unique_ptr<Socket> socket_;
 };
+
+// A text of at most 65535 bytes as it goes over the wire from a client (RFC 6455, section 5.2), masked with zero: there
+// is no proxy on the way that a mask would have to protect.
+std::string text_frame(std::string_view text);
 
 }  // namespace afm::haptics

@@ -11,6 +11,8 @@ namespace {
 
 using json = nlohmann::json;
 
+constexpr std::size_t kLongestId = 256;  // the service's have four digits; a message with it fits anywhere
+
 // A member of an object, or null: of anything else too.
 const json& member(const json& value, const char* name) {
   static const json kNull;
@@ -39,6 +41,7 @@ std::optional<HaplyState> parse_haply_state(std::string_view message) {
 
   HaplyState state;
   state.device_id = id.get<std::string>();
+  if (state.device_id.size() > kLongestId) return std::nullopt;
   state.position_m = {x.get<double>(), z.get<double>(), -y.get<double>()};
   if (!is_within_reach(state.position_m)) return std::nullopt;
   const json& wireless = member(member(first_of(root, "wireless_verse_grip"), "state"), "buttons");

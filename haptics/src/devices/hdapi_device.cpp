@@ -58,7 +58,9 @@ HdapiDevice::HdapiDevice(const HdapiFunctions& functions, const core::Clock& clo
       clock_(clock),
       handle_(handle),
       spec_(std::move(spec)),
-      calibration_style_(hdapi::calibration_style(functions)) {}
+      calibration_style_(hdapi::calibration_style(functions)) {
+  spec_.force_lasts_s = core::seconds(kStaleNs);
+}
 
 core::Result<void> HdapiDevice::start(Supervision supervision) {
   // the driver's own clamp stays behind ours
@@ -183,7 +185,11 @@ void HdapiDevice::read_hand(std::int64_t now_ns) noexcept {
   if (measures_heat_) {
     std::array<double, hdapi::kRoomForValues> heat{};
     hd_.get_doubles(hdapi::kMotorTemperature, heat.data());
-    frame_.motor_heat = *std::max_element(heat.begin(), heat.end());
+    frame_.motor_heat = 0.0;
+    for (const double one : heat) {
+      // a sensor that tells no number must not hide a motor that is hot
+      if (one > frame_.motor_heat) frame_.motor_heat = one;
+    }
   }
 
   const glm::dvec3 position_m = 1e-3 * glm::dvec3(mm[0], mm[1], mm[2]);

@@ -42,11 +42,26 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
         fmt::format("cannot run the servo at {} Hz: choose {} to {} Hz", rate_hz, kSlowestHz, kFastestHz));
   }
   const std::int64_t period_ns = period_of(settings);
+  // a tick that comes late once must not let go
+  const double slowest_hz = 2.0 / device.spec().force_lasts_s;
+  if (rate_hz < slowest_hz) {
+    return core::failure(
+        core::ErrorCategory::WrongUsage,
+        fmt::format(
+            "cannot run the servo at {} Hz: the {} lets go of a force that is older than {} ms; choose {} Hz or more",
+            rate_hz, device.spec().name, 1e3 * device.spec().force_lasts_s, slowest_hz));
+  }
   if (settings.spin_ns < 0 || settings.spin_ns > period_ns / 2) {
     return core::failure(core::ErrorCategory::WrongUsage,
                          fmt::format("cannot stay awake for {} us of every period of {} us: choose 0 to {} us",
                                      settings.spin_ns / 1000, period_ns / 1000, period_ns / 2000));
   }
+  if (!(settings.max_force_n >= kLeastForceLimitN)) {
+    return core::failure(
+        core::ErrorCategory::WrongUsage,
+        fmt::format("cannot limit the force to {} N: choose {} N or more", settings.max_force_n, kLeastForceLimitN));
+  }
+  const DeviceSpec spec = limited_to(device.spec(), settings.max_force_n);
   // a copy, because what has been checked in shared memory may change there
   const auto copy = std::make_unique<const scene::SharedModel>(segment.model());
   const scene::SharedModel& shared = *copy;
@@ -57,7 +72,7 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
     if (!felt) return tl::unexpected(felt.error());
     tables.push_back(std::move(*felt));
   }
-  auto common = Scaling::common_scale(tables, device.spec());
+  auto common = Scaling::common_scale(tables, spec);
   if (!common) return tl::unexpected(common.error());
   if (shared.common_hand_m_per_m > 0) common = CommonScale{shared.common_hand_m_per_m, shared.common_hand_n_per_n};
   std::vector<std::unique_ptr<ContactModel>> models;
@@ -65,7 +80,7 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
     const std::uint32_t surface = shared.materials[i].height_field;
     auto model = ContactModel::create(shared.materials[i], 0, tables[i],
                                       surface < shared.height_field_count ? &shared.height_fields[surface] : nullptr,
-                                      *common, device.spec(), period_ns);
+                                      *common, spec, period_ns);
     if (!model) return tl::unexpected(model.error());
     models.push_back(std::move(*model));
   }
@@ -77,16 +92,17 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
                      const CommonScale& common)
     : shared_(segment.servo_side()),
       device_(device),
+      spec_(limited_to(device.spec(), settings.max_force_n)),
       settings_(settings),
       period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
       exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
-             {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count}, common,
-             device.spec(), period_ns_, exchange_),
-      governor_(safety_limits(device.spec(), period_ns_, Scaling::kStrokeM, settings.dead_man)),
-      hand_position_m_(device.spec().contact_point_m) {
-  shared_.store(shared(device.spec()));
+             {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count}, common, spec_,
+             period_ns_, exchange_),
+      governor_(safety_limits(spec_, period_ns_, Scaling::kStrokeM, settings.dead_man)),
+      hand_position_m_(spec_.contact_point_m) {
+  shared_.store(shared(spec_));
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
   const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
   std::array<double, 16> room_from_sample{};
@@ -111,7 +127,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   device_healthy_ = hand.healthy && is_within_reach(hand.position_m);
   if (device_healthy_) {
     hand_position_m_ = hand.position_m;
-    hand_from_contact_m_ = hand.position_m - device_.spec().contact_point_m;
+    hand_from_contact_m_ = hand.position_m - spec_.contact_point_m;
   } else if (model_ != nullptr) {
     model_->wait_for_lift();
   }
@@ -133,7 +149,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   // from the contact point, so that a recording that knows no other frame gives the same bits
   renderer_ = renderer_link(now_ns);
   const auto output = governor_.step({.time_ns = now_ns,
-                                      .hand_position_m = hand.position_m - device_.spec().contact_point_m,
+                                      .hand_position_m = hand.position_m - spec_.contact_point_m,
                                       .wanted_force_n = sample_.in_device(touch_.hand_force_n),
                                       .hand_height_m = height_m,
                                       .phase = touch_.response.phase,
@@ -161,6 +177,7 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
     heartbeat_seen_ns_ = now_ns;
     heard_renderer_ = true;
     leaving_ = leaving_ || heartbeat->leaving != 0;
+    stop_pressed_ = heartbeat->stop != 0;
   }
   if (const auto transforms = shared_.new_transforms()) {
     const SampleAxes before = sample_;
@@ -218,6 +235,7 @@ RendererLink ServoLoop::renderer_link(std::int64_t now_ns) const noexcept {
   if (presence_.load(std::memory_order_relaxed) != Presence::Here) return RendererLink::Died;
   if (leaving_ || stop_.load(std::memory_order_relaxed)) return RendererLink::Leaving;
   if (!heard_renderer_) return RendererLink::Absent;
+  if (stop_pressed_) return RendererLink::Stopped;
   return now_ns - heartbeat_seen_ns_ > SafetyGovernor::kHangNs ? RendererLink::Hung : RendererLink::Alive;
 }
 

@@ -105,6 +105,7 @@ SafetyConditions SafetyGovernor::evaluate(const GovernorInput& input, std::int64
   if (input.pulled_off) damping_until_ns_ = input.time_ns + kReleaseDampingNs;
 
   if (motion_.too_fast()) conditions.cut = FaultCode::VelocityTrip;
+  if (input.renderer == RendererLink::Stopped) conditions.cut = FaultCode::StopPressed;
   conditions.interlock = high_and_free(input) && glm::length(input.wanted_force_n) < kArmingForceN &&
                          glm::length(motion_.velocity_m_per_s()) < kArmingSpeedMPerS;
   conditions.late = elapsed_ns > kLateNs;

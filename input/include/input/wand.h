@@ -14,6 +14,7 @@ enum class WandButton : std::uint32_t {
   Scale = 4,      // held: the wand makes the scene larger and smaller
   Home = 8,       // the scene goes back to where it was
   Recenter = 16,  // where the wand points now is straight ahead
+  Stop = 32,      // no force, at once
 };
 
 constexpr std::uint32_t bit(WandButton button) { return static_cast<std::uint32_t>(button); }
@@ -32,6 +33,7 @@ struct WandState {
   bool connected = false;
   WandMotion motion = WandMotion::Absolute;
   std::uint32_t buttons = 0;  // of WandButton
+  std::uint32_t stops = 0;    // presses of Stop until now: one that is shorter than a frame counts too
   // how far the cap or the stick is pushed along, and turned about, the room's axes: -1 to 1
   glm::dvec3 push{0.0};
   glm::dvec3 turn{0.0};

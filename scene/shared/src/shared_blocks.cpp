@@ -194,7 +194,7 @@ bool is_valid(const HandScript& script) {
   return all_sane(script.target_m) && sane(script.duration_s) && script.duration_s >= 0 && script.turn_on_pressed <= 1;
 }
 
-bool is_valid(const RendererHeartbeat& heartbeat) { return heartbeat.leaving <= 1; }
+bool is_valid(const RendererHeartbeat& heartbeat) { return heartbeat.leaving <= 1 && heartbeat.stop <= 1; }
 
 bool is_valid(const SharedDevice& device) {
   // limits may be infinite

@@ -31,7 +31,8 @@ core::Result<HapticChoice> parse_haptic_choice(std::string_view text);
 
 // Opens it, where the environment says. DeviceMissing: it is not there. BadInputFile: the session cannot be played.
 // What was tried goes to the log, unless the simulated hand was asked for. `clock` outlives the device.
-core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choice, const core::Clock& clock);
+core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choice, const core::Clock& clock,
+                                                       const haptics::OfferReleasePath& offer = {});
 
 // That of this process.
 haptics::Environment environment();

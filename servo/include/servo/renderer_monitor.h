@@ -24,19 +24,19 @@ struct Linger {
 // The path of the running program; empty if the system does not tell.
 std::string executable_path();
 
-// A thread that waits for what ends a servo: its renderer's end of the socket closes, a signal asks to end, or this
-// object goes. Real-time like the servo, because the hand is held until it is heard.
+// A thread that waits for what ends a servo: its renderer's end of the socket closes, a signal asks to end, its
+// watchdog dies, or this object goes. Real-time like the servo, because the hand is held until it is heard.
 class RendererMonitor {
  public:
-  // `signals` is a signalfd; it and the loop must outlive this.
+  // `signals` is a signalfd, `watchdog` the descriptor of a Watchdog; they and the loop must outlive this.
   RendererMonitor(haptics::ServoLoop& loop, core::FileDescriptor lifeline, const core::FileDescriptor& signals,
-                  Linger linger);
+                  int watchdog, Linger linger);
   RendererMonitor(const RendererMonitor&) = delete;
   RendererMonitor& operator=(const RendererMonitor&) = delete;
   ~RendererMonitor();
 
  private:
-  enum class Update { Done, Signal, Readable, Nothing };
+  enum class Update { Done, Signal, Unguarded, Readable, Nothing };
 
   void watch();
   Update wait_for(int descriptor, std::optional<int> milliseconds) const;
@@ -45,6 +45,7 @@ class RendererMonitor {
   haptics::ServoLoop& loop_;
   core::FileDescriptor lifeline_;
   const core::FileDescriptor& signals_;
+  int watchdog_;
   Linger linger_;
   core::FileDescriptor done_;
   std::thread thread_;  // last: it uses all of them

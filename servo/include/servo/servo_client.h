@@ -42,12 +42,17 @@ class ServoClient {
     std::vector<scene::TipEvent> events;
   };
 
-  // Once a frame: everything new since the last call, and the newest state. Fails when the servo has ended.
+  // Once a frame: everything new since the last call, and the newest state. Fails when the servo has ended. One that
+  // runs but has told nothing for 200 ms is in Fault, with ServoSilent, until it tells something.
   core::Result<Update> poll(std::int64_t now_ns);
 
   // Tells the servo that the frame loop lives; poll() does so too. A loop that is silent for 250 ms has hung for the
   // servo.
   void beat(std::int64_t now_ns);
+
+  // A person wants no force, now: the servo cuts it in its next tick, whatever state it is in, and gives none for 250
+  // ms at least.
+  void stop(std::int64_t now_ns);
 
   const scene::TipState& tip() const { return tip_; }
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
@@ -78,7 +83,13 @@ class ServoClient {
   ServoClient(scene::SharedSegment segment, const haptics::ServoSettings& settings)
       : settings_(settings), segment_(std::move(segment)), side_(segment_.renderer_side()) {}
 
+  struct Heard {
+    std::int64_t time_ns = 0;
+    int polls = 0;  // since then
+  };
+
   void go_on();
+  void take_state(std::int64_t now_ns);
 
   haptics::ServoSettings settings_;
   core::MonotonicClock clock_;  // of a device in a thread of this process
@@ -90,9 +101,11 @@ class ServoClient {
   std::array<double, 16> room_from_sample_{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   scene::SharedDevice device_;
   scene::TipState tip_;
+  std::optional<Heard> heard_;     // when its tick last changed
   std::uint32_t script_base_ = 0;  // the predecessor's newest script
   std::uint64_t beats_ = 0;
-  std::unique_ptr<Servo> servo_;  // last: it ends before its segment goes
+  std::optional<std::int64_t> stopped_ns_;  // when stop() was called last
+  std::unique_ptr<Servo> servo_;            // last: it ends before its segment goes
 };
 
 }  // namespace afm::servo

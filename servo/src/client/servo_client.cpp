@@ -17,6 +17,11 @@ namespace afm::servo {
 
 namespace {
 
+constexpr std::int64_t kStopNs = 250'000'000;  // so that a servo that missed ticks hears of it
+
+constexpr std::int64_t kSilentNs = 200'000'000;
+constexpr int kSilentPolls = 3;  // a frame loop that was stopped itself has heard nothing either
+
 // Why a servo ended that was not asked to; it has said more on stderr.
 core::Error ended(int status) {
   switch (static_cast<core::ExitCode>(status)) {
@@ -64,16 +69,18 @@ core::Result<std::unique_ptr<ServoClient>> ServoClient::start(const scene::Share
 }
 
 void ServoClient::beat(std::int64_t now_ns) {
-  side_.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = beats_++, .leaving = 0, .padding = 0});
+  const bool stop = stopped_ns_ && now_ns - *stopped_ns_ < kStopNs;
+  side_.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = beats_++, .leaving = 0, .stop = stop ? 1U : 0U});
+}
+
+void ServoClient::stop(std::int64_t now_ns) {
+  stopped_ns_ = now_ns;
+  beat(now_ns);
 }
 
 core::Result<ServoClient::Update> ServoClient::poll(std::int64_t now_ns) {
   beat(now_ns);
-  if (const auto state = side_.tip_state()) {
-    tip_ = *state;
-    tip_.acknowledged.hand_script =
-        state->acknowledged.hand_script > script_base_ ? state->acknowledged.hand_script - script_base_ : 0;
-  }
+  take_state(now_ns);
 
   Update update;
   while (const auto sample = side_.pop_sample()) update.samples.push_back(*sample);
@@ -85,6 +92,19 @@ core::Result<ServoClient::Update> ServoClient::poll(std::int64_t now_ns) {
     return tl::unexpected(ended(servo_->exit_status().value_or(-1)));
   }
   return update;
+}
+
+void ServoClient::take_state(std::int64_t now_ns) {
+  const auto state = side_.tip_state();
+  if (state && (state->tick != tip_.tick || !heard_)) {
+    heard_ = {.time_ns = now_ns, .polls = 0};
+    tip_ = *state;
+    tip_.acknowledged.hand_script =
+        state->acknowledged.hand_script > script_base_ ? state->acknowledged.hand_script - script_base_ : 0;
+  } else if (heard_ && ++heard_->polls >= kSilentPolls && now_ns - heard_->time_ns > kSilentNs) {
+    tip_.servo_state = scene::ServoState::Fault;
+    tip_.fault = scene::FaultCode::ServoSilent;
+  }
 }
 
 std::uint32_t ServoClient::change(std::size_t material, const scene::SharedContact& parameters) {

@@ -73,10 +73,11 @@ core::Result<HapticChoice> parse_haptic_choice(std::string_view text) {
                        fmt::format("there is no haptic device \"{}\": choose {}", text, known));
 }
 
-core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choice, const core::Clock& clock) {
+core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choice, const core::Clock& clock,
+                                                       const haptics::OfferReleasePath& offer) {
   if (!choice.replay_file.empty()) return open_recording(choice.replay_file);
-  auto opened = choice.device == nullptr ? haptics::open_best_device(environment(), clock)
-                                         : haptics::open_device(*choice.device, environment(), clock);
+  auto opened = choice.device == nullptr ? haptics::open_best_device(environment(), clock, offer)
+                                         : haptics::open_device(*choice.device, environment(), clock, offer);
   if (opened && choice.device != &haptics::simulated_kind()) log_probe(opened->lines);
   return opened;
 }

@@ -25,10 +25,11 @@ std::string executable_path() {
 }
 
 RendererMonitor::RendererMonitor(haptics::ServoLoop& loop, core::FileDescriptor lifeline,
-                                 const core::FileDescriptor& signals, Linger linger)
+                                 const core::FileDescriptor& signals, int watchdog, Linger linger)
     : loop_(loop),
       lifeline_(std::move(lifeline)),
       signals_(signals),
+      watchdog_(watchdog),
       linger_(std::move(linger)),
       done_(::eventfd(0, EFD_CLOEXEC)),
       thread_([this] { watch(); }) {}
@@ -39,13 +40,15 @@ RendererMonitor::~RendererMonitor() {
 }
 
 RendererMonitor::Update RendererMonitor::wait_for(int descriptor, std::optional<int> milliseconds) const {
-  std::array<pollfd, 3> watched{{{.fd = descriptor, .events = POLLIN, .revents = 0},
+  std::array<pollfd, 4> watched{{{.fd = descriptor, .events = POLLIN, .revents = 0},
                                  {.fd = signals_.get(), .events = POLLIN, .revents = 0},
-                                 {.fd = done_.get(), .events = POLLIN, .revents = 0}}};
+                                 {.fd = done_.get(), .events = POLLIN, .revents = 0},
+                                 {.fd = watchdog_, .events = POLLIN, .revents = 0}}};
   while (::poll(watched.data(), watched.size(), milliseconds.value_or(-1)) < 0 && errno == EINTR) {
   }
   if (watched[2].revents != 0) return Update::Done;
   if (watched[1].revents != 0) return Update::Signal;
+  if (watched[3].revents != 0) return Update::Unguarded;
   return watched[0].revents != 0 ? Update::Readable : Update::Nothing;
 }
 
@@ -55,7 +58,8 @@ void RendererMonitor::watch() {
   for (;;) {
     const Update update = wait_for(lifeline_.get(), std::nullopt);
     if (update == Update::Done) return;
-    if (update == Update::Signal) {
+    if (update == Update::Unguarded) core::log_line("the servo's watchdog ended: force released");
+    if (update == Update::Signal || update == Update::Unguarded) {
       loop_.stop();
       return;
     }

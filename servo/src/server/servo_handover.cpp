@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo/servo_handover.h"
-#include "core/system_error.h"
 
 #include <fmt/core.h>
 #include <poll.h>
@@ -19,13 +18,15 @@
 #include <string_view>
 #include <utility>
 
+#include "core/system_error.h"
+#include "descriptor_letter.h"
+
 namespace afm::servo {
 
 namespace {
 
 constexpr int kPatienceMs = 1000;
 constexpr char kStay = 'S';
-constexpr std::size_t kMostBytes = 4096;  // of the arguments
 constexpr char kSeparator = '\n';
 
 struct Address {
@@ -66,50 +67,6 @@ bool readable_within(int descriptor, int milliseconds) {
   return ready > 0;
 }
 
-// A message with the two descriptors that a renderer needs.
-struct Letter {
-  Letter() {
-    part = {.iov_base = text.data(), .iov_len = text.size()};
-    header.msg_iov = &part;
-    header.msg_iovlen = 1;
-    header.msg_control = control.data();
-    header.msg_controllen = control.size();
-  }
-
-  std::array<char, kMostBytes> text{};
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(2 * sizeof(int))> control{};
-  iovec part{};
-  msghdr header{};
-};
-
-bool send_letter(int socket, const std::string& text, const std::array<int, 2>& descriptors) {
-  Letter letter;
-  if (text.size() > letter.text.size()) return false;
-  std::copy(text.begin(), text.end(), letter.text.begin());
-  letter.part.iov_len = text.size();
-  cmsghdr* rights = CMSG_FIRSTHDR(&letter.header);
-  rights->cmsg_level = SOL_SOCKET;
-  rights->cmsg_type = SCM_RIGHTS;
-  rights->cmsg_len = CMSG_LEN(sizeof(descriptors));
-  std::memcpy(CMSG_DATA(rights), descriptors.data(), sizeof(descriptors));
-  return ::sendmsg(socket, &letter.header, MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
-}
-
-std::optional<std::string> read_letter(int socket, std::array<core::FileDescriptor, 2>& descriptors) {
-  Letter letter;
-  if (!readable_within(socket, kPatienceMs)) return std::nullopt;
-  const ssize_t length = ::recvmsg(socket, &letter.header, MSG_CMSG_CLOEXEC);
-  if (length <= 0) return std::nullopt;
-  const cmsghdr* rights = CMSG_FIRSTHDR(&letter.header);
-  std::array<int, 2> numbers{};
-  if (rights == nullptr || rights->cmsg_type != SCM_RIGHTS || rights->cmsg_len != CMSG_LEN(sizeof(numbers))) {
-    return std::nullopt;
-  }
-  std::memcpy(numbers.data(), CMSG_DATA(rights), sizeof(numbers));
-  for (std::size_t i = 0; i < numbers.size(); ++i) descriptors[i] = core::FileDescriptor(numbers[i]);
-  return std::string(letter.text.data(), static_cast<std::size_t>(length));
-}
-
 std::string joined(const std::vector<std::string>& arguments) {
   std::string text;
   for (const std::string& argument : arguments) text += argument + kSeparator;
@@ -127,8 +84,9 @@ std::vector<std::string> split(std::string_view text) {
 }  // namespace
 
 std::vector<std::string> servo_arguments(const haptics::ServoSettings& settings, const std::string& device) {
-  return {"--rate",     fmt::format("{}", settings.rate_hz), "--spin",    std::to_string(settings.spin_ns),
-          "--dead-man", settings.dead_man ? "1" : "0",       "--haptics", device};
+  return {"--rate",      fmt::format("{}", settings.rate_hz),    "--spin",    std::to_string(settings.spin_ns),
+          "--dead-man",  settings.dead_man ? "1" : "0",          "--haptics", device,
+          "--max-force", fmt::format("{}", settings.max_force_n)};
 }
 
 core::Result<HandoverPort> HandoverPort::open(const std::string& program) {
@@ -150,7 +108,8 @@ HandoverPort::Answer HandoverPort::receive(int segment, const std::vector<std::s
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return Answer::Nobody;
   core::FileDescriptor ours(ends[0]);
   core::FileDescriptor theirs(ends[1]);
-  if (!send_letter(visitor.get(), joined(arguments), {segment, theirs.get()})) return Answer::Nobody;
+  const std::array handed{segment, theirs.get()};
+  if (!Letter().send(visitor.get(), joined(arguments), handed)) return Answer::Nobody;
   theirs.close();
 
   char answer = 0;
@@ -174,8 +133,10 @@ std::optional<WaitingServo> find_waiting_servo(const std::string& program) {
   if (!servo) return std::nullopt;
   core::FileDescriptor process(static_cast<int>(::syscall(SYS_pidfd_open, *servo, 0)));
   std::array<core::FileDescriptor, 2> descriptors;
-  const auto text = read_letter(socket.get(), descriptors);
-  if (!process.is_open() || !text) return std::nullopt;
+  Letter letter;
+  if (!readable_within(socket.get(), kPatienceMs)) return std::nullopt;
+  const auto text = letter.read(socket.get(), descriptors);
+  if (!process.is_open() || !text || !descriptors[0].is_open()) return std::nullopt;
   return WaitingServo{.segment = std::move(descriptors[0]),
                       .lifeline = std::move(descriptors[1]),
                       .process = std::move(process),

@@ -100,8 +100,11 @@ class Player {
   // The tick of this sample; false if it gave none.
   bool play(std::size_t index) {
     const TipSample& sample = session_.samples[index];
-    if (beats(std::span(session_.samples).subspan(index))) beat(0);
-    if (sample.renderer == RendererLink::Leaving) beat(1);
+    const bool was_stopped = index > 0 && session_.samples[index - 1].renderer == RendererLink::Stopped;
+    const bool goes_on = was_stopped && sample.renderer == RendererLink::Alive;
+    if (goes_on || beats(std::span(session_.samples).subspan(index))) beat({});
+    if (sample.renderer == RendererLink::Stopped) beat({.stop = 1});
+    if (sample.renderer == RendererLink::Leaving) beat({.leaving = 1});
     if (sample.renderer == RendererLink::Died) loop_->renderer_died();
     // it shows in the tick after
     const bool changes = index + 1 < session_.samples.size() && session_.samples[index + 1].changing != 0;
@@ -121,8 +124,9 @@ class Player {
   Player(const RecordedSession& session, scene::SharedSegment segment)
       : session_(session), segment_(std::move(segment)), renderer_(segment_.renderer_side()), hand_(session) {}
 
-  void beat(std::uint32_t leaving) {
-    renderer_.store(scene::RendererHeartbeat{.time_ns = 0, .frame = ++frame_, .leaving = leaving});
+  void beat(scene::RendererHeartbeat heartbeat) {
+    heartbeat.frame = ++frame_;
+    renderer_.store(heartbeat);
   }
 
   void choose(std::int32_t material) {
@@ -139,7 +143,7 @@ class Player {
     transforms.count = 1;
     transforms.room_from_node[0] = session_.room_from_sample;
     renderer_.store(transforms);
-    if (first.renderer != RendererLink::Absent) beat(0);
+    if (first.renderer != RendererLink::Absent) beat({});
     const std::int64_t before_ns = first.time_ns - SafetyGovernor::kHangNs - loop_->period_ns();
     hand_.show(first, true);
     loop_->tick(before_ns - loop_->period_ns(), 0);

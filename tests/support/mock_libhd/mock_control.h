@@ -35,6 +35,9 @@ void mock_hd_set_calibration(unsigned status);
 // What hdGetDoublev gives first for this property.
 void mock_hd_set_limit(unsigned property, double value);
 
+// The first motor's temperature is no number from now on; the second has what is set for the property.
+void mock_hd_break_first_sensor(void);
+
 // The scheduler's callbacks are no longer called, as if the driver hung.
 void mock_hd_stall(int stalled);
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "mock_control.h"
 #include "mock_state.h"
@@ -150,6 +151,9 @@ void hdGetDoublev(unsigned property, double* values) {
     std::copy(std::begin(box), std::end(box), values);
   } else {
     values[0] = one_value(property);
+    if (property == mock_hd::kMotorTemperature && mock().first_sensor_broken) {
+      values[1] = std::exchange(values[0], std::nan(""));
+    }
   }
 }
 
@@ -261,6 +265,8 @@ void mock_hd_set_limit(unsigned property, double value) {
       mock().forbid("mock_hd_set_limit of an unknown property");
   }
 }
+
+void mock_hd_break_first_sensor(void) { mock().first_sensor_broken = true; }
 
 void mock_hd_stall(int stalled) { mock().stalled = stalled != 0; }
 

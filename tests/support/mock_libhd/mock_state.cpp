@@ -35,6 +35,8 @@ void Mock::reset() {
   continuous_force_n = 0.88;
   velocity_limit_mm_per_s = 1500.0;
   stiffness_n_per_mm = 0.5;
+  first_sensor_broken = false;
+  motor_temperature = 0.2;
   for (auto& value : position_mm) value = 0.0;
   for (auto& value : set_force_n) value = 0.0;
   buttons = 0;

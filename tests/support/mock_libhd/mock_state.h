@@ -90,7 +90,8 @@ class Mock {
   double continuous_force_n = 0.88;
   double velocity_limit_mm_per_s = 1500.0;
   double stiffness_n_per_mm = 0.5;
-  double motor_temperature = 0.2;  // below zero: a device that does not measure it
+  bool first_sensor_broken = false;  // of the motors' temperatures: no number
+  double motor_temperature = 0.2;    // below zero: a device that does not measure it
 
   std::array<std::atomic<double>, 3> position_mm;
   std::atomic<int> buttons{0};

@@ -17,10 +17,12 @@ enum class FaultCode : std::uint32_t {
   LateTick = 4,
   VelocityTrip = 5,
   DeviceError = 6,
+  ServoSilent = 7,  // said by the renderer, in the servo's place
   DeadManReleased = 8,
   MotorsHot = 9,
   EnergyExceeded = 10,
   OutOfWorkspace = 11,
+  StopPressed = 12,
 };
 
 struct FaultText {
@@ -37,10 +39,12 @@ inline constexpr std::array kFaultTexts{
     FaultText{FaultCode::LateTick, "late-tick", "a servo tick came more than 20 ms late"},
     FaultText{FaultCode::VelocityTrip, "velocity-trip", "the hand was faster than is safe"},
     FaultText{FaultCode::DeviceError, "device-error", "the haptic device failed"},
+    FaultText{FaultCode::ServoSilent, "servo-silent", "the servo is silent: let go of the device"},
     FaultText{FaultCode::DeadManReleased, "dead-man-released", "the Turn-On button was let go"},
     FaultText{FaultCode::MotorsHot, "motors-hot", "the device's motors are hot"},
     FaultText{FaultCode::EnergyExceeded, "energy-exceeded", "the hand was given more energy than the model holds"},
-    FaultText{FaultCode::OutOfWorkspace, "out-of-workspace", "the hand left the device's workspace"}};
+    FaultText{FaultCode::OutOfWorkspace, "out-of-workspace", "the hand left the device's workspace"},
+    FaultText{FaultCode::StopPressed, "stop-pressed", "Stop was pressed"}};
 static_assert(core::has_row_for_each(kFaultTexts, &FaultText::code));
 
 // "the renderer gave no frame for 250 ms"

@@ -133,7 +133,7 @@ struct RendererHeartbeat {
   std::int64_t time_ns = 0;
   std::uint64_t frame = 0;
   std::uint32_t leaving = 0;  // 1: the renderer ends in good order; the servo releases the hand and ends too
-  std::uint32_t padding = 0;
+  std::uint32_t stop = 0;     // 1: a person wants no force at all, now
 };
 
 // ---- written by touchafm-servo ----
@@ -147,6 +147,7 @@ enum class RendererLink : std::uint32_t {
   Hung = 2,     // no heartbeat for too long
   Leaving = 3,  // said goodbye
   Died = 4,
+  Stopped = 5,  // lives, and a person has pressed Stop there
 };
 
 // What the servo holds: limits as in haptics::DeviceSpec, places in the device frame from the contact point, metres.

@@ -17,7 +17,7 @@
 namespace afm::scene {
 
 // Raised whenever the meaning of a block changes; a change of a block's size is noticed by itself.
-inline constexpr std::uint32_t kSegmentVersion = 4;
+inline constexpr std::uint32_t kSegmentVersion = 5;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace afm::haptics {
+
+// How another process takes the force off the hand when the servo cannot: `zero` is written to a duplicate of
+// `descriptor`, a stream socket, in one piece.
+struct ReleasePath {
+  int descriptor = -1;
+  std::string zero;
+};
+
+// Called by a driver's own thread whenever its way to the device has changed; the descriptor is open during the call
+// only. May throw nothing and waits for nobody.
+using OfferReleasePath = std::function<void(const ReleasePath&)>;
+
+}  // namespace afm::haptics
