@@ -166,15 +166,6 @@ TEST_F(ServoWatchdog, TellsTheDeviceToLetGoWhenTheServoIsKilled) {
   std::printf("killed: zero after %.1f ms\n", released.count());
 }
 
-TEST_F(ServoWatchdog, FollowsTheDeviceToItsNextConnection) {
-  ASSERT_NO_FATAL_FAILURE(start());
-  service.hang_up();
-  eventually([&] { return errors.text().find("answers again") != std::string::npos; });
-  ASSERT_TRUE(hold_attached());
-  ::kill(servo->pid(), SIGKILL);
-  EXPECT_LT(until_released(), kReleaseBound);
-}
-
 TEST_F(ServoWatchdog, IsMissedByItsServo) {
   ASSERT_NO_FATAL_FAILURE(start());
   ::kill(watchdog, SIGKILL);
