@@ -52,8 +52,8 @@ core::Result<OutputFolder> OutputFolder::open(const std::string& path) {
   if (!fs::is_directory(path, error)) return failed("it is not a folder");
 
   remove_abandoned(path);
-  // inside the folder, so that the moves of commit() stay on one file system; a name that nobody can hold ready as a
-  // link
+  // inside the folder, so that commit() moves within one file system; an unpredictable name, so that no link waits
+  // there
   std::string staging = path + "/" + kUnfinished + "XXXXXX";
   if (::mkdtemp(staging.data()) == nullptr) return failed(core::system_error(errno));
   auto lock = locked(staging);

@@ -23,7 +23,7 @@ constexpr auto kBeforeTheEnd = std::chrono::seconds(5);
 constexpr auto kTwice = std::chrono::seconds(1);  // timeout(1) and others signal a process and its group
 
 struct Interruptions {
-  std::recursive_mutex undoing;  // of `undos`; held while they run, and by whoever must not be interrupted
+  std::recursive_mutex undoing;  // guards `undos`; locked while they run, and by Uninterrupted
   std::map<int, std::function<void()>> undos;
   int next_number = 0;
 

@@ -14,9 +14,9 @@ namespace afm::servo {
 // The numbers under which a child finds the two descriptors that it inherits.
 inline constexpr std::array<int, 2> kInherited{3, 4};
 
-// Starts a program in a process group of its own, so that Ctrl-C in a terminal reaches it through its parent, in good
-// order. It inherits the standard streams and two descriptors as kInherited, and nothing else: a lifeline that a third
-// process also held would not break.
+// Starts a program in its own process group, so that Ctrl-C in a terminal reaches it only through its parent. It
+// inherits the standard streams and the two descriptors, as kInherited, and nothing else: a lifeline that another child
+// held open would never close.
 core::Result<pid_t> start_child(const std::string& program, std::vector<std::string> arguments,
                                 const std::array<int, 2>& descriptors);
 

@@ -50,8 +50,7 @@ struct SweepRow {
 
 // Every point of one axis or of the grid of two, the last axis running fastest, over all cores. The rows are in the
 // grid's order whatever the threads did. Dynamic models record a curve at each point, with the path's step and speed;
-// the others need none. Tells progress on stderr when it takes longer than a second. Fails when not
-// one point has a curve.
+// the others need none. Logs its progress if it takes longer than a second. Fails if no point has a curve.
 core::Result<std::vector<SweepRow>> run_sweep(const ContactSetup& setup, const std::vector<SweepAxis>& axes,
                                               const PathOptions& path);
 

@@ -14,7 +14,7 @@ struct ReleasePath {
 };
 
 // Called by a driver's own thread whenever its way to the device has changed; the descriptor is open during the call
-// only. May throw nothing and waits for nobody.
+// only. Must not throw or block.
 using OfferReleasePath = std::function<void(const ReleasePath&)>;
 
 }  // namespace afm::haptics

@@ -35,7 +35,7 @@ class HaplyLink {
   // Within 20 ms. False, and ended(): the other side left, or does not read.
   bool send(const std::string& message);
 
-  // Of the connection's socket, for whoever sends text_frame() there in this one's place; -1 without a connection.
+  // The connection's socket, on which another process may send a text_frame(); -1 if there is no connection.
   int descriptor() const;
 
   // Ends the connection, so that whoever waits goes on; there will be no other. From any thread.

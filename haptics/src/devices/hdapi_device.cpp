@@ -187,7 +187,7 @@ void HdapiDevice::read_hand(std::int64_t now_ns) noexcept {
     hd_.get_doubles(hdapi::kMotorTemperature, heat.data());
     frame_.motor_heat = 0.0;
     for (const double one : heat) {
-      // a sensor that tells no number must not hide a motor that is hot
+      // a broken sensor (NaN) must not hide a hot motor
       if (one > frame_.motor_heat) frame_.motor_heat = one;
     }
   }

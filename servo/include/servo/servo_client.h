@@ -42,8 +42,8 @@ class ServoClient {
     std::vector<scene::TipEvent> events;
   };
 
-  // Once a frame: everything new since the last call, and the newest state. Fails when the servo has ended. One that
-  // runs but has told nothing for 200 ms is in Fault, with ServoSilent, until it tells something.
+  // Once a frame: everything new since the last call, and the newest state. Fails when the servo has ended. If the
+  // servo runs but has been silent for 200 ms, tip() reports Fault with ServoSilent until its next state arrives.
   core::Result<Update> poll(std::int64_t now_ns);
 
   // Tells the servo that the frame loop lives; poll() does so too. A loop that is silent for 250 ms has hung for the

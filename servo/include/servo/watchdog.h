@@ -29,7 +29,7 @@ class Watchdog {
   // The newest way to the device. From any thread; waits for nothing.
   void offer(const haptics::ReleasePath& path) const noexcept;
 
-  // The servo ticks no more and closes its device, within kClosePatience.
+  // The servo ticks no more and closes its device, within kWatchdogCloseMs.
   void expect_end() const noexcept;
 
   // Readable when the watchdog has ended by itself, and nothing guards the hand.
@@ -44,15 +44,15 @@ class Watchdog {
 
 // The watchdog's own process, until the servo has ended. Once TipState has been stored for the first time:
 //
-// - no new one for kReleaseMs: zero is written through the newest path; the servo may go on afterwards
-// - no new one for kKillMs, or the device not closed within kCloseMs after the servo's last tick: the same, and the
-//   servo gets SIGKILL, so that the kernel closes the device
-// - the servo is gone without a word: the same
+// - no new one for kWatchdogReleaseMs: zero is written through the newest path; the servo may go on afterwards
+// - no new one for kWatchdogKillMs: the same, and the servo gets SIGKILL, so that the kernel closes the device
+// - the device not closed within kWatchdogCloseMs after the servo's last tick: the same
+// - the servo gone without a word: the same
 //
 // Times are counted in the watchdog's own wake-ups, so that a stop of the whole machine does not count.
 inline constexpr int kWatchdogReleaseMs = 20;
-inline constexpr int kWatchdogKillMs =
-    1000;  // a busy virtual machine was seen to lose a processor for more than 200 ms
+// a busy virtual machine was seen to lose a processor for more than 200 ms
+inline constexpr int kWatchdogKillMs = 1000;
 inline constexpr int kWatchdogCloseMs = 1500;
 void watch_servo(const core::FileDescriptor& servo, scene::SharedSegment& segment);
 
