@@ -24,8 +24,9 @@ namespace afm::test {
 // next state, as the service's documentation tells. One client at a time; the last one may come back.
 class HaplyService {
  public:
-  // Silent: it takes forces and tells nothing. TooLong: it tells a state of 100 kB, then waits for what comes.
-  enum class Manner { Proper, Silent, Babbling, NoDevice, TooLong };
+  // Silent: it takes forces and tells nothing. TooLong: it tells a state of 100 kB, then waits for what comes. Late: the
+  // same, 50 ms after it took a force.
+  enum class Manner { Proper, Silent, Babbling, NoDevice, TooLong, Late };
 
   HaplyService() : HaplyService(Manner::Proper) {}
   explicit HaplyService(Manner first)
@@ -114,7 +115,8 @@ class HaplyService {
     while (!error && !ending_) {
       while (manner == Manner::Silent && !ending_ && !error) take(std::chrono::milliseconds(1));
       if (error) break;
-      const bool too_long = manner == Manner::TooLong;
+      if (manner == Manner::Late) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      const bool too_long = manner == Manner::TooLong || manner == Manner::Late;
       stream.write(boost::asio::buffer(state() + std::string(too_long ? 100'000 : 0, ' ')), error);
       if (manner == Manner::NoDevice) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (error || manner == Manner::NoDevice) continue;

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <chrono>
 #include <exception>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -21,6 +22,7 @@ namespace {
 
 constexpr auto kFirstPlacePatience = std::chrono::seconds(2);
 constexpr auto kReceivePatience = std::chrono::milliseconds(2);
+constexpr auto kPartPatience = std::chrono::milliseconds(200);  // what the link takes to send and to leave, and as much
 constexpr std::int64_t kComplaintNs = 1'000'000'000;  // between two lines about a service that stammers
 
 // The service tells no limits. The force is what careful drivers give a hand (Isaac Lab clips at 2 N); the stiffness
@@ -63,7 +65,8 @@ HaplyDevice::HaplyDevice(const core::Clock& clock, std::uint16_t port, std::uniq
 
 HaplyDevice::~HaplyDevice() {
   closing_.store(true);
-  wait_until(kReleasePatience, [this] { return released_.load(); });
+  // what it does then has an end; only a connection that is being made is interrupted
+  wait_until(kPartPatience, [this] { return !exchanging_.load(); });
   link_->interrupt();
   thread_.join();
 }
@@ -87,15 +90,13 @@ void HaplyDevice::serve() noexcept {
         connected = false;
         if (told) core::log_line("haptics: the haply inverse service answers again");
         told = false;
+        exchanging_.store(true);
         exchange();
-        if (!released_.exchange(true)) {
-          core::log_line(
-              "haptics: the haply inverse service could not be told to let go: it may still hold the last force");
-        }
       }
     } catch (const std::exception& error) {
       core::log_line(fmt::format("haptics: the haply inverse service cannot be spoken with: {}", error.what()));
     }
+    part();
     if (closing_.load()) return;
     if (!told) core::log_line("haptics: the haply inverse service does not answer: no force reaches the hand");
     told = true;
@@ -107,26 +108,28 @@ void HaplyDevice::serve() noexcept {
 // Until the connection ends. The service speaks first; then each of its states answers a force. A service that falls
 // silent holds the last force, so that zero is sent without being asked.
 void HaplyDevice::exchange() {
-  std::string device_id;
+  device_id_.clear();
   force_ns_ = heard_ns_ = clock_.now_ns();
   trust_ns_ = 0;
   bool silent = false;
   while (!link_->ended() && !closing_.load()) {
     bool asked = false;
-    // of several that have waited, the newest
+    // of several that have waited, the newest; whoever tells without a pause is answered all the same
+    const auto end = std::chrono::steady_clock::now() + kReceivePatience;
     for (auto message = link_->receive(kReceivePatience); message;
-         message = link_->receive(std::chrono::microseconds(0))) {
+         message = std::chrono::steady_clock::now() < end ? link_->receive(std::chrono::microseconds(0))
+                                                          : std::nullopt) {
       asked = true;
       const auto state = parse_haply_state(*message);
       if (!state) continue;
-      if (std::exchange(device_id, state->device_id) != state->device_id) offer_release(device_id);
+      if (std::exchange(device_id_, state->device_id) != state->device_id) offer_release();
       heard_ns_ = clock_.now_ns();
       frames_.store({.time_ns = heard_ns_, .position_m = state->position_m, .button = state->button ? 1U : 0U});
     }
     const std::int64_t now_ns = clock_.now_ns();
     const glm::dvec3 force_n = force_for(now_ns);
     const bool was_silent = std::exchange(silent, now_ns - heard_ns_ > kStallNs);
-    if (asked ? !device_id.empty() : silent && !released_.load()) tell(device_id, force_n);
+    if (asked ? !device_id_.empty() : silent && !released_.load()) tell(force_n);
     if (silent && !was_silent && now_ns - complained_ns_ > kComplaintNs) {
       complained_ns_ = now_ns;
       core::log_line(
@@ -134,18 +137,29 @@ void HaplyDevice::exchange() {
                       kStallNs / 1'000'000));
     }
   }
-  // whatever ended it, the service may still hold what it was last sent
-  if (!released_.load()) tell(device_id, glm::dvec3(0.0));
 }
 
-void HaplyDevice::offer_release(const std::string& device_id) const {
-  if (offer_) offer_({link_->descriptor(), text_frame(haply_force_message(device_id, glm::dvec3(0.0)))});
+// Whatever ended the connection, the service may still hold what it was last sent.
+void HaplyDevice::part() noexcept {
+  try {
+    if (!released_.load()) tell(glm::dvec3(0.0));
+  } catch (const std::exception& error) {
+    core::log_line(fmt::format("haptics: the haply inverse service cannot be told to let go: {}", error.what()));
+  }
+  link_->leave();
+  exchanging_.store(false);
+  if (released_.exchange(true)) return;
+  core::log_line("haptics: the haply inverse service could not be told to let go: it may still hold the last force");
 }
 
-void HaplyDevice::tell(const std::string& device_id, const glm::dvec3& force_n) {
+void HaplyDevice::offer_release() const {
+  if (offer_) offer_({link_->descriptor(), text_frame(haply_force_message(device_id_, glm::dvec3(0.0)))});
+}
+
+void HaplyDevice::tell(const glm::dvec3& force_n) {
   const bool none = force_n == glm::dvec3(0.0);
   if (!none) released_.store(false);
-  if (link_->send(haply_force_message(device_id, force_n)) && none) released_.store(true);
+  if (link_->send(haply_force_message(device_id_, force_n)) && none) released_.store(true);
 }
 
 glm::dvec3 HaplyDevice::force_for(std::int64_t now_ns) {

@@ -68,8 +68,9 @@ class HaplyDevice final : public HapticDevice {
 
   void serve() noexcept;  // begins with the connection that `link_` has
   void exchange();
-  void offer_release(const std::string& device_id) const;
-  void tell(const std::string& device_id, const glm::dvec3& force_n);
+  void part() noexcept;
+  void offer_release() const;
+  void tell(const glm::dvec3& force_n);
   glm::dvec3 force_for(std::int64_t now_ns);
 
   const core::Clock& clock_;
@@ -81,12 +82,14 @@ class HaplyDevice final : public HapticDevice {
   core::LatestValue<Frame> frames_;
   core::LatestValue<TimedForce> commands_;
   std::atomic<bool> closing_{false};
-  std::atomic<bool> released_{true};  // no force was sent since the last zero
+  std::atomic<bool> exchanging_{true};  // there is a connection that ends with zero force
+  std::atomic<bool> released_{true};    // no force was sent since the last zero
 
   // the servo's
   Frame frame_;
 
   // of the thread that speaks
+  std::string device_id_;
   TimedForce command_;
   std::int64_t force_ns_ = 0;
   std::int64_t heard_ns_ = 0;

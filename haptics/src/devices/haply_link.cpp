@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "core/check.h"
+#include "core/farewell.h"
 
 namespace afm::haptics {
 
@@ -25,6 +26,7 @@ using Stream = boost::beast::websocket::stream<tcp::socket>;
 constexpr std::size_t kLongestMessage = 65'536;
 constexpr auto kHandshakePatience = std::chrono::seconds(2);
 constexpr auto kSendPatience = std::chrono::milliseconds(20);
+constexpr auto kLeavePatience = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -147,6 +149,12 @@ bool HaplyLink::send(const std::string& message) {
       [&](auto done) { socket.stream->async_write(boost::asio::buffer(message), std::move(done)); }, kSendPatience);
   socket.ended = socket.ended || error;
   return !error;
+}
+
+void HaplyLink::leave() {
+  if (const int open = descriptor(); open >= 0) core::take_leave(open, kLeavePatience);
+  socket_->cut();
+  socket_->ended = true;
 }
 
 int HaplyLink::descriptor() const {

@@ -35,6 +35,9 @@ class HaplyLink {
   // Within 20 ms. False, and ended(): the other side left, or does not read.
   bool send(const std::string& message);
 
+  // Ends the connection so that what was sent is still read, within 100 ms.
+  void leave();
+
   // The connection's socket, on which another process may send a text_frame(); -1 if there is no connection.
   int descriptor() const;
 

@@ -12,11 +12,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <string_view>
 #include <utility>
 
 #include "child_process.h"
+#include "core/farewell.h"
 #include "core/system_error.h"
 #include "descriptor_letter.h"
 #include "haptics/realtime.h"
@@ -33,6 +35,7 @@ constexpr std::string_view kEnd = "E";
 
 constexpr int kWakeMs = 5;
 constexpr int kWatchdogLeaveMs = 200;
+constexpr auto kLeavePatience = std::chrono::milliseconds(100);
 
 // Without the log's allocation.
 void say(std::string_view line) {
@@ -114,6 +117,7 @@ class Guard {
     if (process_.is_open()) ::syscall(SYS_pidfd_send_signal, process_.get(), SIGKILL, nullptr, 0);
     // what the servo may have sent after the first
     release();
+    if (device_.is_open()) core::take_leave(device_.get(), kLeavePatience);
     say(line);
   }
 
