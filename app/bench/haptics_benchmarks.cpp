@@ -59,9 +59,9 @@ core::Result<void> measure_beside_renderer(const CommandContext& context, const 
   if (!renderer) return tl::unexpected(renderer.error());
   std::vector<curves::SampleModel> materials;
   for (const scene::MaterialEntry& entry : stage->materials.materials) {
-    auto felt = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
-    if (!felt) return tl::unexpected(felt.error());
-    materials.push_back(std::move(*felt));
+    auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
+    if (!model) return tl::unexpected(model.error());
+    materials.push_back(std::move(*model));
   }
   const exhibit::FrameBuilder frames(stage->wall_scene, materials, stage->eyes);
   const render::FrameState frame = frames.build(exhibit::Moment{});

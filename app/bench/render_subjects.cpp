@@ -149,15 +149,15 @@ scene::Primitive cube() {
 core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint32_t eye_width_px) {
   std::vector<curves::SampleModel> materials;
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
-    auto felt = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
-    if (!felt) return tl::unexpected(felt.error());
-    materials.push_back(std::move(*felt));
+    auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
+    if (!model) return tl::unexpected(model.error());
+    materials.push_back(std::move(*model));
   }
   RenderSubject subject{
       .name = "wall", .scene = stage.wall_scene.scene(), .drawing = stage.renderer_options(eye_width_px)};
-  const std::size_t felt = std::min(kFeltMaterial, materials.size() - 1);
-  const double release_m = materials[felt].scaling.release_z_m();
-  const double stiffness = materials[felt].setup.material.contact.spring_constant.si;
+  const std::size_t material = std::min(kFeltMaterial, materials.size() - 1);
+  const double release_m = materials[material].scaling.release_z_m();
+  const double stiffness = materials[material].setup.material.contact.spring_constant.si;
   const exhibit::FrameBuilder frames(stage.wall_scene, materials, stage.eyes);
   std::vector<exhibit::CycleCurve> curves(materials.size());
   for (int i = 0; i < kFrames; ++i) {
@@ -165,14 +165,14 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
     for (int tick = 0; tick < kTicksPerFrame; ++tick) {
       scene::TipSample sample;
       const double z_m = height_at((i + static_cast<double>(tick) / kTicksPerFrame) / kFrames, release_m);
-      const double force_n = z_m < release_m ? materials[felt].tables->attached.force(physics::Length(z_m)).si : 0;
+      const double force_n = z_m < release_m ? materials[material].tables->attached.force(physics::Length(z_m)).si : 0;
       sample.tip = {.z_m = z_m, .force_n = force_n, .deflection_m = -force_n / stiffness};
       sample.servo_state = scene::ServoState::Running;
       sample.phase = physics::Phase::Attached;
-      curves[felt].add(sample);
+      curves[material].add(sample);
       moment.wall.tip = sample.tip;
     }
-    moment.wall.material = felt;
+    moment.wall.material = material;
     moment.servo_state = scene::ServoState::Running;
     moment.phase = physics::Phase::Attached;
     moment.retracting = 2 * i > kFrames;

@@ -31,7 +31,7 @@ constexpr std::size_t kWarmUpTicks = 3000;  // lift, Turn-On, and the ramp
 constexpr std::size_t kHalfCycle = 600;     // ticks
 constexpr double kTop_m = 0.060, kBottom_m = -0.015, kSideways_m = 0.03;
 
-struct Felt {
+struct WorkCase {
   std::string name;
   physics::Law law;
   bool dynamic;
@@ -41,10 +41,10 @@ struct Felt {
 };
 
 // The paper's law against CHAI3D's, every other one, and a lever with mass.
-std::vector<Felt> all_felt() {
+std::vector<WorkCase> work_cases() {
   using physics::Law;
-  std::vector<Felt> all{{"paper on a plane", Law::Paper, false, false, 0, kFieldP99_us},
-                        {"paper on a surface", Law::Paper, false, true, kFieldP50_us, kFieldP99_us}};
+  std::vector<WorkCase> all{{"paper on a plane", Law::Paper, false, false, 0, kFieldP99_us},
+                            {"paper on a surface", Law::Paper, false, true, kFieldP50_us, kFieldP99_us}};
   for (const Law law : physics::laws_with(&physics::LawTraits::computed)) {
     if (law != Law::Paper) all.push_back({std::string(name_of(law)), law, false, true, 0, kDearestBar_us});
   }
@@ -65,12 +65,12 @@ scene::SharedHeightField rough_surface() {
   return field;
 }
 
-scene::SharedModel model_of(const Felt& felt) {
+scene::SharedModel model_of(const WorkCase& work) {
   scene::SharedModel model = mica_alone();
   scene::SharedContact& mica = model.materials[0];
-  mica.law = felt.law;
-  mica.dynamic = felt.dynamic ? 1 : 0;
-  if (felt.topography) {
+  mica.law = work.law;
+  mica.dynamic = work.dynamic ? 1 : 0;
+  if (work.topography) {
     model.height_field_count = 1;
     model.height_fields[0] = rough_surface();
     mica.height_field = 0;
@@ -129,8 +129,8 @@ class Bench {
   bool down_ = false;
 };
 
-core::Result<WorkFigure> measure_case(const Felt& felt, std::size_t ticks) {
-  auto segment = scene::SharedSegment::create(model_of(felt), 0);
+core::Result<WorkFigure> measure_case(const WorkCase& work, std::size_t ticks) {
+  auto segment = scene::SharedSegment::create(model_of(work), 0);
   if (!segment) return tl::unexpected(segment.error());
   haptics::SimulatedDevice hand;
   auto loop = haptics::ServoLoop::create(*segment, hand, {.rate_hz = 1e9 / static_cast<double>(kPeriodNs)});
@@ -139,11 +139,11 @@ core::Result<WorkFigure> measure_case(const Felt& felt, std::size_t ticks) {
   for (std::size_t i = 0; i < kWarmUpTicks; ++i) bench.tick_us();
   if (!bench.force_is_on()) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot measure {}: the force did not come on", felt.name));
+                         fmt::format("cannot measure {}: the force did not come on", work.name));
   }
   std::vector<double> us(ticks);
   for (double& each : us) each = bench.tick_us();
-  return WorkFigure{felt.name, core::percentiles(std::move(us)), felt.p50_bar_us, felt.p99_bar_us};
+  return WorkFigure{work.name, core::percentiles(std::move(us)), work.p50_bar_us, work.p99_bar_us};
 }
 
 }  // namespace
@@ -168,10 +168,10 @@ scene::SharedModel mica_alone() {
 
 core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks) {
   std::vector<WorkFigure> figures;
-  const std::vector<Felt> all = all_felt();
-  for (const Felt& felt : all) {
-    core::log_line(fmt::format("measuring a tick: {} ({} of {})", felt.name, figures.size() + 1, all.size()));
-    auto figure = measure_case(felt, ticks);
+  const std::vector<WorkCase> all = work_cases();
+  for (const WorkCase& work : all) {
+    core::log_line(fmt::format("measuring a tick: {} ({} of {})", work.name, figures.size() + 1, all.size()));
+    auto figure = measure_case(work, ticks);
     if (!figure) return tl::unexpected(figure.error());
     figures.push_back(std::move(*figure));
   }

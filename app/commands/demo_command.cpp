@@ -120,21 +120,21 @@ core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optiona
   if (measured) plan.curves.push_back(measured->curve);
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
     if (measured && entry.name == measured->entry.name) {
-      auto felt = curves::make_sample_model(entry, plan.curves, 0);
-      if (!felt) return tl::unexpected(felt.error());
-      felt->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
-      plan.materials.push_back(std::move(*felt));
+      auto model = curves::make_sample_model(entry, plan.curves, 0);
+      if (!model) return tl::unexpected(model.error());
+      model->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
+      plan.materials.push_back(std::move(*model));
       plan.variations.emplace_back();
       continue;
     }
     const auto setup = setup_of(entry, options);
     if (!setup) return tl::unexpected(setup.error());
-    auto felt = curves::make_sample_model(*setup);
-    if (!felt) return tl::unexpected(felt.error());
-    felt->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
-    auto variations = variations_of(*felt, options);
+    auto model = curves::make_sample_model(*setup);
+    if (!model) return tl::unexpected(model.error());
+    model->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
+    auto variations = variations_of(*model, options);
     if (!variations) return tl::unexpected(variations.error());
-    plan.materials.push_back(std::move(*felt));
+    plan.materials.push_back(std::move(*model));
     plan.variations.push_back(std::move(*variations));
   }
   return plan;
@@ -194,7 +194,7 @@ core::Result<void> write_results(const DemoResult& result, const std::vector<Rep
     if (auto saved = write_session(session, session.material, out); !saved) return saved;
     plotted.push_back({result.measurements[i].title, &session});
     int number = 0;
-    for (const FeltVariation& variation : result.variations) {
+    for (const Variation& variation : result.variations) {
       if (variation.material != i) continue;
       const std::string name = fmt::format("{}-vary-{}", session.material, ++number);
       if (auto saved = write_session(variation.session, name, out); !saved) return saved;
@@ -212,8 +212,8 @@ core::Result<void> measure_all(const DemoPlan& plan, DemoResult& result) {
     if (!measured) return tl::unexpected(measured.error());
     result.measurements.push_back(std::move(*measured));
   }
-  for (FeltVariation& variation : result.variations) {
-    auto measured = measure(variation.session, variation.felt);
+  for (Variation& variation : result.variations) {
+    auto measured = measure(variation.session, variation.model);
     if (!measured) return tl::unexpected(measured.error());
     variation.measurement = std::move(*measured);
   }
@@ -232,7 +232,7 @@ core::Result<void> check_accuracy(const DemoResult& result) {
   for (const Measurement& m : result.measurements) {
     if (auto accurate = check_accuracy(m); !accurate) return accurate;
   }
-  for (const FeltVariation& variation : result.variations) {
+  for (const Variation& variation : result.variations) {
     if (auto accurate = check_accuracy(variation.measurement); !accurate) return accurate;
   }
   return {};

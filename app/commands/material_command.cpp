@@ -89,8 +89,8 @@ core::Result<std::string> material_list(const ContactOptions& options) {
   return text;
 }
 
-// One contact for people: each number with its source, the place on the adhesion map, the law and why, and what a cycle
-// comes to.
+// One contact for people: each number with its source, the place on the adhesion map, the law and why, and the
+// figures of a cycle.
 core::Result<std::string> material_text(const curves::ContactSetup& setup) {
   const auto tables = tables_of(setup);
   if (!tables) return tl::unexpected(tables.error());

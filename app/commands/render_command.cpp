@@ -58,11 +58,11 @@ exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::
   return files;
 }
 
-core::Result<void> draw(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& felt,
+core::Result<void> draw(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& models,
                         const exhibit::Moment& moment, const RenderOptions& options) {
   auto drawing = exhibit::WallDrawing::open(stage.wall, options.picture);
   if (!drawing) return tl::unexpected(drawing.error());
-  const exhibit::FrameBuilder frames(stage.wall_scene, felt, stage.eyes);
+  const exhibit::FrameBuilder frames(stage.wall_scene, models, stage.eyes);
   const auto build = [&](const exhibit::OutputPicture&, const std::array<scene::EyeView, 2>& eyes) {
     render::FrameState frame = frames.build(moment);
     frame.eyes = eyes;
@@ -82,13 +82,13 @@ core::Result<void> run_journey(const RenderOptions& options) {
   files.shown = {options.material};
   auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
-  auto felt = curves::make_sample_model(curves::ContactSetup{stage->materials.materials.front(), {}, {}});
-  if (!felt) return tl::unexpected(felt.error());
+  auto model = curves::make_sample_model(curves::ContactSetup{stage->materials.materials.front(), {}, {}});
+  if (!model) return tl::unexpected(model.error());
   exhibit::Moment moment;
   moment.wall = {
       .material = 0, .centerpiece = exhibit::Centerpiece::Journey, .journey_orders = *options.journey_orders};
   moment.realtime = true;  // nothing moves
-  return draw(*stage, {*felt}, moment, options);
+  return draw(*stage, {*model}, moment, options);
 }
 
 core::Result<void> run_model(const RenderOptions& options) {
@@ -144,12 +144,12 @@ core::Result<void> run_render(const RenderOptions& options) {
   }
   std::vector<scene::SharedMeasuredCurve> recorded;
   if (session->curve) recorded.push_back(*session->curve);
-  std::vector<curves::SampleModel> felt;
+  std::vector<curves::SampleModel> models;
   for (const scene::MaterialEntry& entry : materials) {
     auto one = entry.name == session->material ? curves::make_sample_model(entry, session->parameters, recorded)
                                                : curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
     if (!one) return tl::unexpected(one.error());
-    felt.push_back(std::move(*one));
+    models.push_back(std::move(*one));
   }
   const double length_s = session->seconds_since_start(session->samples.back().time_ns);
   if (!(options.at_s >= 0.0 && options.at_s <= length_s)) {
@@ -165,7 +165,7 @@ core::Result<void> run_render(const RenderOptions& options) {
   exhibit::Moment moment = exhibit::moment_of(*session, material, time_ns, curves);
   moment.guidance = fmt::format("{} at {:.2f} s", found->title, options.at_s);
   if (options.analogy) moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
-  return draw(*stage, felt, moment, options);
+  return draw(*stage, models, moment, options);
 }
 
 // What is said of a model.

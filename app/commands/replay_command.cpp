@@ -58,13 +58,13 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
 }
 
 std::string plain(const servo::RecordedSession& session, const servo::Replay& replayed) {
-  const auto felt = std::count_if(session.samples.begin(), session.samples.end(), [](const scene::TipSample& s) {
+  const auto with_force = std::count_if(session.samples.begin(), session.samples.end(), [](const scene::TipSample& s) {
     return s.servo_state == scene::ServoState::Running;
   });
   std::string text = fmt::format("{}, felt with {} at {:g} Hz: {:.3f} s, {} ticks, force on in {} of them, {} events\n",
                                  session.material, session.device.name.data(), session.rate_hz,
-                                 session.seconds_since_start(session.samples.back().time_ns), replayed.ticks, felt,
-                                 session.events.size());
+                                 session.seconds_since_start(session.samples.back().time_ns), replayed.ticks,
+                                 with_force, session.events.size());
   for (const scene::TipEvent& event : session.events) {
     text += fmt::format("  {:<16} at {:8.3f} s   Z = {:9.4f} nm   force {:9.5f} nN, then {:9.5f} nN\n",
                         name_of(event.kind), session.seconds_since_start(event.time_ns), event.z_m * 1e9,

@@ -81,10 +81,10 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   if (!stage) return tl::unexpected(stage.error());
   std::vector<curves::SampleModel> materials;
   for (const scene::MaterialEntry& entry : stage->materials.materials) {
-    auto felt = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
-    if (!felt) return tl::unexpected(felt.error());
-    felt->parameters.height_field = stage->wall_scene.height_field(materials.size());
-    materials.push_back(std::move(*felt));
+    auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
+    if (!model) return tl::unexpected(model.error());
+    model->parameters.height_field = stage->wall_scene.height_field(materials.size());
+    materials.push_back(std::move(*model));
   }
   ViewSettings settings = options.settings;
   const auto wand_choice = parse_wand_choice(options.wand);

@@ -78,7 +78,7 @@ FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
 }
 
 VariationFigure::VariationFigure(const servo::RecordedSession& base, const Measurement& measurement,
-                                 const curves::SampleModel& felt, std::span<const FeltVariation> variations,
+                                 const curves::SampleModel& model, std::span<const Variation> variations,
                                  std::size_t material) {
   std::vector<exhibit::CycleResult> all;
   const auto add = [&](const servo::RecordedSession& session, const Measurement& m,
@@ -87,9 +87,9 @@ VariationFigure::VariationFigure(const servo::RecordedSession& base, const Measu
     curves_.push_back(exhibit::curve_until(session, session.samples.back().time_ns));
     all.push_back(result_of(m));
   };
-  add(base, measurement, felt);
-  for (const FeltVariation& variation : variations) {
-    if (variation.material == material) add(variation.session, variation.measurement, variation.felt);
+  add(base, measurement, model);
+  for (const Variation& variation : variations) {
+    if (variation.material == material) add(variation.session, variation.measurement, variation.model);
   }
   moment_ = exhibit::moment_of(base, material, base.samples.back().time_ns, curves_);
   moment_.results = std::move(all);

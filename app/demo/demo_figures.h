@@ -39,8 +39,8 @@ class FigurePlan {
 // FrameBuilder draws from.
 class VariationFigure {
  public:
-  VariationFigure(const servo::RecordedSession& base, const Measurement& measurement, const curves::SampleModel& felt,
-                  std::span<const FeltVariation> variations, std::size_t material);
+  VariationFigure(const servo::RecordedSession& base, const Measurement& measurement, const curves::SampleModel& model,
+                  std::span<const Variation> variations, std::size_t material);
   VariationFigure(const VariationFigure&) = delete;
   VariationFigure& operator=(const VariationFigure&) = delete;
 

@@ -41,7 +41,7 @@ Demonstration::Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, 
       targets_(wall_scene_.swatch_targets()),
       between_eyes_m_(0.5 * (stage.eyes[0].eye_position_m + stage.eyes[1].eye_position_m)),
       curves_(materials_.size()) {
-  if (plan.frame_budget_ms > 0) budget_.emplace(plan.frame_budget_ms, renderer.detail().samples);
+  if (plan.frame_budget_ms > 0) budget_.emplace(plan.frame_budget_ms, renderer.quality().samples);
 }
 
 core::Result<void> Demonstration::run(DemoResult& result, const Progress& progress) {

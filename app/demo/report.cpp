@@ -85,7 +85,7 @@ std::string events_table(const DemoResult& result) {
   const auto nn = [](std::optional<double> n) { return n ? fmt::format("{:.5g} nN", *n * 1e9) : "\u2013"; };
   const auto percent = [](std::optional<double> error) { return error ? signed_percent(*error) : "\u2013"; };
   std::vector<Measurement> measurements = result.measurements;
-  for (const FeltVariation& variation : result.variations) measurements.push_back(variation.measurement);
+  for (const Variation& variation : result.variations) measurements.push_back(variation.measurement);
   for (const Measurement& m : measurements) {
     if (!m.hysteretic) {
       html += fmt::format(
@@ -123,7 +123,7 @@ nlohmann::json summary_json(const DemoResult& result) {
   nlohmann::json materials = nlohmann::json::object();
   for (const Measurement& m : result.measurements) materials[m.material] = json_of(m);
   nlohmann::json variations = nlohmann::json::array();
-  for (const FeltVariation& variation : result.variations) {
+  for (const Variation& variation : result.variations) {
     variations.push_back(json_of(variation.measurement));
     variations.back()["material"] = variation.measurement.material;
     variations.back()["title"] = variation.measurement.title;

@@ -15,9 +15,9 @@
 namespace afm::app {
 
 // One cycle on a sample whose parameters were changed while the servo ran.
-struct FeltVariation {
+struct Variation {
   std::size_t material = 0;  // of which material it is a variation
-  curves::SampleModel felt;
+  curves::SampleModel model;
   servo::RecordedSession session;
   Measurement measurement;
 };
@@ -26,7 +26,7 @@ struct FeltVariation {
 struct DemoResult {
   std::vector<servo::RecordedSession> sessions;  // one per material, in the file's order
   std::vector<Measurement> measurements;
-  std::vector<FeltVariation> variations;
+  std::vector<Variation> variations;
   scene::ServoTiming servo;
   std::uint64_t lost_samples = 0;
   std::vector<double> frame_ms;

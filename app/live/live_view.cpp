@@ -280,7 +280,7 @@ exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) co
   now.wall.journey_orders = travel_.orders().value_or(0.0);
   now.wall.fade = travel_.fade();
   now.servo = exhibit::servo_rows(servo.tip(), servo.timing(), servo.device());
-  if (auto row = picture_.detail_row()) now.servo.push_back(std::move(*row));
+  if (auto row = picture_.quality_row()) now.servo.push_back(std::move(*row));
   if (!servo_.running()) {
     now.servo_state = scene::ServoState::Fault;
     now.guidance = stage_.guidance.text(exhibit::Hint::ServoEnded);
@@ -293,7 +293,7 @@ void LiveView::follow_edits() {
   const auto current = servo_.material();
   if (!current) return;
   const exhibit::ChangeState state = panels_.edits().state(*current, servo_.link().tip());
-  const curves::SampleModel& edited = panels_.edits().of(*current).felt();
+  const curves::SampleModel& edited = panels_.edits().of(*current).model();
   const bool taken = state == exhibit::ChangeState::Applied || state == exhibit::ChangeState::AsLoaded;
   if (!taken || felt_[*current].tables == edited.tables) return;
   felt_[*current] = edited;

@@ -25,20 +25,20 @@ void ParameterEdits::apply(const render::ControlTarget& target, std::size_t mate
   } else if (static_cast<exhibit::PanelButton>(target.index) == exhibit::PanelButton::Reset) {
     changed = now.reset();
   }
-  if (changed) edits_[material].revision = servo.change(material, now.felt().parameters);
+  if (changed) edits_[material].revision = servo.change(material, now.model().parameters);
 }
 
 void ParameterEdits::reset(servo::ServoClient& servo) {
   for (std::size_t i = 0; i < edits_.size(); ++i) {
     if (edits_[i].parameters && edits_[i].parameters->reset()) {
-      edits_[i].revision = servo.change(i, edits_[i].parameters->felt().parameters);
+      edits_[i].revision = servo.change(i, edits_[i].parameters->model().parameters);
     }
   }
 }
 
 void ParameterEdits::resend(servo::ServoClient& servo) {
   for (std::size_t i = 0; i < edits_.size(); ++i) {
-    edits_[i].revision = changed(i) ? servo.change(i, edits_[i].parameters->felt().parameters) : 0;
+    edits_[i].revision = changed(i) ? servo.change(i, edits_[i].parameters->model().parameters) : 0;
   }
 }
 

@@ -47,7 +47,7 @@ ViewPicture::ViewPicture(const exhibit::Stage& stage, const std::vector<ViewOutp
       eye_size_px_(settings.eye_px),
       saver_(context, renderer),
       depth_meter_(context, renderer) {
-  if (settings_.frame_budget_ms > 0) budget_.emplace(settings_.frame_budget_ms, renderer.detail().samples);
+  if (settings_.frame_budget_ms > 0) budget_.emplace(settings_.frame_budget_ms, renderer.quality().samples);
   share_out();
 }
 
@@ -217,7 +217,7 @@ void ViewPicture::show(render::FrameState& frame, std::int64_t now_ns, const std
   if (budget_) budget_->follow(renderer_);
 }
 
-std::optional<render::DataRow> ViewPicture::detail_row() const {
+std::optional<render::DataRow> ViewPicture::quality_row() const {
   return budget_ ? std::optional(budget_->row()) : std::nullopt;
 }
 

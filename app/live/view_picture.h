@@ -69,7 +69,7 @@ class ViewPicture {
   WallPicture picture(std::size_t window) const;
 
   // How finely frames are drawn to stay within the budget; nothing without one.
-  std::optional<render::DataRow> detail_row() const;
+  std::optional<render::DataRow> quality_row() const;
 
   // Draws and shows a frame in all windows, with the depth meter in it; calls `while_waiting` often.
   void show(render::FrameState& frame, std::int64_t now_ns, const std::function<void()>& while_waiting);

@@ -41,8 +41,8 @@ bool DynamicResolution::go(std::size_t step) {
 
 // What the next finer step would take at most: a frame never grows faster than its pixels.
 double DynamicResolution::finer_cost() const {
-  const render::Detail& now = steps_[step_];
-  const render::Detail& finer = steps_[step_ - 1];
+  const render::FrameQuality& now = steps_[step_];
+  const render::FrameQuality& finer = steps_[step_ - 1];
   const double pixels = (finer.scale * finer.scale) / (now.scale * now.scale);
   return typical_ms_ * pixels * (finer.samples > now.samples ? kFourSamplesCost : 1.0);
 }
@@ -69,8 +69,8 @@ bool DynamicResolution::add(double frame_ms) {
 }
 
 std::string DynamicResolution::text() const {
-  std::string text = fmt::format("{:.0f} % of the pixels each way, {} sample{}", 100.0 * detail().scale,
-                                 detail().samples, detail().samples == 1 ? "" : "s");
+  std::string text = fmt::format("{:.0f} % of the pixels each way, {} sample{}", 100.0 * quality().scale,
+                                 quality().samples, quality().samples == 1 ? "" : "s");
   if (step_ + 1 == steps_.size() && typical_ms_ > budget_ms_) {
     text += fmt::format(", and still {:.0f} ms", typical_ms_);
   }
@@ -80,7 +80,7 @@ std::string DynamicResolution::text() const {
 void DynamicResolution::follow(render::Renderer& renderer) {
   const auto times = renderer.pass_times();
   if (!times || !add(times->total_ms())) return;
-  renderer.set_detail(detail());
+  renderer.set_quality(quality());
   core::log_line("to stay within the frame's budget: " + text());
 }
 

@@ -21,13 +21,13 @@ class DynamicResolution {
   // `budget_ms` > 0; `samples` as the renderer was made with.
   DynamicResolution(double budget_ms, std::uint32_t samples);
 
-  // Takes what the newest frame took. True if the detail of the next one is another.
+  // Takes what the newest frame took. True if the quality of the next one differs.
   bool add(double frame_ms);
 
-  // Takes the time of the renderer's newest finished frame, sets its detail and logs a change.
+  // Takes the time of the renderer's newest finished frame, sets its quality and logs a change.
   void follow(render::Renderer& renderer);
 
-  const render::Detail& detail() const { return steps_[step_]; }
+  const render::FrameQuality& quality() const { return steps_[step_]; }
 
   // "71 % of the pixels each way, 4 samples"; with what could not be held if nothing coarser is left.
   std::string text() const;
@@ -40,7 +40,7 @@ class DynamicResolution {
   double finer_cost() const;
 
   double budget_ms_;
-  std::vector<render::Detail> steps_;  // finest first
+  std::vector<render::FrameQuality> steps_;  // finest first
   std::size_t step_ = 0;
   std::vector<double> recent_ms_;  // since the last change
   int steady_frames_ = 0;          // within the budget since then

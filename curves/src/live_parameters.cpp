@@ -71,14 +71,14 @@ bool LiveParameters::take(const Steps& steps) {
   in.reduced_modulus = scaled(Row::ReducedModulus, softened ? kStiffestModulus : in.reduced_modulus);
   try {
     parameters.law = law_after(steps[index(Row::Law)]).value_or(physics::choose_law(in).law);
-    auto felt = make_sample_model(loaded_.setup.material, parameters, {});
-    if (!felt) {
-      refusal_ = felt.error().message;
+    auto model = make_sample_model(loaded_.setup.material, parameters, {});
+    if (!model) {
+      refusal_ = model.error().message;
       return false;
     }
-    curve_ = predict(*felt);
-    felt->setup = loaded_.setup;
-    now_ = std::move(*felt);
+    curve_ = predict(*model);
+    model->setup = loaded_.setup;
+    now_ = std::move(*model);
   } catch (const std::invalid_argument& why) {
     refusal_ = why.what();
     return false;

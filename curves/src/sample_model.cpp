@@ -39,8 +39,8 @@ tl::unexpected<core::Error> refusal(const scene::MaterialEntry& entry, core::Err
   return core::failure(category, fmt::format("cannot make {} felt: {}", entry.name, why));
 }
 
-core::Result<SampleModel> felt(const ContactSetup& setup, const scene::SharedContact& parameters,
-                               std::span<const scene::SharedMeasuredCurve> curves) {
+core::Result<SampleModel> model_with(const ContactSetup& setup, const scene::SharedContact& parameters,
+                                     std::span<const scene::SharedMeasuredCurve> curves) {
   auto tables = haptics::build_tables(parameters, curves);
   if (!tables) return tl::unexpected(tables.error());
   auto scaling = haptics::Scaling::fit(**tables, haptics::SimulatedDevice().spec());
@@ -52,7 +52,7 @@ core::Result<SampleModel> felt(const ContactSetup& setup, const scene::SharedCon
 
 core::Result<SampleModel> make_sample_model(const ContactSetup& setup) {
   try {
-    return felt(setup, parameters_of(setup), {});
+    return model_with(setup, parameters_of(setup), {});
   } catch (const std::invalid_argument& error) {
     return refusal(setup.material, core::ErrorCategory::Failed, error.what());
   }
@@ -71,7 +71,7 @@ core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry, c
   ContactSetup setup{entry, scene::law_options(parameters), {}};
   setup.model.law = parameters.law;
   setup.model.dynamic = parameters.dynamic != 0;
-  return felt(setup, parameters, curves);
+  return model_with(setup, parameters, curves);
 }
 
 core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry,

@@ -24,8 +24,8 @@ std::string pull(physics::Force value) {
 }
 
 std::vector<std::string> notes(const curves::LiveParameters& parameters) {
-  const physics::CycleFigures& figures = parameters.felt().figures();
-  const physics::LawChoice& suited = parameters.felt().contact;
+  const physics::CycleFigures& figures = parameters.model().figures();
+  const physics::LawChoice& suited = parameters.model().contact;
   std::vector<std::string> lines;
   if (figures.hysteretic) {
     lines.push_back(fmt::format("Snap-in {} at {}", pull(figures.force_after_jtc), length(figures.z_jtc)));
@@ -84,7 +84,7 @@ render::ControlPanel parameter_panel(const curves::LiveParameters& parameters, c
 }
 
 void add_prediction(const curves::LiveParameters& parameters, render::ForcePanel& panel) {
-  const physics::CycleFigures& figures = parameters.felt().figures();
+  const physics::CycleFigures& figures = parameters.model().figures();
   render::PlotCurve predicted{
       .label = "predicted", .color = kPredictionColor, .faded = true, .approach = {}, .retract = {}};
   for (const physics::CurveSample& sample : parameters.curve().samples) {
@@ -93,7 +93,7 @@ void add_prediction(const curves::LiveParameters& parameters, render::ForcePanel
   }
   panel.curves.insert(panel.curves.begin(), std::move(predicted));
 
-  const double reach_nm = curves::cycle_reach_m(parameters.felt()) * curves::kNmPerM;
+  const double reach_nm = curves::cycle_reach_m(parameters.model()) * curves::kNmPerM;
   const double deepest_nn = std::abs(parameters.curve().samples.back().force.si) * curves::kNnPerN;
   const double pull_nn = strongest_pull_n(parameters.curve()) * curves::kNnPerN;
   const double span_nn = pull_nn > 0.0 ? pull_nn : std::max(deepest_nn, 1e-3);

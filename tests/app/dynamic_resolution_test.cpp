@@ -17,21 +17,21 @@ struct Cost {
   double pixels_ms = 100.0;  // at full resolution with one sample
   double four_samples = 2.3;
 
-  double of(const render::Detail& detail) const {
-    return fixed_ms + pixels_ms * detail.scale * detail.scale * (detail.samples == 4 ? four_samples : 1.0);
+  double of(const render::FrameQuality& quality) const {
+    return fixed_ms + pixels_ms * quality.scale * quality.scale * (quality.samples == 4 ? four_samples : 1.0);
   }
 };
 
 int run(DynamicResolution& budget, const Cost& cost, int frames) {
   int changes = 0;
-  for (int i = 0; i < frames; ++i) changes += budget.add(cost.of(budget.detail())) ? 1 : 0;
+  for (int i = 0; i < frames; ++i) changes += budget.add(cost.of(budget.quality())) ? 1 : 0;
   return changes;
 }
 
 TEST(FrameBudgetTest, LeavesAFrameAloneThatFits) {
   DynamicResolution budget(kBudget_ms, 4);
   EXPECT_EQ(run(budget, {.pixels_ms = 15.0}, 10'000), 0);
-  EXPECT_EQ(budget.detail(), (render::Detail{.scale = 1.0, .samples = 4}));
+  EXPECT_EQ(budget.quality(), (render::FrameQuality{.scale = 1.0, .samples = 4}));
 }
 
 TEST(FrameBudgetTest, HoldsTheBudgetWithinFortyFramesAndStaysThere) {
@@ -39,10 +39,10 @@ TEST(FrameBudgetTest, HoldsTheBudgetWithinFortyFramesAndStaysThere) {
     const Cost cost{.pixels_ms = pixels_ms};
     DynamicResolution budget(kBudget_ms, 4);
     run(budget, cost, 40);
-    EXPECT_LE(cost.of(budget.detail()), kBudget_ms) << pixels_ms;
-    const render::Detail reached = budget.detail();
+    EXPECT_LE(cost.of(budget.quality()), kBudget_ms) << pixels_ms;
+    const render::FrameQuality reached = budget.quality();
     run(budget, cost, 5'000);
-    EXPECT_EQ(budget.detail(), reached) << pixels_ms;
+    EXPECT_EQ(budget.quality(), reached) << pixels_ms;
   }
 }
 
@@ -52,31 +52,31 @@ TEST(FrameBudgetTest, GivesUpResolutionDownToHalfBeforeSamples) {
   std::uint32_t last_samples = 4;
   for (int i = 0; i < 200; ++i) {
     if (!budget.add(1000.0)) continue;
-    const render::Detail detail = budget.detail();
-    EXPECT_GE(detail.scale, 0.5);
-    EXPECT_LE(detail.scale, last_scale);
-    if (detail.samples < last_samples) {
+    const render::FrameQuality quality = budget.quality();
+    EXPECT_GE(quality.scale, 0.5);
+    EXPECT_LE(quality.scale, last_scale);
+    if (quality.samples < last_samples) {
       EXPECT_EQ(last_scale, 0.5);
     }
-    last_scale = detail.scale;
-    last_samples = detail.samples;
+    last_scale = quality.scale;
+    last_samples = quality.samples;
   }
-  EXPECT_EQ(budget.detail(), (render::Detail{.scale = 0.5, .samples = 1}));
+  EXPECT_EQ(budget.quality(), (render::FrameQuality{.scale = 0.5, .samples = 1}));
   EXPECT_THAT(budget.text(), testing::HasSubstr("and still 1000 ms"));
 }
 
 TEST(FrameBudgetTest, OfOneSampleHasNoneToGiveUp) {
   DynamicResolution budget(kBudget_ms, 1);
   run(budget, {.pixels_ms = 1000.0}, 500);
-  EXPECT_EQ(budget.detail(), (render::Detail{.scale = 0.5, .samples = 1}));
+  EXPECT_EQ(budget.quality(), (render::FrameQuality{.scale = 0.5, .samples = 1}));
 }
 
 TEST(FrameBudgetTest, ComesAllTheWayBackWhenTheLoadIsGone) {
   DynamicResolution budget(kBudget_ms, 4);
   run(budget, {.pixels_ms = 200.0}, 100);
-  ASSERT_EQ(budget.detail().samples, 1U);
+  ASSERT_EQ(budget.quality().samples, 1U);
   run(budget, {.pixels_ms = 5.0}, 1'000);
-  EXPECT_EQ(budget.detail(), (render::Detail{.scale = 1.0, .samples = 4}));
+  EXPECT_EQ(budget.quality(), (render::FrameQuality{.scale = 1.0, .samples = 4}));
 }
 
 TEST(FrameBudgetTest, AHiccupChangesNothing) {
@@ -87,11 +87,11 @@ TEST(FrameBudgetTest, AHiccupChangesNothing) {
 // A device whose frames cost more at the finer step than anything foretells: it is tried less and less often.
 TEST(FrameBudgetTest, DoesNotGoBackAndForth) {
   DynamicResolution budget(kBudget_ms, 4);
-  const auto cost = [](const render::Detail& detail) { return detail.scale > 0.9 ? 90.0 : 20.0; };
+  const auto cost = [](const render::FrameQuality& quality) { return quality.scale > 0.9 ? 90.0 : 20.0; };
   int changes = 0;
-  for (int i = 0; i < 6'000; ++i) changes += budget.add(cost(budget.detail())) ? 1 : 0;
+  for (int i = 0; i < 6'000; ++i) changes += budget.add(cost(budget.quality())) ? 1 : 0;
   EXPECT_LE(changes, 20);
-  EXPECT_EQ(budget.detail().scale, 0.84);
+  EXPECT_EQ(budget.quality().scale, 0.84);
 }
 
 TEST(FrameBudgetTest, SaysWhatItChose) {

@@ -35,19 +35,19 @@ TEST_F(LiveParametersTest, FourStepsAreAFactorOfTwoAndAsManyBackAreExactlyWhatWa
     EXPECT_FALSE(parameters_.changed(row));
     EXPECT_EQ(parameters_.value(row), before);
   }
-  EXPECT_EQ(parameters_.felt().parameters.contact.hamaker.si, mica_.parameters.contact.hamaker.si);
+  EXPECT_EQ(parameters_.model().parameters.contact.hamaker.si, mica_.parameters.contact.hamaker.si);
   for (int i = 0; i < 4; ++i) parameters_.step(Row::SpringConstant, 1);
-  EXPECT_NEAR(parameters_.felt().parameters.contact.spring_constant.si, 0.2, 1e-15);
+  EXPECT_NEAR(parameters_.model().parameters.contact.spring_constant.si, 0.2, 1e-15);
 }
 
 TEST_F(LiveParametersTest, TheFiguresFollowTheStiffnessAsHaosFoldDoes) {
-  const double before = parameters_.felt().figures().z_jtc.si;
+  const double before = parameters_.model().figures().z_jtc.si;
   for (int i = 0; i < 12; ++i) parameters_.step(Row::SpringConstant, 1);  // k * 8: Z_jtc falls to a half, (3.6)
-  EXPECT_NEAR(parameters_.felt().figures().z_jtc.si, 0.5 * before, 1e-9 * before);
+  EXPECT_NEAR(parameters_.model().figures().z_jtc.si, 0.5 * before, 1e-9 * before);
 }
 
 TEST_F(LiveParametersTest, ThePredictedCurveReachesTheFoldForces) {
-  const auto& figures = parameters_.felt().figures();
+  const auto& figures = parameters_.model().figures();
   double strongest = 0.0;
   for (const physics::CurveSample& sample : parameters_.curve().samples) {
     strongest = std::min(strongest, sample.force.si);
@@ -77,8 +77,8 @@ TEST_F(LiveParametersTest, ALeverWithMassGoesRoundTheLawsThatMoveOne) {
   std::set<physics::Law> seen;
   for (int i = 0; i < 8; ++i) {
     ASSERT_TRUE(parameters.step(Row::Law, 1));
-    EXPECT_TRUE(physics::has_dynamics(parameters.felt().parameters.law)) << parameters.value(Row::Law);
-    seen.insert(parameters.felt().parameters.law);
+    EXPECT_TRUE(physics::has_dynamics(parameters.model().parameters.law)) << parameters.value(Row::Law);
+    seen.insert(parameters.model().parameters.law);
   }
   const auto all = physics::laws_with(&physics::LawTraits::dynamic);
   EXPECT_EQ(seen, std::set<physics::Law>(all.begin(), all.end()));
@@ -87,9 +87,9 @@ TEST_F(LiveParametersTest, ALeverWithMassGoesRoundTheLawsThatMoveOne) {
 TEST_F(LiveParametersTest, AStepBeyondWhatIsPhysicalChangesNothingAndSaysWhy) {
   int steps = 0;
   while (parameters_.step(Row::TipRadius, 1)) ASSERT_LT(++steps, 200);
-  const double radius = parameters_.felt().parameters.contact.tip_radius.si;
+  const double radius = parameters_.model().parameters.contact.tip_radius.si;
   EXPECT_FALSE(parameters_.step(Row::TipRadius, 1));
-  EXPECT_EQ(parameters_.felt().parameters.contact.tip_radius.si, radius);
+  EXPECT_EQ(parameters_.model().parameters.contact.tip_radius.si, radius);
   EXPECT_FALSE(parameters_.refusal().empty());
   EXPECT_TRUE(parameters_.step(Row::TipRadius, -1));
   EXPECT_TRUE(parameters_.refusal().empty());
@@ -101,8 +101,8 @@ TEST_F(LiveParametersTest, ResetIsWhatWasLoaded) {
   parameters_.step(Row::Law, 1);
   EXPECT_TRUE(parameters_.reset());
   EXPECT_FALSE(parameters_.changed());
-  EXPECT_EQ(parameters_.felt().parameters.contact.hamaker.si, mica_.parameters.contact.hamaker.si);
-  EXPECT_EQ(parameters_.felt().parameters.law, mica_.parameters.law);
+  EXPECT_EQ(parameters_.model().parameters.contact.hamaker.si, mica_.parameters.contact.hamaker.si);
+  EXPECT_EQ(parameters_.model().parameters.law, mica_.parameters.law);
 }
 
 TEST_F(LiveParametersTest, ARigidContactSoftensFromAStiffOne) {
@@ -112,7 +112,7 @@ TEST_F(LiveParametersTest, ARigidContactSoftensFromAStiffOne) {
   EXPECT_EQ(parameters.value(Row::ReducedModulus), "rigid");
   EXPECT_FALSE(parameters.step(Row::ReducedModulus, 1));
   EXPECT_TRUE(parameters.step(Row::ReducedModulus, -1));
-  EXPECT_TRUE(std::isfinite(parameters.felt().parameters.contact.reduced_modulus.si));
+  EXPECT_TRUE(std::isfinite(parameters.model().parameters.contact.reduced_modulus.si));
   EXPECT_TRUE(parameters.step(Row::ReducedModulus, 1));
   EXPECT_EQ(parameters.value(Row::ReducedModulus), "rigid");
 }

@@ -132,15 +132,15 @@ TEST(ApproachRetractModel, KeepsTheTipOnARigidSurface) {
   for (const Length z : {1_nm, 10_nm, -4_nm}) EXPECT_NEAR(model.step(z).tip_height.si, 0.0, 1e-23);
 }
 
-TEST(Pose, BalancesLeverAndSample) {
+TEST(LeverState, BalancesLeverAndSample) {
   const auto tables = build_law_tables(Law::Paper, kSoft);
   for (const Force force : {-1_nN, 0_nN, 2_nN}) {
-    const Pose free = pose_of(*tables, Phase::Free, 4_nm, force);
+    const LeverState free = lever_state(*tables, Phase::Free, 4_nm, force);
     EXPECT_DOUBLE_EQ((kSoft.spring_constant * free.cantilever_deflection).si, -force.si);
     EXPECT_DOUBLE_EQ((kSoft.sample_stiffness * free.sample_deformation).si, -force.si);
     EXPECT_DOUBLE_EQ((free.tip_height + free.cantilever_deflection).si, 4e-9);
     // in contact whatever is not lever and gap is sample
-    EXPECT_EQ(pose_of(*tables, Phase::Attached, 4_nm, force).sample_deformation, free.tip_height);
+    EXPECT_EQ(lever_state(*tables, Phase::Attached, 4_nm, force).sample_deformation, free.tip_height);
   }
 }
 

@@ -103,10 +103,10 @@ TEST_F(FrameAllocation, AChangeOfDetailTakesNone) {
   auto renderer = render::Renderer::create(context, test_.scene, small());
   ASSERT_TRUE(renderer) << renderer.error().message;
   const auto frames = moving_frames();
-  const std::vector<render::Detail> details{{1.0, 4}, {0.84, 4}, {0.5, 4}, {0.5, 1}};
+  const std::vector<render::FrameQuality> qualities{{1.0, 4}, {0.84, 4}, {0.5, 4}, {0.5, 1}};
   const auto draw_all = [&] {
-    for (const auto& detail : details) {
-      renderer->set_detail(detail);
+    for (const auto& quality : qualities) {
+      renderer->set_quality(quality);
       for (const auto& frame : frames) renderer->render(frame);
     }
   };

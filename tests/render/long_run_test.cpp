@@ -55,7 +55,7 @@ class LongRun : public testing::Test {
       if (i % 6 == 0) {
         ASSERT_TRUE(renderer.resize(40 + 8 * static_cast<std::uint32_t>(i % 4), 30));
       }
-      renderer.set_detail({.scale = i % 2 == 0 ? 1.0 : 0.6, .samples = i % 4 == 0 ? 1U : 4U});
+      renderer.set_quality({.scale = i % 2 == 0 ? 1.0 : 0.6, .samples = i % 4 == 0 ? 1U : 4U});
       renderer.render(frame);
       meter.measure();
       const auto mode = scene::kStereoModes[static_cast<std::size_t>(i) % scene::kStereoModes.size()].mode;

@@ -37,7 +37,7 @@ TEST_F(Storm, OfSizesModesAndSamplesIsDrawnWithoutAMessage) {
       size = {any(0, 5) == 0 ? 1 : any(1, 320), any(0, 5) == 0 ? 1 : any(1, 240)};
       ASSERT_TRUE(renderer.resize(size.x, size.y));
     }
-    renderer.set_detail({.scale = 0.01 * any(1, 100), .samples = any(0, 1) == 0 ? 1 : samples});
+    renderer.set_quality({.scale = 0.01 * any(1, 100), .samples = any(0, 1) == 0 ? 1 : samples});
     auto frame = whole;
     if (any(0, 3) == 0) frame.eyes[1] = frame.eyes[0];
     frame.room_from_node[test_.floor][3].z += any(0, 4);  // past the eyes

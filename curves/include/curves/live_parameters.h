@@ -36,7 +36,7 @@ class LiveParameters {
   bool reset();
 
   // As it would be felt now; its parameters are what the servo is to get.
-  const SampleModel& felt() const { return now_; }
+  const SampleModel& model() const { return now_; }
 
   std::string name(Row row) const;
   std::string value(Row row) const;  // with its unit

@@ -37,14 +37,14 @@ struct TipResponse {
 };
 
 // How apex, lever and surface stand at one Z with one force on the tip; frames and signs as in physics/contact.h.
-struct Pose {
+struct LeverState {
   Length tip_height;             // of the apex above the undeformed surface, Z - delta_c
   Length cantilever_deflection;  // delta_c = -F/k_c
   Length sample_deformation;     // delta_s: of the support alone while free, tip height less the contact gap in contact
 };
-Pose pose_of(const LawTables& tables, Phase phase, Length z, Force force) noexcept;
+LeverState lever_state(const LawTables& tables, Phase phase, Length z, Force force) noexcept;
 
-// That pose as the response of a step without a jump.
+// That state as the response of a step without a jump.
 TipResponse respond(const LawTables& tables, Phase phase, Length z, Force force) noexcept;
 
 // A law of force as a two-state latch: Free until Z <= Z_jtc, Attached until Z >= Z_joc. The direction of motion is

@@ -37,8 +37,9 @@ std::uint64_t samples_one_way(const SweepPlan& plan) {
 }
 
 CurveSample row(const LawTables& tables, Branch branch, Length z, Force force, Phase phase) {
-  const Pose pose = pose_of(tables, phase, z, force);
-  return {z, force, pose.tip_height, pose.cantilever_deflection, pose.sample_deformation, branch, phase, std::nullopt};
+  const LeverState lever = lever_state(tables, phase, z, force);
+  return {z,      force, lever.tip_height, lever.cantilever_deflection, lever.sample_deformation,
+          branch, phase, std::nullopt};
 }
 
 template <class Model>

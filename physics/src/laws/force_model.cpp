@@ -14,7 +14,7 @@ double fraction_of(Length threshold, Length from, Length to) noexcept {
 
 }  // namespace
 
-Pose pose_of(const LawTables& tables, Phase phase, Length z, Force force) noexcept {
+LeverState lever_state(const LawTables& tables, Phase phase, Length z, Force force) noexcept {
   const Length deflection = -force / tables.contact.spring_constant;
   const Length tip_height = z - deflection;
   const Length deformation =
@@ -23,11 +23,11 @@ Pose pose_of(const LawTables& tables, Phase phase, Length z, Force force) noexce
 }
 
 TipResponse respond(const LawTables& tables, Phase phase, Length z, Force force) noexcept {
-  const Pose pose = pose_of(tables, phase, z, force);
+  const LeverState lever = lever_state(tables, phase, z, force);
   return {.force = force,
-          .tip_height = pose.tip_height,
-          .cantilever_deflection = pose.cantilever_deflection,
-          .sample_deformation = pose.sample_deformation,
+          .tip_height = lever.tip_height,
+          .cantilever_deflection = lever.cantilever_deflection,
+          .sample_deformation = lever.sample_deformation,
           .phase = phase};
 }
 

@@ -34,11 +34,11 @@ struct RendererOptions {
 };
 
 // How finely frames are drawn; what is seen and where stays the same.
-struct Detail {
+struct FrameQuality {
   double scale = 1.0;         // of the eye images' resolution each way: (0, 1]; what is shown is scaled back up
   std::uint32_t samples = 4;  // 1 or 4, no more than the renderer was made for
 
-  bool operator==(const Detail&) const = default;
+  bool operator==(const FrameQuality&) const = default;
 };
 
 // What the parts of a frame took on the device.
@@ -85,8 +85,8 @@ class Renderer {
   core::Result<void> resize(std::uint32_t eye_width, std::uint32_t eye_height);
 
   // From the next frame on: neither waits nor makes the eye images anew. At first: full resolution, all samples.
-  void set_detail(const Detail& detail);
-  Detail detail() const;
+  void set_quality(const FrameQuality& quality);
+  FrameQuality quality() const;
 
   // Of the newest frame that is finished. Nothing without RendererOptions::time_passes, or where the device has no
   // clock.

@@ -66,7 +66,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
                        PanelFonts fonts)
     : device(the_device),
       options(the_options),
-      detail{.scale = 1.0, .samples = options.samples},
+      quality{.scale = 1.0, .samples = options.samples},
       eyes(device, options),
       geometry(device, scene),
       materials(device, scene),
@@ -93,9 +93,9 @@ void Renderer::Parts::wait_for(std::uint64_t value) const {
 
 EyePassConfig Renderer::Parts::choose_drawing(const FrameState& frame, const DrawList& draws) const {
   const auto scaled = [&](std::uint32_t whole) {
-    return std::max(1U, static_cast<std::uint32_t>(std::lround(detail.scale * static_cast<double>(whole))));
+    return std::max(1U, static_cast<std::uint32_t>(std::lround(quality.scale * static_cast<double>(whole))));
   };
-  EyePassConfig drawing{.samples = detail.samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
+  EyePassConfig drawing{.samples = quality.samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
                         .extent = {scaled(eyes.extent().width), scaled(eyes.extent().height)}};
   const bool wrong_in_one = !device.multiview() || (draws.clipped && device.clips_first_view_only());
   if (see_the_same(frame.eyes)) {
@@ -185,7 +185,7 @@ void Renderer::Parts::render(const FrameState& frame) {
   const std::size_t slot_index = frames % kFramesInFlight;
   FrameSlot& slot = slots[slot_index];
   wait_for(slot.finished_at);
-  lister.list(frame, geometry, eyes.guard_band(), detail.scale * eyes.extent().height, slot.draws);
+  lister.list(frame, geometry, eyes.guard_band(), quality.scale * eyes.extent().height, slot.draws);
   eyes.begin_frame(choose_drawing(frame, slot.draws));
   slot.write(frame, geometry, eyes.drawing(), eyes.guard_band());
   slot.painted = panels.update(frame, slot_index);
@@ -300,13 +300,13 @@ core::Result<void> Renderer::resize(std::uint32_t eye_width, std::uint32_t eye_h
   return {};
 }
 
-void Renderer::set_detail(const Detail& detail) {
-  AFM_CHECK(detail.scale > 0.0 && detail.scale <= 1.0);
-  AFM_CHECK(detail.samples == 1 || (detail.samples == 4 && parts_->options.samples == 4));
-  parts_->detail = detail;
+void Renderer::set_quality(const FrameQuality& quality) {
+  AFM_CHECK(quality.scale > 0.0 && quality.scale <= 1.0);
+  AFM_CHECK(quality.samples == 1 || (quality.samples == 4 && parts_->options.samples == 4));
+  parts_->quality = quality;
 }
 
-Detail Renderer::detail() const { return parts_->detail; }
+FrameQuality Renderer::quality() const { return parts_->quality; }
 
 std::optional<PassTimes> Renderer::pass_times() const {
   const std::uint64_t finished = parts_->timeline.getCounterValue();

@@ -34,7 +34,7 @@ struct Renderer::Parts {
 
   const Device& device;
   RendererOptions options;
-  Detail detail;
+  FrameQuality quality;
   EyeTargets eyes;
   SceneGeometry geometry;
   SceneMaterials materials;

@@ -7,7 +7,7 @@
 namespace afm::test {
 namespace {
 
-class DetailOfFrames : public VulkanTest {
+class QualityOfFrames : public VulkanTest {
  protected:
   Pair eyes_of(render::Renderer& renderer, const render::FrameState& frame) const {
     renderer.render(frame);
@@ -18,12 +18,12 @@ class DetailOfFrames : public VulkanTest {
   render::FrameState frame_ = full_frame(test_);
 };
 
-TEST_F(DetailOfFrames, HalfTheResolutionIsThePictureOfAnEyeHalfAsLarge) {
+TEST_F(QualityOfFrames, HalfTheResolutionIsThePictureOfAnEyeHalfAsLarge) {
   auto half = small();
   half.eye_width /= 2;
   half.eye_height /= 2;
   auto renderer = make_renderer(test_.scene, small());
-  renderer.set_detail({.scale = 0.5, .samples = 4});
+  renderer.set_quality({.scale = 0.5, .samples = 4});
   const auto scaled = eyes_of(renderer, frame_);
   const auto smaller = draw(test_.scene, frame_, half);
   EXPECT_EQ(scaled.left.width, half.eye_width);
@@ -32,30 +32,30 @@ TEST_F(DetailOfFrames, HalfTheResolutionIsThePictureOfAnEyeHalfAsLarge) {
   EXPECT_EQ(scaled.right.rgba, smaller.right.rgba);
 }
 
-TEST_F(DetailOfFrames, FewerSamplesAreThoseOfARendererMadeForFewer) {
+TEST_F(QualityOfFrames, FewerSamplesAreThoseOfARendererMadeForFewer) {
   auto renderer = make_renderer(test_.scene, small(4));
-  renderer.set_detail({.scale = 1.0, .samples = 1});
+  renderer.set_quality({.scale = 1.0, .samples = 1});
   const auto eyes = eyes_of(renderer, frame_);
   const auto single = draw(test_.scene, frame_, small(1));
   EXPECT_EQ(eyes.left.rgba, single.left.rgba);
   EXPECT_EQ(eyes.right.rgba, single.right.rgba);
 }
 
-TEST_F(DetailOfFrames, ComesBackWithoutATrace) {
+TEST_F(QualityOfFrames, ComesBackWithoutATrace) {
   auto renderer = make_renderer(test_.scene, small());
   const auto before = eyes_of(renderer, frame_);
   for (const double scale : {0.5, 0.71, 0.001, 0.9}) {
-    renderer.set_detail({.scale = scale, .samples = scale < 0.6 ? 1U : 4U});
+    renderer.set_quality({.scale = scale, .samples = scale < 0.6 ? 1U : 4U});
     renderer.render(frame_);
   }
-  renderer.set_detail({.scale = 1.0, .samples = 4});
+  renderer.set_quality({.scale = 1.0, .samples = 4});
   const auto after = eyes_of(renderer, frame_);
   EXPECT_EQ(before.left.rgba, after.left.rgba);
   EXPECT_EQ(before.right.rgba, after.right.rgba);
 }
 
 // The wall's geometry stays: a square keeps its place and size in the picture, to a pixel of the coarser one.
-TEST_F(DetailOfFrames, ScalingBackUpPutsThingsWhereTheyWere) {
+TEST_F(QualityOfFrames, ScalingBackUpPutsThingsWhereTheyWere) {
   scene::Scene scene;
   const auto white = add_material(scene, {.name = "white", .unlit = true});
   add(scene, "square", quad(white), glm::translate(glm::dmat4(1.0), glm::dvec3(0.7, -0.4, 0.3)));
@@ -63,7 +63,7 @@ TEST_F(DetailOfFrames, ScalingBackUpPutsThingsWhereTheyWere) {
   const auto weight = brighter_than(120);
   renderer.render(bare_frame(scene));
   const auto whole = renderer.read_composed({.mode = scene::StereoMode::Right});
-  renderer.set_detail({.scale = 0.5, .samples = 4});
+  renderer.set_quality({.scale = 0.5, .samples = 4});
   renderer.render(bare_frame(scene));
   const auto half = renderer.read_composed({.mode = scene::StereoMode::Right});
   ASSERT_EQ(half.width, whole.width);
@@ -77,7 +77,7 @@ TEST_F(DetailOfFrames, ScalingBackUpPutsThingsWhereTheyWere) {
   }
 }
 
-TEST_F(DetailOfFrames, EyesThatSeeTheSameAreDrawnOnceAndShownTwice) {
+TEST_F(QualityOfFrames, EyesThatSeeTheSameAreDrawnOnceAndShownTwice) {
   auto renderer = make_renderer(test_.scene, small());
   const auto stereo = eyes_of(renderer, frame_);
   auto one_eyed = frame_;
@@ -93,7 +93,7 @@ TEST_F(DetailOfFrames, EyesThatSeeTheSameAreDrawnOnceAndShownTwice) {
 }
 
 // From behind the head, past it, to the wall: clipped by the near planes of both eyes.
-TEST_F(DetailOfFrames, WhatPassesBesideTheHeadIsSeenByBothEyes) {
+TEST_F(QualityOfFrames, WhatPassesBesideTheHeadIsSeenByBothEyes) {
   for (const std::uint32_t samples : {1U, 4U}) {
     scene::Scene scene;
     const auto white = add_material(scene, {.name = "white", .double_sided = true, .unlit = true});
