@@ -5,11 +5,11 @@ include(GoogleTest)
 # What the tsan preset builds and runs: the tests in which more than one thread or process takes part.
 add_custom_target(threaded_tests)
 
-# GoogleTest is read once for all tests. Their own code is not optimised: it compiles sooner, and none of it is timed. That of
+# GoogleTest and JSON are read once for all tests. Their own code is not optimised: it compiles sooner, and none of it is timed. That of
 # the few that compute for seconds is (OPTIMISED).
 set(AFM_TEST_OPTIMISATION -O0)
-afm_precompiled(afm_test_headers OPTIONS ${AFM_TEST_OPTIMISATION} LIBRARIES GTest::gmock_main
-                HEADERS <gmock/gmock.h> <gtest/gtest.h>)
+afm_precompiled(afm_test_headers OPTIONS ${AFM_TEST_OPTIMISATION} LIBRARIES GTest::gmock_main nlohmann_json::nlohmann_json
+                HEADERS <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
 
 # Where the sources and the build lie, for the tests that ask. In a header, not on every command line: a compiler's cache finds
 # the other tests in whatever folder they are compiled.
