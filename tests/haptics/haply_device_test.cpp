@@ -182,8 +182,8 @@ TEST_P(HaplyReleases, WhenTheServoEndsMeanwhile) {
   EXPECT_TRUE(eventually([&] { return last_force_z(service_) == 0.0; }));
 }
 
-// A connection that is closed over something unread is reset, and a service that writes before it reads then never reads
-// the zero.
+// A connection that is closed over something unread is reset, and a service that writes before it reads then never
+// reads the zero.
 TEST_F(PullingHaply, LetsGoThoughTheServiceReadsLate) {
   service_.manner = HaplyService::Manner::Late;
   std::this_thread::sleep_for(std::chrono::milliseconds(10));
