@@ -23,7 +23,7 @@ namespace {
 constexpr auto kFirstPlacePatience = std::chrono::seconds(2);
 constexpr auto kReceivePatience = std::chrono::milliseconds(2);
 constexpr auto kPartPatience = std::chrono::milliseconds(200);  // what the link takes to send and to leave, and as much
-constexpr std::int64_t kComplaintNs = 1'000'000'000;  // between two lines about a service that stammers
+constexpr std::int64_t kComplaintNs = 1'000'000'000;            // between two lines about a service that stammers
 
 // The service tells no limits. The force is what careful drivers give a hand (Isaac Lab clips at 2 N); the stiffness
 // that of a Touch; the workspace a part of the reach in front of the arm that every Inverse3 has, around the place
