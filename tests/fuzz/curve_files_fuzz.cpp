@@ -10,7 +10,9 @@
 // Whatever the bytes, and whichever format they claim: a curve that can be analysed and written, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(bytes), size);
-  const auto curve = afm::curves::parse_curve(text, "fuzz");
+  afm::curves::CurveReading here;
+  here.confined = false;
+  const auto curve = afm::curves::parse_curve(text, "fuzz", here);
   if (!curve) return 0;
   for (const auto& point : curve->points) {
     if (!isfinite(point.z) || !isfinite(point.force)) std::abort();

@@ -30,6 +30,7 @@ struct CurveReading {
   std::optional<physics::Stiffness> spring_constant;
   std::optional<double> sensitivity_m_per_v;
   std::size_t index = 0;  // of the curve, in an .h5 that holds several
+  bool confined = true;   // formats of others in a process that can open nothing; false: here, so that a fuzzer sees
 };
 
 // Knows the format by its content. BadInputFile, in one line that names the file, for whatever is not wholly

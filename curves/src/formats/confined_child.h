@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <string>
 
 namespace afm::curves {
 
-// Runs `work` in a forked child that may take half a GiB of memory and three seconds of processor time more than there
-// is now, and gives back what it returned: for libraries that crash on damaged files, as HDF5 1.10 does. Throws
-// CurveError with the child's own message, or `on_death` if it died, and std::runtime_error if no child could be made.
+inline constexpr auto kChildPatience = std::chrono::seconds(20);
+
+// Runs `work` in a forked child that is confined (confine_this_process), and gives back what it returned: for libraries
+// that crash on damaged files, as HDF5 1.10 does. The child holds no descriptor but stderr and its pipe, dies with the
+// thread that called, and is killed after `patience`. Throws CurveError with the child's own message, or `on_death` if
+// it died, and std::runtime_error if no child could be made.
 //
 // Not for a servo or any thread that others depend on. In a program with more threads the work may use nothing that
 // another of them may have locked, memory aside.
-std::string in_confined_child(const std::function<std::string()>& work, const std::string& on_death);
+std::string in_confined_child(const std::function<std::string()>& work, const std::string& on_death,
+                              std::chrono::milliseconds patience = kChildPatience);
 
 }  // namespace afm::curves

@@ -10,6 +10,7 @@
 
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
+#include "formats/confined_child.h"
 #include "formats/hdf5_file.h"
 #include "formats/igor_file.h"
 #include "formats/jpk_file.h"
@@ -50,24 +51,29 @@ void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
   if (reading.sensitivity_m_per_v) made.sensitivity_m_per_v = reading.sensitivity_m_per_v;
 }
 
-RecordedCurve read(std::string_view bytes, const CurveReading& reading) {
-  const CurveFormat format = format_of(bytes);
-  if (reading.index != 0 && format != CurveFormat::Hdf5) throw CurveError("it holds one curve alone");
+// The formats that others made, and of which we have the readers of others or have seen few files.
+RecordedCurve read_foreign(CurveFormat format, std::string_view bytes, const CurveReading& reading) {
   switch (format) {
     case CurveFormat::Hdf5:
       return read_hdf5(bytes, reading.index);
     case CurveFormat::JpkForce:
       return read_jpk(bytes, reading);
-    case CurveFormat::TouchAfmCsv:
-      return read_touchafm_csv(bytes);
-    case CurveFormat::Tab:
-      return read_tab(bytes);
     case CurveFormat::AfmWorkshop:
       return read_workshop(bytes, reading);
-    case CurveFormat::IgorBinaryWave:
-      break;
+    default:
+      return read_igor(bytes);
   }
-  return read_igor(bytes);
+}
+
+RecordedCurve read(std::string_view bytes, const CurveReading& reading) {
+  const CurveFormat format = format_of(bytes);
+  if (reading.index != 0 && format != CurveFormat::Hdf5) throw CurveError("it holds one curve alone");
+  if (format == CurveFormat::TouchAfmCsv) return read_touchafm_csv(bytes);
+  if (format == CurveFormat::Tab) return read_tab(bytes);
+  if (!reading.confined) return read_foreign(format, bytes, reading);
+  // handed over in the format that holds the same and has a reader of our own
+  return read_tab(in_confined_child([&] { return tab_bytes(read_foreign(format, bytes, reading)); },
+                                    "it is damaged: its reader could not survive it"));
 }
 
 // What every curve is, wherever it came from.
@@ -127,6 +133,8 @@ core::Result<RecordedCurve> parse_curve(std::string_view bytes, const std::strin
     return bad("its metadata is no valid JSON");
   } catch (const std::bad_alloc&) {
     return bad("there is too little memory for it");
+  } catch (const std::runtime_error& fault) {
+    return bad(fault.what());
   }
 }
 

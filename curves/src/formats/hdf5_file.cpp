@@ -12,8 +12,6 @@
 #include "core/version.h"
 #include "curves/curve_error.h"
 #include "formats/afmformats_metadata.h"
-#include "formats/confined_child.h"
-#include "formats/tab_file.h"
 
 namespace afm::curves {
 
@@ -146,11 +144,27 @@ nlohmann::json metadata_of(hid_t group) {
   return metadata;
 }
 
-bool has(hid_t group, const char* name) { return H5Lexists(group, name, H5P_DEFAULT) > 0; }
+// Whether there is such a link within the file; one that leads out of it is not followed.
+bool has(hid_t group, const char* name) {
+  if (H5Lexists(group, name, H5P_DEFAULT) <= 0) return false;
+  H5L_info_t link{};
+  if (H5Lget_info(group, name, &link, H5P_DEFAULT) < 0)
+    throw CurveError(fmt::format("its link \"{}\" is damaged", name));
+  if (link.type == H5L_TYPE_HARD) return true;
+  throw CurveError(fmt::format("its \"{}\" is a link, which is not followed; copy the data into the file", name));
+}
+
+// Data may lie in other files, by name, too.
+void must_hold_its_data(hid_t column, const char* name) {
+  const Handle made = must(H5Dget_create_plist(column), "read how a data set was made");
+  if (H5Pget_layout(made.get()) != H5D_VIRTUAL && H5Pget_external_count(made.get()) == 0) return;
+  throw CurveError(fmt::format("its column \"{}\" lies in another file, which is not read", name));
+}
 
 std::vector<double> column_of(hid_t group, const char* name) {
-  const Handle column(H5Dopen2(group, name, H5P_DEFAULT));
+  const Handle column(has(group, name) ? H5Dopen2(group, name, H5P_DEFAULT) : H5I_INVALID_HID);
   if (!column.is_open()) throw CurveError(fmt::format("it has no readable column \"{}\"", name));
+  must_hold_its_data(column.get(), name);
   const Handle space = must(H5Dget_space(column.get()), "read a space");
   hsize_t count = 0;
   if (H5Sget_simple_extent_ndims(space.get()) != 1 || H5Sget_simple_extent_dims(space.get(), &count, nullptr) != 1) {
@@ -164,7 +178,9 @@ std::vector<double> column_of(hid_t group, const char* name) {
   return values;
 }
 
-RecordedCurve read_here(std::string_view bytes, std::size_t index) {
+}  // namespace
+
+RecordedCurve read_hdf5(std::string_view bytes, std::size_t index) {
   const Handle access = access_to_memory();
   // HDF5 copies the image that it is given
   must_do(H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()), "take the file");
@@ -195,8 +211,6 @@ RecordedCurve read_here(std::string_view bytes, std::size_t index) {
   return curve;
 }
 
-}  // namespace
-
 std::string hdf5_bytes(const RecordedCurve& curve) {
   const Handle access = access_to_memory();
   const Handle file = must(H5Fcreate("curve", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), "make a file");
@@ -212,12 +226,6 @@ std::string hdf5_bytes(const RecordedCurve& curve) {
   std::string bytes(static_cast<std::size_t>(size), '\0');
   must_do(H5Fget_file_image(file.get(), bytes.data(), bytes.size()) < 0 ? -1 : 0, "read a file back");
   return bytes;
-}
-
-RecordedCurve read_hdf5(std::string_view bytes, std::size_t index) {
-  // the child hands the curve over in the format that holds the same and has a reader of our own
-  return read_tab(in_confined_child([&] { return tab_bytes(read_here(bytes, index)); },
-                                    "it is damaged: the HDF5 library could not survive it"));
 }
 
 }  // namespace afm::curves

@@ -14,7 +14,8 @@ namespace afm::curves {
 // One curve in group "0". Throws std::runtime_error.
 std::string hdf5_bytes(const RecordedCurve& curve);
 
-// The curve of group `index`. HDF5 runs in a process of its own, since damaged files crash it. Throws CurveError.
+// The curve of group `index`. What lies in other files is refused. Damaged files crash
+// HDF5. Throws CurveError.
 RecordedCurve read_hdf5(std::string_view bytes, std::size_t index);
 
 }  // namespace afm::curves
