@@ -121,6 +121,7 @@ ExitCode run(const Options& options) {
         {.seconds = options.settings.linger_s,
          .program = afm::servo::executable_path(),
          .segment = segment->descriptor(),
+         .scene_digest = segment->scene_digest(),
          .arguments = afm::servo::servo_arguments(options.settings, std::string(options.haptics))});
     const auto grant = afm::haptics::enter_realtime(afm::haptics::kServoPriority, afm::haptics::PageLock::Lock);
     for (const std::string& note : grant.notes) afm::core::log_line(note);

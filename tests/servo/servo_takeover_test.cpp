@@ -9,6 +9,8 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -19,7 +21,9 @@
 #include "core/clock.h"
 #include "places.h"
 #include "servo/servo_client.h"
+#include "servo/servo_handover.h"
 #include "support/paper_model.h"
+#include "support/scratch_folder.h"
 
 // A renderer is killed, and another one comes. Real processes: what must happen is waited for, how long it takes
 // decides nothing.
@@ -27,6 +31,7 @@ namespace afm::servo {
 namespace {
 
 const std::string kProgram = AFM_BINARY_DIR "/bin/touchafm";
+const std::string kServoProgram = AFM_BINARY_DIR "/bin/touchafm-servo";
 constexpr std::uint64_t kScene = 42;
 constexpr double kHeldHeightM = 0.073;
 constexpr double kLong_s = 100.0;
@@ -52,14 +57,14 @@ bool until(ServoClient& link, const std::function<bool(const scene::TipState&)>&
 // beats until it is killed. Its servo becomes a child of this process then.
 class Predecessor {
  public:
-  explicit Predecessor(double linger_s) {
+  explicit Predecessor(double linger_s, std::uint64_t digest = kScene) {
     EXPECT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1UL, 0UL, 0UL, 0UL), 0);
     std::array<int, 2> ends{};
     EXPECT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
     const core::FileDescriptor ready(ends[0]);
     core::FileDescriptor told(ends[1]);
     pid_ = ::fork();
-    if (pid_ == 0) draw(linger_s, told.get());
+    if (pid_ == 0) draw(linger_s, digest, told.get());
     told.close();
     EXPECT_EQ(::read(ready.get(), &servo_, sizeof(servo_)), static_cast<ssize_t>(sizeof(servo_)));
   }
@@ -68,6 +73,8 @@ class Predecessor {
 
   ~Predecessor() {
     kill();
+    if (servo_ > 0) ::kill(servo_, SIGTERM);
+    if (servo_ > 0) ::kill(servo_, SIGCONT);
     if (servo_ > 0) ::waitpid(servo_, nullptr, 0);
   }
 
@@ -79,6 +86,13 @@ class Predecessor {
     return WEXITSTATUS(status);
   }
 
+  void stop_servo() const { ::kill(servo_, SIGSTOP); }
+  void kill_servo() {
+    ::kill(servo_, SIGKILL);
+    ::waitpid(servo_, nullptr, 0);
+    servo_ = -1;
+  }
+
   void kill() {
     if (pid_ < 0) return;
     ::kill(pid_, SIGKILL);
@@ -87,8 +101,8 @@ class Predecessor {
   }
 
  private:
-  [[noreturn]] static void draw(double linger_s, int told) {
-    auto link = start(linger_s);
+  [[noreturn]] static void draw(double linger_s, std::uint64_t digest, int told) {
+    auto link = start(linger_s, digest);
     if (!link) ::_exit(1);
     (*link)->choose(test::kGold);
     (*link)->change(test::kMica, test::paper_model().materials[test::kGold]);
@@ -108,7 +122,15 @@ class Predecessor {
   pid_t servo_ = -1;
 };
 
-TEST(ServoTakeover, GoesOnWithTheServoOfADeadRenderer) {
+// The servos of one test do not meet those of another.
+class ServoTakeover : public testing::Test {
+ protected:
+  ServoTakeover() { ::setenv("XDG_RUNTIME_DIR", runtime.path().c_str(), 1); }
+
+  support::ScratchFolder runtime;
+};
+
+TEST_F(ServoTakeover, GoesOnWithTheServoOfADeadRenderer) {
   Predecessor predecessor(kLong_s);
   predecessor.kill();
   core::Result<std::unique_ptr<ServoClient>> link = start(kLong_s);
@@ -139,7 +161,7 @@ TEST(ServoTakeover, GoesOnWithTheServoOfADeadRenderer) {
   EXPECT_NEAR(z_joc_m, 14.0e-9, 0.1e-9);
 }
 
-TEST(ServoTakeover, TellsAServoOfAnotherSceneToLeaveAndStartsItsOwn) {
+TEST_F(ServoTakeover, TellsAServoOfAnotherSceneToLeaveAndStartsItsOwn) {
   Predecessor predecessor(kLong_s);
   predecessor.kill();
   core::Result<std::unique_ptr<ServoClient>> link = start(kLong_s, kScene + 1);
@@ -152,13 +174,65 @@ TEST(ServoTakeover, TellsAServoOfAnotherSceneToLeaveAndStartsItsOwn) {
   EXPECT_TRUE(until(**link, [](const scene::TipState& tip) { return tip.tick > 20 && tip.material < 0; }));
 }
 
-TEST(ServoTakeover, IsNotWaitedForByAServoThatWasNotToldTo) {
+// Two walls on one machine: each renderer finds its own servo again, whichever stands first in the folder.
+TEST_F(ServoTakeover, LeavesTheServoOfAnotherWallToItsOwnRenderer) {
+  Predecessor one(kLong_s, kScene), other(kLong_s, kScene + 1);
+  one.kill();
+  other.kill();
+  ASSERT_TRUE(eventually([&] { return find_waiting_servos(kServoProgram, kScene, {}).size() == 2; }));
+  const auto second = start(kLong_s, kScene + 1);
+  const auto first = start(kLong_s, kScene);
+  ASSERT_TRUE(first && second);
+  EXPECT_TRUE(
+      eventually([&] { return (*first)->poll(core::MonotonicClock().now_ns()) && (*first)->tip().tick > 100; }));
+  EXPECT_EQ((*first)->tip().material, test::kGold) << "a servo of its own would have none";
+  EXPECT_TRUE(
+      eventually([&] { return (*second)->poll(core::MonotonicClock().now_ns()) && (*second)->tip().tick > 100; }));
+  EXPECT_EQ((*second)->tip().material, test::kGold);
+}
+
+TEST_F(ServoTakeover, PassesOverWhatKilledServosLeft) {
+  Predecessor predecessor(kLong_s);
+  predecessor.kill();
+  ASSERT_TRUE(eventually([&] { return find_waiting_servos(kServoProgram, kScene, {}).size() == 1; }));
+  predecessor.kill_servo();
+  EXPECT_TRUE(start(kLong_s));
+  EXPECT_TRUE(find_waiting_servos(kServoProgram, kScene, {}).empty());
+}
+
+// Nobody but the user may come in: a full queue or a socket of another user's is out of reach.
+TEST_F(ServoTakeover, MeetsInAFolderOfItsUserAlone) {
+  Predecessor predecessor(kLong_s);
+  predecessor.kill();
+  ASSERT_TRUE(eventually([&] { return find_waiting_servos(kServoProgram, kScene, {}).size() == 1; }));
+  const auto folder = find_waiting_servos(kServoProgram, kScene, {}).front().parent_path();
+  EXPECT_EQ(folder.parent_path(), std::filesystem::path(runtime.path()));
+  using std::filesystem::perms;
+  EXPECT_EQ(std::filesystem::status(folder).permissions() & perms::mask, perms::owner_all);
+  std::filesystem::permissions(folder, perms::owner_all | perms::others_read | perms::others_exec);
+  EXPECT_TRUE(find_waiting_servos(kServoProgram, kScene, {}).empty());
+}
+
+// A socket that accepts and never answers, or whose queue is full, holds nobody up.
+TEST_F(ServoTakeover, IsNotHeldUpByOneWhoDoesNotAnswer) {
+  Predecessor predecessor(kLong_s);
+  predecessor.kill();
+  ASSERT_TRUE(eventually([&] { return find_waiting_servos(kServoProgram, kScene, {}).size() == 1; }));
+  const auto socket = find_waiting_servos(kServoProgram, kScene, {}).front();
+  predecessor.stop_servo();
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 8; ++i) EXPECT_FALSE(visit_servo(socket));
+  // one second for each that the queue takes
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(12));
+}
+
+TEST_F(ServoTakeover, IsNotWaitedForByAServoThatWasNotToldTo) {
   Predecessor predecessor(0.0);
   predecessor.kill();
   EXPECT_TRUE(eventually([&] { return predecessor.servo_exit_code() == 1; }));
 }
 
-TEST(ServoTakeover, IsWaitedForAsLongAsItWasTold) {
+TEST_F(ServoTakeover, IsWaitedForAsLongAsItWasTold) {
   Predecessor predecessor(0.3);
   predecessor.kill();
   const auto killed = std::chrono::steady_clock::now();

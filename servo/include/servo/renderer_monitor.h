@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <thread>
@@ -18,6 +19,7 @@ struct Linger {
   double seconds = 0;   // 0: end at once
   std::string program;  // the path of touchafm-servo
   int segment = -1;
+  std::uint64_t scene_digest = 0;      // of the segment
   std::vector<std::string> arguments;  // servo_arguments()
 };
 

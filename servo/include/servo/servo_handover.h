@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/file_descriptor.h"
@@ -10,8 +13,8 @@
 #include "haptics/servo_loop.h"
 
 // How a servo whose renderer died is found by the next one, so that the device that it holds is not opened, and not
-// calibrated, again. The two meet at an abstract Unix socket, named after the user and the servo's program; each
-// believes only a process of its own user.
+// calibrated, again. The two meet at a Unix socket in a folder that only their user can enter
+// ($XDG_RUNTIME_DIR/touchafm); each believes only a process of its own user. Several servos may wait.
 namespace afm::servo {
 
 // The options of touchafm-servo that say how it runs and what it holds: a renderer that wants others wants another
@@ -21,8 +24,12 @@ std::vector<std::string> servo_arguments(const haptics::ServoSettings& settings,
 // The waiting servo's end. Closed, nobody can find it any more.
 class HandoverPort {
  public:
-  // Fails when another servo of this program waits already. `program`: the path of touchafm-servo.
-  static core::Result<HandoverPort> open(const std::string& program);
+  // `program`: the path of touchafm-servo. Failed: the folder or the socket cannot be made.
+  static core::Result<HandoverPort> open(const std::string& program, std::uint64_t scene_digest,
+                                         const std::vector<std::string>& arguments);
+  HandoverPort(HandoverPort&&) noexcept = default;
+  HandoverPort& operator=(HandoverPort&&) = delete;
+  ~HandoverPort();
 
   int descriptor() const { return listener_.get(); }  // readable when somebody has come
 
@@ -33,9 +40,11 @@ class HandoverPort {
   Answer receive(int segment, const std::vector<std::string>& arguments, core::FileDescriptor& lifeline) const;
 
  private:
-  explicit HandoverPort(core::FileDescriptor listener) : listener_(std::move(listener)) {}
+  HandoverPort(core::FileDescriptor listener, std::filesystem::path path)
+      : listener_(std::move(listener)), path_(std::move(path)) {}
 
   core::FileDescriptor listener_;
+  std::filesystem::path path_;
 };
 
 // A servo that waits, as the renderer sees it. To drop it is to tell it to leave.
@@ -48,8 +57,13 @@ struct WaitingServo {
   void stay() const;  // the answer that makes it go on
 };
 
-// The one that waits for a renderer of `program`, if there is one. Takes a second at most.
-std::optional<WaitingServo> find_waiting_servo(const std::string& program);
+// The sockets of those that wait for a renderer of `program`, first the ones of this scene and these arguments. A servo
+// that was killed leaves its socket behind.
+std::vector<std::filesystem::path> find_waiting_servos(const std::string& program, std::uint64_t scene_digest,
+                                                       const std::vector<std::string>& arguments);
+
+// Empty: nobody answers there, within a second.
+std::optional<WaitingServo> visit_servo(const std::filesystem::path& socket);
 
 // Waits for the process behind a pidfd; false if it still runs after so long.
 inline constexpr int kLeaveMs = 2000;  // for a servo that was told to leave

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/log.h"
 
@@ -28,21 +30,23 @@ bool same_model(const scene::SharedModel& a, const scene::SharedModel& b) {
 std::optional<TakenServo> take_waiting_servo(const scene::SharedModel& model, std::uint64_t scene_digest,
                                              const haptics::ServoSettings& settings, const std::string& haptic_device,
                                              const std::string& servo_program) {
-  auto waiting = find_waiting_servo(servo_program);
-  if (!waiting) return std::nullopt;
-  auto segment = scene::SharedSegment::attach(std::move(waiting->segment));
-  if (!segment) core::log_line(segment.error().message);
-  const bool fits = segment && settings.linger_s > 0 && segment->scene_digest() == scene_digest &&
-                    waiting->arguments == servo_arguments(settings, haptic_device) &&
-                    same_model(segment->model(), model);
-  if (fits) {
-    core::log_line("taking over the servo of a renderer that died");
-    return TakenServo{.segment = std::move(*segment), .servo = std::move(*waiting)};
-  }
-  core::log_line("the servo of a renderer that died is of another scene or device: it is told to leave");
-  waiting->lifeline.close();
-  if (!process_ended_within(waiting->process, kLeaveMs)) {
-    core::log_line("the servo of a renderer that died does not leave: it may still hold the device");
+  const std::vector<std::string> arguments = servo_arguments(settings, haptic_device);
+  for (const auto& socket : find_waiting_servos(servo_program, scene_digest, arguments)) {
+    auto waiting = visit_servo(socket);
+    if (!waiting) continue;
+    auto segment = scene::SharedSegment::attach(std::move(waiting->segment));
+    if (!segment) core::log_line(segment.error().message);
+    const bool fits = segment && settings.linger_s > 0 && segment->scene_digest() == scene_digest &&
+                      waiting->arguments == arguments && same_model(segment->model(), model);
+    if (fits) {
+      core::log_line("taking over the servo of a renderer that died");
+      return TakenServo{.segment = std::move(*segment), .servo = std::move(*waiting)};
+    }
+    core::log_line("the servo of a renderer that died is of another scene or device: it is told to leave");
+    waiting->lifeline.close();
+    if (!process_ended_within(waiting->process, kLeaveMs)) {
+      core::log_line("the servo of a renderer that died does not leave: it may still hold the device");
+    }
   }
   return std::nullopt;
 }

@@ -74,7 +74,7 @@ void RendererMonitor::watch() {
 
 bool RendererMonitor::find_successor() {
   loop_.renderer_lost();
-  const auto port = HandoverPort::open(linger_.program);
+  const auto port = HandoverPort::open(linger_.program, linger_.scene_digest, linger_.arguments);
   if (!port) {
     core::log_line(port.error().message);
     return false;

@@ -11,43 +11,60 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstddef>
-#include <cstring>
 #include <filesystem>
-#include <functional>
 #include <string_view>
 #include <utility>
 
+#include "core/fnv1a.h"
 #include "core/system_error.h"
 #include "descriptor_letter.h"
+#include "private_folder.h"
 
 namespace afm::servo {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int kPatienceMs = 1000;
+constexpr int kWaitingVisitors = 4;
 constexpr char kStay = 'S';
 constexpr char kSeparator = '\n';
 
-struct Address {
-  sockaddr_un name{};
-  socklen_t size = 0;
-};
+std::string joined(const std::vector<std::string>& arguments) {
+  std::string text;
+  for (const std::string& argument : arguments) text += argument + kSeparator;
+  return text;
+}
 
-// Two builds on one machine have two paths, and never meet.
-Address address_of(const std::string& program) {
-  std::error_code unused;
-  const std::string path = std::filesystem::weakly_canonical(program, unused).string();
-  const std::string name = fmt::format("touchafm-servo-{}-{:x}", ::getuid(), std::hash<std::string>{}(path));
-  Address address;
-  address.name.sun_family = AF_UNIX;
-  std::copy(name.begin(), name.end(), address.name.sun_path + 1);  // after a zero: abstract, gone with its socket
-  address.size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+core::Result<sockaddr_un> address_of(const fs::path& socket) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string& name = socket.native();
+  if (name.size() >= sizeof(address.sun_path)) {
+    return core::failure(
+        core::ErrorCategory::Failed,
+        fmt::format("the name of a socket, {}, is longer than {} bytes: choose a shorter XDG_RUNTIME_DIR", name,
+                    sizeof(address.sun_path) - 1));
+  }
+  std::copy(name.begin(), name.end(), address.sun_path);
   return address;
 }
 
+const sockaddr* as_socket_address(const sockaddr_un& address) { return reinterpret_cast<const sockaddr*>(&address); }
+
+// Two builds on one machine have two paths, and never meet.
+std::string prefix_of(const std::string& program) {
+  std::error_code unused;
+  return fmt::format("servo-{:016x}-", core::fnv1a(fs::weakly_canonical(program, unused).native()));
+}
+
+std::string name_of(const std::string& program, std::uint64_t scene_digest, const std::vector<std::string>& arguments) {
+  return fmt::format("{}{:016x}-", prefix_of(program), scene_digest ^ core::fnv1a(joined(arguments)));
+}
+
 core::FileDescriptor seqpacket_socket() {
-  return core::FileDescriptor(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  return core::FileDescriptor(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
 }
 
 // Who is at the other end, if it is a process of this user.
@@ -67,12 +84,6 @@ bool readable_within(int descriptor, int milliseconds) {
   return ready > 0;
 }
 
-std::string joined(const std::vector<std::string>& arguments) {
-  std::string text;
-  for (const std::string& argument : arguments) text += argument + kSeparator;
-  return text;
-}
-
 std::vector<std::string> split(std::string_view text) {
   std::vector<std::string> parts;
   for (std::size_t end = 0; (end = text.find(kSeparator)) != std::string_view::npos; text.remove_prefix(end + 1)) {
@@ -89,20 +100,36 @@ std::vector<std::string> servo_arguments(const haptics::ServoSettings& settings,
           "--max-force", fmt::format("{}", settings.max_force_n)};
 }
 
-core::Result<HandoverPort> HandoverPort::open(const std::string& program) {
+core::Result<HandoverPort> HandoverPort::open(const std::string& program, std::uint64_t scene_digest,
+                                              const std::vector<std::string>& arguments) {
+  const auto folder = private_folder();
+  if (!folder) return tl::unexpected(folder.error());
+  const fs::path path = *folder / (name_of(program, scene_digest, arguments) + std::to_string(::getpid()));
+  // nobody finds it before it can answer
+  const fs::path unready = *folder / fmt::format(".{}", ::getpid());
+  const auto address = address_of(path);
+  const auto unready_address = address_of(unready);
+  if (!address) return tl::unexpected(address.error());
+  if (!unready_address) return tl::unexpected(unready_address.error());
   core::FileDescriptor listener = seqpacket_socket();
-  const Address address = address_of(program);
-  const auto* name = reinterpret_cast<const sockaddr*>(&address.name);
-  if (!listener.is_open() || ::bind(listener.get(), name, address.size) != 0 || ::listen(listener.get(), 4) != 0) {
-    return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot wait for another renderer: {}", core::system_error(errno)));
+  ::unlink(unready.c_str());
+  if (!listener.is_open() || ::bind(listener.get(), as_socket_address(*unready_address), sizeof(sockaddr_un)) != 0 ||
+      ::listen(listener.get(), kWaitingVisitors) != 0 || ::rename(unready.c_str(), path.c_str()) != 0) {
+    const int error = errno;
+    ::unlink(unready.c_str());
+    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot wait for another renderer at {}: {}",
+                                                                  path.string(), core::system_error(error)));
   }
-  return HandoverPort(std::move(listener));
+  return HandoverPort(std::move(listener), path);
+}
+
+HandoverPort::~HandoverPort() {
+  if (listener_.is_open()) ::unlink(path_.c_str());
 }
 
 HandoverPort::Answer HandoverPort::receive(int segment, const std::vector<std::string>& arguments,
                                            core::FileDescriptor& lifeline) const {
-  const core::FileDescriptor visitor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+  const core::FileDescriptor visitor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
   if (!visitor.is_open() || !trusted_peer(visitor.get())) return Answer::Nobody;
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return Answer::Nobody;
@@ -124,11 +151,29 @@ void WaitingServo::stay() const {
   [[maybe_unused]] const auto sent = ::send(lifeline.get(), &kStay, 1, MSG_NOSIGNAL);
 }
 
-std::optional<WaitingServo> find_waiting_servo(const std::string& program) {
+std::vector<fs::path> find_waiting_servos(const std::string& program, std::uint64_t scene_digest,
+                                          const std::vector<std::string>& arguments) {
+  std::vector<fs::path> found;
+  const auto folder = private_folder();
+  if (!folder) return found;
+  const std::string any = prefix_of(program), own = name_of(program, scene_digest, arguments);
+  std::error_code error;
+  for (fs::directory_iterator entry(*folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().filename().native().starts_with(any)) found.push_back(entry->path());
+  }
+  std::partition(found.begin(), found.end(),
+                 [&](const fs::path& path) { return path.filename().native().starts_with(own); });
+  return found;
+}
+
+std::optional<WaitingServo> visit_servo(const fs::path& path) {
   const core::FileDescriptor socket = seqpacket_socket();
-  const Address address = address_of(program);
-  const auto* name = reinterpret_cast<const sockaddr*>(&address.name);
-  if (!socket.is_open() || ::connect(socket.get(), name, address.size) != 0) return std::nullopt;
+  const auto address = address_of(path);
+  if (!socket.is_open() || !address) return std::nullopt;
+  if (::connect(socket.get(), as_socket_address(*address), sizeof(sockaddr_un)) != 0) {
+    if (errno == ECONNREFUSED) ::unlink(path.c_str());  // its servo was killed
+    return std::nullopt;
+  }
   const auto servo = trusted_peer(socket.get());
   if (!servo) return std::nullopt;
   core::FileDescriptor process(static_cast<int>(::syscall(SYS_pidfd_open, *servo, 0)));
