@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -85,7 +86,7 @@ TEST(HaplyDevice, GivesThePlaceAndTheButtonAndTakesTheForce) {
   service.button = true;
   ASSERT_TRUE(eventually([&] {
     const auto sample = (*device)->read(kClock.now_ns());
-    return sample.healthy && sample.turn_on && sample.position_m == glm::dvec3(0.01, 0.15, 0.12);
+    return sample.healthy && sample.turn_on && glm::distance(sample.position_m, glm::dvec3(0.01, 0.15, 0.12)) < 1e-6;
   }));
 
   Servo servo(**device);

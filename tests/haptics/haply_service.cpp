@@ -46,13 +46,16 @@ class HaplyService::Server {
     if (told_.manner == Manner::Babbling)
       return "{\"inverse3\": [{\"device_id\": \"049D\", \"state\": {\"cursor_position\": ";
     if (told_.manner == Manner::NoDevice) return "{\"inverse3\": []}";
-    const nlohmann::json place{{"x", 0.01}, {"y", -0.12}, {"z", told_.up_m.load()}};
+    const nlohmann::json place{{"x", 0.01 + tremor_m()}, {"y", -0.12}, {"z", told_.up_m.load()}};
     return nlohmann::json{
         {"inverse3", {{{"device_id", "049D"}, {"state", {{"cursor_position", place}}}}}},
         {"wireless_verse_grip",
          {{{"device_id", "61548"}, {"state", {{"buttons", {{"a", told_.button.load()}, {"b", false}}}}}}}}}
         .dump();
   }
+
+  // the places flicker, as those of encoders under a hand do
+  double tremor_m() const { return ++states_ % 2 == 0 ? 1e-7 : 0.0; }
 
   void serve() {
     while (!ending_) {
@@ -125,6 +128,7 @@ class HaplyService::Server {
   std::atomic<bool> ending_{false};
   mutable std::mutex mutex_;
   int client_ = -1;
+  mutable unsigned states_ = 0;  // told
   std::vector<Force> forces_;
   std::thread thread_;
 };

@@ -20,7 +20,8 @@ struct DeviceSpec {
   double max_slew_n_per_s = std::numeric_limits<double>::infinity();   // beyond it the driver cuts the force
   double max_speed_m_per_s = std::numeric_limits<double>::infinity();  // likewise
   double force_lasts_s = std::numeric_limits<double>::infinity();  // not renewed for so long, its driver takes it away
-  bool has_own_hand = true;                                        // false: it goes where follow() says
+  bool measures = false;     // sensors tell where the hand is: they flicker, and what they tell can be wrong
+  bool has_own_hand = true;  // false: it goes where follow() says
   glm::dvec3 workspace_min_m{0.0};
   glm::dvec3 workspace_max_m{0.0};
   glm::dvec3 contact_point_m{0.0};  // where the hand is when the tip touches the undeformed sample (Z = 0)

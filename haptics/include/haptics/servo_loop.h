@@ -14,6 +14,7 @@
 #include "haptics/device.h"
 #include "haptics/edit_builder.h"
 #include "haptics/model_swap.h"
+#include "haptics/position_check.h"
 #include "haptics/realtime.h"
 #include "haptics/safety.h"
 #include "haptics/sample_axes.h"
@@ -99,6 +100,7 @@ class ServoLoop {
   scene::Selection chosen_;        // the newest choice, perhaps not in effect yet
   SampleAxes sample_;
   bool sample_moved_ = false;  // in this tick
+  PositionCheck position_check_;
   glm::dvec3 hand_position_m_;
   glm::dvec3 hand_from_contact_m_{0.0};
   bool turn_on_ = false;

@@ -34,6 +34,7 @@ DeviceSpec inverse3() {
           .max_continuous_force_n = 0.9,
           .max_stiffness_n_per_m = 400.0,
           .force_lasts_s = core::seconds(HaplyDevice::kStaleNs),
+          .measures = true,
           .workspace_min_m = {-0.08, 0.08, 0.04},
           .workspace_max_m = {0.08, 0.20, 0.20},
           .contact_point_m = {0.0, 0.12, 0.12}};

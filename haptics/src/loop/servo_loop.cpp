@@ -101,6 +101,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
              {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count}, common, spec_,
              period_ns_, exchange_),
       governor_(safety_limits(spec_, period_ns_, Scaling::kStrokeM, settings.dead_man)),
+      position_check_(spec_.measures),
       hand_position_m_(spec_.contact_point_m) {
   shared_.store(shared(spec_));
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
@@ -121,7 +122,9 @@ void ServoLoop::note_grant(const RealtimeGrant& grant) noexcept {
 
 void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   read_shared_blocks(now_ns);
-  const DeviceSample hand = device_.read(now_ns);
+  const std::int64_t elapsed_ns = previous_ns_ > 0 ? std::max<std::int64_t>(0, now_ns - previous_ns_) : period_ns_;
+  const auto& [x_n, y_n, z_n] = state_.hand.force_n;
+  const DeviceSample hand = position_check_.checked(device_.read(now_ns), elapsed_ns, {x_n, y_n, z_n});
 
   // the place of a device that failed, or that makes no sense, is the last one known; the governor hears of it below
   device_healthy_ = hand.healthy && is_within_reach(hand.position_m);

@@ -146,6 +146,7 @@ void hdGetDoublev(unsigned property, double* values) {
   if (property == mock_hd::kPosition) {
     on_scheduler("a place was read outside a frame");
     for (unsigned axis = 0; axis < 3; ++axis) values[axis] = mock().position_mm[axis];
+    values[0] += mock().tremor_mm();
   } else if (property == mock_hd::kMaxWorkspace || property == mock_hd::kUsableWorkspace) {
     const double box[6] = {-80, -60, -35, 80, 60, 35};
     std::copy(std::begin(box), std::end(box), values);
@@ -231,6 +232,8 @@ void mock_hd_set_position(double x_mm, double y_mm, double z_mm) {
   mock().position_mm[1] = y_mm;
   mock().position_mm[2] = z_mm;
 }
+
+void mock_hd_hold_still() { mock().still = true; }
 
 void mock_hd_set_buttons(int buttons) { mock().buttons = buttons; }
 

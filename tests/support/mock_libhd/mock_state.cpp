@@ -38,6 +38,7 @@ void Mock::reset() {
   first_sensor_broken = false;
   motor_temperature = 0.2;
   for (auto& value : position_mm) value = 0.0;
+  still = false;
   for (auto& value : set_force_n) value = 0.0;
   buttons = 0;
   calibration = kCalibrated;

@@ -94,6 +94,9 @@ class Mock {
   double motor_temperature = 0.2;    // below zero: a device that does not measure it
 
   std::array<std::atomic<double>, 3> position_mm;
+  std::atomic<bool> still{false};  // else the places flicker, as those of encoders under a hand do
+  std::atomic<unsigned> reads{0};
+  double tremor_mm() { return !still && ++reads % 2 == 0 ? 1e-4 : 0.0; }
   std::atomic<int> buttons{0};
   std::atomic<unsigned> calibration{kCalibrated};
   std::atomic<bool> stalled{false};

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "haptics/device.h"
+
+namespace afm::haptics {
+
+// Whether a sensor's places can be a hand's, asked before any force is computed from them.
+//
+// - A place that no hand can have reached since the last one that was believed is passed over: that one holds for some
+//   ticks. If the next places are impossible too, the device is not healthy.
+// - A place that is the same to the last bit for kStuckNs while there is force: a sensor under a living hand flickers.
+//   The device is not healthy then.
+//
+// Only of devices that measure. The servo's thread: never throws, allocates nothing.
+class PositionCheck {
+ public:
+  static constexpr double kFastestMPerS = 2.0;              // a hand that flies trips at 0.8 m/s
+  static constexpr double kSlackM = 0.5e-3;                 // encoders and clocks
+  static constexpr std::int64_t kLongestGapNs = 8'000'000;  // between two places of a device that works
+  static constexpr std::int64_t kStuckNs = 1'000'000'000;
+  static constexpr double kStuckForceN = 0.05;
+
+  explicit PositionCheck(bool measured) : measured_(measured) {}
+
+  // The sample to go on with. `elapsed_ns` since the call before; `force_n` is what the hand was sent then.
+  DeviceSample checked(DeviceSample sample, std::int64_t elapsed_ns, const glm::dvec3& force_n) noexcept;
+
+ private:
+  static constexpr int kImpossible = 2, kPossible = -1, kMost = 8;
+
+  bool is_possible(const glm::dvec3& position_m, std::int64_t elapsed_ns) const noexcept;
+
+  bool measured_;
+  bool started_ = false;
+  glm::dvec3 read_m_{0.0};
+  glm::dvec3 believed_m_{0.0};
+  std::int64_t forced_ns_ = 0;    // since the place that was read last changed, under force
+  std::int64_t believed_ns_ = 0;  // since the device last told a place that was believed
+  int doubt_ = 0;
+};
+
+}  // namespace afm::haptics
