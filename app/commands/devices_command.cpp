@@ -10,6 +10,7 @@
 
 #include "app/command.h"
 #include "core/clock.h"
+#include "core/printable.h"
 #include "input/dtrack_source.h"
 #include "input/hid_source.h"
 #include "input/wand_file.h"
@@ -55,7 +56,8 @@ Row listen_for_tracker(const input::DtrackSettings& settings) {
     return {"tracker", name, false,
             "nothing came in 0.3 s: start the measurement, and send its output to this address"};
   }
-  const std::string damaged = fmt::format("{} packets that are no frames in 0.3 s", update.bad_packets);
+  const std::string damaged = fmt::format("{} packets that are no frames{} in 0.3 s", update.bad_packets,
+                                          update.old_packets > 0 ? fmt::format(", {} frames again", update.old_packets) : "");
   if (update.good_packets == 0) return {"tracker", name, false, damaged};
   return {"tracker", name, true,
           fmt::format("{} frames, {} bodies, {} Flysticks; {}", update.good_packets, update.frame.body_count,
@@ -120,7 +122,11 @@ std::vector<Row> look_for_devices(const WandPlaces& places) {
 core::Result<void> list(const std::string& assets_dir, const std::string& wand_file, bool json) {
   const auto places = wand_places(assets_dir, wand_file);
   if (!places) return tl::unexpected(places.error());
-  const std::vector<Row> rows = look_for_devices(*places);
+  std::vector<Row> rows = look_for_devices(*places);
+  for (Row& r : rows) {
+    r.device = core::printable(r.device);
+    r.detail = core::printable(r.detail);
+  }
   if (json) {
     nlohmann::json list = nlohmann::json::array();
     for (const Row& r : rows) {

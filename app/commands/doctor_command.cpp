@@ -14,6 +14,7 @@
 #include "app/commands/diagnosis.h"
 #include "core/log.h"
 #include "core/percentiles.h"
+#include "core/printable.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
@@ -128,7 +129,8 @@ core::Result<void> examine(const std::string& program, const DoctorOptions& opti
   if (options.lab) return examine_servo(program, options.json);
   const core::MonotonicClock clock;
   const MachineFacts facts = look_at_machine(clock, program, options.seconds);
-  const std::vector<Finding> findings = diagnose(facts);
+  std::vector<Finding> findings = diagnose(facts);
+  for (Finding& f : findings) f.found = core::printable(f.found);
   std::fputs((options.json ? json(facts, findings) : plain(facts, findings)).c_str(), stdout);
   return {};
 }

@@ -5,11 +5,13 @@
 
 #include <string>
 
+#include "core/printable.h"
+
 namespace afm::core {
 
 void log_line(std::string_view text) {
   std::string line = "touchafm: ";
-  line += text;
+  line += printable(text);
   line += '\n';
   // a closed stderr is nothing that a log line could report
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());

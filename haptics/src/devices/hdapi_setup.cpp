@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/printable.h"
 #include "devices/hdapi_numbers.h"
 
 namespace afm::haptics::hdapi {
@@ -51,7 +52,7 @@ double one_double(const HdapiFunctions& hd, std::uint32_t property) {
 
 std::string text(const HdapiFunctions& hd, std::uint32_t property) {
   const char* value = hd.get_string(property);
-  return value == nullptr ? std::string() : std::string(value);
+  return value == nullptr ? std::string() : core::printable(value);
 }
 
 core::Result<double> limit(const HdapiFunctions& hd, std::uint32_t property, const char* what, const char* unit,
