@@ -93,7 +93,10 @@ core::Result<void> run_replay(const ReplayOptions& options) {
   const auto session = servo::load_session(options.session);
   if (!session) return tl::unexpected(session.error());
   const auto replayed = servo::replay(*session);
-  if (!replayed) return tl::unexpected(replayed.error());
+  if (!replayed) {
+    return core::failure(replayed.error().category,
+                         fmt::format("session file {}: {}", options.session, replayed.error().message));
+  }
   std::fputs((options.json ? json(*session, *replayed) : plain(*session, *replayed)).c_str(), stdout);
   if (replayed->identical()) return {};
   return core::failure(core::ErrorCategory::Failed,

@@ -84,14 +84,21 @@ bool DtrackSource::receive(int patience_ms) {
   std::array<char, kLongestPacket> packet;
   const ssize_t size = ::recv(socket_.get(), packet.data(), packet.size(), 0);
   if (size < 0) return false;
-  if (const auto frame = parse_dtrack({packet.data(), static_cast<std::size_t>(size)})) {
+  const auto frame = parse_dtrack({packet.data(), static_cast<std::size_t>(size)});
+  if (!frame) {
+    ++now_.bad_packets;
+  } else if (!is_silent() && static_cast<std::int32_t>(frame->frame - now_.frame.frame) <= 0) {
+    ++now_.old_packets;  // the number comes round after its last
+  } else {
     now_.frame = *frame;
     now_.time_ns = clock_.now_ns();
     ++now_.good_packets;
-  } else {
-    ++now_.bad_packets;
   }
   return true;
+}
+
+bool DtrackSource::is_silent() const {
+  return now_.good_packets == 0 || clock_.now_ns() - now_.time_ns > kSilenceNs;
 }
 
 WandState DtrackSource::poll() {
@@ -101,9 +108,8 @@ WandState DtrackSource::poll() {
 
   WandState wand;
   wand.time_ns = now_.time_ns;
-  const bool silent = now_.good_packets == 0 || clock_.now_ns() - now_.time_ns > kSilenceNs;
   const DtrackFlystick* const stick = now_.frame.flystick(settings_.flystick);
-  if (silent || stick == nullptr) return wand;
+  if (is_silent() || stick == nullptr) return wand;
   const DtrackBody body = in_room(stick->body, settings_);
   wand.connected = true;
   wand.orientation_valid = wand.position_valid = body.tracked;

@@ -87,6 +87,26 @@ TEST(DtrackSource, CountsGarbageAndGoesOn) {
   EXPECT_EQ(update.good_packets, 1U);
 }
 
+// A frame that comes late or is sent again must not move a head or press a button.
+TEST(DtrackSource, DropsFramesThatAreOlderThanTheNewest) {
+  HandClock clock;
+  const auto source = DtrackSource::open(on_any_port(), clock);
+  ASSERT_TRUE(source) << source.error().message;
+  const support::LoopbackSender sender((*source)->port());
+  const auto heard = [&](std::uint32_t number, double x_mm) {
+    EXPECT_TRUE(sender.send("fr " + std::to_string(number) + "\n6df2 1 1 [0 1.000 0 0][" + std::to_string(x_mm) +
+                            " 0 0][1 0 0 0 1 0 0 0 1][]\n"));
+    return (*source)->poll().position_m.x;
+  };
+  EXPECT_NEAR(heard(4294967290U, 100), 0.1, 1e-9);
+  EXPECT_NEAR(heard(4294967290U, 200), 0.1, 1e-9) << "sent again";
+  EXPECT_NEAR(heard(4294967000U, 300), 0.1, 1e-9) << "late";
+  EXPECT_NEAR(heard(3, 400), 0.4, 1e-9) << "the numbers came round";
+  EXPECT_EQ((*source)->newest().old_packets, 2U);
+  clock.now += 260'000'000;
+  EXPECT_NEAR(heard(1, 500), 0.5, 1e-9) << "the tracker was started anew";
+}
+
 TEST(DtrackSource, SaysWhyItCannotListen) {
   HandClock clock;
   const auto first = DtrackSource::open(on_any_port(), clock);

@@ -28,7 +28,8 @@ struct DtrackSettings {
 struct DtrackUpdate {
   std::int64_t time_ns = 0;  // when the newest good packet came
   std::uint64_t good_packets = 0;
-  std::uint64_t bad_packets = 0;
+  std::uint64_t bad_packets = 0;  // no frames
+  std::uint64_t old_packets = 0;  // frames whose number is not above the newest one's: late, or sent again
   DtrackFrame frame;
 };
 
@@ -36,7 +37,8 @@ struct DtrackUpdate {
 DtrackBody in_room(const DtrackBody& body, const DtrackSettings& settings);
 
 // A Flystick and whatever else a DTrack system tracks. Whatever comes in on the port, at whatever rate: what is no
-// frame is counted and dropped. Without a good packet for 250 ms the wand is not connected and its buttons are up.
+// frame is counted and dropped, and so is a frame that is older than the newest one; a tracker that was started anew
+// counts from the beginning, after 250 ms of silence. Without a good packet for 250 ms the wand is not connected and its buttons are up.
 // Button 1 selects, 2 grabs, 3 scales, 4 goes home; the joystick flies.
 class DtrackSource final : public WandSource {
  public:
@@ -55,6 +57,7 @@ class DtrackSource final : public WandSource {
                std::uint16_t port);
 
   bool receive(int patience_ms);
+  bool is_silent() const;
 
   DtrackSettings settings_;
   const core::Clock& clock_;
