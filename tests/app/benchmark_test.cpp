@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/bench/benchmark.h"
+#include "app/micro/benchmark.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/bench/physics_benchmarks.h"
+#include "app/micro/physics_benchmarks.h"
 
 namespace afm::app {
 namespace {

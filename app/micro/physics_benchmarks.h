@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/bench/benchmark.h"
+#include "app/micro/benchmark.h"
 
 namespace afm::app {
 

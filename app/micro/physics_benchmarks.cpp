@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/bench/physics_benchmarks.h"
+#include "app/micro/physics_benchmarks.h"
 
 #include <fcntl.h>
 #include <spawn.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/bench/benchmark.h"
+#include "app/micro/benchmark.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `touchafm bench physics` starts: apart from touchafm, so that touchafm needs no benchmark library.
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "app/micro/physics_benchmarks.h"
+#include "app/options/command_line.h"
+#include "core/exit_code.h"
+#include "core/interruption.h"
+#include "core/log.h"
+#include "core/version.h"
+
+namespace {
+
+using afm::core::ExitCode;
+
+int fail(ExitCode code, const std::string& message) {
+  afm::core::log_line("error: " + message);
+  return static_cast<int>(code);
+}
+
+int run(int count, char** arguments) {
+  afm::app::CommandLine command_line("touchafm-bench", afm::core::kVersion,
+                                     "a tick and the tables of each law, the dynamics, a whole curve");
+  bool as_json = false;
+  command_line.add_flag("--json", as_json, "print JSON, in seconds, instead of a table");
+  const auto answer = command_line.parse(count, arguments);
+  if (!answer) return fail(ExitCode::WrongUsage, answer.error().message + "; see touchafm-bench --help");
+  std::string text = *answer;
+  if (text.empty()) {
+    std::error_code error;
+    const auto here = std::filesystem::read_symlink("/proc/self/exe", error);
+    const std::string touchafm = std::filesystem::path(here).replace_filename("touchafm").string();
+    const auto figures = afm::app::run_benchmarks(afm::app::physics_benchmarks(touchafm));
+    if (!figures) return fail(afm::core::exit_code(figures.error().category), figures.error().message);
+    text = as_json ? benchmark_json(*figures) : benchmark_table(*figures);
+  }
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0) return fail(ExitCode::RunFailed, "cannot write to stdout");
+  return static_cast<int>(ExitCode::Done);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  afm::core::take_interruptions();
+  try {
+    return run(count, arguments);
+  } catch (const std::exception& error) {
+    return fail(ExitCode::RunFailed, error.what());
+  }
+}
