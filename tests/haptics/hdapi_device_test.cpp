@@ -265,6 +265,18 @@ TEST(HdapiDevice, IsNotHealthyWhileTheSchedulerStallsAndItsOutputIsSwitchedOff) 
   EXPECT_EQ(bench.state().servo_state, ServoState::Fault);
 }
 
+TEST(HdapiDevice, DoesNotFloodTheLogWhenTheDriverCallsAHundredTimesASecond) {
+  HdapiBench bench;
+  bench.arm();
+  bench.log.clear();
+  for (int tick = 0; tick < 9000; ++tick) {
+    mock_hd_stall(tick % 10 == 0 ? 0 : 1);
+    bench.tick();
+  }
+  EXPECT_LE(bench.log.size(), 2U);
+  EXPECT_THAT(bench.log, Contains(HasSubstr("does not call any more")));
+}
+
 TEST(HdapiDevice, ComparesNotANumberAndLeapsWithNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();

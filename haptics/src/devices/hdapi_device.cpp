@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
@@ -139,8 +140,12 @@ std::optional<std::string> HdapiDevice::supervise() {
     output_cut_.store(true);
   }
   cut_ = stalled;
-  if (now == told_) return std::nullopt;
+  // a driver that calls too seldom stalls and comes back all the time
+  const std::int64_t now_ns = clock_.now_ns();
+  std::int64_t& told_ns = told_ns_[static_cast<std::size_t>(now)];
+  if (now == told_ || (told_ns != 0 && now_ns - told_ns < kSameLineNs)) return std::nullopt;
   told_ = now;
+  told_ns = now_ns;
   const std::uint32_t code = stalled ? 0 : error_code_.load();
   return fmt::format("{}: {}{}", spec_.name, describe(now),
                      code == 0 ? "" : fmt::format("; the driver said: {}", hdapi::error_text(hd_, code)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -37,6 +38,7 @@ class HdapiDevice final : public HapticDevice {
   static constexpr std::int64_t kReturnNs = 100'000'000;
   static constexpr std::int64_t kStallNs = 5'000'000;
   static constexpr std::int64_t kCalibrationCheckNs = 100'000'000;
+  static constexpr std::int64_t kSameLineNs = 10'000'000'000;  // between two that say the same
 
   // Who calls supervise(): a thread of the device's own, or a test in its own time.
   enum class Supervision { Thread, Caller };
@@ -63,7 +65,8 @@ class HdapiDevice final : public HapticDevice {
   HdapiHealth health(std::int64_t now_ns) const noexcept;
 
   // Switches the force output off when the scheduler has stalled. Gives a line for the log when the health has changed
-  // since the last call. One thread, never the servo's: the library may take its time, or hang.
+  // since the last line, the same one at most every ten seconds. One thread, never the servo's: the library may take
+  // its time, or hang.
   std::optional<std::string> supervise();
 
  private:
@@ -135,6 +138,7 @@ class HdapiDevice final : public HapticDevice {
 
   // the supervisor's thread
   HdapiHealth told_ = HdapiHealth::Starting;
+  std::array<std::int64_t, static_cast<std::size_t>(HdapiHealth::DeviceFault) + 1> told_ns_{};  // when it was
   bool cut_ = false;
   std::thread supervisor_;
 };
