@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -36,6 +37,13 @@ inline bool eventually(const std::function<bool()>& condition) {
 }
 
 inline scene::SharedSegment create_segment() { return std::move(*scene::SharedSegment::create(paper_model(), 0)); }
+
+// The newest state. Of a servo that runs, a single look may find it half written.
+inline scene::TipState tip_state_of(scene::RendererSide& side) {
+  std::optional<scene::TipState> state;
+  eventually([&] { return (state = side.tip_state()).has_value(); });
+  return state.value();
+}
 
 // Heartbeats while it waits for something, and a person who holds the simulated hand.
 class LiveRenderer {

@@ -84,7 +84,10 @@ TEST_F(ServoDevices, LetsACycleBeFeltThroughTheVendorsLibrary) {
     return events.size() >= 2 &&
            std::any_of(samples.begin(), samples.end(), [](const TipSample& s) { return s.hand_force_n < -1.5; });
   };
-  const auto let_go = [&] { return side.tip_state() && side.tip_state()->fault == scene::FaultCode::LateTick; };
+  const auto let_go = [&] {
+    const auto state = side.tip_state();
+    return state && state->fault == scene::FaultCode::LateTick;
+  };
   auto servo = start("hdapi");
   ASSERT_TRUE(servo) << servo.error().message;
   // the mock's person goes down once: after a stall of this machine it takes another servo, and another person

@@ -122,7 +122,7 @@ TEST(ServoProcess, ReleasesTheHandAndEndsWhenTheRendererIsKilled) {
     EXPECT_NE(released_ns, 0);
     EXPECT_EQ(renderer.servo_exit_code(), 1);
     EXPECT_THAT(renderer.log(), HasSubstr("the renderer died: force released"));
-    const TipState last = *side.tip_state();
+    const TipState last = tip_state_of(side);
     EXPECT_EQ(last.hand.force_n, (std::array<double, 3>{}));
     if (let_go_before(last)) return false;
     EXPECT_EQ(last.fault, FaultCode::RendererDied);
@@ -140,12 +140,12 @@ TEST(ServoProcess, FadesWhenTheRendererIsStoppedAndStaysDisarmedWhenItGoesOn) {
     renderer.signal(SIGSTOP);
     const std::int64_t released_ns = released_at(side, stopped_ns);
     EXPECT_NE(released_ns, 0);
-    const TipState stopped = *side.tip_state();
+    const TipState stopped = tip_state_of(side);
 
     renderer.signal(SIGCONT);
     wait_a_little();
-    EXPECT_EQ(side.tip_state()->servo_state, ServoState::Disarmed);
-    EXPECT_EQ(side.tip_state()->hand.force_n, (std::array<double, 3>{}));
+    EXPECT_EQ(tip_state_of(side).servo_state, ServoState::Disarmed);
+    EXPECT_EQ(tip_state_of(side).hand.force_n, (std::array<double, 3>{}));
     renderer.signal(SIGKILL);
     EXPECT_EQ(renderer.servo_exit_code(), 1);
     if (let_go_before(stopped)) return false;
@@ -170,7 +170,7 @@ TEST(ServoProcess, IsSeenDeadWhenItIsKilledAndCanBeStartedAgain) {
   std::printf("seen dead %.1f ms after the kill\n", 1e-6 * static_cast<double>(now_ns() - killed_ns));
   EXPECT_EQ((*servo)->exit_status(), 128 + SIGKILL);
 
-  const std::uint64_t last_tick = side.tip_state()->tick;
+  const std::uint64_t last_tick = tip_state_of(side).tick;
   servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});
   ASSERT_TRUE(servo) << servo.error().message;
   EXPECT_TRUE(renderer.until([&](const TipState& state) { return state.tick < last_tick; }));
@@ -187,7 +187,7 @@ TEST(ServoProcess, LeavesInGoodOrderAndNoZombieBehind) {
     const pid_t pid = (*servo)->pid();
     servo->reset();
     EXPECT_NE(::kill(pid, 0), 0);
-    const TipState last = *side.tip_state();
+    const TipState last = tip_state_of(side);
     EXPECT_EQ(last.hand.force_n, (std::array<double, 3>{}));
     if (let_go_before(last)) return false;
     EXPECT_EQ(last.fault, FaultCode::None);
@@ -205,7 +205,7 @@ TEST(ServoProcess, EndsOnSigtermWithZeroAfterReleasingTheHand) {
   ::kill((*servo)->pid(), SIGTERM);
   ASSERT_TRUE(eventually([&] { return !(*servo)->alive(); }));
   EXPECT_EQ((*servo)->exit_status(), 0);
-  EXPECT_EQ(side.tip_state()->hand.force_n, (std::array<double, 3>{}));
+  EXPECT_EQ(tip_state_of(side).hand.force_n, (std::array<double, 3>{}));
 }
 
 TEST(ServoProcess, InheritsTheTwoDescriptorsAndNoOthers) {
@@ -243,9 +243,9 @@ TEST(ServoThread, RunsTheSameLoopAndLeavesInGoodOrder) {
   LiveRenderer renderer(side);
   ASSERT_TRUE(renderer.hold_attached());
   EXPECT_TRUE((*servo)->alive());
-  EXPECT_EQ(side.tip_state()->realtime, 0U);
+  EXPECT_EQ(tip_state_of(side).realtime, 0U);
   servo->reset();
-  EXPECT_EQ(side.tip_state()->hand.force_n, (std::array<double, 3>{}));
+  EXPECT_EQ(tip_state_of(side).hand.force_n, (std::array<double, 3>{}));
 }
 
 std::uint32_t percentile(const std::array<std::uint32_t, kHistogramBins>& bins, double share) {
@@ -267,7 +267,7 @@ TEST(ServoProcess, CountsEveryTickInItsHistograms) {
   LiveRenderer renderer(side);
   ASSERT_TRUE(renderer.hold_attached());
   ASSERT_TRUE(renderer.until([](const TipState& state) { return state.tick > 2500; }));
-  const std::uint64_t ticks_before = side.tip_state()->tick;
+  const std::uint64_t ticks_before = tip_state_of(side).tick;
   servo->reset();
   const ServoTiming timing = *side.servo_timing();
   EXPECT_EQ(timing.rate_hz, kRateHz);

@@ -105,7 +105,7 @@ TEST_P(StoppedServo, GoesOnWithoutAStepOfTheForceAndLetsGoAfterTwentyMillisecond
     EXPECT_TRUE(renderer.until([&](const TipState& state) { return state.time_ns > resumed_ns + 400'000'000; }));
 
     while (const auto sample = side.pop_sample()) samples.push_back(*sample);
-    const TipState state = *side.tip_state();
+    const TipState state = tip_state_of(side);
     const std::uint64_t missed = side.servo_timing()->missed - missed_before;
     servo->reset();
 

@@ -14,9 +14,9 @@ namespace afm::servo {
 
 core::Result<std::filesystem::path> private_folder() {
   const char* runtime = ::secure_getenv("XDG_RUNTIME_DIR");
-  const std::filesystem::path folder = runtime != nullptr && *runtime == '/'
-                                           ? std::filesystem::path(runtime) / "touchafm"
-                                           : std::filesystem::path(fmt::format("/tmp/touchafm-{}", ::getuid()));
+  std::filesystem::path folder = runtime != nullptr && *runtime == '/'
+                                     ? std::filesystem::path(runtime) / "touchafm"
+                                     : std::filesystem::path(fmt::format("/tmp/touchafm-{}", ::getuid()));
   if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) {
     return core::failure(core::ErrorCategory::Failed,
                          fmt::format("cannot make {}: {}", folder.string(), core::system_error(errno)));
