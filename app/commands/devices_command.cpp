@@ -56,8 +56,9 @@ Row listen_for_tracker(const input::DtrackSettings& settings) {
     return {"tracker", name, false,
             "nothing came in 0.3 s: start the measurement, and send its output to this address"};
   }
-  const std::string damaged = fmt::format("{} packets that are no frames{} in 0.3 s", update.bad_packets,
-                                          update.old_packets > 0 ? fmt::format(", {} frames again", update.old_packets) : "");
+  const std::string damaged =
+      fmt::format("{} packets that are no frames{} in 0.3 s", update.bad_packets,
+                  update.old_packets > 0 ? fmt::format(", {} frames again", update.old_packets) : "");
   if (update.good_packets == 0) return {"tracker", name, false, damaged};
   return {"tracker", name, true,
           fmt::format("{} frames, {} bodies, {} Flysticks; {}", update.good_packets, update.frame.body_count,

@@ -97,9 +97,7 @@ bool DtrackSource::receive(int patience_ms) {
   return true;
 }
 
-bool DtrackSource::is_silent() const {
-  return now_.good_packets == 0 || clock_.now_ns() - now_.time_ns > kSilenceNs;
-}
+bool DtrackSource::is_silent() const { return now_.good_packets == 0 || clock_.now_ns() - now_.time_ns > kSilenceNs; }
 
 WandState DtrackSource::poll() {
   bool heard = false;

@@ -38,8 +38,8 @@ DtrackBody in_room(const DtrackBody& body, const DtrackSettings& settings);
 
 // A Flystick and whatever else a DTrack system tracks. Whatever comes in on the port, at whatever rate: what is no
 // frame is counted and dropped, and so is a frame that is older than the newest one; a tracker that was started anew
-// counts from the beginning, after 250 ms of silence. Without a good packet for 250 ms the wand is not connected and its buttons are up.
-// Button 1 selects, 2 grabs, 3 scales, 4 goes home; the joystick flies.
+// counts from the beginning, after 250 ms of silence. Without a good packet for 250 ms the wand is not connected and
+// its buttons are up. Button 1 selects, 2 grabs, 3 scales, 4 goes home; the joystick flies.
 class DtrackSource final : public WandSource {
  public:
   // The clock must outlive it. DeviceMissing: cannot listen there.
