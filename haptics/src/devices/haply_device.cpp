@@ -142,12 +142,17 @@ void HaplyDevice::exchange() {
 
 // Whatever ended the connection, the service may still hold what it was last sent.
 void HaplyDevice::part() noexcept {
-  try {
+  const auto attempt = [](const auto& step) {
+    try {
+      step();
+    } catch (const std::exception& error) {
+      core::log_line(error.what());
+    }
+  };
+  attempt([&] {
     if (!released_.load()) tell(glm::dvec3(0.0));
-  } catch (const std::exception& error) {
-    core::log_line(fmt::format("haptics: the haply inverse service cannot be told to let go: {}", error.what()));
-  }
-  link_->leave();
+  });
+  attempt([&] { link_->leave(); });
   exchanging_.store(false);
   if (released_.exchange(true)) return;
   core::log_line("haptics: the haply inverse service could not be told to let go: it may still hold the last force");
