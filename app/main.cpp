@@ -66,11 +66,19 @@ int run(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  afm::core::take_interruptions();
+  using afm::core::ExitCode;
   try {
+    afm::core::take_interruptions();
     return run(count, arguments);
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::RunFailed, "no memory is left: ask for less, or raise the limit (ulimit -v)");
+  } catch (const std::system_error& error) {
+    const bool limited = error.code() == std::errc::resource_unavailable_try_again;  // as pthread_create says
+    return fail(ExitCode::RunFailed,
+                limited ? "cannot start another thread: raise the limits of processes and memory (ulimit -u, ulimit -v)"
+                        : error.what());
   } catch (const std::exception& error) {
     // Vulkan's own failures (a lost device, no memory) and the standard library's
-    return fail(afm::core::ExitCode::RunFailed, error.what());
+    return fail(ExitCode::RunFailed, error.what());
   }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -12,11 +13,14 @@
 
 #include "app/command.h"
 #include "app/demo/demonstration.h"
+#include "app/live/view_panels.h"
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
+#include "core/log.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/model_view.h"
+#include "exhibit/recorded_wall.h"
 #include "exhibit/wall_drawing.h"
 #include "render/context.h"
 #include "servo/session_file.h"
@@ -42,8 +46,9 @@ struct RenderOptions {
 // The wall as it was, as far as the session tells: the paper's three stand together, another material alone.
 exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::ExhibitFiles files) {
   const auto& paper = scene::kPaperMaterials;
-  const bool shown_anyway =
-      !files.materials.empty() || std::find(paper.begin(), paper.end(), session.material) != paper.end();
+  if (!session.wall.empty() && files.shown.empty()) files.shown = session.shown;
+  const bool shown_anyway = !files.materials.empty() || !files.shown.empty() ||
+                            std::find(paper.begin(), paper.end(), session.material) != paper.end();
   if (session.curve) {
     scene::MaterialEntry entry;
     entry.name = session.material;
@@ -58,17 +63,20 @@ exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::
   return files;
 }
 
-core::Result<void> draw(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& models,
-                        const exhibit::Moment& moment, const RenderOptions& options) {
-  auto drawing = exhibit::WallDrawing::open(stage.wall, options.picture);
+core::Result<void> draw(
+    const exhibit::Stage& stage, const std::vector<curves::SampleModel>& models, const exhibit::Moment& moment,
+    const exhibit::PictureOptions& picture, const std::string& out,
+    const std::function<void(render::FrameState&)>& add_panels = [](render::FrameState&) {}) {
+  auto drawing = exhibit::WallDrawing::open(stage.wall, picture);
   if (!drawing) return tl::unexpected(drawing.error());
   const exhibit::FrameBuilder frames(stage.wall_scene, models, stage.eyes);
   const auto build = [&](const exhibit::OutputPicture&, const std::array<scene::EyeView, 2>& eyes) {
     render::FrameState frame = frames.build(moment);
+    add_panels(frame);
     frame.eyes = eyes;
     return frame;
   };
-  return drawing->write(stage.wall_scene.scene(), stage.wall_scene.panel_millimetre_m(), build, options.out);
+  return drawing->write(stage.wall_scene.scene(), stage.wall_scene.panel_millimetre_m(), build, out);
 }
 
 core::Result<void> run_journey(const RenderOptions& options) {
@@ -88,7 +96,7 @@ core::Result<void> run_journey(const RenderOptions& options) {
   moment.wall = {
       .material = 0, .centerpiece = exhibit::Centerpiece::Journey, .journey_orders = *options.journey_orders};
   moment.realtime = true;  // nothing moves
-  return draw(*stage, {*model}, moment, options);
+  return draw(*stage, {*model}, moment, options.picture, options.out);
 }
 
 core::Result<void> run_model(const RenderOptions& options) {
@@ -127,10 +135,46 @@ core::Result<void> run_model(const RenderOptions& options) {
   return exhibit::write_wall(pictures, options.out);
 }
 
+// The head, the eyes and the mode that the frame was drawn for, as far as the user does not say others.
+void look_as(const servo::WallFrame& frame, scene::Wall& wall, exhibit::PictureOptions& picture) {
+  wall.viewers.front().sweet_spot = exhibit::head_of(frame.head);
+  if (!picture.ipd_m) picture.ipd_m = frame.ipd_m;
+  const auto mode = scene::parse_stereo_mode(frame.stereo);
+  const bool as_the_file_says = !wall.outputs.empty() && mode && wall.outputs.front().mode == *mode;
+  if (!picture.mode && mode && !as_the_file_says) picture.mode = *mode;
+  if (frame.eyes_swapped) {
+    const bool straight = picture.order == scene::EyeOrder::Straight;
+    picture.order = straight ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight;
+  }
+}
+
+// The frame that was on the live wall.
+core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::SampleModel>& models,
+                              const servo::RecordedSession& session, std::int64_t time_ns,
+                              const RenderOptions& options) {
+  std::vector<std::string> names;
+  for (const scene::MaterialEntry& material : stage.materials.materials) names.push_back(material.name);
+  exhibit::RecordedMoment then = exhibit::moment_on_wall(session, names, time_ns);
+  then.moment.curves = then.curves;
+  if (options.analogy) then.moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
+  exhibit::PictureOptions picture = options.picture;
+  look_as(*then.frame, stage.wall, picture);
+  ViewPanels panels(stage.wall_scene, models);
+  panels.show(then.frame->panels);
+  const bool travels = then.moment.wall.centerpiece == exhibit::Centerpiece::Journey;
+  const auto material = travels ? std::nullopt : then.moment.wall.material;
+  const auto add_panels = [&](render::FrameState& frame) {
+    panels.add_to(frame, {}, material, material ? stage.materials.materials[*material].title : "", {},
+                  HandSource::Mouse);
+  };
+  return draw(stage, models, then.moment, picture, options.out, add_panels);
+}
+
 core::Result<void> run_render(const RenderOptions& options) {
   if (options.journey_orders) return run_journey(options);
   auto session = servo::load_session(options.session);
   if (!session) return tl::unexpected(session.error());
+  if (!session->complete) core::log_line(servo::cut_text(*session, options.session));
   auto stage = exhibit::load_exhibit(files_for(*session, options.files));
   if (!stage) return tl::unexpected(stage.error());
   const auto& materials = stage->materials.materials;
@@ -160,12 +204,13 @@ core::Result<void> run_render(const RenderOptions& options) {
 
   const auto material = static_cast<std::size_t>(found - materials.begin());
   const std::int64_t time_ns = session->samples.front().time_ns + static_cast<std::int64_t>(options.at_s * 1e9);
+  if (!session->wall.empty()) return draw_frame(*stage, models, *session, time_ns, options);
   std::vector<exhibit::CycleCurve> curves(materials.size());
   curves[material] = exhibit::curve_until(*session, time_ns);
   exhibit::Moment moment = exhibit::moment_of(*session, material, time_ns, curves);
   moment.guidance = fmt::format("{} at {:.2f} s", found->title, options.at_s);
   if (options.analogy) moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
-  return draw(*stage, models, moment, options);
+  return draw(*stage, models, moment, options.picture, options.out);
 }
 
 // What is said of a model.
@@ -198,7 +243,8 @@ void add_render_command(OptionList& program, const CommandContext& context) {
   auto options = std::make_shared<RenderOptions>();
   OptionList what = command.add_alternatives("what is drawn");
   const Option session =
-      what.add_option("--session", options->session, "session file that the demo has written").type_name("FILE");
+      what.add_option("--session", options->session, "session file that demo or view --record has written")
+          .type_name("FILE");
   const Option journey =
       what.add_option("--journey", options->journey_orders,
                       "a place of the journey of scale, without a session: a metre of the paper's wall "

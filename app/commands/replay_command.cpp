@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "core/log.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
 
@@ -17,6 +18,7 @@ namespace {
 
 struct ReplayOptions {
   std::string session;
+  servo::ReplayRange range;
   bool json = false;
 };
 
@@ -32,9 +34,15 @@ const char* name_of(physics::EventKind kind) {
   return kind == physics::EventKind::JumpToContact ? "jump-to-contact" : "jump-off-contact";
 }
 
-std::string json(const servo::RecordedSession& session, const servo::Replay& replayed) {
+double seconds(const servo::RecordedSession& session) {
+  return session.seconds_since_start(session.samples.back().time_ns);
+}
+
+std::string json(const servo::RecordedSession& session, const servo::Replay& replayed,
+                 const servo::ReplayRange& range) {
   nlohmann::json events = nlohmann::json::array();
   for (const scene::TipEvent& event : session.events) {
+    if (!range.holds(session.seconds_since_start(event.time_ns))) continue;
     events.push_back({{"kind", name_of(event.kind)},
                       {"time_s", session.seconds_since_start(event.time_ns)},
                       {"z_m", event.z_m},
@@ -45,7 +53,10 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
              {"material", session.material},
              {"rate_Hz", session.rate_hz},
              {"device", session.device.name.data()},
-             {"seconds", session.seconds_since_start(session.samples.back().time_ns)},
+             {"seconds", seconds(session)},
+             {"complete", session.complete},
+             {"from_s", range.from_s},
+             {"to_s", std::min(range.to_s, seconds(session))},
              {"ticks", replayed.ticks},
              {"events", events},
              {"identical", replayed.identical()},
@@ -57,15 +68,20 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
          "\n";
 }
 
-std::string plain(const servo::RecordedSession& session, const servo::Replay& replayed) {
+std::string plain(const servo::RecordedSession& session, const servo::Replay& replayed,
+                  const servo::ReplayRange& range) {
   const auto with_force = std::count_if(session.samples.begin(), session.samples.end(), [](const scene::TipSample& s) {
     return s.servo_state == scene::ServoState::Running;
   });
   std::string text = fmt::format("{}, felt with {} at {:g} Hz: {:.3f} s, {} ticks, force on in {} of them, {} events\n",
-                                 session.material, session.device.name.data(), session.rate_hz,
-                                 session.seconds_since_start(session.samples.back().time_ns), replayed.ticks,
-                                 with_force, session.events.size());
+                                 session.material, session.device.name.data(), session.rate_hz, seconds(session),
+                                 session.samples.size(), with_force, session.events.size());
+  if (range.from_s > 0 || range.to_s < seconds(session)) {
+    text += fmt::format("compared from {:.3f} s to {:.3f} s: {} ticks\n", range.from_s,
+                        std::min(range.to_s, seconds(session)), replayed.ticks);
+  }
   for (const scene::TipEvent& event : session.events) {
+    if (!range.holds(session.seconds_since_start(event.time_ns))) continue;
     text += fmt::format("  {:<16} at {:8.3f} s   Z = {:9.4f} nm   force {:9.5f} nN, then {:9.5f} nN\n",
                         name_of(event.kind), session.seconds_since_start(event.time_ns), event.z_m * 1e9,
                         event.force_before_n * 1e9, event.force_after_n * 1e9);
@@ -92,12 +108,19 @@ std::string difference_text(const servo::RecordedSession& session, const servo::
 core::Result<void> run_replay(const ReplayOptions& options) {
   const auto session = servo::load_session(options.session);
   if (!session) return tl::unexpected(session.error());
-  const auto replayed = servo::replay(*session);
+  const servo::ReplayRange& range = options.range;
+  if (!(range.from_s >= 0.0 && range.from_s <= seconds(*session) && range.to_s >= range.from_s)) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("--from {:g}, --to {:g}: that is no part of the session, which lasts {:.3f} s",
+                                     range.from_s, range.to_s, seconds(*session)));
+  }
+  if (!session->complete) core::log_line(servo::cut_text(*session, options.session));
+  const auto replayed = servo::replay(*session, range);
   if (!replayed) {
     return core::failure(replayed.error().category,
                          fmt::format("session file {}: {}", options.session, replayed.error().message));
   }
-  std::fputs((options.json ? json(*session, *replayed) : plain(*session, *replayed)).c_str(), stdout);
+  std::fputs((options.json ? json(*session, *replayed, range) : plain(*session, *replayed, range)).c_str(), stdout);
   if (replayed->identical()) return {};
   return core::failure(core::ErrorCategory::Failed,
                        fmt::format("the replay of {} is not the same: {}; it may come from another build of TouchAFM",
@@ -114,10 +137,15 @@ void add_replay_command(OptionList& program, const CommandContext&) {
   command.add_option("session", options->session, "session file that demo or view --record has written")
       .required()
       .type_name("SESSION");
+  command.add_option("--from", options->range.from_s, "compare from here on, in seconds from the session's first tick")
+      .type_name("SECONDS");
+  command.add_option("--to", options->range.to_s, "compare up to here; default: to the end").type_name("SECONDS");
   command.add_flag("--json", options->json, "print the comparison as JSON, SI with the unit in the key");
   command.footer(
       "example: touchafm replay out/session-gold.afms\n"
-      "Ends with 0 if all is the same, with 1 if not. touchafm view --haptics replay:FILE shows it on the wall.");
+      "         touchafm replay out/session-gold.afms --from 2 --to 3.5\n"
+      "Ends with 0 if all is the same, with 1 if not. Of a file that was cut, what is there counts. touchafm view "
+      "--haptics replay:FILE shows it on the wall.");
   command.when_chosen([options] { return run_replay(*options); });
 }
 

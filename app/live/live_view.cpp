@@ -13,6 +13,7 @@
 
 #include "core/interruption.h"
 #include "core/log.h"
+#include "exhibit/recorded_wall.h"
 #include "exhibit/servo_rows.h"
 #include "exhibit/shared_model.h"
 #include "exhibit/wall_layout.h"
@@ -300,6 +301,22 @@ void LiveView::follow_edits() {
   core::log_line("the changed parameters are felt from now on");
 }
 
+// So that the wall can be drawn again as it is now.
+void LiveView::record(const exhibit::Moment& now) {
+  if (!servo_.recording()) return;
+  std::vector<std::string> names;
+  for (const scene::MaterialEntry& material : stage_.materials.materials) names.push_back(material.name);
+  servo::WallFrame shown = exhibit::wall_frame_of(now, servo_.link().tip().time_ns, names);
+  shown.room_from_sample = servo_.link().room_from_sample();
+  const ViewPicture::Viewing viewing = picture_.viewing();
+  shown.head = exhibit::recorded(viewing.head);
+  shown.ipd_m = viewing.ipd_m;
+  shown.stereo = scene::name_of(viewing.mode);
+  shown.eyes_swapped = viewing.order == scene::EyeOrder::Swapped;
+  shown.panels = panels_.shown();
+  servo_.record(shown);
+}
+
 void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   const servo::FrameHeartbeat beat(servo_.link(), clock_);
   follow_edits();
@@ -308,6 +325,7 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   const exhibit::Moment now = moment(pointed, now_ns);
   render::FrameState frame = frames_.build(now);
   servo_.link().place(exhibit::shared_transforms(frame.room_from_node));
+  record(now);
 
   if (std::exchange(logged_guidance_, now.guidance) != now.guidance) core::log_line(now.guidance);
 

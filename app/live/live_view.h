@@ -74,6 +74,7 @@ class LiveView {
   bool wand_points() const;
   Pointed wand_pointed_at();
   exhibit::Moment moment(const Pointed& pointed, std::int64_t now_ns) const;
+  void record(const exhibit::Moment& now);
   void draw(const ViewInput& input, std::int64_t now_ns);
   void pace(std::int64_t frame_start_ns) const;
 

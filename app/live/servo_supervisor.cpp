@@ -72,8 +72,8 @@ void ServoSupervisor::update(std::int64_t now_ns) {
       [&](const scene::TipSample& sample) {
         cycles_.add(sample);
         if (!folder_) return;
-        recorder_.add(sample, *link_);
-        keep_session();
+        if (recorder_.add(sample, *link_)) recorder_.set_earlier(curves_on_wall());
+        keep_finished();
       },
       [&](const scene::TipEvent& event) {
         cycles_.add(event);
@@ -82,6 +82,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         has_event_ = true;
         core::log_line(text_of(event));
       });
+  keep_part(now_ns);
   log_state();
 }
 
@@ -108,14 +109,35 @@ void ServoSupervisor::replace(const core::Error& error, std::int64_t now_ns) {
   }
 }
 
-// A folder that has become full or read-only ends the recording, not the view.
-void ServoSupervisor::keep_session() {
+void ServoSupervisor::keep_finished() {
   const auto session = recorder_.take_finished();
   if (!session || !folder_) return;
-  if (auto kept = folder_->keep(*session); !kept) {
-    core::log_line(kept.error().message + "; nothing more is recorded");
-    folder_.reset();
+  auto kept = folder_->add(*session);
+  if (kept) kept = folder_->end();
+  if (!kept) stop_recording(kept.error());
+}
+
+void ServoSupervisor::keep_part(std::int64_t now_ns) {
+  if (!folder_ || !recorder_.has_head() || now_ns - kept_ns_ < servo::SessionWriter::kPauseNs) return;
+  kept_ns_ = now_ns;
+  if (auto kept = folder_->add(recorder_.session()); !kept) return stop_recording(kept.error());
+  recorder_.forget_records();
+}
+
+// A folder that has become full or read-only ends the recording, not the view.
+void ServoSupervisor::stop_recording(const core::Error& error) {
+  core::log_line(error.message + "; nothing more is recorded");
+  folder_.reset();
+}
+
+std::vector<servo::EarlierCurve> ServoSupervisor::curves_on_wall() const {
+  std::vector<servo::EarlierCurve> earlier;
+  const scene::SharedModel& model = link_->model();
+  for (std::size_t i = 0; i < cycles_.curves().size(); ++i) {
+    const exhibit::CycleCurve& curve = cycles_.curves()[i];
+    if (!curve.empty()) earlier.push_back({.material = model.materials[i].name.data(), .points = curve.points()});
   }
+  return earlier;
 }
 
 // How punctual the servo was, for whoever looks at the log afterwards.
@@ -132,7 +154,7 @@ void ServoSupervisor::log_timing() const {
 void ServoSupervisor::finish() {
   log_timing();
   recorder_.finish();
-  keep_session();
+  keep_finished();
   link_.reset();
 }
 

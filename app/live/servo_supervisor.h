@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "exhibit/cycle_history.h"
 #include "servo/servo_client.h"
@@ -37,6 +38,10 @@ class ServoSupervisor {
   // pressed; one that dies again and again, or that cannot have its device, needs a person: then it has an error().
   void update(std::int64_t now_ns);
 
+  // What the wall shows in this frame, for the session under way.
+  void record(const servo::WallFrame& frame) { recorder_.add(frame); }
+  bool recording() const { return folder_.has_value(); }
+
   // The session under way is kept, the servo's timing is logged, and the hand is released.
   void finish();
 
@@ -55,7 +60,10 @@ class ServoSupervisor {
  private:
   core::Result<void> launch(const char* message);
   void replace(const core::Error& error, std::int64_t now_ns);
-  void keep_session();
+  void keep_finished();
+  void keep_part(std::int64_t now_ns);
+  void stop_recording(const core::Error& error);
+  std::vector<servo::EarlierCurve> curves_on_wall() const;
   void log_state();
   void log_timing() const;
 
@@ -70,6 +78,7 @@ class ServoSupervisor {
   exhibit::CycleHistory cycles_;
   std::optional<servo::SessionFolder> folder_;
   servo::SessionRecorder recorder_;
+  std::int64_t kept_ns_ = 0;  // when a part of the session was kept last
   scene::TipEvent newest_event_;
   bool has_event_ = false;
   scene::ServoState logged_state_ = scene::ServoState::Disarmed;

@@ -25,6 +25,16 @@ void log_parameters(const curves::LiveParameters& parameters) {
 ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials)
     : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials) {}
 
+std::string ViewPanels::shown() const {
+  return keys_shown_ ? "keys" : hidden_ ? "none" : parameters_shown_ ? "parameters" : "samples";
+}
+
+void ViewPanels::show(std::string_view panels) {
+  keys_shown_ = panels == "keys";
+  hidden_ = panels == "none";
+  parameters_shown_ = panels == "parameters";
+}
+
 Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m,
                                std::optional<std::size_t> material) {
   Pointed pointed{.control = {}, .tab = false, .swatch = {}, .point_m = wall_point_m};

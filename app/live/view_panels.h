@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "app/live/parameter_edits.h"
 #include "app/live/view_keys.h"
@@ -28,6 +30,10 @@ class ViewPanels {
   void toggle_keys() { keys_shown_ = !keys_shown_; }
   void toggle_parameters() { parameters_shown_ = !parameters_shown_; }
   void toggle_all() { hidden_ = !hidden_; }
+
+  // "keys", "none", "parameters" or "samples": which of them cover the others.
+  std::string shown() const;
+  void show(std::string_view panels);
 
   // `wall_point_m` is where the ray meets the wall's plane. `material` is the one under the tip.
   Pointed pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m, std::optional<std::size_t> material);

@@ -68,6 +68,15 @@ class ViewPicture {
   // What the next frame is drawn for in a window, and where it will lie there.
   WallPicture picture(std::size_t window) const;
 
+  // For whom and how it is drawn now, with the keys' changes.
+  struct Viewing {
+    scene::HeadPose head;
+    double ipd_m = 0;
+    scene::StereoMode mode = scene::StereoMode::Mono;
+    scene::EyeOrder order = scene::EyeOrder::Straight;
+  };
+  Viewing viewing() const { return {head_, settings_.ipd_m, mode(), other_order_}; }
+
   // How finely frames are drawn to stay within the budget; nothing without one.
   std::optional<render::DataRow> quality_row() const;
 

@@ -85,6 +85,7 @@ void take_interruptions() {
   ::sigaddset(&ending, SIGINT);
   ::sigaddset(&ending, SIGTERM);
   ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+  ::signal(SIGXFSZ, SIG_IGN);  // a file over the limit is an error of write(), as a full disk is
   std::thread([ending] {
     for (int signal = 0; ::sigwait(&ending, &signal) == 0;) interrupt();
   }).detach();

@@ -17,6 +17,7 @@
 #include "core/file_descriptor.h"
 #include "core/interruption.h"
 #include "core/system_error.h"
+#include "core/write_all.h"
 
 namespace afm::core {
 
@@ -31,16 +32,6 @@ constexpr mode_t kNewFileMode = 0666;
 constexpr mode_t kPermissions = 07777;
 constexpr auto kReaderPatience = std::chrono::seconds(5);
 constexpr auto kReaderPause = std::chrono::milliseconds(20);
-
-// 0, or errno.
-int write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) return errno;
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
 
 // Devices, pipes and what a process already has open: written into, never replaced. 0, or errno.
 int write_into(const std::string& path, std::string_view bytes) {

@@ -7,6 +7,18 @@
 
 namespace afm::exhibit {
 
+CycleCurve CycleCurve::from(const std::vector<std::array<double, 2>>& points) {
+  CycleCurve curve;
+  for (const auto& [z_nm, force_nn] : points) curve.add_point({.z_nm = z_nm, .force_nn = force_nn});
+  return curve;
+}
+
+std::vector<std::array<double, 2>> CycleCurve::points() const {
+  std::vector<std::array<double, 2>> points;
+  for (const render::PlotPoint& point : points_) points.push_back({point.z_nm, point.force_nn});
+  return points;
+}
+
 void CycleCurve::add(const scene::TipSample& sample) {
   const bool with_force =
       sample.servo_state == scene::ServoState::Running && sample.phase != physics::Phase::WaitForLift;

@@ -4,18 +4,44 @@
 #include <cstring>
 #include <vector>
 
+#include "core/fnv1a.h"
 #include "fuzz/memory_file.h"
 #include "servo/session_file.h"
 
 namespace {
 
-// The checksum would hide all the rest: the last eight bytes are replaced by the right one.
-std::vector<std::uint8_t> with_checksum(const std::uint8_t* bytes, std::size_t size) {
+constexpr std::size_t kSumBytes = sizeof(std::uint64_t);
+
+std::uint64_t sum_of(const std::vector<std::uint8_t>& file, std::size_t end) {
+  afm::core::Fnv1a hash;
+  for (std::size_t i = 0; i < end; ++i) hash.add(file[i]);
+  return hash.value();
+}
+
+void put_sum(std::vector<std::uint8_t>& file, std::size_t at) {
+  const std::uint64_t sum = sum_of(file, at);
+  std::memcpy(file.data() + at, &sum, kSumBytes);
+}
+
+// The checksums would hide all the rest: they are replaced by the right ones. Of version 3 there is one, at the end; a
+// later one has two in each chunk.
+std::vector<std::uint8_t> with_checksums(const std::uint8_t* bytes, std::size_t size) {
+  constexpr std::size_t kFront = 8;
   std::vector<std::uint8_t> file(bytes, bytes + size);
-  if (size < sizeof(std::uint64_t)) return file;
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (std::size_t i = 0; i < size - sizeof(hash); ++i) hash = (hash ^ file[i]) * 0x100000001b3ULL;
-  std::memcpy(file.data() + size - sizeof(hash), &hash, sizeof(hash));
+  if (size < kFront + kSumBytes) return file;
+  if (file[4] == 3) {
+    put_sum(file, size - kSumBytes);
+    return file;
+  }
+  for (std::size_t at = kFront; at + 2 * kSumBytes <= size;) {
+    std::uint32_t payload = 0;
+    std::memcpy(&payload, file.data() + at + 4, sizeof(payload));
+    put_sum(file, at + kFront);
+    at += kFront + kSumBytes;
+    if (payload > size - at || size - at - payload < kSumBytes) break;
+    put_sum(file, at + payload);
+    at += payload + kSumBytes;
+  }
   return file;
 }
 
@@ -23,7 +49,7 @@ std::vector<std::uint8_t> with_checksum(const std::uint8_t* bytes, std::size_t s
 
 // Whatever the bytes: a session of finite numbers, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  const std::vector<std::uint8_t> whole = with_checksum(bytes, size);
+  const std::vector<std::uint8_t> whole = with_checksums(bytes, size);
   const afm::fuzz::MemoryFile file(whole.data(), whole.size());
   const auto session = afm::servo::load_session(file.path());
   if (!session) return 0;

@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -12,6 +15,8 @@
 
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
+#include "places.h"
+#include "scene/shared/shared_segment.h"
 #include "support/paper_model.h"
 #include "support/scratch_folder.h"
 
@@ -101,6 +106,19 @@ class Recording {
     run(1300);
   }
 
+  // As a frame of the wall does, about the room's x axis.
+  void turn(double angle_rad) {
+    const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), angle_rad, glm::dvec3(1.0, 0.2, 0.0)) *
+                              scene::rest_room_from_node(segment_.model(), 1);
+    scene::SceneTransforms transforms;
+    transforms.count = segment_.model().node_count;
+    for (auto& node : transforms.room_from_node) {
+      std::copy_n(glm::value_ptr(turned), node.size(), node.begin());
+    }
+    renderer_.store(transforms);
+    sessions.back().wall.push_back({.time_ns = now_ns, .room_from_sample = transforms.room_from_node[1]});
+  }
+
   scene::TipState state() { return *renderer_.tip_state(); }
 
   FaultyDevice device;
@@ -163,6 +181,49 @@ TEST(Replay, GivesEveryBitOfEveryMaterialAgainWhateverWasFeltBefore) {
     EXPECT_GE(session.events.size(), 4U);
     expect_same(session);
   }
+}
+
+TEST(Replay, TurnsTheSampleAgainAsTheWandTurnedIt) {
+  Recording recording;
+  recording.choose(test::kMica);
+  recording.cycle();
+  for (const double angle_rad : {0.1, 0.35, -0.2}) {
+    recording.turn(angle_rad);
+    recording.cycle();
+  }
+  ASSERT_EQ(recording.sessions.size(), 1U);
+  RecordedSession session = recording.sessions.front();
+  EXPECT_NE(session.samples.front().sample_normal, session.samples.back().sample_normal);
+  expect_same(session);
+  session.wall.clear();  // so that the frames are what did it
+  EXPECT_FALSE(replay(session)->identical());
+}
+
+TEST(Replay, ComparesThePartThatItIsTold) {
+  Recording recording;
+  recording.choose(test::kGold);
+  recording.cycle();
+  RecordedSession session = recording.sessions.front();
+  const std::size_t wrong = session.samples.size() / 2;
+  session.samples[wrong].hand_force_n += 1e-12;
+  const double wrong_s = session.seconds_since_start(session.samples[wrong].time_ns);
+  const Replay whole = replay(session).value();
+  EXPECT_EQ(whole.different_ticks, 1U);
+  const Replay before = replay(session, {.to_s = wrong_s - 0.01}).value();
+  const Replay after = replay(session, {.from_s = wrong_s + 0.01}).value();
+  EXPECT_TRUE(before.identical());
+  EXPECT_TRUE(after.identical());
+  EXPECT_EQ(before.events + after.events, session.events.size());
+  EXPECT_LT(before.ticks + after.ticks, whole.ticks);
+  EXPECT_FALSE(replay(session, {.from_s = wrong_s - 0.01, .to_s = wrong_s + 0.01})->identical());
+}
+
+// Recorded by 0.1.0 with g++ 12 on x86-64: the same bits from every later version.
+TEST(Replay, OfASessionOf010IsTheSameBitForBit) {
+  const auto session = load_session(AFM_SOURCE_DIR "/tests/formats/0.1.0/session-gold.afms");
+  ASSERT_TRUE(session) << session.error().message;
+  EXPECT_GT(strongest_n(*session), 0.5);
+  expect_same(*session);
 }
 
 TEST(Replay, GivesTheNoiseOfALeverAgain) {

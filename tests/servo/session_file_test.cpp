@@ -5,15 +5,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "core/whole_file.h"
 #include "haptics/device.h"
+#include "places.h"
+#include "servo/session_writer.h"
 #include "support/scratch_folder.h"
 
 namespace afm::servo {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 RecordedSession example() {
@@ -100,13 +105,103 @@ TEST(SessionFile, OfTheSameSessionHasTheSameBytes) {
   EXPECT_EQ(core::read_file(folder.file("a.afms")).value(), core::read_file(folder.file("b.afms")).value());
 }
 
-TEST(SessionFile, CutAnywhereIsRefused) {
-  const support::ScratchFolder folder;
-  ASSERT_TRUE(save_session(example(), folder.file("s.afms")).has_value());
-  const std::string whole = core::read_file(folder.file("s.afms")).value();
-  for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 200) {
-    EXPECT_NE(error_of(folder.write("cut.afms", whole.substr(0, size))), "accepted") << size;
+// Three parts, each with a third of the samples.
+std::string in_parts(const RecordedSession& whole, const std::string& path) {
+  std::optional<SessionWriter> writer;
+  RecordedSession part = whole;
+  const std::size_t third = whole.samples.size() / 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto begin = whole.samples.begin() + static_cast<std::ptrdiff_t>(i * third);
+    part.samples.assign(begin, i < 2 ? begin + static_cast<std::ptrdiff_t>(third) : whole.samples.end());
+    part.events = i == 0 ? whole.events : std::vector<scene::TipEvent>{};
+    if (!writer) writer.emplace(SessionWriter::create(part, path).value());
+    EXPECT_TRUE(writer->add(part));
   }
+  return core::read_file(path).value();  // while it is still open
+}
+
+TEST(SessionFile, CutAnywhereHoldsTheWholePartsBeforeTheCut) {
+  const support::ScratchFolder folder;
+  const std::string growing = in_parts(example(), folder.file("s.afms"));
+  std::size_t longest = 0;
+  for (std::size_t size = 0; size <= growing.size(); size += 1 + growing.size() / 300) {
+    const std::string path = folder.write("cut.afms", growing.substr(0, size));
+    const auto session = load_session(path);
+    if (!session) {
+      EXPECT_THAT(error_of(path), AnyOf(HasSubstr("cut short"), HasSubstr("not a TouchAFM session"))) << size;
+      EXPECT_EQ(longest, 0U) << size;
+      continue;
+    }
+    EXPECT_FALSE(session->complete);
+    EXPECT_EQ(session->samples.size() % 333, 0U);
+    EXPECT_GE(session->samples.size(), longest);
+    EXPECT_EQ(session->samples.front().time_ns, 5'000'000'000);
+    EXPECT_THAT(cut_text(*session, path), HasSubstr(longest < 600 ? "after 0." : "s;"));
+    longest = session->samples.size();
+  }
+  EXPECT_EQ(longest, 666U);  // the last byte but one is missing
+  EXPECT_EQ(load_session(folder.file("s.afms"))->samples.size(), 1000U);
+}
+
+TEST(SessionFile, OfAFinishedWriterIsThatOfASavedSession) {
+  const support::ScratchFolder folder;
+  const RecordedSession session = example();
+  {
+    SessionWriter writer = SessionWriter::create(session, folder.file("grown.afms")).value();
+    ASSERT_TRUE(writer.add(session));
+    ASSERT_TRUE(writer.finish());
+  }
+  ASSERT_TRUE(save_session(session, folder.file("saved.afms")));
+  EXPECT_EQ(core::read_file(folder.file("grown.afms")).value(), core::read_file(folder.file("saved.afms")).value());
+  EXPECT_TRUE(load_session(folder.file("grown.afms"))->complete);
+}
+
+TEST(SessionFile, ThatGrowsReplacesNothingAndFollowsNoLink) {
+  const support::ScratchFolder folder;
+  folder.write("there.afms", "mine");
+  std::filesystem::create_symlink(folder.file("target"), folder.file("link.afms"));
+  EXPECT_FALSE(SessionWriter::create(example(), folder.file("there.afms")));
+  EXPECT_FALSE(SessionWriter::create(example(), folder.file("link.afms")));
+  EXPECT_EQ(core::read_file(folder.file("there.afms")).value(), "mine");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("target")));
+}
+
+// 0.1.0's bytes: tests/formats/README.md.
+TEST(SessionFile, OfVersion010IsRead) {
+  const auto session = load_session(AFM_SOURCE_DIR "/tests/formats/0.1.0/session-gold.afms");
+  ASSERT_TRUE(session) << session.error().message;
+  EXPECT_EQ(session->material, "gold");
+  EXPECT_TRUE(session->complete);
+  EXPECT_TRUE(session->wall.empty());
+  EXPECT_GE(session->events.size(), 2U);
+}
+
+TEST(SessionFile, CarriesWhatTheWallShowed) {
+  const support::ScratchFolder folder;
+  RecordedSession session = example();
+  session.shown = {"mica", "gold"};
+  session.earlier_curves = {{.material = "gold", .points = {{1.5, -0.25}, {0.1, 1e-17}}}};
+  WallFrame frame{.time_ns = 5'000'000'000, .centerpiece = "instrument", .ipd_m = 0.063, .stereo = "mono"};
+  frame.navigation[0] = frame.navigation[5] = frame.navigation[10] = frame.navigation[15] = 1.0;
+  session.wall.push_back(frame);
+  frame.time_ns += 16'000'000;
+  frame.wand = RecordedWand{.pose = {.position_m = {0.1, 1.0 / 3.0, -2e-7}}, .connected = true, .buttons = 5};
+  frame.guidance = "Dr\u00fccken";
+  frame.servo_row = {{"ticks", "12 \u00b5s", "clock"}};
+  session.wall.push_back(frame);
+  frame.wand.reset();
+  frame.head.position_m = {0.3, 1.7, 2.0};
+  session.wall.push_back(frame);
+  ASSERT_TRUE(save_session(session, folder.file("w.afms")));
+  const auto loaded = load_session(folder.file("w.afms"));
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->wall, session.wall);
+  EXPECT_EQ(loaded->shown, session.shown);
+  EXPECT_EQ(loaded->earlier_curves, session.earlier_curves);
+
+  session.wall[1].head.orientation = {0.0, 0.0, 0.0, 0.0};
+  ASSERT_TRUE(save_session(session, folder.file("w.afms")));
+  EXPECT_THAT(error_of(folder.file("w.afms")), HasSubstr("says of the wall what cannot be"));
 }
 
 TEST(SessionFile, AlteredInAnyByteIsRefused) {
@@ -123,7 +218,7 @@ TEST(SessionFile, AlteredInAnyByteIsRefused) {
 TEST(SessionFile, OfAnotherVersionNamesBoth) {
   const support::ScratchFolder folder;
   EXPECT_THAT(error_of(folder.write("new.afms", std::string("AFMS\x09\0\0\0", 8))),
-              HasSubstr("version 9, this program reads version 3"));
+              HasSubstr("version 9, this program reads versions 3 and 4"));
 }
 
 TEST(SessionFile, CarriesTheCurveThatWasFelt) {

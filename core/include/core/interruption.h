@@ -10,7 +10,8 @@
 namespace afm::core {
 
 // Once, at the beginning of main, before there is any other thread: a signal undoes what is registered, the newest
-// first, logs "interrupted", and ends the process with RunFailed or CodeOfInterruption.
+// first, logs "interrupted", and ends the process with RunFailed or CodeOfInterruption. A limit on the size of files
+// ends nothing any more: write() fails. Throws std::system_error if no thread can be started.
 void take_interruptions();
 
 // What an interruption must undo, for as long as this lives. `undo` is called by the signals' thread while this one

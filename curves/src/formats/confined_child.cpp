@@ -21,6 +21,7 @@
 
 #include "core/file_descriptor.h"
 #include "core/system_error.h"
+#include "core/write_all.h"
 #include "curves/curve_error.h"
 #include "formats/confinement.h"
 
@@ -32,16 +33,6 @@ using Clock = std::chrono::steady_clock;
 
 // more than the largest curve takes as text
 constexpr std::size_t kMostResultBytes = std::size_t{1} << 30U;
-
-bool write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
 
 // Until the other end is closed. Empty: not before `end`, or too much.
 std::optional<std::string> read_all(int descriptor, Clock::time_point end) {
@@ -90,9 +81,9 @@ void keep_only(int descriptor) {
     if (::getppid() != parent) ::_exit(kFailed);  // it died before
     keep_only(descriptor);
     confine_this_process();
-    code = write_all(descriptor, work()) ? kDone : kFailed;
+    code = core::write_all(descriptor, work()) == 0 ? kDone : kFailed;
   } catch (const CurveError& fault) {
-    code = write_all(descriptor, fault.what()) ? kFault : kFailed;
+    code = core::write_all(descriptor, fault.what()) == 0 ? kFault : kFailed;
   } catch (const std::exception&) {
     code = kFailed;
   }

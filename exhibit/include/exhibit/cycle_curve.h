@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ class CycleCurve {
  public:
   void add(const scene::TipSample& sample);
   void add(const scene::TipEvent& event);
+
+  // One that was on the wall before, or its points: Z in nm, force in nN.
+  static CycleCurve from(const std::vector<std::array<double, 2>>& points);
+  std::vector<std::array<double, 2>> points() const;
 
   bool empty() const { return points_.empty(); }
 

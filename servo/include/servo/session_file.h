@@ -10,6 +10,7 @@
 
 #include "core/result.h"
 #include "scene/shared/tip_blocks.h"
+#include "servo/wall_frame.h"
 
 namespace afm::servo {
 
@@ -31,6 +32,10 @@ struct RecordedSession {
   double slow_motion = 1;   // as in TipState
   std::vector<scene::TipSample> samples;
   std::vector<scene::TipEvent> events;
+  std::vector<std::string> shown;            // the materials on the wall, by name
+  std::vector<EarlierCurve> earlier_curves;  // on the wall when the session began
+  std::vector<WallFrame> wall;               // of a live window, in the order of their times; else none
+  bool complete = true;                      // false: the file was cut, and this is what it still holds
 
   double seconds_since_start(std::int64_t time_ns) const;
   const scene::TipEvent* find(physics::EventKind kind) const;  // the first one, or null
@@ -40,13 +45,14 @@ struct RecordedSession {
 // the session may end with the choice of another.
 std::unique_ptr<scene::SharedModel> model_of(const RecordedSession& session);
 
-// A session file (.afms): "AFMS", a version, a JSON header with the material, its law, all parameters, the device's
-// limits and the scales, then the samples, the events and at most one surface as fixed-size little-endian records, then
-// a 64-bit FNV-1a checksum of all that stands before it. Written whole or not at all.
+// A session file (.afms): JSON and fixed-size records with checksums. Written whole or not at all.
 core::Result<void> save_session(const RecordedSession& session, const std::string& path);
 
-// Believes nothing unchecked: truncated, altered and foreign files, other versions, and numbers that are not finite are
-// errors that name the file.
+// Files of every version since TouchAFM 0.1.0. Believes nothing unchecked: altered and foreign files, other versions,
+// and numbers that are not finite are errors that name the file. One that was cut holds what came before.
 core::Result<RecordedSession> load_session(const std::string& path);
+
+// What to tell a user of a session that is not complete.
+std::string cut_text(const RecordedSession& session, const std::string& path);
 
 }  // namespace afm::servo

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "scene/shared/tip_blocks.h"
 #include "servo/servo_client.h"
@@ -14,12 +17,22 @@ namespace afm::servo {
 // ends at a gap or at kLongestTicks: whatever it is cut to can be replayed. One thread.
 class SessionRecorder {
  public:
-  static constexpr std::size_t kLongestTicks = 600'000;  // 10 minutes at 1 kHz, some 150 MB
+  static constexpr std::size_t kLongestTicks = 1'800'000;  // 30 minutes at 1 kHz, some 400 MB
 
   // Everything new, in the order of its times. True: a session begins with this sample, and the one before is
   // finished().
   bool add(const scene::TipSample& sample, const ServoClient& servo);
   void add(const scene::TipEvent& event);
+  void add(const WallFrame& frame);
+
+  // The curves that were on the wall when the session under way began.
+  void set_earlier(std::vector<EarlierCurve> curves) { session_.earlier_curves = std::move(curves); }
+
+  // Whether the head of the session under way is known, which may be some ticks later than its first sample.
+  bool has_head() const { return scale_known_ && !session_.samples.empty(); }
+
+  // The records of the session under way are kept elsewhere: it goes on without them.
+  void forget_records();
 
   // Forgets the session under way; the next begins as soon as the force is off.
   void begin_again();
@@ -38,6 +51,7 @@ class SessionRecorder {
   RecordedSession session_;
   std::optional<RecordedSession> finished_;
   std::optional<scene::TipSample> previous_;
+  std::size_t ticks_ = 0;  // of the session under way
   bool scale_known_ = false;
 };
 

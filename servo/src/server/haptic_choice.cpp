@@ -26,6 +26,7 @@ void log_probe(const std::vector<haptics::ProbeLine>& lines) {
 core::Result<haptics::OpenedDevice> open_recording(const std::string& file) {
   const auto session = load_session(file);
   if (!session) return tl::unexpected(session.error());
+  if (!session->complete) core::log_line(cut_text(*session, file));
   std::vector<haptics::RecordedHand> hand;
   hand.reserve(session->samples.size());
   for (const scene::TipSample& sample : session->samples) {

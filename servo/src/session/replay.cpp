@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "haptics/safety.h"
+#include "haptics/sample_axes.h"
 #include "haptics/servo_loop.h"
 #include "scene/shared/shared_segment.h"
 
@@ -47,6 +48,8 @@ class RecordedHand final : public haptics::HapticDevice {
   haptics::DeviceSpec spec_;
   DeviceSample now_;
 };
+
+std::array<double, 3> array_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 // The first result in which two records differ.
 template <class Record>
@@ -109,6 +112,7 @@ class Player {
     // it shows in the tick after
     const bool changes = index + 1 < session_.samples.size() && session_.samples[index + 1].changing != 0;
     if (changes != (chosen_ != 0)) choose(changes ? 1 : 0);
+    turn_to(sample);
     hand_.show(sample, sample.device_healthy != 0);
     loop_->tick(sample.time_ns, sample.wake_us);
     while (const auto event = renderer_.pop_event()) events_.push_back(*event);
@@ -135,14 +139,34 @@ class Player {
         .material = material, .revision = ++selection_, .scale_mode = session_.samples.front().scale_mode});
   }
 
+  // The sample was turned on the wall: by the first frame not yet used that gives these axes.
+  void turn_to(const TipSample& sample) {
+    const auto has_its_axes = [&](const haptics::SampleAxes& axes) {
+      return array_of(axes.normal()) == sample.sample_normal && array_of(axes.x()) == sample.sample_x;
+    };
+    if (has_its_axes(axes_)) return;
+    for (std::size_t i = next_frame_; i < session_.wall.size(); ++i) {
+      haptics::SampleAxes axes;
+      axes.set_orientation(session_.wall[i].room_from_sample);
+      if (!has_its_axes(axes)) continue;
+      next_frame_ = i + 1;
+      return place(session_.wall[i].room_from_sample);
+    }
+  }
+
+  void place(const std::array<double, 16>& room_from_sample) {
+    axes_.set_orientation(room_from_sample);
+    scene::SceneTransforms transforms;
+    transforms.count = 1;
+    transforms.room_from_node[0] = room_from_sample;
+    renderer_.store(transforms);
+  }
+
   // Before the session, so long ago that a hang which had lasted then lasts again: one tick that finds the hand where
   // it was, and one at whose end the material takes effect. A session that begins in a fault finds the servo in one.
   void lay_sample() {
     const TipSample& first = session_.samples.front();
-    scene::SceneTransforms transforms;
-    transforms.count = 1;
-    transforms.room_from_node[0] = session_.room_from_sample;
-    renderer_.store(transforms);
+    place(session_.room_from_sample);
     if (first.renderer != RendererLink::Absent) beat({});
     const std::int64_t before_ns = first.time_ns - SafetyGovernor::kHangNs - loop_->period_ns();
     hand_.show(first, true);
@@ -159,6 +183,8 @@ class Player {
   std::unique_ptr<haptics::ServoLoop> loop_;
   std::uint64_t frame_ = 0;
   std::int32_t chosen_ = 0;
+  haptics::SampleAxes axes_;    // as placed last
+  std::size_t next_frame_ = 0;  // of the wall, that may turn the sample
   std::uint32_t selection_ = 0;
   TipSample sample_;
   std::vector<TipEvent> events_;
@@ -166,15 +192,19 @@ class Player {
 
 }  // namespace
 
-core::Result<Replay> replay(const RecordedSession& session) {
+core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& range) {
   const auto player = Player::create(session);
   if (!player) return tl::unexpected(player.error());
+  const auto is_compared = [&](std::int64_t time_ns) { return range.holds(session.seconds_since_start(time_ns)); };
   Replay result;
-  result.ticks = session.samples.size();
   for (std::size_t i = 0; i < session.samples.size(); ++i) {
     const TipSample& recorded = session.samples[i];
+    if (session.seconds_since_start(recorded.time_ns) > range.to_s) break;
+    const bool given = (*player)->play(i);
+    if (!is_compared(recorded.time_ns)) continue;
+    ++result.ticks;
     std::optional<Difference> found = Difference{i, "material", static_cast<double>(recorded.material), -1.0};
-    if ((*player)->play(i)) {
+    if (given) {
       const TipSample& replayed = (*player)->sample();
       found = difference(i, recorded, replayed);
       result.largest_tip_n = std::max(result.largest_tip_n, std::abs(recorded.tip.force_n - replayed.tip.force_n));
@@ -184,14 +214,17 @@ core::Result<Replay> replay(const RecordedSession& session) {
     ++result.different_ticks;
     if (!result.first) result.first = found;
   }
-  const std::vector<TipEvent>& events = (*player)->events();
-  result.events = events.size();
-  for (std::size_t i = 0; i < std::max(events.size(), session.events.size()) && !result.first_event; ++i) {
-    if (i < events.size() && i < session.events.size()) {
-      result.first_event = difference(i, session.events[i], events[i]);
+  std::vector<TipEvent> given = (*player)->events(), recorded = session.events;
+  for (std::vector<TipEvent>* events : {&given, &recorded}) {
+    std::erase_if(*events, [&](const TipEvent& event) { return !is_compared(event.time_ns); });
+  }
+  result.events = given.size();
+  for (std::size_t i = 0; i < std::max(given.size(), recorded.size()) && !result.first_event; ++i) {
+    if (i < given.size() && i < recorded.size()) {
+      result.first_event = difference(i, recorded[i], given[i]);
     } else {
       result.first_event =
-          Difference{i, "count", static_cast<double>(session.events.size()), static_cast<double>(events.size())};
+          Difference{i, "count", static_cast<double>(recorded.size()), static_cast<double>(given.size())};
     }
   }
   return result;

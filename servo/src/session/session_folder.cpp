@@ -21,18 +21,40 @@ core::Result<SessionFolder> SessionFolder::open(const std::string& path) {
   return SessionFolder(path);
 }
 
-core::Result<void> SessionFolder::keep(const RecordedSession& session) {
-  const bool had_force =
-      std::any_of(session.samples.begin(), session.samples.end(),
-                  [](const scene::TipSample& sample) { return sample.servo_state == scene::ServoState::Running; });
-  if (!had_force) return {};
-  std::string file = fmt::format("{}/session-{}.afms", path_, session.material);
-  for (int number = 2; std::filesystem::exists(file); ++number) {
-    file = fmt::format("{}/session-{}-{}.afms", path_, session.material, number);
+core::Result<SessionWriter> SessionFolder::new_file(const RecordedSession& part) const {
+  std::string file = fmt::format("{}/session-{}.afms", path_, part.material);
+  for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(file)); ++number) {
+    file = fmt::format("{}/session-{}-{}.afms", path_, part.material, number);
   }
-  if (auto saved = save_session(session, file); !saved) return saved;
-  core::log_line(fmt::format("recorded: {}, {:.1f} s, {} events", file,
-                             session.seconds_since_start(session.samples.back().time_ns), session.events.size()));
+  return SessionWriter::create(part, file);
+}
+
+core::Result<void> SessionFolder::add(const RecordedSession& part) {
+  if (part.samples.empty()) return {};
+  if (!growing_) {
+    auto writer = new_file(part);
+    if (!writer) return tl::unexpected(writer.error());
+    growing_.emplace(Growing{.writer = std::move(*writer), .begin_ns = part.samples.front().time_ns});
+  }
+  growing_->end_ns = part.samples.back().time_ns;
+  growing_->events += part.events.size();
+  growing_->had_force = growing_->had_force || std::any_of(part.samples.begin(), part.samples.end(), [](const auto& s) {
+                          return s.servo_state == scene::ServoState::Running;
+                        });
+  return growing_->writer.add(part);
+}
+
+core::Result<void> SessionFolder::end() {
+  if (!growing_) return {};
+  Growing ended = std::move(*growing_);
+  growing_.reset();
+  if (!ended.had_force) {
+    ::unlink(ended.writer.path().c_str());
+    return {};
+  }
+  if (auto finished = ended.writer.finish(); !finished) return finished;
+  core::log_line(fmt::format("recorded: {}, {:.1f} s, {} events", ended.writer.path(),
+                             static_cast<double>(ended.end_ns - ended.begin_ns) * 1e-9, ended.events));
   return {};
 }
 

@@ -23,30 +23,44 @@ bool is_released(const TipSample& sample) {
 }  // namespace
 
 bool SessionRecorder::goes_on_with(const TipSample& sample) const {
-  return previous_ && same_contact(*previous_, sample) && sample.tick == previous_->tick + 1 &&
-         session_.samples.size() < kLongestTicks;
+  return previous_ && same_contact(*previous_, sample) && sample.tick == previous_->tick + 1 && ticks_ < kLongestTicks;
 }
 
 bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
   if (!goes_on_with(sample)) finish();
-  const bool begins = session_.samples.empty();
+  const bool begins = ticks_ == 0;
   const bool fresh = previous_ && !same_contact(*previous_, sample) && sample.tick == previous_->tick + 1;
   previous_ = sample;
   if (begins && !fresh && !is_released(sample)) return false;
   if (begins) begin(sample, servo);
   if (!scale_known_) take_scale(sample, servo.tip());
   session_.samples.push_back(sample);
+  ++ticks_;
   return begins;
 }
 
 void SessionRecorder::add(const scene::TipEvent& event) {
-  if (!session_.samples.empty()) session_.events.push_back(event);
+  if (ticks_ > 0) session_.events.push_back(event);
 }
 
-void SessionRecorder::begin_again() { session_ = {}; }
+void SessionRecorder::add(const WallFrame& frame) {
+  if (ticks_ > 0) session_.wall.push_back(frame);
+}
+
+void SessionRecorder::forget_records() {
+  session_.samples.clear();
+  session_.events.clear();
+  session_.wall.clear();
+}
+
+void SessionRecorder::begin_again() {
+  session_ = {};
+  ticks_ = 0;
+}
 
 void SessionRecorder::finish() {
-  if (!session_.samples.empty()) finished_ = std::exchange(session_, {});
+  if (ticks_ > 0 && scale_known_) finished_ = std::move(session_);
+  begin_again();
 }
 
 std::optional<RecordedSession> SessionRecorder::take_finished() { return std::exchange(finished_, std::nullopt); }
@@ -65,6 +79,7 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo) {
   session_.device = servo.device();
   session_.rate_hz = servo.settings().rate_hz;
   session_.dead_man = servo.settings().dead_man;
+  for (std::size_t i = 0; i < model.material_count; ++i) session_.shown.emplace_back(model.materials[i].name.data());
   scale_known_ = false;
 }
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "exhibit/cycle_curve.h"
+#include "exhibit/moment.h"
+#include "scene/display/wall.h"
+#include "servo/session_file.h"
+
+namespace afm::exhibit {
+
+// What a session keeps of a moment of the live wall; `materials` are the names of those on it. Who draws it adds the
+// place of the sample, the head and the modes.
+servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::span<const std::string> materials);
+
+servo::RecordedPose recorded(const scene::HeadPose& head);
+scene::HeadPose head_of(const servo::RecordedPose& pose);
+
+// A moment of the live wall, taken from its session.
+struct RecordedMoment {
+  const servo::WallFrame* frame = nullptr;  // of the session
+  std::vector<CycleCurve> curves;           // one per material, as they were
+  Moment moment;                            // without the curves
+};
+
+// The frame that was on the wall at `time_ns`, or the first one after it. The session must hold frames, and one of
+// `materials`, the names of those that are drawn now, must be its own.
+RecordedMoment moment_on_wall(const servo::RecordedSession& session, std::span<const std::string> materials,
+                              std::int64_t time_ns);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace afm::servo {
+
+// Places in the room frame, metres, right-handed, +y up.
+struct RecordedPose {
+  std::array<double, 3> position_m{};
+  std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: room from body
+
+  bool operator==(const RecordedPose&) const = default;
+};
+
+struct RecordedWand {
+  RecordedPose pose;
+  bool orientation_valid = false;  // as in input::WandState
+  bool position_valid = false;
+  bool connected = false;
+  std::uint32_t buttons = 0;
+
+  bool operator==(const RecordedWand&) const = default;
+};
+
+// What the wall showed in one frame beside what the servo felt. With the tick at the same time it is all that the
+// picture needs. Names are those of the files and of the command line; an empty name stands for nothing.
+struct WallFrame {
+  std::int64_t time_ns = 0;                   // CLOCK_MONOTONIC: of the state of the tip that was drawn
+  std::array<double, 16> room_from_sample{};  // as in SceneTransforms: told to the servo with this frame
+  std::array<double, 16> navigation{};        // room from room, column by column: how the scene was moved
+  std::string centerpiece{};                  // "instrument", "analogy" or "journey"
+  double journey_orders = 0;                  // 0 to 9
+  double fade = 0;                            // 0 to 1
+  std::string hovered{};                      // the material that wand or mouse points at
+  std::optional<RecordedWand> wand{};
+  RecordedPose head{};  // that the picture was drawn for
+  double ipd_m = 0;
+  std::string stereo{};  // the mode: "anaglyph-red-cyan"
+  bool eyes_swapped = false;
+  std::string panels{};  // "samples", "parameters", "keys" or "none"
+  std::string guidance{};
+  bool retracting = false;
+  double release_z_m = 0;                               // as in ActiveContact
+  std::vector<std::array<std::string, 3>> servo_row{};  // name, value, source
+
+  bool operator==(const WallFrame&) const = default;
+};
+
+// The curve of a material that was on the wall when a session began.
+struct EarlierCurve {
+  std::string material{};
+  std::vector<std::array<double, 2>> points{};  // Z in nm, force in nN
+
+  bool operator==(const EarlierCurve&) const = default;
+};
+
+// An array with an object a frame, which names only what is not as in the frame before; `last` is the frame before the
+// first one, and the last one afterwards.
+nlohmann::json json_of(const std::vector<WallFrame>& frames, nlohmann::json& last);
+
+// Throws nlohmann::json::exception when a key is missing, of the wrong type or not finite.
+std::vector<WallFrame> frames_of(const nlohmann::json& json, nlohmann::json& last);
+
+nlohmann::json json_of(const std::vector<EarlierCurve>& curves);
+std::vector<EarlierCurve> curves_of(const nlohmann::json& json);
+
+}  // namespace afm::servo

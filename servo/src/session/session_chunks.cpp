@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session_chunks.h"
+
+#include "session_header.h"
+#include "session_records.h"
+
+namespace afm::servo {
+
+namespace {
+
+constexpr std::size_t kNameBytes = 4;
+constexpr std::size_t kSumBytes = sizeof(std::uint64_t);
+
+std::string text_of(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // a text of a file that is no UTF-8
+}
+
+}  // namespace
+
+SessionEncoder::SessionEncoder() {
+  std::string start(kSessionMagic);
+  put(start, kSessionVersion);
+  add(start);
+}
+
+void SessionEncoder::head(const RecordedSession& session) {
+  chunk(kHeadChunk, text_of(header_of(session)));
+  if (!session.surface) return;
+  std::string surface;
+  put(surface, *session.surface);
+  chunk(kSurfaceChunk, surface);
+}
+
+void SessionEncoder::part(const RecordedSession& session) {
+  std::string payload;
+  put_all(payload, session.samples);
+  put_all(payload, session.events);
+  payload += text_of(json_of(session.wall, last_frame_));
+  chunk(kPartChunk, payload);
+}
+
+void SessionEncoder::end() { chunk(kEndChunk, {}); }
+
+void SessionEncoder::add(std::string_view bytes) {
+  for (const char byte : bytes) sum_.add(static_cast<unsigned char>(byte));
+  bytes_ += bytes;
+}
+
+void SessionEncoder::add_sum() {
+  std::string sum;
+  put(sum, sum_.value());
+  add(sum);
+}
+
+void SessionEncoder::chunk(std::string_view name, std::string_view payload) {
+  std::string front(name);
+  put(front, static_cast<std::uint32_t>(payload.size()));
+  add(front);
+  add_sum();
+  add(payload);
+  add_sum();
+}
+
+SessionDecoder::SessionDecoder(std::string_view file) : rest_(file) {
+  take(kSessionMagic.size() + sizeof(kSessionVersion));
+}
+
+SessionDecoder::Step SessionDecoder::next() {
+  if (name_ == kEndChunk) return rest_.empty() ? Step::End : Step::Altered;
+  std::uint32_t size = 0;
+  if (rest_.size() < kNameBytes + sizeof(size) + kSumBytes) return Step::Cut;
+  name_ = take(kNameBytes);
+  std::string_view size_bytes = take(sizeof(size));
+  servo::take(size_bytes, size);
+  if (!sum_is_right()) return Step::Altered;
+  if (rest_.size() < size + kSumBytes) return Step::Cut;
+  payload_ = take(size);
+  return sum_is_right() ? Step::Chunk : Step::Altered;
+}
+
+std::string_view SessionDecoder::take(std::size_t size) {
+  const std::string_view taken = rest_.substr(0, size);
+  for (const char byte : taken) sum_.add(static_cast<unsigned char>(byte));
+  rest_.remove_prefix(taken.size());
+  return taken;
+}
+
+bool SessionDecoder::sum_is_right() {
+  const std::uint64_t expected = sum_.value();
+  std::string_view bytes = take(kSumBytes);
+  std::uint64_t found = 0;
+  return servo::take(bytes, found) && found == expected;
+}
+
+}  // namespace afm::servo

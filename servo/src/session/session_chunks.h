@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "core/fnv1a.h"
+#include "servo/session_file.h"
+
+// A session file of version 4: "AFMS", the version, then chunks. A chunk is a name of four letters and the size of its
+// payload in 32 bits, the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a of all
+// bytes from the beginning of the file up to it, so that no chunk can be altered, left out or exchanged; where a file
+// ends inside a chunk, it was cut, and all chunks before it are whole.
+namespace afm::servo {
+
+inline constexpr std::string_view kSessionMagic = "AFMS";
+inline constexpr std::uint32_t kSessionVersion = 4;
+
+inline constexpr std::string_view kHeadChunk = "HEAD";     // JSON: header_of()
+inline constexpr std::string_view kSurfaceChunk = "SURF";  // one SharedHeightField, if the sample has one
+inline constexpr std::string_view kPartChunk = "PART";     // samples and events up to one moment, and the wall's frames
+inline constexpr std::string_view kEndChunk = "DONE";      // the last one, without a payload
+
+// Makes the bytes of a session, chunk by chunk.
+class SessionEncoder {
+ public:
+  SessionEncoder();
+
+  void head(const RecordedSession& session);  // first, with its surface
+  void part(const RecordedSession& session);  // what has come since the last part
+  void end();
+
+  const std::string& bytes() const { return bytes_; }  // since the last clear()
+  void clear() { bytes_.clear(); }
+
+ private:
+  void add(std::string_view bytes);
+  void add_sum();
+  void chunk(std::string_view name, std::string_view payload);
+
+  std::string bytes_;
+  core::Fnv1a sum_;
+  nlohmann::json last_frame_;
+};
+
+// Takes chunks apart, one after the other.
+class SessionDecoder {
+ public:
+  // Of a whole file, which must outlive it and begin with magic and version.
+  explicit SessionDecoder(std::string_view file);
+
+  enum class Step { Chunk, Cut, Altered, End };
+  Step next();
+
+  std::string_view name() const { return name_; }  // of the newest chunk
+  std::string_view payload() const { return payload_; }
+
+ private:
+  std::string_view take(std::size_t size);
+  bool sum_is_right();
+
+  std::string_view rest_;
+  core::Fnv1a sum_;
+  std::string_view name_;
+  std::string_view payload_;
+};
+
+}  // namespace afm::servo

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session_header.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <span>
+
+namespace afm::servo {
+
+namespace {
+
+// JSON has no infinity: what is rigid has no entry.
+nlohmann::json json_of(const physics::ContactParameters& contact) {
+  nlohmann::json json;
+  for (const physics::ContactField& field : physics::kContactFields) {
+    if (std::isfinite(field.get(contact))) json[field.json_key] = field.get(contact);
+  }
+  return json;
+}
+
+physics::ContactParameters contact_of(const nlohmann::json& json) {
+  physics::ContactParameters contact;
+  for (const physics::ContactField& field : physics::kContactFields) {
+    const bool rigid = field.infinity == physics::Infinity::Allowed && !json.contains(field.json_key);
+    field.set(contact, rigid ? HUGE_VAL : json.at(field.json_key).get<double>());
+  }
+  return contact;
+}
+
+nlohmann::json json_of(const scene::SharedContact& m) {
+  nlohmann::json json{{"law", static_cast<std::uint32_t>(m.law)},
+                      {"interaction", json_of(m.contact)},
+                      {"exact_hamaker_sphere", m.exact_hamaker_sphere != 0},
+                      {"retardation_wavelength_m", m.retardation_wavelength_m}};
+  if (m.has_meniscus != 0) {
+    json["meniscus"] = {{"surface_tension_N_per_m", m.meniscus.surface_tension.si},
+                        {"contact_angle_rad", m.meniscus.contact_angle_rad},
+                        {"relative_humidity", m.meniscus.relative_humidity}};
+  }
+  if (m.dynamic != 0) {
+    json["dynamics"] = {{"resonance_Hz", m.lever.resonance.si},
+                        {"quality_factor", m.lever.quality_factor},
+                        {"temperature_K", m.lever.temperature.si}};
+  }
+  return json;
+}
+
+scene::SharedContact parameters_of(const nlohmann::json& json, const std::string& name) {
+  scene::SharedContact m;
+  m.name = scene::to_name(name);
+  m.law = static_cast<physics::Law>(json.at("law").get<std::uint32_t>());
+  if (m.law == physics::Law::Measured) m.measured_curve = 0;
+  m.contact = contact_of(json.at("interaction"));
+  m.exact_hamaker_sphere = json.at("exact_hamaker_sphere").get<bool>() ? 1 : 0;
+  m.retardation_wavelength_m = json.at("retardation_wavelength_m").get<double>();
+  if (const auto meniscus = json.find("meniscus"); meniscus != json.end()) {
+    m.has_meniscus = 1;
+    m.meniscus = {.surface_tension = physics::SurfaceEnergy(meniscus->at("surface_tension_N_per_m").get<double>()),
+                  .contact_angle_rad = meniscus->at("contact_angle_rad").get<double>(),
+                  .relative_humidity = meniscus->at("relative_humidity").get<double>()};
+  }
+  if (const auto dynamics = json.find("dynamics"); dynamics != json.end()) {
+    m.dynamic = 1;
+    m.lever = {.resonance = physics::Frequency(dynamics->at("resonance_Hz").get<double>()),
+               .quality_factor = dynamics->at("quality_factor").get<double>(),
+               .temperature = physics::Temperature(dynamics->at("temperature_K").get<double>())};
+  }
+  return m;
+}
+
+nlohmann::json json_of(std::span<const physics::MeasuredPoint> branch) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const physics::MeasuredPoint& point : branch) json.push_back({point.z.si, point.force.si});
+  return json;
+}
+
+std::uint32_t branch_of(const nlohmann::json& json, std::span<physics::MeasuredPoint> branch) {
+  const auto count = static_cast<std::uint32_t>(std::min(json.size(), branch.size()));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    branch[i] = {.z = physics::Length(json.at(i).at(0).get<double>()),
+                 .force = physics::Force(json.at(i).at(1).get<double>())};
+  }
+  return count;
+}
+
+nlohmann::json json_of(const scene::SharedDevice& device) {
+  nlohmann::json json{{"name", device.name.data()},
+                      {"max_force_N", device.max_force_n},
+                      {"max_continuous_force_N", device.max_continuous_force_n},
+                      {"max_stiffness_N_per_m", device.max_stiffness_n_per_m},
+                      {"workspace_min_m", device.workspace_min_m},
+                      {"workspace_max_m", device.workspace_max_m}};
+  // what is not limited has no entry
+  if (std::isfinite(device.max_slew_n_per_s)) json["max_slew_N_per_s"] = device.max_slew_n_per_s;
+  if (std::isfinite(device.max_speed_m_per_s)) json["max_speed_m_per_s"] = device.max_speed_m_per_s;
+  return json;
+}
+
+scene::SharedDevice device_of(const nlohmann::json& json) {
+  scene::SharedDevice device{.name = {},
+                             .max_force_n = json.at("max_force_N").get<double>(),
+                             .max_continuous_force_n = json.at("max_continuous_force_N").get<double>(),
+                             .max_stiffness_n_per_m = json.at("max_stiffness_N_per_m").get<double>(),
+                             .max_slew_n_per_s = json.value("max_slew_N_per_s", HUGE_VAL),
+                             .max_speed_m_per_s = json.value("max_speed_m_per_s", HUGE_VAL),
+                             .workspace_min_m = json.at("workspace_min_m").get<std::array<double, 3>>(),
+                             .workspace_max_m = json.at("workspace_max_m").get<std::array<double, 3>>()};
+  const auto name = json.at("name").get<std::string>();
+  device.name = scene::to_name(name);
+  return device;
+}
+
+}  // namespace
+
+nlohmann::json header_of(const RecordedSession& session) {
+  nlohmann::json header{{"material", session.material},
+                        {"parameters", json_of(session.parameters)},
+                        {"rate_hz", session.rate_hz},
+                        {"realtime", session.realtime},
+                        {"hand_m_per_m", session.hand_m_per_m},
+                        {"hand_N_per_N", session.hand_n_per_n},
+                        {"slow_motion", session.slow_motion},
+                        {"room_from_sample", session.room_from_sample},
+                        {"device", json_of(session.device)},
+                        {"dead_man", session.dead_man},
+                        {"sample_bytes", sizeof(scene::TipSample)},
+                        {"event_bytes", sizeof(scene::TipEvent)},
+                        {"surface_bytes", sizeof(scene::SharedHeightField)}};
+  if (const auto& curve = session.curve) {
+    header["measured"] = {{"approach", json_of(std::span(curve->approach).first(curve->approach_count))},
+                          {"retract", json_of(std::span(curve->retract).first(curve->retract_count))}};
+  }
+  if (!session.shown.empty()) header["shown"] = session.shown;
+  if (!session.earlier_curves.empty()) header["earlier_curves"] = json_of(session.earlier_curves);
+  return header;
+}
+
+bool fits_records(const nlohmann::json& header) {
+  return header.at("sample_bytes") == sizeof(scene::TipSample) && header.at("event_bytes") == sizeof(scene::TipEvent) &&
+         header.at("surface_bytes") == sizeof(scene::SharedHeightField);
+}
+
+RecordedSession session_of(const nlohmann::json& header) {
+  RecordedSession session;
+  session.material = header.at("material").get<std::string>();
+  session.parameters = parameters_of(header.at("parameters"), session.material);
+  session.rate_hz = header.at("rate_hz").get<double>();
+  session.realtime = header.at("realtime").get<bool>();
+  session.hand_m_per_m = header.at("hand_m_per_m").get<double>();
+  session.hand_n_per_n = header.at("hand_N_per_N").get<double>();
+  session.slow_motion = header.at("slow_motion").get<double>();
+  session.room_from_sample = header.at("room_from_sample").get<std::array<double, 16>>();
+  session.device = device_of(header.at("device"));
+  session.dead_man = header.at("dead_man").get<bool>();
+  if (const auto measured = header.find("measured"); measured != header.end()) {
+    scene::SharedMeasuredCurve& curve = session.curve.emplace();
+    curve.approach_count = branch_of(measured->at("approach"), curve.approach);
+    curve.retract_count = branch_of(measured->at("retract"), curve.retract);
+  }
+  if (const auto shown = header.find("shown"); shown != header.end()) shown->get_to(session.shown);
+  if (const auto curves = header.find("earlier_curves"); curves != header.end()) {
+    session.earlier_curves = curves_of(*curves);
+  }
+  return session;
+}
+
+}  // namespace afm::servo

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "scene/shared/tip_blocks.h"
+
+// Fixed-size little-endian records, one behind the other.
+namespace afm::servo {
+
+static_assert(std::endian::native == std::endian::little, "session records are little-endian");
+
+// The records of versions 3 and 4, to the byte.
+static_assert(sizeof(scene::TipSample) == 216 && offsetof(scene::TipSample, tip) == 16 &&
+              offsetof(scene::TipSample, hand_height_m) == 56 && offsetof(scene::TipSample, servo_state) == 72 &&
+              offsetof(scene::TipSample, hand_from_contact_m) == 104 && offsetof(scene::TipSample, surface) == 176 &&
+              offsetof(scene::TipSample, motor_heat) == 200);
+static_assert(sizeof(scene::TipEvent) == 40 && offsetof(scene::TipEvent, time_ns) == 8 &&
+              offsetof(scene::TipEvent, z_m) == 16);
+
+template <class T>
+void put(std::string& bytes, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
+}
+
+template <class T>
+void put_all(std::string& bytes, const std::vector<T>& values) {
+  put(bytes, std::uint64_t{values.size()});
+  for (const T& value : values) put(bytes, value);
+}
+
+// False if there are too few bytes; otherwise they are gone from the front.
+template <class T>
+bool take(std::string_view& bytes, T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  if (bytes.size() < sizeof(T)) return false;
+  const std::string_view here = bytes.substr(0, sizeof(T));
+  std::copy(here.begin(), here.end(), reinterpret_cast<char*>(&value));
+  bytes.remove_prefix(sizeof(T));
+  return true;
+}
+
+// Appends to `values`.
+template <class T>
+bool take_all(std::string_view& bytes, std::vector<T>& values) {
+  std::uint64_t count = 0;
+  if (!take(bytes, count) || count > bytes.size() / sizeof(T)) return false;
+  const std::size_t before = values.size();
+  values.resize(before + count);
+  return std::all_of(values.begin() + static_cast<std::ptrdiff_t>(before), values.end(),
+                     [&](T& value) { return take(bytes, value); });
+}
+
+}  // namespace afm::servo

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "places.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+
+// Every file that an earlier version wrote is still read: tests/formats/README.md.
+namespace afm::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kFiles = AFM_SOURCE_DIR "/tests/formats/0.1.0/";
+
+support::ProgramResult touchafm(const std::string& arguments) {
+  return support::run_program(std::string(AFM_PROGRAM) + " " + arguments);
+}
+
+TEST(OldFormats, OfASessionReplaysBitForBit) {
+  const auto done = touchafm("replay " + kFiles + "session-gold.afms");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("is the same, bit for bit"));
+}
+
+TEST(OldFormats, OfASessionIsDrawn) {
+  const support::ScratchFolder folder;
+  const auto done =
+      touchafm("render --session " + kFiles + "session-gold.afms --at 1 --size 128x96 --stereo mono --wall " + kFiles +
+               "wall.toml --guidance " + kFiles + "guidance.toml --out " + folder.file("gold.png"));
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+}
+
+TEST(OldFormats, OfACurveIsAnalysed) {
+  const auto done = touchafm("analyse " + kFiles + "curve.csv");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("pull-off"));
+}
+
+TEST(OldFormats, OfWallMaterialsProbesAndWandAreRead) {
+  for (const std::string& command :
+       {"wall " + kFiles + "wall.toml", "curve --material gold --materials " + kFiles + "materials.toml --json",
+        "curve --material gold --probes " + kFiles + "probes.toml --json",
+        "devices --wand-file " + kFiles + "wand.toml"}) {
+    const auto done = touchafm(command);
+    EXPECT_EQ(done.exit_code, 0) << command << ": " << done.err;
+  }
+}
+
+}  // namespace
+}  // namespace afm::app
