@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `touchafm bench physics` starts: apart from touchafm, so that touchafm needs no benchmark library.
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -9,18 +8,13 @@
 #include "app/micro/physics_benchmarks.h"
 #include "app/options/command_line.h"
 #include "core/exit_code.h"
-#include "core/interruption.h"
-#include "core/log.h"
+#include "core/run_main.h"
 #include "core/version.h"
 
 namespace {
 
 using afm::core::ExitCode;
-
-int fail(ExitCode code, const std::string& message) {
-  afm::core::log_line("error: " + message);
-  return static_cast<int>(code);
-}
+using afm::core::fail;
 
 int run(int count, char** arguments) {
   afm::app::CommandLine command_line("touchafm-bench", afm::core::kVersion,
@@ -46,10 +40,5 @@ int run(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  afm::core::take_interruptions();
-  try {
-    return run(count, arguments);
-  } catch (const std::exception& error) {
-    return fail(ExitCode::RunFailed, error.what());
-  }
+  return afm::core::run_main([&] { return run(count, arguments); });
 }

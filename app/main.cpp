@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -9,24 +8,19 @@
 
 #include "app/command.h"
 #include "core/exit_code.h"
-#include "core/interruption.h"
-#include "core/log.h"
+#include "core/run_main.h"
 #include "core/version.h"
 
 namespace {
 
 using afm::core::ExitCode;
+using afm::core::fail;
 
 // Beside an installed program, share/touchafm; in a build, the source tree's assets.
 std::string find_assets(const std::filesystem::path& program) {
   const std::filesystem::path installed = program.parent_path().parent_path() / "share" / "touchafm";
   std::error_code ignored;
   return std::filesystem::is_directory(installed, ignored) ? installed.string() : AFM_ASSETS_DIR;
-}
-
-int fail(afm::core::ExitCode code, const std::string& message) {
-  afm::core::log_line("error: " + message);
-  return static_cast<int>(code);
 }
 
 // The command line would only say that a command is missing.
@@ -66,19 +60,5 @@ int run(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  using afm::core::ExitCode;
-  try {
-    afm::core::take_interruptions();
-    return run(count, arguments);
-  } catch (const std::bad_alloc&) {
-    return fail(ExitCode::RunFailed, "no memory is left: ask for less, or raise the limit (ulimit -v)");
-  } catch (const std::system_error& error) {
-    const bool limited = error.code() == std::errc::resource_unavailable_try_again;  // as pthread_create says
-    return fail(ExitCode::RunFailed,
-                limited ? "cannot start another thread: raise the limits of processes and memory (ulimit -u, ulimit -v)"
-                        : error.what());
-  } catch (const std::exception& error) {
-    // Vulkan's own failures (a lost device, no memory) and the standard library's
-    return fail(ExitCode::RunFailed, error.what());
-  }
+  return afm::core::run_main([&] { return run(count, arguments); });
 }

@@ -15,6 +15,7 @@
 #include "core/exit_code.h"
 #include "core/file_descriptor.h"
 #include "core/log.h"
+#include "core/run_main.h"
 #include "haptics/realtime.h"
 #include "haptics/servo_loop.h"
 #include "scene/shared/shared_segment.h"
@@ -146,5 +147,6 @@ int main(int count, char** arguments) {
     afm::core::log_line("touchafm-servo is started by touchafm; run 'touchafm demo --out DIR' instead");
     return static_cast<int>(ExitCode::WrongUsage);
   }
-  return static_cast<int>(options->watched_servo < 0 ? run(*options) : watch(*options));
+  return afm::core::report_exceptions(
+      [&] { return static_cast<int>(options->watched_servo < 0 ? run(*options) : watch(*options)); });
 }

@@ -48,14 +48,6 @@ void undo_all() {
   for (auto undo = all.undos.rbegin(); undo != all.undos.rend(); ++undo) undo->second();
 }
 
-// With the lock, so that nothing begins that would have to be undone.
-[[noreturn]] void end(ExitCode code) {
-  const std::lock_guard lock(interruptions().undoing);
-  undo_all();
-  log_line("interrupted");
-  ::_exit(static_cast<int>(code));
-}
-
 // Returns if the run ends by itself.
 void interrupt() {
   Interruptions& all = interruptions();
@@ -74,7 +66,7 @@ void interrupt() {
     if (all.heard.wait_for(lock, kBeforeTheEnd, asked)) return;
   }
   lock.unlock();
-  end(code);
+  end_at_once(code, "interrupted");
 }
 
 }  // namespace
@@ -89,6 +81,14 @@ void take_interruptions() {
   std::thread([ending] {
     for (int signal = 0; ::sigwait(&ending, &signal) == 0;) interrupt();
   }).detach();
+}
+
+// With the lock, so that nothing begins that would have to be undone.
+void end_at_once(ExitCode code, std::string_view line) {
+  const std::lock_guard lock(interruptions().undoing);
+  undo_all();
+  log_line(line);
+  ::_exit(static_cast<int>(code));
 }
 
 OnInterruption::OnInterruption(std::function<void()> undo) {

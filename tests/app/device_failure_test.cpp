@@ -86,6 +86,18 @@ TEST_F(DeviceFailureTest, ASurfaceThatIsLostForGoodEndsTheView) {
   EXPECT_THAT(last_line(program.said()), HasSubstr("error: the window's surface"));
 }
 
+TEST_F(DeviceFailureTest, ADeviceThatHangsIsGivenUp) {
+  const std::string out = folder_.file("out.png");
+  support::LiveProgram render(failing("hung:3", {"render", "--journey", "4", "--size", "64x48", "--out", out}), "");
+  ASSERT_EQ(render.ends(), 1) << render.said();
+  EXPECT_THAT(last_line(render.said()), AllOf(HasSubstr("error: the graphics device"), HasSubstr("within 120 s")));
+  EXPECT_FALSE(std::filesystem::exists(out));
+
+  support::LiveProgram live(view("hung:60"), display_.name());
+  ASSERT_EQ(live.ends(), 1) << live.said();
+  EXPECT_THAT(live.said(), HasSubstr("has not finished its work within 120 s"));
+}
+
 TEST_F(DeviceFailureTest, NoMemoryIsSaidInOneLine) {
   support::LiveProgram program(view("memory:3"), display_.name());
   ASSERT_EQ(program.ends(), 1) << program.said();

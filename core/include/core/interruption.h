@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 
 #include "core/exit_code.h"
 
@@ -13,6 +14,10 @@ namespace afm::core {
 // first, logs "interrupted", and ends the process with RunFailed or CodeOfInterruption. A limit on the size of files
 // ends nothing any more: write() fails. Throws std::system_error if no thread can be started.
 void take_interruptions();
+
+// Ends the process as an interruption does, but with `line` as its last words: for what would be waited for without
+// end. Any thread.
+[[noreturn]] void end_at_once(ExitCode code, std::string_view line);
 
 // What an interruption must undo, for as long as this lives. `undo` is called by the signals' thread while this one
 // runs on; it must be quick, and what it touches must not belong to one thread alone.

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/device.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <atomic>
 #include <optional>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "core/check.h"
+#include "core/interruption.h"
 #include "output/window_handle.h"
 
 namespace afm::render {
@@ -31,6 +35,26 @@ vk::DebugUtilsMessengerCreateInfoEXT messenger_info(MessageSink& sink) {
           .messageType = Type::eValidation | Type::ePerformance,
           .pfnUserCallback = on_message,
           .pUserData = &sink};
+}
+
+// Throws std::system_error if the threads that a CPU's driver needs, one a processor and one for the queue, cannot be
+// started: lavapipe does without those that it cannot have, and then never finishes.
+void check_threads() {
+  std::atomic<bool> done{false};
+  std::vector<std::jthread> threads;
+  const auto release = [&] {
+    done = true;
+    done.notify_all();
+  };
+  try {
+    for (unsigned int i = 0; i < std::thread::hardware_concurrency() + 1; ++i) {
+      threads.emplace_back([&done] { done.wait(false); });
+    }
+  } catch (...) {
+    release();
+    throw;
+  }
+  release();
 }
 
 std::optional<std::uint32_t> graphics_family(const vk::raii::PhysicalDevice& physical) {
@@ -265,6 +289,7 @@ core::Result<std::unique_ptr<Device>> Device::open(Validation validation, Presen
   if (auto chosen = device->choose_physical(presentation); !chosen) {
     return tl::unexpected(chosen.error());
   }
+  if (device->physical_.getProperties().deviceType == vk::PhysicalDeviceType::eCpu) check_threads();
   try {
     device->create_device(presentation);
   } catch (const vk::SystemError& error) {
@@ -300,10 +325,16 @@ std::uint64_t Device::largest_heap_bytes() const {
 
 void Device::wait_idle() const noexcept {
   try {
-    device_.waitIdle();
+    finish();
   } catch (const vk::SystemError&) {
     // lost, or without memory: said by whatever needs the device next
   }
+}
+
+void Device::finish() const {
+  const vk::raii::Fence fence(device_, vk::FenceCreateInfo{});
+  queue_.submit2({}, *fence);
+  wait_for(fence);
 }
 
 void Device::run_once(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
@@ -316,8 +347,24 @@ void Device::run_once(const std::function<void(const vk::raii::CommandBuffer&)>&
   const vk::raii::Fence fence(device_, vk::FenceCreateInfo{});
   const vk::CommandBufferSubmitInfo submit{.commandBuffer = *command};
   queue_.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submit}, *fence);
-  const auto result = device_.waitForFences(*fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
-  AFM_CHECK(result == vk::Result::eSuccess);
+  wait_for(fence);
+}
+
+void Device::wait_for(const vk::raii::Fence& fence) const {
+  if (device_.waitForFences(*fence, VK_TRUE, kLongestWorkNs) != vk::Result::eSuccess) give_up();
+}
+
+void Device::wait_for(const vk::raii::Semaphore& timeline, std::uint64_t value) const {
+  const vk::SemaphoreWaitInfo info{.semaphoreCount = 1, .pSemaphores = &*timeline, .pValues = &value};
+  if (device_.waitSemaphores(info, kLongestWorkNs) != vk::Result::eSuccess) give_up();
+}
+
+void Device::give_up() const {
+  core::end_at_once(
+      core::ExitCode::RunFailed,
+      fmt::format("error: the graphics device {} has not finished its work within {} s: it hangs, or is not "
+                  "allowed the threads and the memory it needs (ulimit -u, ulimit -v)",
+                  name_, kLongestWorkNs / 1'000'000'000));
 }
 
 }  // namespace afm::render

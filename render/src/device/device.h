@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -57,8 +58,16 @@ class Device {
 
   // Before what the device may still use is destroyed. A lost device uses nothing.
   void wait_idle() const noexcept;
+  void finish() const;  // the same; throws vk::SystemError
 
   std::uint64_t largest_heap_bytes() const;
+
+  // Until the device has done it. Throws vk::SystemError; ends the process if it takes longer than kLongestWork: a
+  // device that hangs cannot even be closed.
+  static constexpr std::uint64_t kLongestWorkNs = 120'000'000'000;  // a driver of a GPU gives up after some 10 s
+  void wait_for(const vk::raii::Fence& fence) const;
+  void wait_for(const vk::raii::Semaphore& timeline, std::uint64_t value) const;
+  [[noreturn]] void give_up() const;
 
   // Records with `record`, submits and waits: for uploads at start and for reading back.
   void run_once(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;

@@ -142,8 +142,7 @@ std::vector<SavedPicture> ScreenshotQueue::finish() {
   rethrow_as_device_failure(parts.device, "saving a picture", [&] {
     while (parts.handed < parts.begun) {
       const QueuedPicture& place = parts.place(parts.handed);
-      AFM_CHECK(parts.device->waitForFences(*place.copied, VK_TRUE, std::numeric_limits<std::uint64_t>::max()) ==
-                vk::Result::eSuccess);
+      parts.device.wait_for(place.copied);
       parts.hand_on();
     }
   });

@@ -214,8 +214,7 @@ std::optional<DepthRange> DepthMeter::newest() {
 void DepthMeter::wait() {
   Parts& parts = *parts_;
   if (!parts.under_way) return;
-  AFM_CHECK(parts.device->waitForFences(*parts.finished, VK_TRUE, std::numeric_limits<std::uint64_t>::max()) ==
-            vk::Result::eSuccess);
+  parts.device.wait_for(parts.finished);
   parts.collect();
 }
 

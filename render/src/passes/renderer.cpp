@@ -86,10 +86,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
   }
 }
 
-void Renderer::Parts::wait_for(std::uint64_t value) const {
-  const vk::SemaphoreWaitInfo info{.semaphoreCount = 1, .pSemaphores = &*timeline, .pValues = &value};
-  AFM_CHECK(device->waitSemaphores(info, std::numeric_limits<std::uint64_t>::max()) == vk::Result::eSuccess);
-}
+void Renderer::Parts::wait_for(std::uint64_t value) const { device.wait_for(timeline, value); }
 
 EyePassConfig Renderer::Parts::choose_drawing(const FrameState& frame, const DrawList& draws) const {
   const auto scaled = [&](std::uint32_t whole) {
@@ -285,7 +282,7 @@ core::Result<void> Renderer::resize(std::uint32_t eye_width, std::uint32_t eye_h
   }
   try {
     EyeTargets eyes(parts_->device, options);
-    parts_->device->waitIdle();
+    parts_->device.finish();
     parts_->eyes = std::move(eyes);
   } catch (const vk::SystemError& error) {
     return core::failure(core::ErrorCategory::Failed,

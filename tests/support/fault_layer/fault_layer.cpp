@@ -2,6 +2,7 @@
 // A Vulkan layer that makes a device fail as real ones do, or less able, for tests of what happens then. AFM_TEST_FAULT
 // says how:
 //   lost:N    the Nth submission, and everything that waits from then on, returns VK_ERROR_DEVICE_LOST
+//   hung:N    from the Nth submission on nothing is ever finished: what waits for it has waited long enough at once
 //   memory:N  from the Nth allocation on there is no device memory
 //   surface:N from the Nth picture of a window on its surface is lost, and no other can be had
 //   one-view  there is no multiview
@@ -53,19 +54,25 @@ bool lost(int add) { return failing("lost", submissions, add); }
 
 VKAPI_ATTR VkResult VKAPI_CALL queue_submit2(VkQueue queue, std::uint32_t count, const VkSubmitInfo2* submits,
                                              VkFence fence) {
-  if (lost(1)) return VK_ERROR_DEVICE_LOST;
+  if (lost(1)) {
+    next<PFN_vkQueueWaitIdle>("vkQueueWaitIdle")(queue);  // a lost device uses nothing any more
+    return VK_ERROR_DEVICE_LOST;
+  }
+  if (the_fault.kind == "hung") ++submissions;
   return next<PFN_vkQueueSubmit2>("vkQueueSubmit2")(queue, count, submits, fence);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL wait_semaphores(VkDevice device, const VkSemaphoreWaitInfo* info,
                                                std::uint64_t timeout) {
   if (lost(0)) return VK_ERROR_DEVICE_LOST;
+  if (failing("hung", submissions, 0)) return VK_TIMEOUT;
   return next<PFN_vkWaitSemaphores>("vkWaitSemaphores")(device, info, timeout);
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL device_wait_idle(VkDevice device) {
-  const VkResult result = next<PFN_vkDeviceWaitIdle>("vkDeviceWaitIdle")(device);
-  return lost(0) ? VK_ERROR_DEVICE_LOST : result;
+VKAPI_ATTR VkResult VKAPI_CALL wait_for_fences(VkDevice device, std::uint32_t count, const VkFence* fences,
+                                               VkBool32 all, std::uint64_t timeout) {
+  if (failing("hung", submissions, 0)) return VK_TIMEOUT;
+  return next<PFN_vkWaitForFences>("vkWaitForFences")(device, count, fences, all, timeout);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAllocateInfo* info,
@@ -163,7 +170,7 @@ PFN_vkVoidFunction own_function(const char* name) {
       {"vkGetPhysicalDeviceFeatures2", reinterpret_cast<PFN_vkVoidFunction>(get_features)},
       {"vkQueueSubmit2", reinterpret_cast<PFN_vkVoidFunction>(queue_submit2)},
       {"vkWaitSemaphores", reinterpret_cast<PFN_vkVoidFunction>(wait_semaphores)},
-      {"vkDeviceWaitIdle", reinterpret_cast<PFN_vkVoidFunction>(device_wait_idle)},
+      {"vkWaitForFences", reinterpret_cast<PFN_vkVoidFunction>(wait_for_fences)},
       {"vkAllocateMemory", reinterpret_cast<PFN_vkVoidFunction>(allocate_memory)},
       {"vkFreeMemory", reinterpret_cast<PFN_vkVoidFunction>(free_memory)},
       {"vkAcquireNextImageKHR", reinterpret_cast<PFN_vkVoidFunction>(acquire_next_image)},

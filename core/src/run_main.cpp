@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/run_main.h"
+
+#include <exception>
+#include <new>
+#include <system_error>
+
+#include "core/interruption.h"
+#include "core/log.h"
+
+namespace afm::core {
+
+int fail(ExitCode code, const std::string& message) {
+  log_line("error: " + message);
+  return static_cast<int>(code);
+}
+
+int report_exceptions(const std::function<int()>& run) noexcept {
+  try {
+    return run();
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::RunFailed, "no memory is left: ask for less, or raise the limit (ulimit -v)");
+  } catch (const std::system_error& error) {
+    const bool limited = error.code() == std::errc::resource_unavailable_try_again;  // as pthread_create says
+    return fail(ExitCode::RunFailed,
+                limited ? "cannot start another thread: raise the limits of processes and memory (ulimit -u, ulimit -v)"
+                        : error.what());
+  } catch (const std::exception& error) {
+    return fail(ExitCode::RunFailed, error.what());
+  }
+}
+
+int run_main(const std::function<int()>& run) noexcept {
+  return report_exceptions([&] {
+    take_interruptions();
+    return run();
+  });
+}
+
+}  // namespace afm::core
