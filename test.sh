@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets TouchAFM up on Debian 12, builds it with every test, and runs them. Arguments are passed on to ctest.
+# Sets TouchAFM up on Debian 12 or 13, builds it with every test, and runs them. Arguments are passed on to ctest.
 set -euo pipefail
 cd "$(dirname "$0")"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "core/log.h"
@@ -16,6 +17,16 @@ namespace {
 
 constexpr double kRepetitionLasts_s = 0.03;
 
+// Google Benchmark 1.7 (Debian 12) says that an error occurred, 1.9 (Debian 13) that the run was skipped.
+template <class Run>
+std::optional<std::string> failure_of(const Run& run) {
+  if constexpr (requires { run.error_occurred; }) {
+    return run.error_occurred ? std::optional(run.error_message) : std::nullopt;
+  } else {
+    return static_cast<int>(run.skipped) != 0 ? std::optional(run.skip_message) : std::nullopt;
+  }
+}
+
 // Keeps the times of one turn of the loop instead of printing them.
 class Collector : public benchmark::BenchmarkReporter {
  public:
@@ -25,8 +36,9 @@ class Collector : public benchmark::BenchmarkReporter {
 
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs) {
-      if (run.error_occurred) error_ = run.error_message;
-      if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+      const auto failure = failure_of(run);
+      if (failure) error_ = *failure;
+      if (failure || run.run_type != Run::RT_Iteration) continue;
       const double total = clock_ == BenchmarkClock::Wall ? run.real_accumulated_time : run.cpu_accumulated_time;
       seconds_.push_back(total / static_cast<double>(run.iterations));
     }

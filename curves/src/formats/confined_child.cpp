@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -13,6 +14,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <exception>
+#include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -59,13 +62,10 @@ bool ended_by(Clock::time_point end, pid_t child, int& status) {
   return true;
 }
 
-enum ChildExit : int { kDone = 0, kFault = 1, kFailed = 2 };
-
-// What the parent has open is not the child's. stderr stays, for a sanitizer's report.
-void keep_only(int descriptor) {
+// What the parent has open is not the child's, but for these, in their order. stderr stays, for a sanitizer's report.
+void keep_only(std::initializer_list<int> descriptors) {
   unsigned first = 0;
-  const auto [lower, upper] = std::minmax({descriptor, STDERR_FILENO});
-  for (const int kept : {lower, upper}) {
+  for (const int kept : descriptors) {
     const auto end = static_cast<unsigned>(kept);
     if (end > first) ::syscall(SYS_close_range, first, end - 1, 0U);
     first = end + 1;
@@ -73,27 +73,23 @@ void keep_only(int descriptor) {
   ::syscall(SYS_close_range, first, std::numeric_limits<unsigned>::max(), 0U);
 }
 
-// Never returns: the parent's destructors and buffers are not the child's to run or flush.
-[[noreturn]] void run_child(const std::function<std::string()>& work, int descriptor, pid_t parent) {
-  int code = kFailed;
+ChildExit work_confined(const std::function<std::string()>& work, int to_parent) {
   try {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(kFailed);  // it died before
-    keep_only(descriptor);
+    const auto [lower, upper] = std::minmax({to_parent, STDERR_FILENO});
+    keep_only({lower, upper});
     confine_this_process();
-    code = core::write_all(descriptor, work()) == 0 ? kDone : kFailed;
+    return core::write_all(to_parent, work()) == 0 ? ChildExit::Done : ChildExit::Failed;
   } catch (const CurveError& fault) {
-    code = core::write_all(descriptor, fault.what()) == 0 ? kFault : kFailed;
+    return core::write_all(to_parent, fault.what()) == 0 ? ChildExit::Fault : ChildExit::Failed;
   } catch (const std::exception&) {
-    code = kFailed;
+    return ChildExit::Failed;
   }
-  ::_exit(code);
 }
 
-}  // namespace
-
-std::string in_confined_child(const std::function<std::string()>& work, const std::string& on_death,
-                              std::chrono::milliseconds patience) {
+// What `child`, given the descriptor that leads to the parent, writes there in a forked process. Neither the parent's
+// destructors nor its buffers are the child's to run or flush.
+std::string result_of(const std::function<ChildExit(int to_parent)>& child_work, const std::string& on_death,
+                      std::chrono::milliseconds patience) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
     throw std::runtime_error(std::string("cannot make a pipe: ") + core::system_error(errno));
@@ -101,7 +97,11 @@ std::string in_confined_child(const std::function<std::string()>& work, const st
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error(std::string("cannot start a process: ") + core::system_error(errno));
-  if (child == 0) run_child(work, to_parent.get(), parent);
+  if (child == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const bool orphan = ::getppid() != parent;  // it died before
+    ::_exit(static_cast<int>(orphan ? ChildExit::Failed : child_work(to_parent.get())));
+  }
   to_parent.close();
   const auto end = Clock::now() + patience;
   const auto bytes = read_all(from_child.get(), end);
@@ -113,9 +113,57 @@ std::string in_confined_child(const std::function<std::string()>& work, const st
     throw CurveError(
         fmt::format("reading it took longer than {:g} s", std::chrono::duration<double>(patience).count()));
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kDone) return *bytes;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kFault) throw CurveError(*bytes);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ChildExit::Done)) return *bytes;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ChildExit::Fault)) throw CurveError(*bytes);
   throw CurveError(on_death);
+}
+
+// The program of that name.
+std::string find_program(const std::string& name) {
+  std::error_code error;
+  const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  for (const std::filesystem::path& folder : {here, here.parent_path() / "bin"}) {
+    if (::access((folder / name).c_str(), X_OK) == 0) return folder / name;
+  }
+  throw std::runtime_error(fmt::format("{} is missing beside touchafm: build it, or install TouchAFM again", name));
+}
+
+// A file without a name, at its beginning.
+core::FileDescriptor unnamed_file(std::string_view bytes) {
+  core::FileDescriptor file(::memfd_create("touchafm-curve", MFD_CLOEXEC));
+  const int error = !file.is_open() ? errno : core::write_all(file.get(), bytes);
+  if (error != 0 || ::lseek(file.get(), 0, SEEK_SET) != 0) {
+    throw std::runtime_error(fmt::format("cannot hand a curve over: {}", core::system_error(error)));
+  }
+  return file;
+}
+
+}  // namespace
+
+std::string in_confined_child(const std::function<std::string()>& work, const std::string& on_death,
+                              std::chrono::milliseconds patience) {
+  return result_of([&](int to_parent) { return work_confined(work, to_parent); }, on_death, patience);
+}
+
+std::string from_confined_program(const std::string& name, const std::vector<std::string>& arguments,
+                                  std::string_view input, const std::string& on_death,
+                                  std::chrono::milliseconds patience) {
+  // all that needs memory comes before the fork
+  std::string program = find_program(name);
+  std::vector<std::string> all = arguments;
+  std::vector<char*> raw{program.data()};
+  for (std::string& argument : all) raw.push_back(argument.data());
+  raw.push_back(nullptr);
+  const core::FileDescriptor file = unnamed_file(input);
+  return result_of(
+      [&](int to_parent) {
+        if (::dup2(to_parent, STDOUT_FILENO) >= 0 && ::dup2(file.get(), STDIN_FILENO) >= 0) {
+          keep_only({STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO});
+          ::execv(raw.front(), raw.data());
+        }
+        return ChildExit::Failed;
+      },
+      on_death, patience);
 }
 
 }  // namespace afm::curves

@@ -76,7 +76,8 @@ void limit_resources() {
 // Every right of Landlock's first version is handled and none is given (Linux,
 // Documentation/userspace-api/landlock.rst).
 void close_files() {
-  const landlock_ruleset_attr none{.handled_access_fs = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1U) - 1U};
+  landlock_ruleset_attr none{};
+  none.handled_access_fs = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1U) - 1U;
   const core::FileDescriptor rules(
       static_cast<int>(::syscall(SYS_landlock_create_ruleset, &none, sizeof(none.handled_access_fs), 0)));
   if (!rules.is_open()) {

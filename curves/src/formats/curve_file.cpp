@@ -11,7 +11,6 @@
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
 #include "formats/confined_child.h"
-#include "formats/hdf5_file.h"
 #include "formats/igor_file.h"
 #include "formats/jpk_file.h"
 #include "formats/tab_file.h"
@@ -22,6 +21,8 @@ namespace afm::curves {
 
 namespace {
 
+constexpr const char* kHdf5Program = "touchafm-hdf5";
+constexpr const char* kNotSurvived = "it is damaged: its reader could not survive it";
 constexpr std::uintmax_t kLargestCurveBytes = std::uintmax_t{256} << 20U;
 
 CurveFormat format_of(std::string_view bytes) {
@@ -54,8 +55,6 @@ void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
 // The formats that others made, and of which we have the readers of others or have seen few files.
 RecordedCurve read_foreign(CurveFormat format, std::string_view bytes, const CurveReading& reading) {
   switch (format) {
-    case CurveFormat::Hdf5:
-      return read_hdf5(bytes, reading.index);
     case CurveFormat::JpkForce:
       return read_jpk(bytes, reading);
     case CurveFormat::AfmWorkshop:
@@ -70,10 +69,12 @@ RecordedCurve read(std::string_view bytes, const CurveReading& reading) {
   if (reading.index != 0 && format != CurveFormat::Hdf5) throw CurveError("it holds one curve alone");
   if (format == CurveFormat::TouchAfmCsv) return read_touchafm_csv(bytes);
   if (format == CurveFormat::Tab) return read_tab(bytes);
-  if (!reading.confined) return read_foreign(format, bytes, reading);
   // handed over in the format that holds the same and has a reader of our own
-  return read_tab(in_confined_child([&] { return tab_bytes(read_foreign(format, bytes, reading)); },
-                                    "it is damaged: its reader could not survive it"));
+  if (format == CurveFormat::Hdf5) {
+    return read_tab(from_confined_program(kHdf5Program, {"read", std::to_string(reading.index)}, bytes, kNotSurvived));
+  }
+  if (!reading.confined) return read_foreign(format, bytes, reading);
+  return read_tab(in_confined_child([&] { return tab_bytes(read_foreign(format, bytes, reading)); }, kNotSurvived));
 }
 
 // What every curve is, wherever it came from.
@@ -144,7 +145,7 @@ core::Result<std::string> curve_bytes(CurveFormat format, const RecordedCurve& c
       case CurveFormat::Tab:
         return tab_bytes(curve);
       case CurveFormat::Hdf5:
-        return hdf5_bytes(curve);
+        return from_confined_program(kHdf5Program, {"write"}, tab_bytes(curve), "HDF5 could not make it");
       case CurveFormat::AfmWorkshop:
         return workshop_bytes(curve);
       case CurveFormat::TouchAfmCsv:

@@ -22,18 +22,24 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kInstallDriver =
     "install a Vulkan driver (Debian: mesa-vulkan-drivers, which also draws without a GPU)";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* sink) {
-  static_cast<MessageSink*>(sink)->add(data->pMessage);
-  return VK_FALSE;
-}
+// Of the C interface's types, or since 1.4.304 (Debian 13) of Vulkan-Hpp's own.
+using MessageCallback = decltype(vk::DebugUtilsMessengerCreateInfoEXT::pfnUserCallback);
+template <class>
+struct OnMessage;
+template <class Severity, class Types, class Data>
+struct OnMessage<VkBool32 (*)(Severity, Types, const Data*, void*)> {
+  static VKAPI_ATTR VkBool32 VKAPI_CALL call(Severity, Types, const Data* data, void* sink) {
+    static_cast<MessageSink*>(sink)->add(data->pMessage);
+    return VK_FALSE;
+  }
+};
 
 vk::DebugUtilsMessengerCreateInfoEXT messenger_info(MessageSink& sink) {
   using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
   using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
   return {.messageSeverity = Severity::eWarning | Severity::eError,
           .messageType = Type::eValidation | Type::ePerformance,
-          .pfnUserCallback = on_message,
+          .pfnUserCallback = OnMessage<MessageCallback>::call,
           .pUserData = &sink};
 }
 
@@ -325,13 +331,13 @@ std::uint64_t Device::largest_heap_bytes() const {
 
 void Device::wait_idle() const noexcept {
   try {
-    finish();
+    finish_all();
   } catch (const vk::SystemError&) {
     // lost, or without memory: said by whatever needs the device next
   }
 }
 
-void Device::finish() const {
+void Device::finish_all() const {
   const vk::raii::Fence fence(device_, vk::FenceCreateInfo{});
   queue_.submit2({}, *fence);
   wait_for(fence);

@@ -58,7 +58,7 @@ class Device {
 
   // Before what the device may still use is destroyed. A lost device uses nothing.
   void wait_idle() const noexcept;
-  void finish() const;  // the same; throws vk::SystemError
+  void finish_all() const;  // the same; throws vk::SystemError
 
   std::uint64_t largest_heap_bytes() const;
 

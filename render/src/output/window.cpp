@@ -102,7 +102,9 @@ WindowHandle::~WindowHandle() {
 vk::raii::SurfaceKHR WindowHandle::create_surface(const vk::raii::Instance& instance) const {
   VkSurfaceKHR surface = VK_NULL_HANDLE;
   const VkResult result = glfwCreateWindowSurface(*instance, window_, nullptr, &surface);
-  vk::resultCheck(static_cast<vk::Result>(result), "glfwCreateWindowSurface");
+  if (result != VK_SUCCESS) {
+    throw vk::SystemError(vk::make_error_code(static_cast<vk::Result>(result)), "glfwCreateWindowSurface");
+  }
   return vk::raii::SurfaceKHR(instance, surface);
 }
 

@@ -54,7 +54,7 @@ bool WindowSurface::follow_window(std::uint32_t layers) {
   if (capabilities.maxImageExtent.width == 0 || capabilities.maxImageExtent.height == 0) {
     return false;
   }
-  device_.finish();
+  device_.finish_all();
   swapchain_ = Swapchain(device_, *surface_, format_, wanted, layers, swapchain_ ? &*swapchain_ : nullptr);
   // an image that was taken from the old ones may have left it signalled
   acquired_ = vk::raii::Semaphore(*device_, vk::SemaphoreCreateInfo{});
@@ -97,7 +97,7 @@ void WindowSurface::record(const vk::raii::CommandBuffer& command, const WindowP
 }
 
 void WindowSurface::replace() {
-  device_.finish();
+  device_.finish_all();
   swapchain_.reset();
   index_.reset();
   surface_ = nullptr;

@@ -282,7 +282,7 @@ core::Result<void> Renderer::resize(std::uint32_t eye_width, std::uint32_t eye_h
   }
   try {
     EyeTargets eyes(parts_->device, options);
-    parts_->device.finish();
+    parts_->device.finish_all();
     parts_->eyes = std::move(eyes);
   } catch (const vk::SystemError& error) {
     return core::failure(core::ErrorCategory::Failed,

@@ -66,9 +66,10 @@ class AccessorReader {
   }
 
   void read_sparse(std::size_t size) {
-    const auto& [count, is_sparse, indices, values] = source_.sparse;
+    const auto& indices = source_.sparse.indices;
+    const auto& values = source_.sparse.values;
     SparseValues& sparse = accessor_.sparse.emplace();
-    sparse.count = static_cast<std::size_t>(count);
+    sparse.count = static_cast<std::size_t>(source_.sparse.count);
     if (sparse.count > accessor_.count) fail("has more sparse elements than elements");
     sparse.index_type = indices.componentType;
     const std::size_t width = size_of(sparse.index_type);

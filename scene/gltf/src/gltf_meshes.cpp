@@ -210,12 +210,11 @@ class PrimitiveReader {
   void read_variants() {
     const tinygltf::Value* extension = find_extension(source_.extensions, "KHR_materials_variants");
     if (extension == nullptr) return;
-    const tinygltf::Value& mappings = extension->Get("mappings");
-    for (int i = 0; i < static_cast<int>(mappings.ArrayLen()); ++i) {
-      const tinygltf::Value &material = mappings.Get(i).Get("material"), &variants = mappings.Get(i).Get("variants");
-      for (int k = 0; k < static_cast<int>(variants.ArrayLen()); ++k) {
-        primitive_.variants.push_back({static_cast<std::uint32_t>(variants.Get(k).GetNumberAsInt()),
-                                       static_cast<std::uint32_t>(material.GetNumberAsInt())});
+    using Values = tinygltf::Value::Array;
+    for (const tinygltf::Value& mapping : extension->Get("mappings").Get<Values>()) {
+      const auto material = static_cast<std::uint32_t>(mapping.Get("material").GetNumberAsInt());
+      for (const tinygltf::Value& variant : mapping.Get("variants").Get<Values>()) {
+        primitive_.variants.push_back({static_cast<std::uint32_t>(variant.GetNumberAsInt()), material});
       }
     }
   }

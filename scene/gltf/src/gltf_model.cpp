@@ -80,6 +80,11 @@ class Exchange {
   static bool read_buffer(Bytes* bytes, std::string*, const std::string& name, void* exchange) {
     return static_cast<Exchange*>(exchange)->read(name, *bytes);
   }
+  static bool size_of_buffer(std::size_t* size, std::string*, const std::string& name, void* exchange) {
+    const Source* source = static_cast<Exchange*>(exchange)->find(name);
+    if (source != nullptr) *size = source->length;
+    return source != nullptr;
+  }
 
  private:
   struct Source {
@@ -132,11 +137,17 @@ class Exchange {
     list.erase(std::remove_if(list.begin(), list.end(), moves_no_node), list.end());
   }
 
-  bool read(const std::string& name, Bytes& bytes) {
+  const Source* find(const std::string& name) const {
     std::size_t i = 0;
     std::from_chars(name.data(), name.data() + name.size(), i);
-    if (i >= sources_.size()) return false;
-    const Source& source = sources_[i];
+    return i < sources_.size() ? &sources_[i] : nullptr;
+  }
+
+  bool read(const std::string& name, Bytes& bytes) {
+    const Source* found = find(name);
+    if (found == nullptr) return false;
+    const Source& source = *found;
+    const auto i = found - sources_.data();
     if (source.kind == Source::Nothing) bytes.assign(1, 0);
     if (source.kind == Source::Chunk) bytes = std::move(*file_.binary);
     if (source.kind == Source::Uri) bytes = file_.side_files.read(source.uri);
@@ -153,6 +164,20 @@ class Exchange {
   std::size_t views_ = 0;
 };
 
+// tinygltf 2.9 (Debian 13) also asks for sizes, and takes no callbacks unless all are there.
+template <class Callbacks>
+Callbacks callbacks_of(Exchange& exchange, Callbacks callbacks) {
+  callbacks.FileExists = [](const std::string& name, void*) { return !name.empty(); };
+  callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
+  callbacks.ReadWholeFile = &Exchange::read_buffer;
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+  };
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = &Exchange::size_of_buffer;
+  callbacks.user_data = &exchange;
+  return callbacks;
+}
+
 }  // namespace
 
 GltfModel read_gltf_model(const std::string& path, GltfWarnings& notes) {
@@ -165,9 +190,7 @@ GltfModel read_gltf_model(const std::string& path, GltfWarnings& notes) {
   file.document = Json();
 
   tinygltf::TinyGLTF reader;
-  reader.SetFsCallbacks({[](const std::string& name, void*) { return !name.empty(); },
-                         [](const std::string& name, void*) { return name; }, &Exchange::read_buffer, nullptr,
-                         &exchange});
+  reader.SetFsCallbacks(callbacks_of(exchange, tinygltf::FsCallbacks{}));
   GltfModel model;
   std::string fault, warning;
   if (!reader.LoadASCIIFromString(&model.parts, &fault, &warning, text.data(), static_cast<unsigned>(text.size()),

@@ -297,9 +297,8 @@ void read_lights(const tinygltf::Model& model, Scene& scene) {
 void read_variants(const tinygltf::Model& model, Scene& scene) {
   const auto* listed = find_extension(model.extensions, "KHR_materials_variants");
   if (listed == nullptr) return;
-  const tinygltf::Value& variants = listed->Get("variants");
-  for (int i = 0; i < static_cast<int>(variants.ArrayLen()); ++i) {
-    scene.variants.push_back(variants.Get(i).Get("name").Get<std::string>());
+  for (const tinygltf::Value& variant : listed->Get("variants").Get<tinygltf::Value::Array>()) {
+    scene.variants.push_back(variant.Get("name").Get<std::string>());
   }
 }
 

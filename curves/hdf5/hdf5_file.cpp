@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/hdf5_file.h"
+#include "hdf5_file.h"
 
 #include <fmt/format.h>
 #include <hdf5.h>
