@@ -88,7 +88,7 @@ TEST_F(DeviceFailureTest, ASurfaceThatIsLostForGoodEndsTheView) {
 
 TEST_F(DeviceFailureTest, ADeviceThatHangsIsGivenUp) {
   const std::string out = folder_.file("out.png");
-  support::LiveProgram render(failing("hung:3", {"render", "--journey", "4", "--size", "64x48", "--out", out}), "");
+  support::LiveProgram render(failing("hung:1", {"render", "--journey", "4", "--size", "64x48", "--out", out}), "");
   ASSERT_EQ(render.ends(), 1) << render.said();
   EXPECT_THAT(last_line(render.said()), AllOf(HasSubstr("error: the graphics device"), HasSubstr("within 120 s")));
   EXPECT_FALSE(std::filesystem::exists(out));

@@ -260,8 +260,8 @@ TEST(Gold, IsGrainedByAFewNanometres) {
   }
   EXPECT_GT(high - low, 3e-9);
   EXPECT_LT(high - low, 9e-9);
-  const Mesh& mesh = mesh_of(scene, "surface");
-  EXPECT_EQ(scene.materials.at(mesh.primitives.at(0).material).metallic, 1.0F);
+  const std::uint32_t material = mesh_of(scene, "surface").primitives.at(0).material;
+  EXPECT_EQ(scene.materials.at(material).metallic, 1.0F);
 }
 
 }  // namespace

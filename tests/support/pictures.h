@@ -33,10 +33,10 @@ Difference difference(const render::Image& a, const render::Image& b, int tolera
 
 render::Image read_png(const std::string& path);  // throws std::runtime_error
 
-// Compares with tests/golden/<name>.png: no more than 0.1 % of the pixels may differ by more than 5/255 in a channel,
-// and none by more than 64/255. On failure <name>-actual.png, -expected.png and -difference.png are left in the build
-// tree's golden/ folder, and the text says so; empty if alike. With AFM_UPDATE_GOLDEN=1 it writes the golden picture
-// instead.
+// Compares with tests/golden/<name>.png and <name>-*.png, of which one must be like it: no more than 0.1 % of the
+// pixels may differ by more than 5/255 in a channel, and none by more than 64/255. On failure <name>-actual.png,
+// -expected.png and -difference.png are left in the build tree's golden/ folder, and the text says so; empty if alike.
+// With AFM_UPDATE_GOLDEN=1 it writes the golden picture instead.
 std::string compare_with_golden(const render::Image& actual, const std::string& name);
 
 }  // namespace afm::test

@@ -46,21 +46,23 @@ WindowSystem::~WindowSystem() {
 
 // Xlib ends the process when its connection breaks, unless both its handlers return: the one for all connections, and
 // the one of ours (libX11 1.7 and later). The functions are looked up in what GLFW has brought along: its build for
-// Wayland has none of them.
+// Wayland has none of them, and GLFW 3.4 loads libX11 for itself.
 void WindowSystem::outlive_the_display() {
   using OnError = int (*)(void* display);
   using OnExit = void (*)(void* display, void* data);
-  const auto display = reinterpret_cast<void* (*)()>(::dlsym(RTLD_DEFAULT, "glfwGetX11Display"));
-  const auto set_on_error = reinterpret_cast<OnError (*)(OnError)>(::dlsym(RTLD_DEFAULT, "XSetIOErrorHandler"));
-  const auto set_on_exit =
-      reinterpret_cast<void (*)(void*, OnExit, void*)>(::dlsym(RTLD_DEFAULT, "XSetIOErrorExitHandler"));
+  void* const x11 = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);  // never closed: what is set stays
+  const auto get_display = reinterpret_cast<void* (*)()>(::dlsym(RTLD_DEFAULT, "glfwGetX11Display"));
+  if (x11 == nullptr || get_display == nullptr) return;
+  void* const display = get_display();
+  const auto set_on_error = reinterpret_cast<OnError (*)(OnError)>(::dlsym(x11, "XSetIOErrorHandler"));
+  const auto set_on_exit = reinterpret_cast<void (*)(void*, OnExit, void*)>(::dlsym(x11, "XSetIOErrorExitHandler"));
   if (display == nullptr || set_on_error == nullptr || set_on_exit == nullptr) return;
   lost_ = false;
   set_on_error([](void*) {
     lost_ = true;
     return 0;
   });
-  set_on_exit(display(), [](void*, void*) {}, nullptr);
+  set_on_exit(display, [](void*, void*) {}, nullptr);
 }
 
 core::Result<std::vector<Monitor>> list_monitors() {
@@ -103,7 +105,12 @@ bool is_shown(const scene::PixelRect& rect, const std::vector<Monitor>& monitors
   });
 }
 
-// GLFW 3.3 is built for one window system.
-bool can_place_windows() { return std::string_view(glfwGetVersionString()).find("Wayland") == std::string_view::npos; }
+bool can_place_windows() {
+#ifdef GLFW_PLATFORM_WAYLAND
+  return glfwGetPlatform() != GLFW_PLATFORM_WAYLAND;
+#else  // GLFW 3.3 is built for one window system
+  return std::string_view(glfwGetVersionString()).find("Wayland") == std::string_view::npos;
+#endif
+}
 
 }  // namespace afm::render
