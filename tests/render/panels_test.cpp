@@ -94,6 +94,25 @@ TEST_F(PanelsInTheRoom, ACurveLiesWhereItsNumbersAre) {
   EXPECT_GT(a.y, b.y + 10.0);
 }
 
+// 9000 texels, more than a texture has: it was cut at 4096, and the state of the force with it.
+TEST_F(PanelsInTheRoom, OneThatIsLargerThanATextureIsShownWhole) {
+  auto frame = bare_frame(empty_);
+  frame.banner.state_word = "FORCE ON";
+  frame.banner.state_color = {0.0F, 1.0F, 0.0F};
+  frame.banner_placement = {.lower_left_m = {-0.9, 0.0, 0.0}, .right_m = {1.8, 0, 0}, .up_m = {0, 0.15, 0}};
+  const auto place_of_state = [&](double texels_per_m) {
+    auto options = readable();
+    options.panel_texels_per_m = texels_per_m;
+    return centroid(draw(empty_, frame, options).left, [](const Pixel& p) { return is_green(p) ? 1.0 : 0.0; });
+  };
+  const auto expected = place_of_state(600.0), found = place_of_state(5000.0);
+  ASSERT_TRUE(expected);
+  EXPECT_GT(expected->x, 370.0);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->x, expected->x, 4.0);
+  EXPECT_NEAR(found->y, expected->y, 4.0);
+}
+
 TEST_F(PanelsInTheRoom, NumbersThatAreNotFiniteAreLeftOut) {
   auto panel = line_panel({0.0F, 0.9F, 0.0F});
   const auto plain = draw(empty_, frame_with(panel), readable());

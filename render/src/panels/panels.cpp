@@ -21,7 +21,7 @@ namespace afm::render {
 namespace {
 
 constexpr vk::Format kTextureFormat = vk::Format::eR8G8B8A8Unorm;
-constexpr double kLargestTexture = 4096.0;
+constexpr std::uint32_t kLargestTexture = 8192;  // each way, or what the device can
 
 const Label kNoLabel{.text = {}, .highlighted = false, .placement = kNoPlacement};
 
@@ -99,6 +99,7 @@ void Panels::ContextDeleter::operator()(ImGuiContext* context) const { ImGui::De
 
 Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout)
     : device_(device),
+      largest_texture_(std::min(kLargestTexture, device.physical().getProperties().limits.maxImageDimension2D)),
       fonts_(std::move(fonts)),
       imgui_(ImGui::CreateContext(fonts_.atlas.get())),
       texture_layout_(create_texture_layout(device)),
@@ -190,10 +191,12 @@ Panels::Texture Panels::create_texture(vk::Extent2D extent) const {
 
 // Gives the panel a texture of its placement's size; true if it is a new one.
 bool Panels::resize(Panel& panel) {
-  const glm::dvec2 texels =
-      glm::clamp(glm::ceil(size_mm(panel.placement, fonts_) * static_cast<double>(fonts_.texels_per_mm)),
-                 glm::dvec2(1.0), glm::dvec2(kLargestTexture));
+  const glm::dvec2 canvas = glm::max(
+      glm::ceil(size_mm(panel.placement, fonts_) * static_cast<double>(fonts_.texels_per_mm)), glm::dvec2(1.0));
+  const double shrink = std::min(1.0, largest_texture_ / std::max(canvas.x, canvas.y));
+  const glm::dvec2 texels = glm::clamp(glm::ceil(shrink * canvas), glm::dvec2(1.0), glm::dvec2(largest_texture_));
   const vk::Extent2D extent{static_cast<std::uint32_t>(texels.x), static_cast<std::uint32_t>(texels.y)};
+  panel.canvas_texels = glm::vec2(canvas);
   if (panel.texture.image.extent == extent) {
     return false;
   }
@@ -205,8 +208,7 @@ bool Panels::resize(Panel& panel) {
 template <class Content>
 void Panels::paint_on(Panel& panel, const Content& content) {
   ImGui::SetCurrentContext(imgui_.get());
-  const vk::Extent2D extent = panel.texture.image.extent;
-  ImGui::GetIO().DisplaySize = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
+  ImGui::GetIO().DisplaySize = {panel.canvas_texels.x, panel.canvas_texels.y};
   ImGui::NewFrame();
   Canvas canvas(*ImGui::GetBackgroundDrawList(), fonts_, memory_, glm::vec2(size_mm(panel.placement, fonts_)));
   paint(canvas, content);
@@ -309,8 +311,7 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, *canvas_pipeline_);
   set_viewport(command, extent);
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *canvas_layout_, 0, *atlas_set_, nullptr);
-  const CanvasBlock block{
-      .scale = {2.0F / static_cast<float>(extent.width), 2.0F / static_cast<float>(extent.height), 0.0F, 0.0F}};
+  const CanvasBlock block{.scale = {2.0F / panel.canvas_texels.x, 2.0F / panel.canvas_texels.y, 0.0F, 0.0F}};
   command.pushConstants<CanvasBlock>(*canvas_layout_, vk::ShaderStageFlagBits::eVertex, 0, block);
   command.bindVertexBuffers(0, *geometry.vertices.buffer, vk::DeviceSize{0});
   command.bindIndexBuffer(*geometry.indices.buffer, 0,
@@ -318,8 +319,9 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
   for (std::size_t i = 0; i < painting.command_count; ++i) {
     const ImDrawCmd& draw = commands_[painting.first_command + i];
     const glm::vec2 limit(static_cast<float>(extent.width), static_cast<float>(extent.height));
-    const glm::vec2 from = glm::clamp(glm::vec2(draw.ClipRect.x, draw.ClipRect.y), glm::vec2(0.0F), limit);
-    const glm::vec2 to = glm::clamp(glm::vec2(draw.ClipRect.z, draw.ClipRect.w), from, limit);
+    const glm::vec2 shrink = limit / panel.canvas_texels;
+    const glm::vec2 from = glm::clamp(shrink * glm::vec2(draw.ClipRect.x, draw.ClipRect.y), glm::vec2(0.0F), limit);
+    const glm::vec2 to = glm::clamp(shrink * glm::vec2(draw.ClipRect.z, draw.ClipRect.w), from, limit);
     command.setScissor(0, vk::Rect2D{.offset = {static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y)},
                                      .extent = {static_cast<std::uint32_t>(to.x - std::floor(from.x)),
                                                 static_cast<std::uint32_t>(to.y - std::floor(from.y))}});

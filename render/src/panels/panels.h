@@ -55,6 +55,7 @@ class Panels {
     std::variant<std::monostate, ForcePanel, DataPanel, Banner, ControlPanel, Label, CalibrationPanel, EyeMark>
         painted;  // what the texture shows
     Texture texture;
+    glm::vec2 canvas_texels{1.0F};  // what is painted, which a texture of the largest size shows smaller
     bool shown = false;
     std::optional<scene::Eye> only_eye;  // whose picture alone shows it
   };
@@ -84,6 +85,7 @@ class Panels {
                        const Painting& painting) const;
 
   const Device& device_;
+  double largest_texture_;  // texels each way
   PanelFonts fonts_;
   std::unique_ptr<ImGuiContext, ContextDeleter> imgui_;
   vk::raii::DescriptorSetLayout texture_layout_;
