@@ -141,22 +141,27 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
                   "needs must be given")
       .type_name("NAME");
   add_contact_options(command, options->contact, context);
-  command
-      .add_option("--from", options->path.from,
-                  "where the cycle starts and ends, above Z_jtc: m, mm, um, nm, pm; default: a tenth above Z_joc")
-      .type_name("LENGTH");
-  command.add_option("--to", options->path.to, "where it turns, below --from: m, mm, um, nm, pm")
-      .show_default()
-      .type_name("LENGTH");
-  command.add_option("--step", options->path.step, "between samples: m, mm, um, nm, pm; at most 10 million samples")
-      .show_default()
-      .type_name("LENGTH");
+  const Option from =
+      command
+          .add_option("--from", options->path.from,
+                      "where the cycle starts and ends, above Z_jtc: m, mm, um, nm, pm; default: a tenth above Z_joc")
+          .type_name("LENGTH");
+  const Option to = command.add_option("--to", options->path.to, "where it turns, below --from: m, mm, um, nm, pm")
+                        .show_default()
+                        .type_name("LENGTH");
+  const Option step =
+      command.add_option("--step", options->path.step, "between samples: m, mm, um, nm, pm; at most 10 million samples")
+          .show_default()
+          .type_name("LENGTH");
   command.add_option("--speed", options->path.speed, "of the base, for dynamic models: m/s, mm/s, um/s; default: 1um/s")
       .type_name("VELOCITY");
   command
       .add_option("--sweep", options->sweeps,
                   "key=from:to:count, the events of one cycle for every value of a number (its option without the "
                   "dashes), :log behind it for equal ratios; twice for a grid; at most a million points")
+      .excludes(from)
+      .excludes(to)
+      .excludes(step)
       .one_value_each()
       .type_name("KEY=FROM:TO:COUNT");
   command.add_flag("--json", options->json, "the events instead of the samples, in SI");

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -79,7 +80,11 @@ bool Option::given() const { return !option_->empty(); }
 
 template <class Value>
 Option OptionList::add_option(const std::string& name, Value& target, const std::string& help) {
-  return Option(*app_->add_option(name, target, help));
+  CLI::Option* const option = app_->add_option(name, target, help);
+  if constexpr (std::same_as<Value, std::string> || std::same_as<Value, std::vector<std::string>>) {
+    option->check([](const std::string& text) { return std::string(text.empty() ? "its value is empty" : ""); });
+  }
+  return Option(*option);
 }
 
 template Option OptionList::add_option(const std::string&, std::string&, const std::string&);

@@ -77,7 +77,7 @@ core::Result<void> apply_values(const ContactOptions& options, curves::ContactSe
   for (const curves::ContactParameter& parameter : curves::contact_parameters()) {
     const auto given = options.values.find(parameter.option);
     if (given == options.values.end() || given->second.empty()) continue;
-    if (!curves::acts(parameter, setup.model)) {
+    if (!curves::changes_force(parameter, setup.model)) {
       return wrong_usage(
           fmt::format("--{} does not act on the model {}; leave it out", parameter.option, setup.model.text));
     }

@@ -213,6 +213,17 @@ bool acts(const ContactParameter& parameter, const ModelName& model) {
   return true;
 }
 
+bool changes_force(const ContactParameter& parameter, const ModelName& model) {
+  if (!acts(parameter, model)) return false;
+  if (model.automatic) return true;
+  const std::string_view option = parameter.option;
+  const LawTraits& law = physics::traits_of(model.law);
+  if (option == "work-of-adhesion") return law.adhesion;
+  if (option == "reduced-modulus") return law.modulus != physics::ModulusUse::Unused;
+  if (option == "atomic-distance") return law.atomic_distance;
+  return true;
+}
+
 core::Result<double> parse_parameter(const ContactParameter& parameter, const std::string& text) {
   const auto wrong = [&](const std::string& why) {
     return core::failure(core::ErrorCategory::WrongUsage, fmt::format("--{}: {}", parameter.option, why));

@@ -46,7 +46,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 std::string sweepable(const ModelName& model) {
   std::string names;
   for (const ContactParameter& parameter : contact_parameters()) {
-    if (acts(parameter, model)) names += fmt::format("{}{}", names.empty() ? "" : ", ", parameter.option);
+    if (changes_force(parameter, model)) names += fmt::format("{}{}", names.empty() ? "" : ", ", parameter.option);
   }
   return names;
 }
@@ -152,7 +152,7 @@ core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelNam
   }
   SweepAxis axis;
   axis.parameter = find_contact_parameter(text.substr(0, equals));
-  if (axis.parameter == nullptr || !acts(*axis.parameter, model)) {
+  if (axis.parameter == nullptr || !changes_force(*axis.parameter, model)) {
     return wrong_axis(text,
                       fmt::format("\"{}\" is no number of the model {}; it has {}",
                                   text.substr(0, std::min<std::size_t>(equals, 40)), model.text, sweepable(model)));

@@ -67,6 +67,21 @@ TEST(CurveProgram, RefusesASweepOfABillionPointsAtOnce) {
 TEST(CurveProgram, RefusesModelsAndOptionsThatDoNotFit) {
   expect_refusal("curve --material mica --model magic", 2, "unknown model");
   expect_refusal("curve --material mica --model jkr --hamaker 10zJ", 2, "--hamaker does not act on the model jkr");
+  for (const char* model : {"paper", "paper-rule", "hao", "lj", "dynamic-lj"}) {
+    expect_refusal(std::string("curve --material mica --reduced-modulus 5GPa --model ") + model, 2,
+                   "--reduced-modulus does not act on the model");
+  }
+  for (const char* model : {"paper", "paper-rule", "hao", "hertz", "dmt", "jkr", "dynamic-dmt", "dynamic-jkr"}) {
+    expect_refusal(std::string("curve --material mica --atomic-distance 0.2nm --model ") + model, 2,
+                   "--atomic-distance does not act on the model");
+  }
+  expect_refusal("curve --material mica --work-of-adhesion 1mJ/m2 --model hertz", 2, "--work-of-adhesion does not act");
+  expect_refusal("curve --material mica --sweep reduced-modulus=1GPa:2GPa:2 --model lj", 2,
+                 "is no number of the model lj");
+  expect_refusal("curve --material mica --tip-radius ''", 2, "--tip-radius: its value is empty");
+  for (const char* path : {"--from 30nm", "--to -1nm", "--step 1nm"}) {
+    expect_refusal(std::string("curve --material mica --sweep tip-radius=1nm:9nm:3 ") + path, 2, "excludes --sweep");
+  }
   expect_refusal("curve --model jkr --tip-radius 50nm", 2, "also needs --spring-constant");
   expect_refusal("curve --material mica --format svg --sweep tip-radius=1nm:9nm:3", 2, "csv or json");
   expect_refusal("curve --material mica --overlay x.tab", 2, "--overlay draws");

@@ -72,6 +72,9 @@ const ContactParameter* find_contact_parameter(std::string_view option);
 // Whether the number changes anything that is printed for this model.
 bool acts(const ContactParameter& parameter, const ModelName& model);
 
+// Whether the force changes with it. A number that only places the contact on the adhesion map acts, without that.
+bool changes_force(const ContactParameter& parameter, const ModelName& model);
+
 // Reads one value, in SI. WrongUsage names the option.
 core::Result<double> parse_parameter(const ContactParameter& parameter, const std::string& text);
 
