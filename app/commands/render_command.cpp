@@ -196,7 +196,8 @@ core::Result<void> run_render(const RenderOptions& options) {
     models.push_back(std::move(*one));
   }
   const double length_s = session->seconds_since_start(session->samples.back().time_ns);
-  if (!(options.at_s >= 0.0 && options.at_s <= length_s)) {
+  constexpr double kRoundingS = 0.0005;  // of the length as it is printed
+  if (!(options.at_s >= 0.0 && options.at_s <= length_s + kRoundingS)) {
     return core::failure(
         core::ErrorCategory::WrongUsage,
         fmt::format("--at: {:g} s is outside the session, which lasts {:.3f} s", options.at_s, length_s));
