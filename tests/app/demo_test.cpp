@@ -27,9 +27,14 @@ class Demo : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new support::ScratchFolder;
-    result_ = new support::ProgramResult(
-        support::run_program(AFM_PROGRAM " demo --out " + folder_->path() +
-                             " --hand-speed 120mm/s --eye-width 320 --servo " AFM_SERVO_MODE));
+    const std::string command =
+        AFM_PROGRAM " demo --out " + folder_->path() + " --hand-speed 120mm/s --eye-width 320 --servo " AFM_SERVO_MODE;
+    result_ = new support::ProgramResult(support::run_program(command));
+    // a virtual machine that stands still releases the hand again and again: then as a person would
+    for (int more = 0; more < 2 && gave_up_for_load(*result_); ++more) *result_ = support::run_program(command);
+  }
+  static bool gave_up_for_load(const support::ProgramResult& result) {
+    return result.exit_code == 1 && result.err.find("with less load on the machine") != std::string::npos;
   }
   static void TearDownTestSuite() {
     delete result_;
