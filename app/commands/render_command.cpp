@@ -152,9 +152,7 @@ void look_as(const servo::WallFrame& frame, scene::Wall& wall, exhibit::PictureO
 core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::SampleModel>& models,
                               const servo::RecordedSession& session, std::int64_t time_ns,
                               const RenderOptions& options) {
-  std::vector<std::string> names;
-  for (const scene::MaterialEntry& material : stage.materials.materials) names.push_back(material.name);
-  exhibit::RecordedMoment then = exhibit::moment_on_wall(session, names, time_ns);
+  exhibit::RecordedMoment then = exhibit::moment_on_wall(session, stage.materials.names(), time_ns);
   then.moment.curves = then.curves;
   if (options.analogy) then.moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
   exhibit::PictureOptions picture = options.picture;

@@ -304,9 +304,7 @@ void LiveView::follow_edits() {
 // So that the wall can be drawn again as it is now.
 void LiveView::record(const exhibit::Moment& now) {
   if (!servo_.recording()) return;
-  std::vector<std::string> names;
-  for (const scene::MaterialEntry& material : stage_.materials.materials) names.push_back(material.name);
-  servo::WallFrame shown = exhibit::wall_frame_of(now, servo_.link().tip().time_ns, names);
+  servo::WallFrame shown = exhibit::wall_frame_of(now, servo_.link().tip().time_ns, stage_.materials.names());
   shown.room_from_sample = servo_.link().room_from_sample();
   const ViewPicture::Viewing viewing = picture_.viewing();
   shown.head = exhibit::recorded(viewing.head);

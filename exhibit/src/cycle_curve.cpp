@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/cycle_curve.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "curves/plot_units.h"
@@ -14,8 +16,9 @@ CycleCurve CycleCurve::from(const std::vector<std::array<double, 2>>& points) {
 }
 
 std::vector<std::array<double, 2>> CycleCurve::points() const {
-  std::vector<std::array<double, 2>> points;
-  for (const render::PlotPoint& point : points_) points.push_back({point.z_nm, point.force_nn});
+  std::vector<std::array<double, 2>> points(points_.size());
+  std::transform(points_.begin(), points_.end(), points.begin(),
+                 [](const render::PlotPoint& point) { return std::array{point.z_nm, point.force_nn}; });
   return points;
 }
 

@@ -183,6 +183,12 @@ MaterialLibrary read_materials(const toml::table& root) {
 
 }  // namespace
 
+std::vector<std::string> MaterialLibrary::names() const {
+  std::vector<std::string> all(materials.size());
+  std::transform(materials.begin(), materials.end(), all.begin(), [](const MaterialEntry& m) { return m.name; });
+  return all;
+}
+
 const MaterialEntry* MaterialLibrary::find(std::string_view name) const { return find_named(materials, name); }
 
 core::Result<const MaterialEntry*> MaterialLibrary::require(std::string_view name) const {

@@ -37,6 +37,8 @@ struct MaterialEntry {
 struct MaterialLibrary {
   std::vector<MaterialEntry> materials;  // in the file's order, names unique, every interaction valid
 
+  std::vector<std::string> names() const;  // in their order
+
   // Null if there is none.
   const MaterialEntry* find(std::string_view name) const;
 
