@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+# `cmake --install build/release --prefix DIR` and the Debian package of scripts/package. What is installed finds its parts
+# relative to itself, so that DIR may be moved: bin/touchafm is a link to libexec/touchafm/touchafm, beside which the programs lie
+# that it starts; main.cpp looks for share/touchafm from there.
+
+# The changelog's first entry is of this version; its date is the man page's and the package's.
+file(STRINGS ${CMAKE_SOURCE_DIR}/CHANGELOG.md releases REGEX "^## ")
+list(GET releases 0 release)
+if(NOT release MATCHES "^## ${PROJECT_VERSION} \\(([0-9]+-[0-9]+-[0-9]+)\\)$")
+  message(FATAL_ERROR "CHANGELOG.md begins with \"${release}\": it must begin with \"## ${PROJECT_VERSION} (YEAR-MONTH-DAY)\"")
+endif()
+set(release_date ${CMAKE_MATCH_1})
+
+# gzip without names and times, as Debian's policy asks for
+function(afm_compressed source result)
+  add_custom_command(OUTPUT ${result} COMMAND sh -c "gzip -9nc \"$1\" >\"$2\"" sh ${source} ${result} DEPENDS ${source} VERBATIM)
+endfunction()
+
+set(reference ${CMAKE_BINARY_DIR}/reference)
+file(MAKE_DIRECTORY ${reference})
+set(assets ${CMAKE_SOURCE_DIR}/assets)
+add_custom_command(
+  OUTPUT ${reference}/touchafm.1 ${reference}/touchafm.bash
+  COMMAND write_reference ${assets} ${release_date} ${reference}
+  DEPENDS write_reference ${assets}/materials.toml ${assets}/probes.toml ${CMAKE_SOURCE_DIR}/CHANGELOG.md VERBATIM)
+afm_compressed(${reference}/touchafm.1 ${reference}/touchafm.1.gz)
+afm_compressed(${CMAKE_SOURCE_DIR}/CHANGELOG.md ${reference}/changelog.gz)
+execute_process(COMMAND date -u -R -d ${release_date} OUTPUT_VARIABLE release_time OUTPUT_STRIP_TRAILING_WHITESPACE
+                COMMAND_ERROR_IS_FATAL ANY)
+
+# An upgrade of Debian replaces the package by that of the newer Debian: its version is the higher one.
+set(package_release 1)
+if(EXISTS /etc/os-release)
+  file(STRINGS /etc/os-release system REGEX "^(ID|VERSION_ID)=")
+  if(system MATCHES "VERSION_ID=\"?([0-9.]+)")
+    set(package_release 1+deb${CMAKE_MATCH_1})
+  endif()
+endif()
+set(maintainer "TouchAFM maintainers <maintainers@users.noreply.h-seed-49c1e331.example>")
+file(CONFIGURE OUTPUT ${reference}/changelog.Debian CONTENT "touchafm (${PROJECT_VERSION}-${package_release}) unstable; urgency=medium
+
+  * See changelog.gz.
+
+ -- ${maintainer}  ${release_time}
+")
+afm_compressed(${reference}/changelog.Debian ${reference}/changelog.Debian.gz)
+add_custom_target(reference
+  DEPENDS ${reference}/touchafm.1.gz ${reference}/touchafm.bash ${reference}/changelog.gz ${reference}/changelog.Debian.gz)
+
+# What `cmake --install` needs; it does not build everything first.
+add_custom_target(installed DEPENDS touchafm touchafm-bench touchafm-hdf5 touchafm-servo reference)
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+
+set(libexec libexec/touchafm)
+install(TARGETS touchafm touchafm-bench touchafm-hdf5 touchafm-servo DESTINATION ${libexec})
+file(CREATE_LINK ../${libexec}/touchafm ${reference}/touchafm SYMBOLIC)
+install(FILES ${reference}/touchafm DESTINATION bin)
+install(DIRECTORY ${assets}/guidance ${assets}/models ${assets}/walls ${assets}/wands DESTINATION share/touchafm
+        PATTERN *.rules EXCLUDE)
+install(FILES ${assets}/materials.toml ${assets}/probes.toml DESTINATION share/touchafm)
+install(FILES ${assets}/wands/70-touchafm-wands.rules DESTINATION lib/udev/rules.d)
+install(FILES ${assets}/desktop/touchafm.desktop DESTINATION share/applications)
+install(FILES ${assets}/desktop/touchafm.svg DESTINATION share/icons/hicolor/scalable/apps)
+install(FILES ${reference}/touchafm.1.gz DESTINATION share/man/man1)
+install(FILES ${reference}/touchafm.bash DESTINATION share/bash-completion/completions RENAME touchafm)
+
+# The documents that a user reads, and files to copy: the program's own, which need not lie there twice.
+set(documents share/doc/touchafm)
+set(docs ${CMAKE_SOURCE_DIR}/docs)
+install(FILES ${CMAKE_SOURCE_DIR}/cmake/debian/copyright ${reference}/changelog.gz ${reference}/changelog.Debian.gz
+        ${docs}/manual.md ${docs}/physics.md ${docs}/curves.md ${docs}/gltf.md ${docs}/host-tuning.md ${docs}/glossary.md
+        ${docs}/adding-a-material.md ${docs}/adding-a-wand.md DESTINATION ${documents})
+foreach(example guidance materials.toml probes.toml walls wands)
+  file(MAKE_DIRECTORY ${reference}/examples)
+  file(CREATE_LINK ../../../touchafm/${example} ${reference}/examples/${example} SYMBOLIC)
+  install(FILES ${reference}/examples/${example} DESTINATION ${documents}/examples)
+endforeach()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME touchafm)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/package)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE ${package_release})
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${maintainer}")
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "virtual atomic force microscope to be felt and seen")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "One hand moves the tip of an atomic force microscope, with a force-feedback
+device or a mouse. A window or a powerwall shows cantilever, sample and force
+curve in stereo. The tip snaps onto the surface, is pressed, and is torn off.
+
+Without hardware a simulated hand runs the whole procedure. Curves of any tip,
+lever and sample are computed, and measured ones are analysed.")
+# The libraries that the programs are linked with, from their files. Opened while they run: libvulkan1, and what GLFW 3.3 opens
+# to know monitors and pointers, and depends on in Debian 13 alone.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS
+    "libvulkan1, libx11-xcb1, libxcursor1, libxi6, libxinerama1, libxrandr2, fonts-inter, fonts-dejavu-core")
+# a GPU's own driver will do; SDL2 is for gamepads
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd, libsdl2-2.0-0")
+include(CPack)
