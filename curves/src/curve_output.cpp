@@ -162,6 +162,7 @@ std::string curve_csv(const CurveRun& run) {
   if (run.motion) {
     text += fmt::format("# speed_m_per_s: {}\n# slow_motion: {}\n", run.motion->speed.si, run.motion->slow_motion);
   }
+  text += fmt::format("# samples: {}\n", run.curve.samples.size());
   text +=
       "# signs: z along the sample's outward normal from its undeformed surface; force on the tip positive away from "
       "the "

@@ -65,6 +65,9 @@ const Figure kFigures[] = {
     {"pull_off_force_N", "  force",
      [](const CurveFeatures& f) { return f.pull_off ? std::optional(f.pull_off->force.si) : std::nullopt; },
      kForceText},
+    {"adhesion_force_N", "hardest pull",
+     [](const CurveFeatures& f) { return f.adhesion ? std::optional(f.adhesion->force.si) : std::nullopt; },
+     kForceText},
     {"greatest_push_N", "greatest push", [](const CurveFeatures& f) { return std::optional(f.greatest_push.si); },
      kForceText},
     {"contact_slope_N_per_m", "contact slope",
@@ -79,6 +82,24 @@ const Figure kFigures[] = {
 std::optional<double> difference(const std::optional<double>& measured, const std::optional<double>& other) {
   if (!measured || !other) return std::nullopt;
   return *measured - *other;
+}
+
+// The methods that found a contact point, from the deepest to the outermost.
+template <class Out>
+void add_contact_method(const CurveFeatures& features, Out out) {
+  physics::Length lowest = *features.contact_point, highest = lowest;
+  for (const auto& estimate : features.contact_estimates) {
+    if (!estimate) continue;
+    lowest = std::min(lowest, *estimate);
+    highest = std::max(highest, *estimate);
+  }
+  fmt::format_to(out, "{:<16}{:>16}  (all methods: {} to {})\n", "  its method", name_of(features.contact_method),
+                 kLengthText(lowest.si), kLengthText(highest.si));
+  if (features.contact_doubtful) {
+    fmt::format_to(out,
+                   "  DOUBTFUL: the methods differ by more than a third of the pushed depth; look at the curve (--out) "
+                   "and choose one with --contact-point\n");
+  }
 }
 
 // Where an instrument's height and detector have their zeros is no property of the contact.
@@ -101,11 +122,17 @@ std::string described(const RecordedCurve& curve) {
 
 }  // namespace
 
-core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve) {
+core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve,
+                                     std::optional<physics::ContactMethod> method) {
   try {
     const bool computed = curve.metadata.software == kComputedBy;
     CurveFeatures features =
-        physics::analyse(curve.points, computed ? physics::ForceZero::True : physics::ForceZero::Instrument);
+        physics::analyse(curve.points, computed ? physics::ForceZero::True : physics::ForceZero::Instrument, method);
+    if (method && !features.contact_point) {
+      return core::failure(core::ErrorCategory::BadInputFile,
+                           fmt::format("cannot analyse {}: --contact-point {} finds no contact point; try another",
+                                       name, physics::name_of(*method)));
+    }
     return AnalysedCurve{std::move(name), std::move(curve), features};
   } catch (const std::invalid_argument& error) {
     return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot analyse {}: {}", name, error.what()));
@@ -128,6 +155,7 @@ std::string features_text(const AnalysedCurve& measured, const AnalysedCurve* ot
       fmt::format_to(out, "{:>16}{:>16}", cell(expected), cell(difference(value, expected)));
     }
     text.push_back('\n');
+    if (std::string_view(figure.key) == "contact_point_m" && value) add_contact_method(measured.features, out);
   }
   fmt::format_to(out,
                  "places are from the contact point; forces are above the baseline, positive away from the sample\n");
@@ -141,6 +169,14 @@ json features_json(const AnalysedCurve& measured, const AnalysedCurve* other) {
               {"points", measured.curve.points.size()},
               {"spring_constant_N_per_m", from.spring_constant ? json(from.spring_constant->si) : json()}};
   for (const Figure& figure : kFigures) result[figure.key] = value_or_null(figure.si(measured.features));
+  result["contact_point_method"] =
+      measured.features.contact_point ? json(name_of(measured.features.contact_method)) : json();
+  result["contact_point_doubtful"] = measured.features.contact_doubtful;
+  for (std::size_t i = 0; i < physics::kContactMethods.size(); ++i) {
+    const auto& estimate = measured.features.contact_estimates[i];
+    result["contact_point_methods_m"][std::string(physics::kContactMethods[i].name)] =
+        estimate ? json(estimate->si) : json();
+  }
   if (other == nullptr) return result;
   result["beside"]["name"] = other->name;
   for (const Figure& figure : kFigures) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -33,7 +34,17 @@ physics::Length default_start(const physics::CycleFigures& figures) {
   return physics::Length(std::ceil(above * 1e9) / 1e9);
 }
 
-core::Result<physics::SweepPlan> sweep_plan(const PathOptions& path, const physics::CycleFigures& figures) {
+// Deep enough that the sample pushes: a soft one that sticks has to be pressed by far more than 5 nm.
+physics::Length default_end(const physics::LawTables& tables) {
+  physics::Length end(-5e-9);
+  for (int i = 0; i < 40 && tables.attached.force(end).si <= 0.0; ++i) end = 1.25 * end;
+  return physics::Length(std::floor(end.si * 1e9 + 1e-6) / 1e9);
+}
+
+constexpr double kMostDefaultSteps = 20'000;
+
+core::Result<physics::SweepPlan> sweep_plan(const PathOptions& path, const physics::LawTables& tables) {
+  const physics::CycleFigures& figures = tables.figures;
   physics::SweepPlan plan;
   plan.from = default_start(figures);
   if (!path.from.empty()) {
@@ -41,12 +52,18 @@ core::Result<physics::SweepPlan> sweep_plan(const PathOptions& path, const physi
     if (!from) return tl::unexpected(from.error());
     plan.from = *from;
   }
-  const auto to = parse_option("--to", path.to, physics::kLengthUnits);
-  if (!to) return tl::unexpected(to.error());
-  const auto step = parse_option("--step", path.step, physics::kLengthUnits);
-  if (!step) return tl::unexpected(step.error());
-  plan.to = *to;
-  plan.step = *step;
+  plan.to = default_end(tables);
+  if (!path.to.empty()) {
+    const auto to = parse_option("--to", path.to, physics::kLengthUnits);
+    if (!to) return tl::unexpected(to.error());
+    plan.to = *to;
+  }
+  plan.step = physics::Length(std::max(1e-11, (plan.from - plan.to).si / kMostDefaultSteps));
+  if (!path.step.empty()) {
+    const auto step = parse_option("--step", path.step, physics::kLengthUnits);
+    if (!step) return tl::unexpected(step.error());
+    plan.step = *step;
+  }
   return plan;
 }
 
@@ -61,27 +78,47 @@ core::Result<void> sweep_static(const PathOptions& path, CurveRun& run) {
   if (!path.speed.empty()) {
     return wrong_usage(fmt::format("--speed does not act on the model {}; leave it out", run.setup.model.text));
   }
+  if (!path.seed.empty()) {
+    return wrong_usage(fmt::format("--seed does not act on the model {}; leave it out", run.setup.model.text));
+  }
   const physics::ApproachRetractModel model(
       physics::build_law_tables(run.setup.law(), run.setup.material.contact, run.setup.law_options));
   run.figures = model.figures();
-  const auto plan = sweep_plan(path, run.figures);
+  const auto plan = sweep_plan(path, model.tables());
   if (!plan) return tl::unexpected(plan.error());
   run.plan = *plan;
+  // at rest the events are those of the tables whatever the step
+  if (path.events_only && !run.setup.model.direction_rule) {
+    run.plan.step = std::max(run.plan.step, (run.plan.from - run.plan.to) / 100.0);
+  }
   run.curve = run.setup.model.direction_rule
                   ? physics::record_curve(physics::DirectionRuleModel(run.setup.material.contact), run.plan)
                   : physics::record_curve(model, run.plan);
   return {};
 }
 
+core::Result<std::uint64_t> noise_seed(const PathOptions& path) {
+  std::uint64_t seed = physics::DynamicModel::kDefaultSeed;
+  const char* end = path.seed.data() + path.seed.size();
+  if (path.seed.empty()) return seed;
+  if (const auto read = std::from_chars(path.seed.data(), end, seed); read.ec != std::errc() || read.ptr != end) {
+    return wrong_usage(fmt::format("--seed: \"{}\" is no whole number from 0 to 18446744073709551615", path.seed));
+  }
+  return seed;
+}
+
 core::Result<void> sweep_dynamic(const PathOptions& path, CurveRun& run) {
+  const auto seed = noise_seed(path);
+  if (!seed) return tl::unexpected(seed.error());
   const auto speed = ramp_speed(path);
   if (!speed) return tl::unexpected(speed.error());
   constexpr physics::Time kServoTick(1e-3);
   const physics::DynamicModel model(run.setup.law(), run.setup.material.contact, run.setup.material.lever, kServoTick,
-                                    run.setup.law_options);
+                                    run.setup.law_options, *seed);
   run.figures = model.figures();
   run.motion = {*speed, model.slow_motion()};
-  const auto plan = sweep_plan(path, run.figures);
+  const auto at_rest = physics::build_law_tables(run.setup.law(), run.setup.material.contact, run.setup.law_options);
+  const auto plan = sweep_plan(path, *at_rest);
   if (!plan) return tl::unexpected(plan.error());
   run.plan = *plan;
   run.curve = physics::record_curve(model, run.plan, *speed);

@@ -37,9 +37,10 @@ core::Result<MeasuredMaterial> load_measured_material(const std::string& path, c
   if (!recorded) return tl::unexpected(recorded.error());
   try {
     const auto branches = physics::measured_branches(recorded->points, scene::kMaxMeasuredPoints);
-    MeasuredMaterial measured{entry_of(path, recorded->metadata, like), {}};
+    MeasuredMaterial measured{entry_of(path, recorded->metadata, like), {}, physics::analyse(recorded->points)};
     measured.curve.approach_count = static_cast<std::uint32_t>(branches.approach.size());
     measured.curve.retract_count = static_cast<std::uint32_t>(branches.retract.size());
+    measured.curve.jumps = branches.jumps;
     std::copy(branches.approach.begin(), branches.approach.end(), measured.curve.approach.begin());
     std::copy(branches.retract.begin(), branches.retract.end(), measured.curve.retract.begin());
     return measured;

@@ -48,6 +48,9 @@ TEST(AdhesionMapPlot, PutsHertzAboveWhereAdhesionIsNegligible) {
 
 TEST(AdhesionMapPlot, PutsTheBordersOfTheLawsWhereTheChoiceChanges) {
   const SvgPlot plot = map_of("gold");
+  ASSERT_GE(plot.lines.size(), 4U);
+  ASSERT_GE(plot.lines[2].points.size(), 2U);
+  ASSERT_GE(plot.lines[3].points.size(), 2U);
   for (const SvgPoint& point : plot.lines[2].points) EXPECT_NEAR(point.x, 0.1, 1e-6);
   for (const SvgPoint& point : plot.lines[3].points) EXPECT_NEAR(point.x, 5.0, 1e-6);
 }

@@ -142,6 +142,19 @@ TEST(AfmWorkshopFile, InVoltsNeedsACalibrationAndTakesIt) {
   EXPECT_DOUBLE_EQ(read->points[1].z.si, -1e-9);
 }
 
+// Gwyddion and afmformats take no file without a date.
+TEST(AfmWorkshopFile, HasADateAndATimeWhereNoneAreKnown) {
+  RecordedCurve written = adhesive_curve();
+  written.metadata.date.clear();
+  written.metadata.time.clear();
+  const std::string bytes = *curve_bytes(CurveFormat::AfmWorkshop, written);
+  EXPECT_THAT(bytes, HasSubstr("\r\nDate:\tThursday, January 1, 1970\r\nTime:\t12:00:00 AM\r\n"));
+  const auto read = parse_curve(bytes, "mica");
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  EXPECT_EQ(read->metadata.date, "");
+  EXPECT_EQ(read->metadata.time, "");
+}
+
 TEST(TouchAfmCsv, IsReadBack) {
   std::string text =
       "# TouchAFM force-displacement curve\n# material: mica\n# spring_constant_N_per_m: 0.1\nz_m,force_N,branch\n";
@@ -156,6 +169,8 @@ TEST(TouchAfmCsv, IsReadBack) {
   EXPECT_THAT(error_of(text + "1e-9,nan,retract\n"), HasSubstr("line 29: force_N is \"nan\", not a finite number"));
   EXPECT_THAT(error_of(text.substr(0, text.size() / 2)), HasSubstr("cannot read the curve"));
   EXPECT_THAT(error_of(text.substr(0, text.size() - 1)), HasSubstr("it is cut short"));
+  const std::string counted = text.substr(0, text.find("z_m,")) + "# samples: 100\n" + text.substr(text.find("z_m,"));
+  EXPECT_THAT(error_of(counted), HasSubstr("samples are there"));
   EXPECT_THAT(error_of(text + "1e-9\n"), HasSubstr("line 29 has 1 fields, the heading 3"));
   EXPECT_THAT(error_of(text + "20,1e-9,retract\n"), HasSubstr("no force microscope's; is it in SI?"));
   EXPECT_THAT(error_of(text + "1e-9,1e-9,approach\n1e-9,1e-9,retract\n"),

@@ -132,6 +132,20 @@ TEST(JpkFile, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THAT(error_of(test::stored_zip({{"a.txt", "text"}})), HasSubstr("a zip archive, but not one of JPK's"));
 }
 
+TEST(JpkFile, RefusesAnExperimentThatRestsAsLongAsItApproaches) {
+  const auto with_pause = [](const char* seconds, const char* type) {
+    auto entries = jpk_entries();
+    entries["segments/0/segment-header.properties"] += "force-segment-header.duration=3.0\n";
+    entries["segments/1/segment-header.properties"] += fmt::format(
+        "force-segment-header.duration={}\nforce-segment-header.settings.segment-settings.type={}\n", seconds, type);
+    return test::stored_zip(entries);
+  };
+  EXPECT_THAT(error_of(with_pause("3.0", "constant-force-pause")), HasSubstr("it is a creep-compliance curve"));
+  EXPECT_THAT(error_of(with_pause("30.0", "constant-height-pause")),
+              HasSubstr("it is a stress-relaxation curve: its tip rests for 30 s"));
+  EXPECT_TRUE(parse_curve(with_pause("0.5", "constant-force-pause"), "a.jpk-force").has_value());
+}
+
 TEST(JpkFile, RefusesEveryCutAndAnEntryThatClaimsToBeHuge) {
   const std::string bytes = test::stored_zip(jpk_entries());
   for (std::size_t size = 4; size < bytes.size(); size += 97) {
@@ -205,6 +219,16 @@ TEST(IgorFile, IsTurnedAtItsDeepestPointAndScaledByItsNote) {
   EXPECT_EQ(curve->metadata.instrument, "MFP3D");
   EXPECT_EQ(curve->metadata.date, "2020-02-05");
   EXPECT_DOUBLE_EQ(*curve->metadata.sensitivity_m_per_v, 4.499e-08);
+}
+
+// What Asylum's program adds has no number of the curve, but a file without its end was not copied whole.
+TEST(IgorFile, RefusesATrailerThatIsCut) {
+  const std::string whole = igor_cycle().bytes() + "ForceDist:5e-06;IsForce:1; 0292 Force";
+  EXPECT_TRUE(parse_curve(whole, "a.ibw").has_value());
+  for (const std::size_t missing : {5U, 7U, 20U}) {
+    EXPECT_THAT(error_of(std::string_view(whole).substr(0, whole.size() - missing)), HasSubstr("it is cut short"))
+        << missing;
+  }
 }
 
 TEST(IgorFile, RefusesOtherVersionsDamageAndEveryCut) {

@@ -102,6 +102,8 @@ TEST(SvgPlot, DrawsAxesForNothingAtAll) {
     const std::string text = svg(plot);
     EXPECT_THAT(text, Not(HasSubstr("nan")));
     EXPECT_THAT(text, Not(HasSubstr("inf")));
+    for (const char* part : {"<svg", "<path d=", "text-anchor=\"middle\">", "</svg>"})
+      EXPECT_THAT(text, HasSubstr(part));
   }
 }
 

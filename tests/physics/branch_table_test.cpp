@@ -75,6 +75,16 @@ TEST(BranchTable, GoesOnFarAwayAsThePowerThatItHasThere) {
   EXPECT_NEAR(table.force(1_m).si, 0.0, 1e-24);
 }
 
+// No force of the kind that a table holds goes on for ever: one that has not begun to fall falls as 1/distance.
+TEST(BranchTable, LetsAForceThatDoesNotFallWhereItEndsFallAsTheDistance) {
+  const auto flat = [](double) { return -2e-9; };
+  const auto level = [](double) { return 0.0; };
+  const BranchTable table(0_nm, BranchTable::Side::Above, {piece_of(0.0, 1e-4, flat, level)});
+  const double reach_m = 1e-8;
+  EXPECT_NEAR(table.force(Length(2.0 * reach_m)).si, -1e-9, 1e-18);
+  EXPECT_NEAR(table.force(Length(10.0 * reach_m)).si, -2e-10, 1e-19);
+}
+
 TEST(BranchTable, HasAnEdgeWhereTwoPiecesMeet) {
   // flat for a nanometre below the end, then a slope: a kink that no cubic across it could follow
   const auto flat = [](double) { return -1e-9; };

@@ -126,11 +126,42 @@ INSTANTIATE_TEST_SUITE_P(CurveAnalysis, PaperCurve, testing::Values(kMica, kGold
 TEST(CurveAnalysis, FindsNeitherSnapInNorPullOffWithoutAdhesion) {
   const auto found = analyse(hertz(12.0, 0.05_N_per_m, 500_nm, 2_um, 1000));
   ASSERT_TRUE(found.contact_point);
-  EXPECT_NEAR(found.contact_point->si, 0.0, 2.5e-9);  // one step
+  EXPECT_NEAR(found.contact_point->si, 0.0, 15e-9);  // 3 % of the indentation
+  EXPECT_FALSE(found.contact_doubtful);
   EXPECT_FALSE(found.snap_in);
   EXPECT_FALSE(found.pull_off);
   EXPECT_NEAR(found.loop_energy / (found.greatest_push * 500_nm), 0.0, 1e-9);
   EXPECT_EQ(found.adhesion_energy, Energy());
+}
+
+// A stiff lever jumps off far beyond the hardest pull: `curve --json` and analyse() mean the same place and force.
+TEST(CurveAnalysis, HasThePullOffOfTheModelWhereThatIsNotTheHardestPull) {
+  const ContactParameters stiff{50_nm, 5_N_per_m, kRigid, 100_zJ, 50_mJ_per_m2, 1_GPa};
+  const ApproachRetractModel model(build_law_tables(Law::Jkr, stiff));
+  const CycleFigures& figures = model.figures();
+  ASSERT_TRUE(figures.hysteretic);
+  const Length far = 2.0 * figures.z_joc;
+  const auto found = analyse(points_of(record_curve(model, {far, -far, 0.001 * far}).samples), ForceZero::True);
+  ASSERT_TRUE(found.pull_off && found.adhesion);
+  EXPECT_NEAR(found.pull_off->force / figures.force_before_joc, 1.0, 1e-9);
+  EXPECT_NEAR(found.pull_off->z / figures.z_joc, 1.0, 1e-9);
+  EXPECT_LT(found.adhesion->force, 1.003 * found.pull_off->force);
+}
+
+TEST(CurveAnalysis, HasThePullOffWhereTheLastOfSeveralBondsBreaks) {
+  std::vector<CurvePoint> points;
+  for (int i = 0; i <= 1000; ++i)
+    points.push_back({Length(500e-9 - 1e-9 * i), std::max(Force(), Force(1e-11 * (i - 500))), Branch::Approach});
+  for (int i = 1000; i >= 0; --i) {
+    const double up_nm = 500 - i;
+    const Force pull(up_nm < -100 ? 1e-11 * -up_nm : up_nm < 100 ? -5e-9 : up_nm < 200 ? -2e-9 : 0.0);
+    points.push_back({Length(1e-9 * up_nm), pull, Branch::Retract});
+  }
+  const auto found = analyse(points);
+  ASSERT_TRUE(found.pull_off && found.adhesion);
+  EXPECT_NEAR(found.pull_off->force / 1_nN, -2.0, 1e-3);
+  EXPECT_NEAR(found.pull_off->z / 1_nm, 199.0, 1.5);
+  EXPECT_NEAR(found.adhesion->force / 1_nN, -5.0, 1e-3);
 }
 
 TEST(CurveAnalysis, FindsNoFeatureInNoise) {

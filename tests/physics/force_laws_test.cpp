@@ -87,14 +87,17 @@ TEST(ForceLaws, ParametersRiseAlongBothBranchesAndKinksLieBetween) {
 }
 
 TEST(ForceLaws, BranchesAreContinuousAtTheirKinks) {
-  for_every_law([](Law name, const ContactParameters& m, const ForceLaw& law, RandomInteraction&) {
+  std::size_t kinks = 0;
+  for_every_law([&kinks](Law name, const ContactParameters& m, const ForceLaw& law, RandomInteraction&) {
     for (const double kink : law.attached.kinks) {
       const LawPoint below = law.attached.at(kink - 1e-13);
       const LawPoint above = law.attached.at(kink + 1e-13);
       EXPECT_NEAR((below.h - above.h).si, 0.0, kRounding * (m.atomic_distance + law.contact_gap).si) << name_of(name);
       EXPECT_NEAR(below.force.si, above.force.si, kRounding * adhesion_force(m).si) << name_of(name);
+      ++kinks;
     }
   });
+  EXPECT_GT(kinks, 1000U);
 }
 
 TEST(ForceLaws, ReachAMillimetreBothWays) {

@@ -56,14 +56,19 @@ TEST(MeasuredTables, JumpWhereTheRecordingDoes) {
 TEST(MeasuredTables, PassThroughThePoints) {
   const Recording recording = recording_of_mica();
   const auto tables = measured_law_tables(recording.approach, recording.retract, kMica);
+  std::size_t free = 0, attached = 0;
   for (const MeasuredPoint& point : recording.approach) {
     if (point.z < tables->figures.z_jtc) continue;
+    ++free;
     EXPECT_NEAR(tables->free.force(point.z).si, point.force.si, 2e-14);
   }
   for (const MeasuredPoint& point : recording.retract) {
     if (point.z > tables->figures.z_joc) continue;
+    ++attached;
     EXPECT_NEAR(tables->attached.force(point.z).si, point.force.si, 2e-14);
   }
+  EXPECT_GT(free, recording.approach.size() / 4);
+  EXPECT_GT(attached, recording.retract.size() / 4);
 }
 
 TEST(MeasuredTables, DriveTheLatch) {

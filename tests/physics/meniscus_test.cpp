@@ -28,6 +28,15 @@ TEST(Meniscus, FilmsAreAsThickAsTheHeaderSays) {
   EXPECT_NEAR(film_height(at_humidity(0.75)).si, 0.24e-9, 0.005e-9);
 }
 
+// The film of 0.178296 nm that Kelvin's and Hamaker's pressures leave at 50 %, twice that, and cbrt(4 pi R h^2) for 50
+// nm, computed outside the program.
+TEST(Meniscus, ABridgeFormsAtTwoFilmsAndBreaksAtTheRootOfItsVolume) {
+  const Meniscus half = at_humidity(0.5);
+  EXPECT_NEAR(film_height(half).si, 1.782962378901542e-10, 1e-22);
+  EXPECT_NEAR(bridge_formation_gap(half).si, 3.565924757803084e-10, 1e-22);
+  EXPECT_NEAR(bridge_rupture_gap(half, 50_nm).si, 2.7132391550892988e-09, 1e-21);
+}
+
 TEST(Meniscus, BridgesFormAndBreakFartherAwayInDamperAir) {
   Length formation;
   Length rupture;

@@ -42,6 +42,16 @@ TEST(QuantityText, ReadsANumberAndItsUnit) {
   EXPECT_DOUBLE_EQ(parsed(".5um", kLengthUnits), 5e-7);
 }
 
+TEST(QuantityText, ReadsTheUnitsOfOtherPrograms) {
+  EXPECT_DOUBLE_EQ(parsed("10pN/nm", kStiffnessUnits), 0.01);
+  EXPECT_DOUBLE_EQ(parsed("3 \u00c5", kLengthUnits), 3e-10);
+  EXPECT_DOUBLE_EQ(parsed("3 \u212b", kLengthUnits), 3e-10);  // the sign for the unit
+  EXPECT_DOUBLE_EQ(parsed("0.15 eV", kEnergyUnits), 0.15 * 1.602176634e-19);
+  EXPECT_DOUBLE_EQ(parsed("25 \u00b0C", kTemperatureUnits), 298.15);
+  EXPECT_DOUBLE_EQ(parsed("-5degC", kTemperatureUnits), 268.15);
+  EXPECT_EQ(format_quantity(Temperature(298.15), kTemperatureUnits), "298.15 K");
+}
+
 TEST(QuantityText, ReadsLargeUnitsExactly) {
   EXPECT_EQ(parsed("169 GPa", kPressureUnits), 1.69e11);
   EXPECT_EQ(parsed("1.2 TPa", kPressureUnits), 1.2e12);

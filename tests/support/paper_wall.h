@@ -19,9 +19,7 @@ class PaperWall : public ::testing::Test {
   const scene::MaterialLibrary materials_ =
       scene::load_materials(assets_ + "/materials.toml").value().only(scene::kPaperMaterials).value();
   const scene::Wall wall_ = scene::load_wall(assets_ + "/walls/powerwall.toml").value();
-  const exhibit::WallScene scene_ =
-      exhibit::WallScene::load(assets_, materials_, wall_.screens.front(), wall_.viewers.front().sweet_spot.position_m)
-          .value();
+  const exhibit::WallScene scene_ = exhibit::WallScene::load(assets_, materials_, exhibit::stage_place(wall_)).value();
 
   scene::NodeIndex node(const std::string& name) const { return scene_.scene().find_node(name).value(); }
 };

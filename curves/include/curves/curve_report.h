@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,10 @@ struct AnalysedCurve {
 };
 
 // A computed curve keeps its own zero of the force; a measured one gets a baseline. BadInputFile, naming the curve, if
-// it cannot be analysed.
-core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve);
+// it cannot be analysed, and if the method that was asked for finds no contact point. Without a method the analysis
+// chooses one (physics/curve_analysis.h).
+core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve,
+                                     std::optional<physics::ContactMethod> method = std::nullopt);
 
 // One line a feature, with its unit, places from the contact point; with another curve its figures and the differences
 // stand beside. `other` may be null.

@@ -15,10 +15,12 @@ namespace afm::curves {
 // The path of the lever's base, as it was written.
 struct PathOptions {
   std::string
-      from{};  // empty: above jump-off-contact by a tenth, and above jump-to-contact by 5 nm, in whole nanometres
-  std::string to = "-5nm";
-  std::string step = "0.01nm";
-  std::string speed{};  // empty: 1 um/s; acts on dynamic models only
+      from{};        // empty: above jump-off-contact by a tenth, and above jump-to-contact by 5 nm, in whole nanometres
+  std::string to{};  // empty: -5 nm, or deeper where the sample is still pulling there
+  std::string step{};        // empty: 0.01 nm, or a twenty-thousandth of a longer way
+  std::string speed{};       // empty: 1 um/s; acts on dynamic models only
+  std::string seed{};        // of the noise, a whole number; empty: the usual one; acts on dynamic models only
+  bool events_only = false;  // the samples are not asked for: models at rest need few
 };
 
 // How a dynamic model moved.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -67,6 +68,17 @@ void check_header(std::string_view bytes) {
   if (sum != 0) throw CurveError("the checksum of its header is wrong");
 }
 
+// Asylum's program adds a text that ends with its own length and kind, "0292 Force".
+void check_trailer(std::string_view trailer) {
+  if (trailer.empty()) return;
+  std::size_t letters = 0, digits = 0;
+  const auto last = [&](std::size_t back) { return back < trailer.size() ? trailer[trailer.size() - 1 - back] : '\0'; };
+  while (std::isalpha(static_cast<unsigned char>(last(letters))) != 0) ++letters;
+  while (std::isdigit(static_cast<unsigned char>(last(letters + 1 + digits))) != 0) ++digits;
+  if (letters == 0 || last(letters) != ' ' || digits != 4)
+    throw CurveError("it is cut short: the text at its end is not whole");
+}
+
 Wave read_wave(std::string_view bytes) {
   check_header(bytes);
   Wave wave;
@@ -107,6 +119,7 @@ Wave read_wave(std::string_view bytes) {
   }
   if (wave.labels.size() != wave.columns)
     throw CurveError("its columns have no labels, so that nobody knows which is which");
+  check_trailer(bytes.substr(offset + labels.size()));
   return wave;
 }
 

@@ -161,6 +161,17 @@ void add_segment(const Segment& segment, physics::Branch branch, const CurveRead
   }
 }
 
+// A rest as long as the way down is an experiment on its own, whose retract says what the sample has become by then.
+void check_pause(const Segment& pause, double approach_s) {
+  const double rest_s = pause.properties().number("force-segment-header.duration").value_or(0.0);
+  if (approach_s <= 0.0 || rest_s < approach_s) return;
+  const auto type = pause.properties().text("force-segment-header.settings.segment-settings.type").value_or("");
+  throw CurveError(fmt::format(
+      "it is a {} curve: its tip rests for {:g} s between an approach of {:g} s and the retract; only force-distance "
+      "curves are read",
+      type == "constant-height-pause" ? "stress-relaxation" : "creep-compliance", rest_s, approach_s));
+}
+
 void read_metadata(const Segment& segment, const CurveReading& reading, CurveMetadata& metadata) {
   metadata.software = "JPK";
   metadata.sensitivity_m_per_v =
@@ -196,6 +207,7 @@ RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
   }
 
   RecordedCurve curve;
+  double approach_s = 0.0;
   for (int i = 0;; ++i) {
     const std::string folder = fmt::format("segments/{}/", i);
     if (!archive.holds(folder + "segment-header.properties")) break;
@@ -206,8 +218,12 @@ RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
     properties.add(general);
     const Segment segment(archive, folder, std::move(properties));
     const std::string style = style_of(segment);
-    if (style == "pause") continue;
+    if (style == "pause") {
+      check_pause(segment, approach_s);
+      continue;
+    }
     if (style != "extend" && style != "retract") throw CurveError(fmt::format("segment {} is \"{}\"", i, style));
+    if (style == "extend") approach_s = segment.properties().number("force-segment-header.duration").value_or(0.0);
     if (curve.points.empty()) read_metadata(segment, reading, curve.metadata);
     add_segment(segment, style == "extend" ? physics::Branch::Approach : physics::Branch::Retract, reading, curve);
   }

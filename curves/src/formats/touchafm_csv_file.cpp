@@ -10,11 +10,15 @@ namespace afm::curves {
 
 namespace {
 
-void read_comment(std::string_view line, const Lines& lines, CurveMetadata& metadata) {
+// The number of samples is 0 in what 0.1.0 wrote.
+void read_comment(std::string_view line, const Lines& lines, CurveMetadata& metadata, double& samples) {
+  constexpr std::string_view kSamplesLine = "# samples: ";
   constexpr std::string_view kSpringConstantLine = "# spring_constant_N_per_m: ", kMaterialLine = "# material: ";
   if (line.starts_with(kSpringConstantLine)) {
     metadata.spring_constant =
         physics::Stiffness(number_in(line.substr(kSpringConstantLine.size()), "spring_constant_N_per_m", lines));
+  } else if (line.starts_with(kSamplesLine)) {
+    samples = number_in(line.substr(kSamplesLine.size()), "samples", lines);
   } else if (line.starts_with(kMaterialLine)) {
     metadata.curve_id = line.substr(kMaterialLine.size());
   }
@@ -27,8 +31,9 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
   curve.metadata.instrument = curve.metadata.software = kComputedBy;
   Lines lines(bytes);
   std::string_view line;
+  double samples = 0.0;
   bool more = lines.next(line);
-  for (; more && line.starts_with('#'); more = lines.next(line)) read_comment(line, lines, curve.metadata);
+  for (; more && line.starts_with('#'); more = lines.next(line)) read_comment(line, lines, curve.metadata, samples);
 
   std::vector<std::string_view> names, fields;
   split(line, ',', names);
@@ -52,6 +57,9 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
   // a whole cycle comes back up, and its last line is ended
   if (curve.points.empty() || curve.points.back().branch != physics::Branch::Retract || !bytes.ends_with('\n')) {
     throw CurveError("it is cut short");
+  }
+  if (const auto count = static_cast<double>(curve.points.size()); samples > 0.0 && count != samples) {
+    throw CurveError(fmt::format("it is cut short: {} of {} samples are there", count, samples));
   }
   return curve;
 }

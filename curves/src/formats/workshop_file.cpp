@@ -51,6 +51,11 @@ std::string iso_date(std::string_view text) {
   return fmt::format("{:04}-{:02}-{:02}", *year, month + 1, *day);
 }
 
+// AFM Workshop's files always have a date, which Gwyddion and afmformats need to take them; of a curve that has none
+// they get this one, and it is no date again when the file is read.
+constexpr const char* kNoDate = "Thursday, January 1, 1970";
+constexpr const char* kNoTime = "12:00:00 AM";
+
 // "2020-02-14" as "Friday, February 14, 2020"; empty for what is no such date.
 std::string long_date(std::string_view iso) {
   std::vector<std::string_view> parts;
@@ -85,8 +90,8 @@ Header read_header(Lines& lines) {
       const double value = number_in(text, key, lines);
       return value == 1.0 ? std::nullopt : std::optional(value);
     };
-    if (const auto date = value_of("Date:"); !date.empty()) header.metadata.date = iso_date(date);
-    if (const auto time = value_of("Time:"); !time.empty()) header.metadata.time = time;
+    if (const auto date = value_of("Date:"); !date.empty() && date != kNoDate) header.metadata.date = iso_date(date);
+    if (const auto time = value_of("Time:"); !time.empty() && time != kNoTime) header.metadata.time = time;
     if (const auto version = value_of("Software Version:"); !version.empty())
       header.metadata.software_version = version;
     if (const auto gain = calibration("Light Lever Gain, mV/nm:")) header.metadata.sensitivity_m_per_v = 1e-6 / *gain;
@@ -168,9 +173,9 @@ std::string workshop_bytes(const RecordedCurve& curve) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "Force-Distance Curve\r\nFile Format:\t3\r\n\r\n");
-  if (const std::string date = long_date(curve.metadata.date); !date.empty())
-    fmt::format_to(out, "Date:\t{}\r\n", date);
-  if (!curve.metadata.time.empty()) fmt::format_to(out, "Time:\t{}\r\n", curve.metadata.time);
+  const std::string date = long_date(curve.metadata.date);
+  fmt::format_to(out, "Date:\t{}\r\n", date.empty() ? kNoDate : date);
+  fmt::format_to(out, "Time:\t{}\r\n", curve.metadata.time.empty() ? kNoTime : curve.metadata.time);
   fmt::format_to(out, "Mode:\tSingle\r\nPoint:\t0\r\nX, um:\t0.000000\r\nY, um:\t0.000000\r\n");
   if (curve.metadata.spring_constant) {
     fmt::format_to(out, "Force Constant, nN/nm:\t{}\r\n", curve.metadata.spring_constant->si);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "physics/contact_point.h"
+#include "physics/curve_point.h"
 #include "physics/force_curve.h"
 #include "physics/units.h"
 
@@ -27,15 +30,6 @@ struct CurveSummary {
 
 // For samples in the order of the cycle. The loop is closed only if the first and the last sample share their Z.
 CurveSummary summarise(std::span<const CurveSample> samples);
-
-// One point of any curve, simulated or measured: the height of the lever's base, which falls while the tip approaches
-// and is known only up to a constant if an instrument measured it, and the lever's force, positive away from the
-// sample.
-struct CurvePoint {
-  Length z;
-  Force force;
-  Branch branch = Branch::Approach;
-};
 
 // The curve of a model as an instrument would have recorded it.
 std::vector<CurvePoint> points_of(std::span<const CurveSample> samples);
@@ -61,24 +55,35 @@ struct CurveJump {
 // What users of force microscopes read off a curve. All forces are above the baseline; a feature that does not stand
 // out of the noise is absent.
 //
-// - contact_point: where the lever is unbent and the tip is on the surface: the first zero of the approach's force,
-// from
-//   the deepest point outwards. With adhesion this is the "contact line's zero", not the jump; nanite's and AtomicJ's
-//   contact point of a curve without adhesion.
+// - contact_point: by the method that was asked for. Without one, the zero of the force where the approach is pulled
+//   before contact (the contact line's zero, not the jump) or the curve is computed, else the fit of a polynomial.
+// - contact_estimates: what each method says. contact_doubtful: without a pull, fewer than four of the five methods
+//   that need none lie within a third of the pushed depth of the contact point.
 // - snap_in: the jump to contact ("jump-in", "pull-on"). Only a fall that is sudden at the curve's own step counts.
-// - pull_off: the hardest pull of the retract branch ("adhesion force", "pull-off", SPM-Kit's "adhesion").
+// - pull_off: the jump off contact, the last point before the force rises suddenly for the last time; forces of a
+//   curve's pull_off are those of a model's. A curve that lets go without a jump has it where it is pulled hardest, in
+//   the median of neighbouring samples.
+// - adhesion: the hardest pull of the retract ("adhesion force", SPM-Kit's "adhesion"); the pull-off unless bonds break
+//   one after the other or the lever is stiff.
+// - let_go: where the tip is free again: the pull-off where that is a jump, else where the last significant pull ends;
+//   without a pull, the contact point.
 // - contact_slope: -dF/dZ of the approach's upper half, by least squares: the lever's stiffness where the sample is
-// much
-//   stiffer ("InvOLS" is its inverse, in volts).
-// - loop_energy: the area between the branches over the Z that both cover ("hysteresis area").
+//   much stiffer ("InvOLS" is its inverse, in volts).
+// - loop_energy: the area between the branches from the deepest point to let_go ("hysteresis area").
 // - adhesion_energy: the area between the retract branch and the baseline while the tip is pulled ("work of
 //   separation").
 struct CurveFeatures {
   Baseline baseline;
   Force greatest_push;
   std::optional<Length> contact_point;
+  ContactMethod contact_method = ContactMethod::ZeroForce;
+  std::array<std::optional<Length>, kContactMethods.size()> contact_estimates{};  // in the order of kContactMethods
+  bool contact_doubtful = false;
   std::optional<CurveJump> snap_in;
   std::optional<Extreme> pull_off;
+  bool jumps_off = false;  // the pull-off is a jump
+  std::optional<Extreme> adhesion;
+  std::optional<Length> let_go;
   std::optional<Stiffness> contact_slope;
   Energy loop_energy;
   Energy adhesion_energy;
@@ -93,6 +98,7 @@ enum class ForceZero { Instrument, True };
 
 // For points in the order of the cycle, of any number of samples a branch. Throws std::invalid_argument if the approach
 // has fewer than kFewestApproachPoints, a point is not finite, or all points share their Z. O(n log n), allocates.
-CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero = ForceZero::Instrument);
+CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero = ForceZero::Instrument,
+                      std::optional<ContactMethod> method = std::nullopt);
 
 }  // namespace afm::physics

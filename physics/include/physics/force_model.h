@@ -50,7 +50,8 @@ TipResponse respond(const LawTables& tables, Phase phase, Length z, Force force)
 // A law of force as a two-state latch: Free until Z <= Z_jtc, Attached until Z >= Z_joc. The direction of motion is
 // never consulted.
 //
-// - F is that of the free or of the attached branch of the law's tables, and no other.
+// - F is that of the free or of the attached branch of the law's tables; of a recorded curve in contact, that of
+//   LawTables::contact_force().
 // - The thresholds are looked for on the whole path between two steps, taken as straight, and the jump's place and
 //   forces are the law's figures: they do not depend on where the samples fell.
 // - No jump happens inside (Z_jtc, Z_joc); a wiggle there costs no work, and no closed path gives work.
@@ -74,6 +75,7 @@ class ApproachRetractModel {
   void wait_for_lift() noexcept { phase_ = Phase::WaitForLift; }
 
   Phase phase() const noexcept { return phase_; }
+  Length lowest_z() const noexcept { return lowest_z_; }  // while attached: how deep the contact was pressed
   Law law() const noexcept { return tables_->law; }
   const ContactParameters& contact() const noexcept { return tables_->contact; }
   const CycleFigures& figures() const noexcept { return tables_->figures; }
@@ -86,6 +88,7 @@ class ApproachRetractModel {
   std::shared_ptr<const LawTables> tables_;
   Phase phase_ = Phase::WaitForLift;
   Length previous_z_;  // of the step before; meaningless in WaitForLift
+  Length lowest_z_;    // since the jump to contact; meaningless unless Attached
 };
 
 }  // namespace afm::physics

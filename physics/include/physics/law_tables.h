@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -20,8 +21,17 @@ struct LawTables {
   ContactParameters contact;
   BranchTable free;
   BranchTable attached;
+  // Of a recorded curve: the contact while it is being pressed deeper than before, up to Z_jtc, and how far the hand
+  // rises from the deepest place until it is on the attached branch. Zero: the attached branch holds both ways.
+  BranchTable pressed;
+  Length turn;
+  Length pressed_to;  // the deepest recorded place
   CycleFigures figures;
   Length contact_gap;  // D while attached
+
+  // In contact at `z`, after the tip was pressed down to `lowest`, at or below `z`. What it was pressed to counts, not
+  // which way it moves: a wiggle costs no work. Never below the attached branch, so that no path gives work.
+  Force contact_force(Length z, Length lowest) const noexcept;
 };
 
 // Builds the tables of a law with the lever and the support of `interaction`. Every fold is where dF/dh = k' (3.1).
@@ -34,10 +44,11 @@ std::shared_ptr<const LawTables> build_law_tables(Law law, const ContactParamete
 // The same for a law that is given as its two branches.
 std::shared_ptr<const LawTables> build_law_tables(Law name, const ForceLaw& law, const ContactParameters& contact);
 
-// A recorded curve as a law: two branches of points along rising Z, smoothed by the caller. Each holds one jump, the
-// step between two neighbours at which F rises most steeply with Z. Above its jump the approach is the free branch,
-// and Z_jtc is the last of its points; below its jump the retract is the attached one, and Z_joc the last of its
-// points. The rest of both is not used: an instrument records there how its lever swings. Between points F is a
+// A recorded curve as a law: two branches of points along rising Z, smoothed by the caller. Each holds one jump,
+// between two neighbours. Above its jump the approach is the free branch, below it the contact as it is pressed;
+// below its jump the retract is the attached branch, and above it nothing is used: an instrument records there how its
+// lever swings. Sessions of version 0.1.0 do not know their jumps: there a jump is the step at which F rises most
+// steeply with Z, Z_jtc is the first point above it, and the attached branch holds both ways. Between points F is a
 // monotone cubic. A recorded curve has no potential, so that its jump off contact is said to lose what the loop does,
 // and no critical stiffness but infinity. `interaction` is that of lever, tip and sample as far as they are known.
 //
@@ -48,8 +59,12 @@ struct MeasuredPoint {
   Length z;
   Force force;
 };
+struct MeasuredJumps {
+  std::uint32_t approach = 0;  // points below the jump; 0: not known
+  std::uint32_t retract = 0;
+};
 std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoint> approach,
                                                      std::span<const MeasuredPoint> retract,
-                                                     const ContactParameters& contact);
+                                                     const ContactParameters& contact, MeasuredJumps jumps = {});
 
 }  // namespace afm::physics

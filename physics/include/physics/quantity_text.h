@@ -14,8 +14,9 @@ namespace afm::physics {
 
 struct Unit {
   std::string_view symbol;
-  double per_si;  // how many are one SI unit, a power of ten: 1e9 for nm, 1e-9 for GPa
+  double per_si;  // how many are one SI unit, but for eV a power of ten: 1e9 for nm, 1e-9 for GPa
   bool shown;     // offered in messages and used for output; the others are spellings that are understood as well
+  double zero_si = 0.0;  // what 0 of it is in SI: 273.15 for degrees Celsius
 };
 
 // The units of one sort of quantity, the largest first. Stiffness and surface energy are one type but two lists, so

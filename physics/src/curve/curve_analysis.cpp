@@ -2,10 +2,12 @@
 #include "physics/curve_analysis.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+
+#include "retract_features.h"
 
 namespace afm::physics {
 
@@ -87,42 +89,6 @@ Baseline fit_baseline(std::span<const CurvePoint> approach, Force greatest) {
   return line;
 }
 
-// Each force replaced by the median of itself and its two neighbours on either side.
-std::vector<double> smoothed_forces(std::span<const CurvePoint> points) {
-  std::vector<double> result;
-  result.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::array<double, 5> window{};
-    const std::size_t first = i < 2 ? 0 : i - 2, last = std::min(points.size(), i + 3);
-    for (std::size_t k = first; k < last; ++k) window[k - first] = points[k].force.si;
-    const auto end = window.begin() + static_cast<std::ptrdiff_t>(last - first);
-    const auto middle = window.begin() + static_cast<std::ptrdiff_t>((last - first) / 2);
-    std::nth_element(window.begin(), middle, end);
-    // at the ends a median of an even number would shift the curve by half a sample
-    result.push_back((last - first) % 2 == 1 ? *middle : points[i].force.si);
-  }
-  return result;
-}
-
-struct Zero {
-  std::size_t outside;  // index of the first point outwards that is not pushed
-  Length z;
-};
-
-// From the greatest push towards the front of `approach`.
-std::optional<Zero> first_zero(std::span<const CurvePoint> approach, Force threshold) {
-  const std::vector<double> force = smoothed_forces(approach);
-  const auto deepest = static_cast<std::size_t>(std::max_element(force.begin(), force.end()) - force.begin());
-  if (force[deepest] <= threshold.si) return std::nullopt;
-  for (std::size_t i = deepest; i > 0; --i) {
-    const double inner = force[i], outer = force[i - 1];
-    if (outer <= 0.0) {
-      return Zero{i - 1, approach[i].z + inner / (inner - outer) * (approach[i - 1].z - approach[i].z)};
-    }
-  }
-  return std::nullopt;
-}
-
 // Among the points before contact.
 std::optional<CurveJump> find_snap_in(std::span<const CurvePoint> before_contact, Force threshold) {
   if (before_contact.size() < 2) return std::nullopt;
@@ -146,31 +112,6 @@ std::optional<CurveJump> find_snap_in(std::span<const CurvePoint> before_contact
   return CurveJump{before_contact[start].z, before_contact[start].force, -pull};
 }
 
-// -integral of F dZ along the points, over Z below `top`.
-Energy work_below(std::span<const CurvePoint> points, Length top) {
-  Energy work;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    CurvePoint a = points[i - 1], b = points[i];
-    if (a.z >= top && b.z >= top) continue;
-    const auto at_top = [&] { return a.force + (top - a.z) / (b.z - a.z) * (b.force - a.force); };
-    if (a.z > top) {
-      a = {top, at_top(), a.branch};
-    } else if (b.z > top) {
-      b = {top, at_top(), b.branch};
-    }
-    work = work - 0.5 * (a.force + b.force) * (b.z - a.z);
-  }
-  return work;
-}
-
-// From where the retract's force falls through zero to where, past the hardest pull, nothing significant is left.
-Energy work_of_separation(std::span<const CurvePoint> retract, std::size_t hardest, Force threshold) {
-  std::size_t first = hardest, last = hardest;
-  while (first > 0 && retract[first - 1].force.si < 0.0) --first;
-  while (last + 1 < retract.size() && retract[last].force < -threshold) ++last;
-  return work_below(retract.subspan(first, last - first + 1), Length(HUGE_VAL));
-}
-
 std::optional<Stiffness> slope_of_upper_half(std::span<const CurvePoint> approach, Force greatest_push) {
   double count = 0, mean_z = 0, mean_force = 0;
   const auto upper = [&](const CurvePoint& point) { return point.force >= 0.5 * greatest_push; };
@@ -190,18 +131,48 @@ std::optional<Stiffness> slope_of_upper_half(std::span<const CurvePoint> approac
   return Stiffness(-zf / zz);
 }
 
-void analyse_retract(std::span<const CurvePoint> cycle, std::size_t approach_count, Force threshold,
-                     CurveFeatures& features) {
-  const auto approach = cycle.first(approach_count), retract = cycle.subspan(approach_count);
-  if (retract.empty()) return;
-  const auto by_z = [](const auto& a, const auto& b) { return a.z < b.z; };
-  features.loop_energy = work_below(cycle, std::min(std::max_element(approach.begin(), approach.end(), by_z)->z,
-                                                    std::max_element(retract.begin(), retract.end(), by_z)->z));
-  const auto lowest =
-      std::min_element(retract.begin(), retract.end(), [](const auto& a, const auto& b) { return a.force < b.force; });
-  if (-lowest->force <= threshold) return;
-  features.pull_off = Extreme{lowest->z, lowest->force};
-  features.adhesion_energy = work_of_separation(retract, static_cast<std::size_t>(lowest - retract.begin()), threshold);
+// A pull before contact that is more than an undulation of the baseline.
+constexpr double kPullShareOfPush = 0.05;
+
+std::optional<Length> estimate_of(const CurveFeatures& features, ContactMethod method) {
+  for (std::size_t i = 0; i < kContactMethods.size(); ++i) {
+    if (kContactMethods[i].method == method) return features.contact_estimates[i];
+  }
+  return std::nullopt;
+}
+
+// For an approach that is pushed.
+void find_contact(std::span<const CurvePoint> approach, Force threshold, ForceZero zero_of_force,
+                  std::optional<ContactMethod> method, CurveFeatures& features) {
+  for (std::size_t i = 0; i < kContactMethods.size(); ++i) {
+    features.contact_estimates[i] = contact_point(approach, kContactMethods[i].method);
+  }
+  const auto zero = estimate_of(features, ContactMethod::ZeroForce);
+  const auto deepest_push = std::max_element(approach.begin(), approach.end(),
+                                             [](const auto& a, const auto& b) { return a.force < b.force; });
+  const auto outside = zero ? std::find_if(std::make_reverse_iterator(deepest_push), approach.rend(),
+                                           [&](const CurvePoint& point) { return point.z >= *zero; })
+                                  .base()
+                            : approach.end();
+  const auto before_contact = approach.first(static_cast<std::size_t>(outside - approach.begin()));
+  features.snap_in = find_snap_in(before_contact, threshold);
+  Force pull;
+  for (const CurvePoint& point : before_contact) pull = std::max(pull, -point.force);
+  const bool pulled = zero && (zero_of_force == ForceZero::True || features.snap_in ||
+                               pull > std::max(threshold, kPullShareOfPush * features.greatest_push));
+  features.contact_method = method.value_or(pulled ? ContactMethod::ZeroForce : ContactMethod::FitPolynomial);
+  features.contact_point = estimate_of(features, features.contact_method);
+  if (!features.contact_point || pulled) return;
+
+  const auto deepest =
+      std::min_element(approach.begin(), approach.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
+  const auto agreeing =
+      std::count_if(kContactMethods.begin(), kContactMethods.end(), [&](const ContactMethodName& each) {
+        const auto estimate = estimate_of(features, each.method);
+        return each.method != ContactMethod::ZeroForce && estimate &&
+               abs(*estimate - *features.contact_point) <= (*features.contact_point - deepest->z) / 3.0;
+      });
+  features.contact_doubtful = agreeing < 4;
 }
 
 }  // namespace
@@ -227,7 +198,8 @@ std::vector<CurvePoint> points_of(std::span<const CurveSample> samples) {
   return points;
 }
 
-CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero_of_force) {
+CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero_of_force,
+                      std::optional<ContactMethod> method) {
   std::vector<CurvePoint> cycle(points.begin(), points.end());
   const auto turn = std::stable_partition(cycle.begin(), cycle.end(),
                                           [](const CurvePoint& point) { return point.branch == Branch::Approach; });
@@ -255,13 +227,13 @@ CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero_of_forc
   }
   const Force threshold = std::max(kSignificant * features.baseline.noise, kRoundingShare * greatest);
 
-  const auto zero = first_zero(approach, threshold);
-  if (zero) {
-    features.contact_point = zero->z;
+  if (features.greatest_push > threshold) {
+    find_contact(approach, threshold, zero_of_force, method, features);
     features.contact_slope = slope_of_upper_half(approach, features.greatest_push);
+  } else {
+    features.snap_in = find_snap_in(approach, threshold);
   }
-  features.snap_in = find_snap_in(approach.first(zero ? zero->outside + 1 : approach.size()), threshold);
-  analyse_retract(cycle, approach_count, threshold, features);
+  analyse_retract(cycle, approach_count, threshold, zero_of_force, features);
   return features;
 }
 

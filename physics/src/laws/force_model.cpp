@@ -42,9 +42,11 @@ std::optional<ModelEvent> ApproachRetractModel::latch(Length z) noexcept {
     if (z > figures.z_joc) phase_ = Phase::Free;
   } else if (!figures.hysteretic) {
     phase_ = z <= figures.z_jtc ? Phase::Attached : Phase::Free;
+    lowest_z_ = z;
   } else if (phase_ == Phase::Free && z <= figures.z_jtc) {
     // the path began above Z_jtc, or this would not be Free; so its lowest point is its end
     phase_ = Phase::Attached;
+    lowest_z_ = z;
     return ModelEvent{EventKind::JumpToContact, figures.z_jtc, figures.force_before_jtc, figures.force_after_jtc,
                       fraction_of(figures.z_jtc, previous_z_, z)};
   } else if (phase_ == Phase::Attached && z >= figures.z_joc) {
@@ -64,7 +66,12 @@ TipResponse ApproachRetractModel::step(Length z) noexcept {
   previous_z_ = z;
 
   Force force;
-  if (phase_ != Phase::WaitForLift) force = (phase_ == Phase::Attached ? tables_->attached : tables_->free).force(z);
+  if (phase_ == Phase::Attached) {
+    lowest_z_ = std::min(lowest_z_, z);
+    force = tables_->contact_force(z, lowest_z_);
+  } else if (phase_ == Phase::Free) {
+    force = tables_->free.force(z);
+  }
   TipResponse response = respond(*tables_, phase_, z, force);
   if (jump) response.add(*jump);
   return response;

@@ -5,44 +5,67 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "curve/curve_bins.h"
+
 namespace afm::physics {
 
 namespace {
 
-// On average at least: single samples that happen to lie close together would make a jump out of noise.
+// On average at least, so that noise is felt less than it was recorded.
 constexpr std::size_t kSamplesABin = 4;
+// Between both ends of a jump: no sample lies there, and no hand feels it.
+constexpr double kJumpShareOfBin = 1e-3;
 
-struct Window {
-  Length bottom;
-  Length top;
-};
-
-std::vector<MeasuredPoint> binned(std::span<const CurvePoint> points, Branch branch, const Window& window,
-                                  std::size_t most_points) {
-  std::vector<CurvePoint> rising;
+// The points of one branch above its baseline, Z from the contact point.
+std::vector<CurvePoint> centred(std::span<const CurvePoint> points, Branch branch, const CurveFeatures& features) {
+  std::vector<CurvePoint> result;
   for (const CurvePoint& point : points) {
-    if (point.branch == branch && point.z >= window.bottom && point.z <= window.top) rising.push_back(point);
-  }
-  std::stable_sort(rising.begin(), rising.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
-
-  const std::size_t bins = std::clamp<std::size_t>(rising.size() / kSamplesABin, 1, most_points);
-  const auto bin_of = [&](const CurvePoint& point) {
-    const double place = (point.z - window.bottom) / (window.top - window.bottom);
-    return std::min(bins - 1, static_cast<std::size_t>(place * static_cast<double>(bins)));
-  };
-  std::vector<MeasuredPoint> result;
-  for (std::size_t first = 0, last = 0; first < rising.size(); first = last) {
-    std::vector<double> forces;
-    Length z_sum;
-    for (; last < rising.size() && bin_of(rising[last]) == bin_of(rising[first]); ++last) {
-      forces.push_back(rising[last].force.si);
-      z_sum = z_sum + rising[last].z;
-    }
-    const auto middle = forces.begin() + static_cast<std::ptrdiff_t>(forces.size() / 2);
-    std::nth_element(forces.begin(), middle, forces.end());
-    result.push_back({z_sum / static_cast<double>(forces.size()), Force(*middle)});
+    if (point.branch != branch) continue;
+    result.push_back({point.z - *features.contact_point, point.force - features.baseline.at(point.z), branch});
   }
   return result;
+}
+
+std::vector<MeasuredPoint> smoothed(std::span<const CurvePoint> points, Length bottom, Length top,
+                                    std::size_t most_points) {
+  std::vector<MeasuredPoint> result;
+  for (const CurveBin& bin : curve_bins(points, bottom, top, most_points, kSamplesABin)) {
+    result.push_back({bin.z, bin.median});
+  }
+  return result;
+}
+
+// The branch with `knot` in place of what lies nearer to it than half of `width`; the index of the knot.
+std::size_t put(std::vector<MeasuredPoint>& branch, const MeasuredPoint& knot, Length width) {
+  std::erase_if(branch, [&](const MeasuredPoint& point) { return abs(point.z - knot.z) < 0.5 * width; });
+  const auto place = std::find_if(branch.begin(), branch.end(), [&](const auto& point) { return point.z > knot.z; });
+  return static_cast<std::size_t>(branch.insert(place, knot) - branch.begin());
+}
+
+// The number of points below the jump, whose ends are `below` and, a little higher, `above`.
+std::uint32_t put_jump(std::vector<MeasuredPoint>& branch, const MeasuredPoint& below, Force above, Length width) {
+  const std::size_t last = put(branch, below, width);
+  const auto next = branch.begin() + static_cast<std::ptrdiff_t>(last) + 1;
+  branch.insert(next, {below.z + kJumpShareOfBin * width, above});
+  return static_cast<std::uint32_t>(last + 1);
+}
+
+// Beyond the last force that stands out of the noise an instrument records its baseline, which is none of the
+// sample's: it would be felt as a wave, and could be too strong for Turn-On.
+void flatten_beyond(std::vector<MeasuredPoint>& approach, Length off, Force noise) {
+  const Force significant = 5.0 * noise;
+  for (auto point = approach.rbegin(); point->z > off && abs(point->force) < significant; ++point) {
+    point->force = Force();
+  }
+}
+
+// On the line between the points about `z`.
+Force force_at(std::span<const MeasuredPoint> branch, Length z) {
+  const auto above = std::find_if(branch.begin(), branch.end(), [&](const auto& point) { return point.z > z; });
+  if (above == branch.begin()) return above->force;
+  if (above == branch.end()) return (above - 1)->force;
+  const MeasuredPoint& below = *(above - 1);
+  return below.force + (z - below.z) / (above->z - below.z) * (above->force - below.force);
 }
 
 }  // namespace
@@ -52,22 +75,39 @@ MeasuredBranches measured_branches(std::span<const CurvePoint> points, std::size
   if (!features.contact_point) {
     throw std::invalid_argument("the curve has no contact point: its approach never pushes the tip away");
   }
-  std::vector<CurvePoint> centred(points.begin(), points.end());
-  Window window{Length(HUGE_VAL), Length(-HUGE_VAL)};
-  for (CurvePoint& point : centred) {
-    point.force = point.force - features.baseline.at(point.z);
-    point.z = point.z - *features.contact_point;
-    window.bottom = std::min(window.bottom, point.z);
-    window.top = std::max(window.top, point.z);
-  }
-  Length farthest;
-  if (features.snap_in) farthest = std::max(farthest, features.snap_in->z - *features.contact_point);
-  if (features.pull_off) farthest = std::max(farthest, features.pull_off->z - *features.contact_point);
-  if (farthest.si > 0.0) window.top = std::min(window.top, 1.5 * farthest);
+  const std::vector<CurvePoint> approach = centred(points, Branch::Approach, features),
+                                retract = centred(points, Branch::Retract, features);
+  if (retract.empty()) throw std::invalid_argument("the curve has no retract branch, without which no loop");
 
-  MeasuredBranches branches{binned(centred, Branch::Approach, window, most_points),
-                            binned(centred, Branch::Retract, window, most_points)};
-  if (branches.retract.empty()) throw std::invalid_argument("the curve has no retract branch, without which no loop");
+  const auto by_z = [](const auto& a, const auto& b) { return a.z < b.z; };
+  const Length bottom = std::min(std::min_element(approach.begin(), approach.end(), by_z)->z,
+                                 std::min_element(retract.begin(), retract.end(), by_z)->z);
+  const Length highest = std::min(std::max_element(approach.begin(), approach.end(), by_z)->z,
+                                  std::max_element(retract.begin(), retract.end(), by_z)->z);
+  // without a snap-in free and pressed are one line, which may be cut below the contact point: a soft sample may have
+  // let go there
+  const Length let_go = *features.let_go - *features.contact_point, apart = 0.01 * abs(bottom);
+  const Length in =
+      features.snap_in ? features.snap_in->z - *features.contact_point : std::min(Length(), let_go - apart);
+  const Length off = std::max(let_go, in + apart);
+  const Length top = std::min(highest, std::max(off, 0.5 * (in - bottom)) + 0.5 * (off - bottom));
+  const Length width = (top - bottom) / static_cast<double>(most_points);
+
+  // two knots and an end of a jump come on top
+  MeasuredBranches branches{
+      smoothed(approach, bottom, top, most_points - 3), smoothed(retract, bottom, top, most_points - 3), {}};
+  const auto snap = features.snap_in;
+  const Force met = force_at(branches.approach, in);
+  branches.jumps.approach =
+      put_jump(branches.approach, {in, snap ? snap->force_after : met}, snap ? snap->force_before : met, width);
+  flatten_beyond(branches.approach, off, features.baseline.noise);
+  const bool at_jump = features.jumps_off && off == features.pull_off->z - *features.contact_point;
+  if (features.pull_off && !at_jump) {
+    put(branches.retract, {features.pull_off->z - *features.contact_point, features.pull_off->force}, width);
+  }
+  branches.jumps.retract =
+      put_jump(branches.retract, {off, at_jump ? features.pull_off->force : force_at(branches.retract, off)},
+               force_at(branches.approach, off), width);
   return branches;
 }
 

@@ -55,13 +55,13 @@ double line_between(std::span<const MeasuredPoint> branch, double z) {
   return from.force.si + t * (to.force - from.force).si;
 }
 
-// Equally spaced nodes, as close as the points on average; between them monotone cubics, whose slope at a node is the
-// harmonic mean of its two neighbours' (Fritsch & Butland 1984).
-BranchTable table(std::span<const MeasuredPoint> branch, BranchTable::Side side) {
+// Equally spaced nodes, `cells_a_point` times as many as points; between them monotone cubics, whose slope at a node is
+// the harmonic mean of its two neighbours' (Fritsch & Butland 1984).
+BranchTable table(std::span<const MeasuredPoint> branch, BranchTable::Side side, std::size_t cells_a_point) {
   const bool above = side == BranchTable::Side::Above;
   const Length end = above ? branch.front().z : branch.back().z;
   const double sign = above ? 1.0 : -1.0;
-  const std::size_t cells = 2 * branch.size();
+  const std::size_t cells = cells_a_point * branch.size();
   const Length spacing = (branch.back().z - branch.front().z) / static_cast<double>(cells);
 
   std::vector<BranchTable::Node> nodes(cells + 1);
@@ -78,32 +78,70 @@ BranchTable table(std::span<const MeasuredPoint> branch, BranchTable::Side side)
   return BranchTable(end, side, spacing, std::move(nodes));
 }
 
-// The area between the branches, by trapezoids of a quarter of a node's distance.
-Energy area(const LawTables& tables, std::size_t points) {
-  const CycleFigures& figures = tables.figures;
+// The area between two branches, by trapezoids of a quarter of a node's distance.
+template <class Upper>
+Energy area(const Upper& upper, const BranchTable& lower, Length from, Length to, std::size_t points) {
   const std::size_t steps = 8 * points;
-  const Length width = (figures.z_joc - figures.z_jtc) / static_cast<double>(steps);
+  const Length width = (to - from) / static_cast<double>(steps);
   Energy sum;
   for (std::size_t i = 0; i <= steps; ++i) {
-    const Length z = figures.z_jtc + width * static_cast<double>(i);
+    const Length z = from + width * static_cast<double>(i);
     const double weight = i == 0 || i == steps ? 0.5 : 1.0;
-    sum = sum + weight * (tables.free.force(z) - tables.attached.force(z)) * width;
+    sum = sum + weight * (upper(z) - lower.force(z)) * width;
   }
   return sum;
 }
 
+// Each branch's points on either side of its jump.
+struct Cut {
+  std::span<const MeasuredPoint> pressed;  // empty: not known
+  std::span<const MeasuredPoint> free;
+  std::span<const MeasuredPoint> attached;
+};
+
+Cut cut(std::span<const MeasuredPoint> approach, std::span<const MeasuredPoint> retract, MeasuredJumps jumps) {
+  if (jumps.approach == 0 && jumps.retract == 0) {
+    return {{},
+            approach.subspan(std::min(jump_in(approach) + 1, approach.size() - 2)),
+            retract.first(std::max<std::size_t>(jump_in(retract) + 1, 2))};
+  }
+  if (jumps.approach < 2 || jumps.approach + 2 > approach.size() || jumps.retract < 2 ||
+      jumps.retract > retract.size()) {
+    throw std::invalid_argument("a jump of the curve lies outside of its branch");
+  }
+  return {approach.first(jumps.approach), approach.subspan(jumps.approach), retract.first(jumps.retract)};
+}
+
+// So far that the change from one branch to the other adds no more stiffness than the contact has on average.
+Length turn_of(const LawTables& tables, std::span<const MeasuredPoint> pressed) {
+  const Length depth = pressed.back().z - pressed.front().z;
+  const Force rise = pressed.front().force - pressed.back().force;
+  Force widest;
+  for (const MeasuredPoint& point : pressed) widest = std::max(widest, point.force - tables.attached.force(point.z));
+  const Length even = 0.01 * depth;
+  return rise.si > 0.0 ? std::clamp(widest / (rise / depth), even, depth) : depth;
+}
+
 }  // namespace
+
+Force LawTables::contact_force(Length z, Length lowest) const noexcept {
+  const Force risen = attached.force(z);
+  if (turn.si <= 0.0) return risen;
+  const double share = std::clamp((z - lowest) / turn, 0.0, 1.0);
+  return risen + (1.0 - share) * std::max(Force(), pressed.force(z) - risen);
+}
 
 std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoint> approach,
                                                      std::span<const MeasuredPoint> retract,
-                                                     const ContactParameters& contact) {
+                                                     const ContactParameters& contact, MeasuredJumps jumps) {
   validate(contact);
   check(approach, "approach");
   check(retract, "retract");
-  const auto free = approach.subspan(std::min(jump_in(approach) + 1, approach.size() - 2));
-  const auto attached = retract.first(std::max<std::size_t>(jump_in(retract) + 1, 2));
-  const MeasuredPoint in = free.front(), off = attached.back();
-  if (off.z <= in.z || off.force >= Force() || attached.front().z >= in.z) {
+  const auto [pressed, free, attached] = cut(approach, retract, jumps);
+  const MeasuredPoint in = pressed.empty() ? free.front() : MeasuredPoint{pressed.back().z, free.front().force},
+                      off = attached.back();
+  const bool pulls = off.force < Force() || !pressed.empty();
+  if (off.z <= in.z || !pulls || attached.front().z >= in.z) {
     throw std::invalid_argument("the curve has no loop that could be felt: it jumps to contact at " +
                                 format_quantity(in.z, kLengthUnits) + " and off contact at " +
                                 format_quantity(off.z, kLengthUnits) + " under " +
@@ -113,13 +151,20 @@ std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoi
   LawTables tables;
   tables.law = Law::Measured;
   tables.contact = contact;
-  tables.free = table(free, BranchTable::Side::Above);
-  tables.attached = table(attached, BranchTable::Side::Below);
+  // sessions of 0.1.0 replay bit for bit with 2; with 8 an event's own point lies at a node, or near one
+  const std::size_t cells = pressed.empty() ? 2 : 8;
+  tables.free = table(free, BranchTable::Side::Above, cells);
+  tables.attached = table(attached, BranchTable::Side::Below, cells);
+  if (!pressed.empty()) {
+    tables.pressed = table(pressed, BranchTable::Side::Below, cells);
+    tables.turn = turn_of(tables, pressed);
+    tables.pressed_to = pressed.front().z;
+  }
   CycleFigures& figures = tables.figures;
   figures.hysteretic = true;
   figures.z_jtc = in.z;
   figures.force_before_jtc = in.force;
-  figures.force_after_jtc = tables.attached.force(in.z);
+  figures.force_after_jtc = tables.contact_force(in.z, in.z);
   figures.z_joc = off.z;
   figures.force_before_joc = off.force;
   figures.force_after_joc = tables.free.force(off.z);
@@ -127,7 +172,15 @@ std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoi
   figures.tip_height_after_jtc = in.z + figures.force_after_jtc / contact.spring_constant;
   figures.tip_height_before_joc = off.z + figures.force_before_joc / contact.spring_constant;
   figures.tip_height_after_joc = off.z + figures.force_after_joc / contact.spring_constant;
-  figures.loop_energy = figures.lost_at_joc = area(tables, std::max(approach.size(), retract.size()));
+  const std::size_t count = std::max(approach.size(), retract.size());
+  const auto in_contact = [&](Length z) { return tables.contact_force(z, z); };
+  const auto before_contact = [&](Length z) { return tables.free.force(z); };
+  figures.loop_energy = area(before_contact, tables.attached, in.z, off.z, count);
+  if (!pressed.empty()) {
+    const Length bottom = std::max(pressed.front().z, attached.front().z);
+    figures.loop_energy = figures.loop_energy + area(in_contact, tables.attached, bottom, in.z, count);
+  }
+  figures.lost_at_joc = figures.loop_energy;
   figures.critical_stiffness = Stiffness(std::numeric_limits<double>::infinity());
   return std::make_shared<const LawTables>(std::move(tables));
 }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "physics/curve_point.h"
+
+namespace afm::physics {
+
+// Neighbours along Z as one point.
+struct CurveBin {
+  Length z;  // mean
+  Force mean;
+  Force median;  // leaves a jump as sharp as the bins are and throws out single outliers
+};
+
+// The points between `bottom` and `top`, of either branch, in bins of equal width along rising Z; empty ones are left
+// out. At most `most_bins`, and so few that `fewest_samples` fall into each on average. Heights that a sensor reports
+// out of order end in the right bin.
+inline std::vector<CurveBin> curve_bins(std::span<const CurvePoint> points, Length bottom, Length top,
+                                        std::size_t most_bins, std::size_t fewest_samples) {
+  std::vector<CurvePoint> rising;
+  for (const CurvePoint& point : points) {
+    if (point.z >= bottom && point.z <= top) rising.push_back(point);
+  }
+  std::stable_sort(rising.begin(), rising.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
+  const std::size_t bins = std::clamp<std::size_t>(rising.size() / fewest_samples, 1, most_bins);
+  const auto bin_of = [&](const CurvePoint& point) {
+    const double place = (point.z - bottom) / (top - bottom);
+    return std::min(bins - 1, static_cast<std::size_t>(place * static_cast<double>(bins)));
+  };
+  std::vector<CurveBin> result;
+  std::vector<double> forces;
+  for (std::size_t first = 0, last = 0; first < rising.size(); first = last) {
+    forces.clear();
+    CurveBin bin;
+    for (; last < rising.size() && bin_of(rising[last]) == bin_of(rising[first]); ++last) {
+      forces.push_back(rising[last].force.si);
+      bin.z = bin.z + rising[last].z;
+      bin.mean = bin.mean + rising[last].force;
+    }
+    const auto count = static_cast<double>(forces.size());
+    const auto middle = forces.begin() + static_cast<std::ptrdiff_t>(forces.size() / 2);
+    std::nth_element(forces.begin(), middle, forces.end());
+    result.push_back({bin.z / count, bin.mean / count, Force(*middle)});
+  }
+  return result;
+}
+
+}  // namespace afm::physics

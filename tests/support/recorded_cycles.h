@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "physics/curve_point.h"
+
+// Cycles as instruments record them, with a loop in contact and noise, which no law of ours has.
+namespace afm::test {
+
+// 1000 points a branch between `far` and `deep`; forces by Z, in newtons.
+template <class Down, class Up>
+std::vector<physics::CurvePoint> recording(double far, double deep, Down down, Up up, double noise) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal(0.0, noise);
+  std::vector<physics::CurvePoint> points;
+  constexpr int kCount = 1000;
+  for (int i = 0; i < kCount; ++i) {
+    const double z = far + (deep - far) * i / (kCount - 1);
+    points.push_back({physics::Length(z - 3e-6), physics::Force(down(z) + normal(random)), physics::Branch::Approach});
+  }
+  for (int i = 0; i < kCount; ++i) {
+    const double z = deep + (far - deep) * i / (kCount - 1);
+    points.push_back({physics::Length(z - 3e-6), physics::Force(up(z) + normal(random)), physics::Branch::Retract});
+  }
+  return points;
+}
+
+// A tip on a hard sample as an MFP-3D recorded it: the retract runs 2 nm beside the approach, so that the contact line
+// of the retract pulls harder at the place of the snap-in than the snap-in did.
+inline std::vector<physics::CurvePoint> hard_sample() {
+  const auto down = [](double z) { return z > 6.6e-9 ? 0.0 : -0.55 * z; };
+  const auto up = [](double z) { return z > 24e-9 ? 0.0 : -0.55 * (z + 2e-9 * std::min(1.0, (z + 18e-9) / 5e-9)); };
+  return recording(190e-9, -18e-9, down, up, 10e-12);
+}
+
+// A soft sample that sticks: no snap-in, a loop in contact, a pull that ends gradually.
+inline std::vector<physics::CurvePoint> soft_sample() {
+  const auto push = [](double z) { return z > 0 ? 0.0 : 4e-9 * std::pow(-z / 400e-9, 1.5); };
+  const auto down = [&](double z) { return push(z); };
+  const auto up = [&](double z) {
+    const double turned = std::min(1.0, (z + 400e-9) / 100e-9);
+    return push(z) - 1.5e-9 * turned * std::exp(-std::max(0.0, z) / 60e-9);
+  };
+  return recording(2e-6, -400e-9, down, up, 15e-12);
+}
+
+// Pushed and taken off without any adhesion, through an undulating baseline.
+inline std::vector<physics::CurvePoint> no_adhesion() {
+  const auto wave = [](double z) { return 2e-9 * std::sin(z / 10e-9); };
+  const auto down = [&](double z) { return (z > 0 ? 0.0 : 5.0 * -z) + wave(z); };
+  const auto up = [&](double z) {
+    return std::max(0.0, 5.0 * (-z - 20e-9 * std::min(1.0, (z + 200e-9) / 50e-9))) + wave(z);
+  };
+  return recording(1e-6, -200e-9, down, up, 0.5e-9);
+}
+
+}  // namespace afm::test
