@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/options/command_line.h"
 
@@ -11,8 +12,9 @@ namespace afm::app {
 
 // What every command may know about its surroundings.
 struct CommandContext {
-  std::string assets_dir;    // folder that holds models/, walls/ and materials.toml
-  std::string program_path;  // the running program; touchafm-servo lies beside it
+  std::string assets_dir;                // folder that holds models/, walls/ and materials.toml
+  std::string program_path;              // the running program; touchafm-servo lies beside it
+  std::vector<std::string> arguments{};  // as they were typed, without the program
 };
 
 // Every command, in the order of the help. A line declares add_NAME_command, which a file in app/commands defines, and

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -6,21 +8,24 @@
 #include <string_view>
 #include <system_error>
 
-#include "app/command.h"
+#include "app/commit.h"
+#include "app/program.h"
 #include "core/exit_code.h"
 #include "core/run_main.h"
 #include "core/version.h"
 
 namespace {
 
-using afm::core::ExitCode;
 using afm::core::fail;
 
-// Beside an installed program, share/touchafm; in a build, the source tree's assets.
+// share/touchafm below the folder above bin (a build) or above libexec/touchafm (an installation, wherever it was
+// moved).
 std::string find_assets(const std::filesystem::path& program) {
-  const std::filesystem::path installed = program.parent_path().parent_path() / "share" / "touchafm";
+  const std::filesystem::path folder = program.parent_path();
+  const std::filesystem::path built = folder.parent_path() / "share" / "touchafm";
   std::error_code ignored;
-  return std::filesystem::is_directory(installed, ignored) ? installed.string() : AFM_ASSETS_DIR;
+  if (std::filesystem::is_directory(built, ignored)) return built.string();
+  return (folder.parent_path().parent_path() / "share" / "touchafm").string();
 }
 
 // The command line would only say that a command is missing.
@@ -34,13 +39,13 @@ bool names_unknown_command(int count, char** arguments) {
 int run(int count, char** arguments) {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const afm::app::CommandContext context{.assets_dir = find_assets(program), .program_path = program.string()};
+  const afm::app::CommandContext context{.assets_dir = find_assets(program),
+                                         .program_path = program.string(),
+                                         .arguments = {arguments + 1, arguments + count}};
 
-  afm::app::CommandLine command_line(
-      "touchafm", afm::core::kVersion,
-      "TouchAFM: feel and see the approach-retract cycle of an atomic force microscope.\n"
-      "Exit codes: 0 done, 1 the run failed, 2 wrong usage, 3 bad input file, 4 a needed device is missing.");
-  for (const afm::app::Command& command : afm::app::kCommands) command.add(command_line, context);
+  afm::app::CommandLine command_line("touchafm", fmt::format("{} ({})", afm::core::kVersion, afm::app::kCommit),
+                                     afm::app::kProgramHelp);
+  afm::app::add_commands(command_line, context);
 
   if (names_unknown_command(count, arguments)) {
     return fail(afm::core::ExitCode::WrongUsage,

@@ -25,10 +25,17 @@ using core::wrong_usage;
 // As those of a contact.
 constexpr QuantityRange<physics::Stiffness> kSpringConstants{physics::Stiffness(1e-6), physics::Stiffness(1e6)};
 
-core::Result<curves::AnalysedCurve> load_analysed(const std::string& file, const curves::CurveReading& reading) {
+core::Result<curves::AnalysedCurve> load_analysed(const std::string& file, const curves::CurveReading& reading,
+                                                  std::optional<physics::ContactMethod> method) {
   auto curve = curves::load_curve(file, reading);
   if (!curve) return tl::unexpected(curve.error());
-  return curves::analysed(std::filesystem::path(file).filename().string(), std::move(*curve));
+  return curves::analysed(std::filesystem::path(file).filename().string(), std::move(*curve), method);
+}
+
+std::string contact_method_names() {
+  std::string names;
+  for (const auto& each : physics::kContactMethods) names += (names.empty() ? "" : ", ") + std::string(each.name);
+  return names;
 }
 
 }  // namespace
@@ -44,11 +51,11 @@ core::Result<double> parse_sensitivity(std::string_view text) {
 }
 
 core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
-  const auto measured = load_analysed(options.file, options.reading);
+  const auto measured = load_analysed(options.file, options.reading, options.contact_method);
   if (!measured) return tl::unexpected(measured.error());
   std::optional<curves::AnalysedCurve> beside;
   if (!options.beside.empty()) {
-    auto other = load_analysed(options.beside, {});
+    auto other = load_analysed(options.beside, {}, {});
     if (!other) return tl::unexpected(other.error());
     beside = std::move(*other);
   }
@@ -91,6 +98,21 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
   };
   command.add_parsed_option("--sensitivity", read_sensitivity, "of the optical lever, in place of the file's")
       .type_name("SENSITIVITY in um/V, nm/V, pm/V");
+  const auto read_method = [options = options.get()](const std::string& text) -> core::Result<void> {
+    const auto method = std::find_if(physics::kContactMethods.begin(), physics::kContactMethods.end(),
+                                     [&](const auto& each) { return each.name == text; });
+    if (method == physics::kContactMethods.end()) {
+      return wrong_usage(fmt::format("unknown method \"{}\"; known are {}", text, contact_method_names()));
+    }
+    options->contact_method = method->method;
+    return {};
+  };
+  command
+      .add_parsed_option("--contact-point", read_method,
+                         "method: " + contact_method_names() +
+                             "; default: zero-force where the approach is pulled before contact or the curve is "
+                             "computed, else fit-polynomial")
+      .type_name("METHOD");
   command.add_option("--curve", reading.index, "which curve of an .h5, from 0").show_default().type_name("INDEX");
   command.add_flag("--json", options->json, "in SI, null for what was not found");
   command.add_option("--out", options->out, "write a picture (SVG) of the curve here").type_name("FILE");

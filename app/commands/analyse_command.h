@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/result.h"
@@ -11,8 +12,9 @@ namespace afm::app {
 // What `touchafm analyse` was asked for; an empty text is an option that was not given.
 struct AnalyseOptions {
   std::string file;
-  curves::CurveReading reading;  // in place of what the file says
-  std::string beside;            // another curve to compare with, measured or computed
+  curves::CurveReading reading;                          // in place of what the file says
+  std::optional<physics::ContactMethod> contact_method;  // none: by the curve
+  std::string beside;                                    // another curve to compare with, measured or computed
   bool json = false;
   std::string out;  // an SVG of the curve, beside the text
 };

@@ -12,7 +12,10 @@
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/curve_output.h"
+#include "curves/curve_report.h"
+#include "curves/plot_units.h"
 #include "curves/sweep.h"
+#include "physics/quantity_text.h"
 
 namespace afm::app {
 namespace {
@@ -37,18 +40,34 @@ core::Result<void> write_text(const std::string& text, const std::string& path) 
   return path.empty() ? write_stdout(text) : core::write_file(path, text);
 }
 
-// The measured curve as lines of its own, as it was recorded.
-core::Result<void> add_overlay(const std::string& file, curves::SvgPlot& plot) {
-  const auto measured = curves::load_curve(file);
+// The measured curve on the model: its contact point where the model's is, its baseline at zero force. What an
+// instrument calls zero is no property of the contact.
+core::Result<void> add_overlay(const std::string& file, const curves::CurveRun& run, curves::SvgPlot& plot) {
+  auto recorded = curves::load_curve(file);
+  if (!recorded) return tl::unexpected(recorded.error());
+  const auto measured = curves::analysed("measured", std::move(*recorded));
   if (!measured) return tl::unexpected(measured.error());
-  curves::SvgLine approach{"measured, approach", std::string(curves::distinct_color(1)), curves::LineStyle::Dashed, {}};
-  curves::SvgLine retract{"measured, retract", std::string(curves::distinct_color(1)), curves::LineStyle::Solid, {}};
-  for (const physics::CurvePoint& point : measured->points) {
-    curves::SvgLine& line = point.branch == physics::Branch::Approach ? approach : retract;
-    line.points.push_back({point.z.si * 1e9, point.force.si * 1e9});
+  if (!measured->features.contact_point) {
+    return core::failure(core::ErrorCategory::BadInputFile,
+                         fmt::format("--overlay {}: it has no contact point to lay over the model's", file));
   }
-  plot.lines.push_back(std::move(approach));
-  plot.lines.push_back(std::move(retract));
+  const auto model = physics::analyse(physics::points_of(run.curve.samples), physics::ForceZero::True);
+  const physics::Length model_contact = model.contact_point.value_or(physics::Length());
+  for (curves::SvgLine& line : curves::curve_lines(*measured, std::string(curves::distinct_color(1)))) {
+    for (auto& point : line.points) point.x += model_contact.si * curves::kNmPerM;
+    plot.lines.push_back(std::move(line));
+  }
+  const physics::CurveFeatures& found = measured->features;
+  core::log_line(
+      fmt::format("{} is moved by {} along Z, its contact point ({}{}) to the model's at {}, and by {} in force, its "
+                  "baseline ({} at "
+                  "the far end, tilt {}) to zero",
+                  file, physics::format_quantity(model_contact - *found.contact_point, physics::kLengthUnits, 4),
+                  physics::name_of(found.contact_method), found.contact_doubtful ? ", doubtful" : "",
+                  physics::format_quantity(model_contact, physics::kLengthUnits, 4),
+                  physics::format_quantity(-found.baseline.level, physics::kForceUnits, 4),
+                  physics::format_quantity(found.baseline.level, physics::kForceUnits, 4),
+                  physics::format_quantity(found.baseline.tilt, physics::kStiffnessUnits, 4)));
   return {};
 }
 
@@ -59,7 +78,7 @@ core::Result<std::string> curve_text(const CurveOptions& options, const curves::
   if (format == "svg") {
     curves::SvgPlot plot = curves::curve_plot(run);
     if (!options.overlay.empty()) {
-      if (const auto added = add_overlay(options.overlay, plot); !added) return tl::unexpected(added.error());
+      if (const auto added = add_overlay(options.overlay, run, plot); !added) return tl::unexpected(added.error());
     }
     return curves::svg(plot);
   }
@@ -73,7 +92,9 @@ core::Result<void> write_curve(const CurveOptions& options, const curves::Contac
                                const std::string& format) {
   if (!options.overlay.empty() && format != "svg") return wrong_usage("--overlay draws, so it needs --format svg");
   if (format == "h5" && options.out.empty()) return wrong_usage("--format h5 is no text; give it a file with --out");
-  const auto run = curves::run_curve(setup, options.path);
+  curves::PathOptions path = options.path;
+  path.events_only = format == "json";
+  const auto run = curves::run_curve(setup, path);
   if (!run) return tl::unexpected(run.error());
   if (!run->curve.samples.empty() && run->curve.samples.back().phase == physics::Phase::Attached &&
       run->figures.hysteretic) {
@@ -139,22 +160,28 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
       .add_option("--material", options->contact.material,
                   "mica, gold, si3n4, or another of \"touchafm material\"; without it every number that the model "
                   "needs must be given")
-      .type_name("NAME");
+      .type_name("MATERIAL");
   add_contact_options(command, options->contact, context);
   const Option from =
       command
           .add_option("--from", options->path.from,
                       "where the cycle starts and ends, above Z_jtc: m, mm, um, nm, pm; default: a tenth above Z_joc")
           .type_name("LENGTH");
-  const Option to = command.add_option("--to", options->path.to, "where it turns, below --from: m, mm, um, nm, pm")
-                        .show_default()
+  const Option to = command
+                        .add_option("--to", options->path.to,
+                                    "where it turns, below --from: m, mm, um, nm, pm; default: -5nm, deeper where "
+                                    "the sample still pulls there")
                         .type_name("LENGTH");
-  const Option step =
-      command.add_option("--step", options->path.step, "between samples: m, mm, um, nm, pm; at most 10 million samples")
-          .show_default()
-          .type_name("LENGTH");
+  const Option step = command
+                          .add_option("--step", options->path.step,
+                                      "between samples: m, mm, um, nm, pm; at most 10 million samples; default: "
+                                      "0.01nm, or a twenty-thousandth of a longer way")
+                          .type_name("LENGTH");
   command.add_option("--speed", options->path.speed, "of the base, for dynamic models: m/s, mm/s, um/s; default: 1um/s")
       .type_name("VELOCITY");
+  command
+      .add_option("--seed", options->path.seed, "of the thermal noise of dynamic models; the same seed, the same curve")
+      .type_name("NUMBER");
   command
       .add_option("--sweep", options->sweeps,
                   "key=from:to:count, the events of one cycle for every value of a number (its option without the "
@@ -171,7 +198,11 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
                               "--out, else csv"))
       .one_of({"csv", "json", "svg", "tab", "h5", "afm-workshop"})
       .type_name("FORMAT");
-  command.add_option("--overlay", options->overlay, "a measured curve to draw over the model, with --format svg")
+  command
+      .add_option("--overlay", options->overlay,
+                  "a measured curve to draw over the model, with --format svg: its contact point on the model's, its "
+                  "baseline at "
+                  "zero; stderr has by how much it was moved")
       .type_name("FILE");
   command.add_option("--out", options->out, "write here instead of to stdout").type_name("FILE");
   command.footer(

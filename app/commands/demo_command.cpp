@@ -45,7 +45,7 @@ struct DemoOptions {
   std::string out;
   exhibit::ExhibitFiles files;
   std::uint32_t eye_width = 960;
-  HandPath hand;
+  input::HandPath hand;
   double frame_budget_ms = 0;
   servo::ServoChoice servo;
   curves::ModelName model{.text = "paper"};
@@ -56,7 +56,7 @@ struct DemoOptions {
 };
 
 // On the common scale the sample lies lower.
-HandPath on_scale(scene::ScaleMode scale, HandPath path) {
+input::HandPath on_scale(scene::ScaleMode scale, input::HandPath path) {
   if (scale == scene::ScaleMode::Common) {
     path.push_m = haptics::Scaling::common_zero_m(haptics::SimulatedDevice().spec()) - kCommonPushM;
   }
@@ -117,7 +117,10 @@ core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optiona
   DemoPlan plan;
   plan.scale = options.scale;
   plan.frame_budget_ms = options.frame_budget_ms;
-  if (measured) plan.curves.push_back(measured->curve);
+  if (measured) {
+    plan.curves.push_back(measured->curve);
+    plan.recorded = measured->features;
+  }
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
     if (measured && entry.name == measured->entry.name) {
       auto model = curves::make_sample_model(entry, plan.curves, 0);
@@ -208,7 +211,8 @@ core::Result<void> write_results(const DemoResult& result, const std::vector<Rep
 
 core::Result<void> measure_all(const DemoPlan& plan, DemoResult& result) {
   for (std::size_t i = 0; i < result.sessions.size(); ++i) {
-    auto measured = measure(result.sessions[i], plan.materials[i]);
+    const bool recorded = plan.materials[i].parameters.law == physics::Law::Measured;
+    auto measured = measure(result.sessions[i], plan.materials[i], recorded ? &*plan.recorded : nullptr);
     if (!measured) return tl::unexpected(measured.error());
     result.measurements.push_back(std::move(*measured));
   }
@@ -221,11 +225,11 @@ core::Result<void> measure_all(const DemoPlan& plan, DemoResult& result) {
 }
 
 core::Result<void> check_accuracy(const Measurement& m) {
-  if (m.worst_error() <= kEventErrorBound) return {};
+  if (m.worst_error() <= m.error_bound()) return {};
   return core::failure(
       core::ErrorCategory::Failed,
-      fmt::format("{}: an event is off by {:.3g} % from the equations, more than {} %; see summary.json", m.title,
-                  100.0 * m.worst_error(), 100.0 * kEventErrorBound));
+      fmt::format("{}: an event is off by {:.3g} % from the {}, more than {} %; see summary.json", m.title,
+                  100.0 * m.worst_error(), m.recorded ? "recorded curve" : "equations", 100.0 * m.error_bound()));
 }
 
 core::Result<void> check_accuracy(const DemoResult& result) {
@@ -308,18 +312,18 @@ core::Result<void> read_model(const std::string& text, DemoOptions& options) {
 }
 
 // What is felt, and how.
-void add_sample_options(OptionList& command, DemoOptions& options) {
+void add_sample_options(OptionList& command, DemoOptions& options, const CommandContext& context) {
   command
       .add_option("--material", options.files.shown,
                   "a sample of the material files, by name; give it once for each; default: the paper's three")
-      .type_name("NAME");
+      .type_name("MATERIAL");
   command
       .add_parsed_option(
           "--model", [&options](const std::string& text) { return read_model(text, options); },
           "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- before "
           "one that can move a mass")
       .show_default("paper")
-      .type_name("NAME");
+      .type_name("MODEL");
   command
       .add_parsed_option(
           "--probe",
@@ -327,9 +331,10 @@ void add_sample_options(OptionList& command, DemoOptions& options) {
             (exhibit::is_model_file(text) ? options.files.probe : options.probe) = text;
             return {};
           },
-          "a lever and tip of assets/probes.toml instead of the materials' own; or a glTF model of your own "
-          "cantilever, .glb or .gltf, which changes the picture alone")
-      .type_name("NAME|FILE");
+          fmt::format("a lever and tip of {}/probes.toml instead of the materials' own; or a glTF model of your own "
+                      "cantilever, .glb or .gltf, which changes the picture alone",
+                      context.assets_dir))
+      .type_name("PROBE|FILE");
   add_own_sample_option(command, options.files);
   command
       .add_option("--vary", options.vary,
@@ -370,7 +375,7 @@ void add_demo_command(OptionList& program, const CommandContext& context) {
       command, "--hand-speed", [&hand = options->hand](physics::Velocity speed) { hand.speed_m_per_s = speed.si; },
       physics::kVelocityUnits, "mean speed of the simulated hand", std::optional(kHandSpeeds))
       .show_default("30mm/s");
-  add_sample_options(command, *options);
+  add_sample_options(command, *options, context);
   add_servo_mode_option(command, options->servo.mode);
   command.when_chosen([options, &context] { return run_demo(*options, context.program_path); });
 }

@@ -57,8 +57,8 @@ Row listen_for_tracker(const input::DtrackSettings& settings) {
             "nothing came in 0.3 s: start the measurement, and send its output to this address"};
   }
   const std::string damaged =
-      fmt::format("{} packets that are no frames{} in 0.3 s", update.bad_packets,
-                  update.old_packets > 0 ? fmt::format(", {} frames again", update.old_packets) : "");
+      fmt::format("{} packets that are no frames, {} frames lost, {} late or sent again in 0.3 s", update.bad_packets,
+                  update.lost_frames, update.old_packets);
   if (update.good_packets == 0) return {"tracker", name, false, damaged};
   return {"tracker", name, true,
           fmt::format("{} frames, {} bodies, {} Flysticks; {}", update.good_packets, update.frame.body_count,

@@ -12,9 +12,11 @@
 #include "app/bench/servo_latency.h"
 #include "app/command.h"
 #include "app/commands/diagnosis.h"
+#include "app/commands/fault_bundle.h"
 #include "core/log.h"
 #include "core/percentiles.h"
 #include "core/printable.h"
+#include "core/whole_file.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
@@ -33,6 +35,7 @@ struct DoctorOptions {
   double seconds = kDefaultSeconds;
   bool lab = false;
   bool json = false;
+  std::string bundle;  // a file for a fault report; empty: none
 };
 
 // Rows of the printed histogram, microseconds; the last one is open.
@@ -131,6 +134,11 @@ core::Result<void> examine(const std::string& program, const DoctorOptions& opti
   const MachineFacts facts = look_at_machine(clock, program, options.seconds);
   std::vector<Finding> findings = diagnose(facts);
   for (Finding& f : findings) f.found = core::printable(f.found);
+  if (!options.bundle.empty()) {
+    auto written = core::write_file(options.bundle, fault_bundle(facts, plain(facts, findings)));
+    if (!written) return written;
+    core::log_line("written: " + options.bundle + "; read it, add what happened, and send it with your report");
+  }
   std::fputs((options.json ? json(facts, findings) : plain(facts, findings)).c_str(), stdout);
   return {};
 }
@@ -148,8 +156,15 @@ void add_doctor_command(OptionList& program, const CommandContext& context) {
                    "run the servo itself for 60 s; ends with 1 if it missed a tick or one in 1000 came 200 us late");
   command.add_flag("--json", options->json,
                    "print the findings and the histogram as JSON, SI with the unit in the key");
+  command
+      .add_option(
+          "--bundle", options->bundle,
+          "write what a fault report needs into FILE: versions, system, devices and the findings; without names "
+          "of people, of this computer and of home folders")
+      .type_name("FILE");
   command.footer(
-      "example: touchafm doctor --seconds 10\nIt needs no rights and changes nothing; ends with 0 whatever it finds, "
+      "example: touchafm doctor --seconds 10\n         touchafm doctor --bundle fault.txt\nIt needs no rights and "
+      "changes nothing; ends with 0 whatever it finds, "
       "but for --lab.");
   command.when_chosen([&context, options] { return examine(context.program_path, *options); });
 }

@@ -161,7 +161,7 @@ void add_material_command(OptionList& program, const CommandContext& context) {
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<MaterialOptions>();
   command.add_option("name", options->contact.material, "a material; without it all materials and probes are listed")
-      .type_name("NAME");
+      .type_name("MATERIAL");
   add_contact_options(command, options->contact, context);
   command.add_option("--map", options->map, "write the adhesion map with this contact on it, as SVG").type_name("FILE");
   command.footer(

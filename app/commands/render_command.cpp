@@ -63,6 +63,14 @@ exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::
   return files;
 }
 
+// Width to height of an eye's picture, where the size is given: the paper's wall takes them on, so that nothing is
+// stretched.
+std::optional<double> aspect_of(const exhibit::PictureOptions& picture, scene::StereoMode usual) {
+  if (!picture.size_px || picture.size_px->x == 0 || picture.size_px->y == 0) return std::nullopt;
+  const glm::dvec2 eye(scene::eye_size(picture.mode.value_or(usual), *picture.size_px));
+  return eye.x / eye.y;
+}
+
 core::Result<void> draw(
     const exhibit::Stage& stage, const std::vector<curves::SampleModel>& models, const exhibit::Moment& moment,
     const exhibit::PictureOptions& picture, const std::string& out,
@@ -88,6 +96,7 @@ core::Result<void> run_journey(const RenderOptions& options) {
   }
   exhibit::ExhibitFiles files = options.files;
   files.shown = {options.material};
+  files.aspect = aspect_of(options.picture, scene::StereoMode::SideBySide);
   auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
   auto model = curves::make_sample_model(curves::ContactSetup{stage->materials.materials.front(), {}, {}});
@@ -173,7 +182,10 @@ core::Result<void> run_render(const RenderOptions& options) {
   auto session = servo::load_session(options.session);
   if (!session) return tl::unexpected(session.error());
   if (!session->complete) core::log_line(servo::cut_text(*session, options.session));
-  auto stage = exhibit::load_exhibit(files_for(*session, options.files));
+  exhibit::ExhibitFiles files = files_for(*session, options.files);
+  const auto seen = scene::parse_stereo_mode(session->wall.empty() ? "" : session->wall.front().stereo);
+  files.aspect = aspect_of(options.picture, seen.value_or(scene::StereoMode::SideBySide));
+  auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
   const auto& materials = stage->materials.materials;
   const auto found =
@@ -256,7 +268,7 @@ void add_render_command(OptionList& program, const CommandContext& context) {
   command.add_option("--material", options->material, "sample of the journey")
       .needs(journey)
       .show_default()
-      .type_name("NAME");
+      .type_name("MATERIAL");
   command.add_flag("--analogy", options->analogy, "draw Millet's magnet on a spring instead of the instrument")
       .needs(session);
   command.add_option("--out", options->out, "picture to write").type_name("FILE.png");

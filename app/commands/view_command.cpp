@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/command.h"
@@ -22,7 +25,9 @@
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/shared_model.h"
 #include "render/context.h"
+#include "render/monitor.h"
 #include "servo/haptic_choice.h"
+#include "servo/keep_running.h"
 #include "servo/session_file.h"
 
 namespace afm::app {
@@ -40,6 +45,7 @@ struct ViewOptions {
   DisplayOptions display;
   ViewSettings settings;
   double frame_rate = 0;  // 0: the display's
+  bool kiosk = false;     // an unattended window that is opened again whenever it fails
   servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = kLingerS}};
   std::int64_t spin_us = 0;
   WandOptions wand;
@@ -53,11 +59,24 @@ core::Result<void> check_validation(render::Context& context) {
                        fmt::format("the Vulkan validation layer gave {} messages; they stand above", messages.size()));
 }
 
+// What the wall calls the controls of a device that has a hand of its own.
+exhibit::HandControls controls_of(const servo::HapticChoice& choice) {
+  using exhibit::HandControls;
+  static constexpr std::array<std::pair<std::string_view, HandControls>, 3> kControls{
+      {{"hdapi", HandControls::Pen}, {"haply", HandControls::Grip}, {"gamepad", HandControls::Gamepad}}};
+  if (!choice.replay_file.empty()) return HandControls::Simulated;
+  if (choice.device == nullptr) return HandControls::Device;
+  const auto* known = std::find_if(kControls.begin(), kControls.end(),
+                                   [&](const auto& row) { return row.first == choice.device->word; });
+  return known == kControls.end() ? HandControls::Device : known->second;
+}
+
 // Selects who moves a simulated hand, and the settings under which a recorded hand is played.
 core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& device, ViewSettings& settings) {
   const auto choice = servo::parse_haptic_choice(device);
   if (!choice) return tl::unexpected(choice.error());
   if (choice->person == servo::HapticChoice::Person::Simulated) settings.hand = HandSource::Simulated;
+  settings.device_controls = controls_of(*choice);
   if (choice->replay_file.empty()) return {};
   const auto session = servo::load_session(choice->replay_file);
   if (!session) return tl::unexpected(session.error());
@@ -74,10 +93,20 @@ core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& devi
   return {};
 }
 
+// Width to height of an eye's picture. That there is no display is said when the windows open.
+double expected_aspect(const DisplayOptions& display) {
+  const auto monitors = render::list_monitors();
+  const glm::uvec2 window = expected_size(display.window, monitors.value_or(std::vector<render::Monitor>{}));
+  const glm::dvec2 eye(scene::eye_size(display.picture.mode.value_or(scene::StereoMode::Mono), window));
+  return eye.x / eye.y;
+}
+
 core::Result<void> run_view(const ViewOptions& options, const std::string& program) {
   const core::CodeOfInterruption released(core::ExitCode::Done);
   const core::MonotonicClock clock;
-  auto stage = exhibit::load_exhibit(options.files);
+  exhibit::ExhibitFiles files = options.files;
+  files.aspect = expected_aspect(options.display);
+  auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
   std::vector<curves::SampleModel> materials;
   for (const scene::MaterialEntry& entry : stage->materials.materials) {
@@ -89,6 +118,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   ViewSettings settings = options.settings;
   const auto wand_choice = parse_wand_choice(options.wand);
   if (!wand_choice) return tl::unexpected(wand_choice.error());
+  settings.head_script = wand_choice->head_script;
   if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
   auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
   if (!wand) return tl::unexpected(wand.error());
@@ -126,6 +156,13 @@ void add_picture_options(OptionList& command, ViewOptions& options) {
       .type_name("PIXELS");
   add_frame_budget(command, options.display.frame_budget_ms);
   command
+      .add_option("--comfort", options.display.comfort_deg,
+                  "draw for eyes less far apart wherever they would have to turn in more than this, or less, than for "
+                  "the wall; in degrees, 0.1 to 3; many see double beyond 1")
+      .within(0.1, 3.0)
+      .show_default()
+      .type_name("DEGREES");
+  command
       .add_option("--pictures", options.display.saved_folder,
                   "an existing folder for the pictures that F12 saves, touchafm-001.png and on; default: this one")
       .existing_folder()
@@ -148,9 +185,11 @@ void add_wand_options(OptionList& command, ViewOptions& options) {
                   "where the hand and the tracker are, or how an HID device is read; see docs/adding-a-wand.md")
       .type_name("FILE");
   command
-      .add_option("--head", options.wand.head,
-                  "whose head the picture is drawn for: dtrack:BODY or dtrack:BODY@ADDRESS:PORT of a tracker; default: "
-                  "the wand file's, else the wall's sweet spot")
+      .add_option(
+          "--head", options.wand.head,
+          "whose head the picture is drawn for: dtrack:BODY or dtrack:BODY@ADDRESS:PORT of a tracker, or sim:FILE, "
+          "a script of lines \"seconds, x, y, z\" in metres; default: the wand file's, else the wall's sweet spot, "
+          "which the arrow keys move")
       .type_name("SOURCE");
 }
 
@@ -163,6 +202,22 @@ void add_servo_options(OptionList& command, ViewOptions& options) {
       .type_name("DEVICE");
   command.add_option("--record", options.settings.record_folder, "keep what is felt in DIR, a session for each sample")
       .type_name("DIR");
+  command
+      .add_option("--frame-log", options.settings.frame_log,
+                  "a line of CSV for each frame: times, latency of the tracked head, disparity, lateness of the servo")
+      .type_name("FILE");
+  command.add_flag("--kiosk", options.kiosk,
+                   "run unattended, and open the window again whenever it fails: SIGTERM or Ctrl-C ends it");
+  command.add_flag(
+      "--unattended", options.settings.unattended,
+      "lock the keys of staff; without a visitor begin again and demonstrate the samples in turn; SIGTERM or "
+      "Ctrl-C ends it");
+  command
+      .add_option("--idle", options.settings.idle_s,
+                  "with --unattended or --kiosk: without a visitor until then, 5 to 3600")
+      .within(5.0, 3600.0)
+      .show_default()
+      .type_name("SECONDS");
   add_scale_option(command, options.settings.scale);
   command.add_flag("--dead-man", options.servo.settings.dead_man, "force only as long as Turn-On is held");
   quantity_option(
@@ -203,18 +258,24 @@ void add_view_command(OptionList& program, const CommandContext& context) {
       .add_option("--material", options->files.shown,
                   "a material to show, up to nine; default: mica, gold and silicon nitride of the paper")
       .one_value_each()
-      .type_name("NAME");
+      .type_name("MATERIAL");
   add_picture_options(command, *options);
   pixel_size_option(
       command, "--size", options->display.window.size_px,
       "one window of that size in pixels; default: a window for each output of the wall file in its place, else one "
-      "of 1280x960",
+      "of 1280x720; without a wall file the picture fills it",
       PixelRange{kSmallestWindow, kLargestWindow});
   add_servo_mode_option(command, options->servo.mode);
   add_wand_options(command, *options);
   add_servo_options(command, *options);
   command.add_flag("--validate", options->display.validate, "check every Vulkan call; any message ends in exit code 1");
-  command.when_chosen([options, &context] { return run_view(*options, context.program_path); });
+  command.when_chosen([options, &context]() -> core::Result<void> {
+    if (!options->kiosk) return run_view(*options, context.program_path);
+    const core::CodeOfInterruption released(core::ExitCode::Done);
+    std::vector<std::string> arguments = context.arguments;
+    std::replace(arguments.begin(), arguments.end(), std::string("--kiosk"), std::string("--unattended"));
+    return servo::keep_running(context.program_path, arguments);
+  });
 }
 
 }  // namespace afm::app

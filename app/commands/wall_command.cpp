@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,6 +19,7 @@
 #include "app/options/pixel_size_option.h"
 #include "exhibit/calibration.h"
 #include "exhibit/exhibit_setup.h"
+#include "exhibit/stage_place.h"
 #include "exhibit/wall_drawing.h"
 #include "exhibit/wall_layout.h"
 #include "scene/display/disparity.h"
@@ -119,6 +122,26 @@ void explain_output(const scene::Wall& wall, const scene::Output& output) {
   }
 }
 
+// How the scene finds its place on this wall, and whether it can be read from there.
+void explain_composition(const scene::Wall& wall, const scene::HeadPose& head) {
+  const exhibit::StagePlace stage = exhibit::stage_place(wall);
+  const exhibit::WallShape shape = exhibit::wall_shape(stage);
+  constexpr auto kPanels = std::to_array({"beside the instrument", "below the shelf", "on the side screens"});
+  std::printf("composition: the scene stands on screen %s, its panels %s\n", stage.main.name.c_str(),
+              kPanels[static_cast<std::size_t>(shape.arrangement)]);
+  constexpr double kSmallestLetterM = 0.030;   // the em square of what is smallest, on the paper's wall
+  constexpr double kReadableArcMinutes = 9.0;  // of an em square: a small letter has half of it
+  constexpr double kArcMinutesPerRad = 3437.75;
+  const double distance_m = glm::distance(head.position_m, stage.main.center());
+  const double letters = kSmallestLetterM * shape.unit_m / distance_m * kArcMinutesPerRad;
+  std::printf("  its smallest letters are %.1f mm high, %.0f arc minutes from the head\n",
+              kSmallestLetterM * shape.unit_m * 1e3, letters);
+  if (letters < kReadableArcMinutes) {
+    std::printf("  note: below %.0f arc minutes many cannot read them; stand nearer or use a larger screen\n",
+                kReadableArcMinutes);
+  }
+}
+
 // A scene of one point that is never shown: the pattern stands alone.
 scene::Scene nothing() {
   scene::Scene scene;
@@ -135,7 +158,7 @@ core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions&
   auto drawing = exhibit::WallDrawing::open(wall, options.picture);
   if (!drawing) return tl::unexpected(drawing.error());
   const scene::Scene scene = nothing();
-  const double millimetre_m = 1e-3 * exhibit::layout_unit_m(drawing->plan().outputs.front().screen);
+  const double millimetre_m = 1e-3 * exhibit::wall_shape({.main = drawing->plan().outputs.front().screen}).unit_m;
   const double ipd_m = options.picture.ipd_m.value_or(wall.viewers.front().ipd_m);
   const auto build = [&](const exhibit::OutputPicture& output, const std::array<scene::EyeView, 2>& eyes) {
     render::FrameState frame;
@@ -165,6 +188,10 @@ core::Result<void> run_wall(const WallOptions& options) {
   }
   for (const scene::Screen& screen : wall->screens) explain_screen(screen, head, ipd_m);
   for (const scene::Output& output : wall->outputs) explain_output(*wall, output);
+  explain_composition(*wall, head);
+  if (const std::string doubt = scene::doubt_of_head(*wall, head.position_m); !doubt.empty()) {
+    std::printf("note: the head is %s\n", doubt.c_str());
+  }
   std::printf("viewer %s: %.1f mm between the eyes, head %s\nthe wall file is in order\n", viewer.name.c_str(),
               ipd_m * 1e3, viewer.head == "none" ? "not tracked" : viewer.head.c_str());
   return {};
@@ -172,9 +199,10 @@ core::Result<void> run_wall(const WallOptions& options) {
 
 }  // namespace
 
-void add_wall_command(OptionList& program, const CommandContext&) {
+void add_wall_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command("wall", "check a wall file and print what each eye sees of it");
-  command.footer("example: touchafm wall assets/walls/powerwall.toml --json --head 0.2,1.7,2.1");
+  command.footer(
+      fmt::format("example: touchafm wall {}/walls/powerwall.toml --json --head 0.2,1.7,2.1", context.assets_dir));
   auto options = std::make_shared<WallOptions>();
   command.add_option("file", options->file, "wall file (TOML), or a ParaView configuration (.pvx)")
       .required()

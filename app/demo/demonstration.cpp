@@ -25,7 +25,7 @@ constexpr int kMostServosLost = 5;
 }  // namespace
 
 Demonstration::Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, render::Renderer& renderer,
-                             servo::ServoClient& servo, const core::Clock& clock, const HandPath& path,
+                             servo::ServoClient& servo, const core::Clock& clock, const input::HandPath& path,
                              std::function<void()> chosen)
     : wall_scene_(stage.wall_scene),
       guidance_(stage.guidance),
@@ -88,7 +88,7 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, D
 
   std::size_t events_logged = 0;
   int restarts = 0;
-  while (person_.step() != SimulatedPerson::Step::Done) {
+  while (person_.step() != input::SimulatedPerson::Step::Done) {
     if (auto stepped = step(result); !stepped) return tl::unexpected(stepped.error());
     if (person_.restarts() != restarts) {
       restarts = person_.restarts();
@@ -162,7 +162,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
 
 core::Result<void> Demonstration::consume_update(std::int64_t now_ns) {
   auto update = servo_.poll(now_ns);
-  if (!update) return tl::unexpected(update.error());
+  if (!update) return core::failure(update.error().category, update.error().message + "; run again");
 
   stream_.consume(
       *update,
@@ -188,7 +188,7 @@ exhibit::Moment Demonstration::moment(const input::WandState& wand, const input:
   exhibit::Moment now = exhibit::moment_of(servo_.tip(), exhibit::is_retracting(servo_.tip().tip.z_m, deepest_z_m_));
   now.wall.hovered = pointing.hovered;
   now.wall.wand = wand;
-  now.guidance = guidance_.text(hint());
+  now.guidance = guidance_.text(hint(), {});
   now.curves = curves_;
   now.servo = exhibit::servo_rows(servo_.tip(), servo_.timing(), servo_.device());
   if (budget_) now.servo.push_back(budget_->row());
@@ -197,7 +197,7 @@ exhibit::Moment Demonstration::moment(const input::WandState& wand, const input:
 }
 
 exhibit::Hint Demonstration::hint() const {
-  using Step = SimulatedPerson::Step;
+  using Step = input::SimulatedPerson::Step;
   switch (person_.step()) {
     case Step::PointAtSwatch:
     case Step::PressSelect:

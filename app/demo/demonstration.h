@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "app/demo/report.h"
-#include "app/live/simulated_person.h"
 #include "app/options/dynamic_resolution.h"
 #include "core/clock.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/guidance.h"
 #include "exhibit/moment.h"
+#include "input/simulated_person.h"
+#include "physics/curve_analysis.h"
 #include "render/renderer.h"
 #include "servo/servo_client.h"
 #include "servo/session_recorder.h"
@@ -27,6 +28,7 @@ struct DemoPlan {
   std::vector<curves::SampleModel> materials;
   std::vector<std::vector<curves::SampleModel>> variations;  // one list per material
   std::vector<scene::SharedMeasuredCurve> curves;            // of measured materials
+  std::optional<physics::CurveFeatures> recorded;            // what the analysis says of the measured material
   double frame_budget_ms = 0;                                // as --frame-budget
   scene::ScaleMode scale = scene::ScaleMode::Fit;
 };
@@ -39,7 +41,7 @@ class Demonstration {
 
   // `chosen` is called once a frame is drawn in which the ray chooses for the first time. Everything must outlive it.
   Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, render::Renderer& renderer,
-                servo::ServoClient& servo, const core::Clock& clock, const HandPath& path,
+                servo::ServoClient& servo, const core::Clock& clock, const input::HandPath& path,
                 std::function<void()> chosen);
 
   // Until every cycle is done. Fails when the servo dies, or when something that must happen does not.
@@ -67,9 +69,9 @@ class Demonstration {
   servo::ServoClient& servo_;
   const core::Clock& clock_;
   std::optional<DynamicResolution> budget_;
-  HandPath path_;
+  input::HandPath path_;
   std::function<void()> chosen_;  // empty once it was called
-  SimulatedPerson person_;
+  input::SimulatedPerson person_;
   input::Selector selector_;
   std::vector<input::Target> targets_;
   glm::dvec3 between_eyes_m_;

@@ -11,7 +11,37 @@ namespace afm::app {
 
 namespace {
 
-double relative(double value, double reference) { return value / reference - 1.0; }
+// What a recording has not is 0 in both.
+double relative(double value, double reference) { return value == reference ? 0.0 : value / reference - 1.0; }
+
+// The hardest pull of the branch on which the tip is drawn off.
+double hardest_pull_n(const physics::LawTables& tables) {
+  constexpr int kSteps = 10000;
+  const physics::Length way = tables.figures.z_joc - tables.pressed_to;
+  double hardest = 0.0;
+  for (int i = 0; i <= kSteps; ++i) {
+    const physics::Length z = tables.pressed_to + way * (static_cast<double>(i) / kSteps);
+    hardest = std::max(hardest, -tables.attached.force(z).si);
+  }
+  return hardest;
+}
+
+// A curve that lets go gradually has its pull-off where it is pulled hardest, and no jump there.
+void compare_with(const physics::CurveFeatures& recorded, const physics::LawTables& tables, Measurement& m) {
+  const physics::Length zero = recorded.contact_point.value_or(physics::Length());
+  m.recorded = true;
+  m.snaps_in = recorded.snap_in.has_value();
+  m.pulls_off = recorded.pull_off.has_value();
+  m.recorded_loop_energy_j = recorded.loop_energy.si;
+  m.calculation = {m.snaps_in ? std::abs(recorded.snap_in->force_after.si) : 0.0,
+                   m.pulls_off ? std::abs(recorded.pull_off->force.si) : 0.0,
+                   m.snaps_in ? (recorded.snap_in->z - zero).si : 0.0,
+                   recorded.let_go ? (*recorded.let_go - zero).si : 0.0};
+  if (!m.snaps_in) m.measured.f_attr_n = 0.0;
+  if (!m.pulls_off) m.measured.f_ad_n = 0.0;
+  const bool lets_go_at_the_jump = recorded.jumps_off && *recorded.let_go == recorded.pull_off->z;
+  if (m.pulls_off && !lets_go_at_the_jump) m.measured.f_ad_n = hardest_pull_n(tables);
+}
 
 }  // namespace
 
@@ -34,13 +64,18 @@ std::optional<double> Measurement::experiment_error_f_ad() const {
   return relative(measured.f_ad_n, *experiment_f_ad_n);
 }
 
+double Measurement::error_bound() const { return recorded ? kRecordingErrorBound : kEventErrorBound; }
+
 double Measurement::worst_error() const {
   if (!judged) return 0.0;
   const CycleEvents e = error_vs_calculation();
+  // heights of a recording are as uncertain as its bins are wide
+  if (recorded) return std::max(std::abs(e.f_attr_n), std::abs(e.f_ad_n));
   return std::max({std::abs(e.f_attr_n), std::abs(e.f_ad_n), std::abs(e.z_jtc_m), std::abs(e.z_joc_m)});
 }
 
-core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::SampleModel& material) {
+core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::SampleModel& material,
+                                  const physics::CurveFeatures* recorded) {
   const physics::CycleFigures& figures = material.figures();
   const scene::TipEvent* in = session.find(physics::EventKind::JumpToContact);
   const scene::TipEvent* out = session.find(physics::EventKind::JumpOffContact);
@@ -60,6 +95,7 @@ core::Result<Measurement> measure(const servo::RecordedSession& session, const c
                    figures.z_joc.si};
   m.fold_n = std::abs(figures.force_before_jtc.si);
   m.loop_energy_j = figures.loop_energy.si;
+  if (recorded != nullptr) compare_with(*recorded, *material.tables, m);
   if (const auto& f = material.setup.material.experiment_f_attr) m.experiment_f_attr_n = f->si;
   if (const auto& f = material.setup.material.experiment_f_ad) m.experiment_f_ad_n = f->si;
 

@@ -9,6 +9,7 @@
 
 #include "core/result.h"
 #include "curves/sample_model.h"
+#include "physics/curve_analysis.h"
 #include "scene/shared/shared_blocks.h"
 #include "servo/session_file.h"
 
@@ -26,13 +27,17 @@ struct CycleEvents {
 struct Measurement {
   std::string material;
   std::string title;
-  std::string law;              // "dmt"
-  bool hysteretic = true;       // false: so stiff a lever jumps nowhere, and there is nothing to compare
-  bool judged = true;           // false: inertia and noise move the jumps of a dynamic lever; no error is made of that
-  CycleEvents measured;         // from the events: where the path crossed the folds inside a tick
-  CycleEvents calculation;      // the folds of the law, solved when its tables were built
-  double fold_n = 0;            // attraction of the calculation just before the jump to contact
-  double loop_energy_j = 0;     // of the calculation
+  std::string law;          // "dmt"
+  bool hysteretic = true;   // false: so stiff a lever jumps nowhere, and there is nothing to compare
+  bool judged = true;       // false: inertia and noise move the jumps of a dynamic lever; no error is made of that
+  CycleEvents measured;     // from the events: where the path crossed the folds inside a tick
+  CycleEvents calculation;  // the folds of the law, solved when its tables were built; of a recording, its analysis
+  bool recorded = false;    // an instrument's curve, which need not snap in or pull off: then those are 0
+  bool snaps_in = true;
+  bool pulls_off = true;
+  double fold_n = 0;                  // attraction of the calculation just before the jump to contact
+  double loop_energy_j = 0;           // of the law as it is felt
+  double recorded_loop_energy_j = 0;  // of the recording
   double sampled_f_attr_n = 0;  // from the ticks alone: the first one in contact, the strongest pull of the retract
   double sampled_f_ad_n = 0;
   std::optional<double> experiment_f_attr_n;
@@ -43,13 +48,16 @@ struct Measurement {
   std::optional<double> experiment_error_f_attr() const;
   std::optional<double> experiment_error_f_ad() const;
   double worst_error() const;  // the largest relative error against the calculation; 0 where nothing is judged
+  double error_bound() const;
 };
 
-// The accuracy that a run must reach (design, section 6).
+// The accuracy that a run must reach (design, section 6); of a recorded curve, whose noise is smoothed to be felt.
 inline constexpr double kEventErrorBound = 1e-3;
+inline constexpr double kRecordingErrorBound = 1e-2;
 
 // Fails if the cycle of a law with hysteresis has no jump to contact or no jump off contact. `material` is what the
-// session was felt with.
-core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::SampleModel& material);
+// session was felt with; `recorded`, where that is an instrument's curve, its analysis, else null.
+core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::SampleModel& material,
+                                  const physics::CurveFeatures* recorded = nullptr);
 
 }  // namespace afm::app

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/version.h"
 
@@ -23,12 +25,13 @@ nlohmann::json json_of(const core::Percentiles& p) {
 }
 
 nlohmann::json json_of(const Measurement& m) {
+  const auto or_null = [](bool there, double value) { return there ? nlohmann::json(value) : nlohmann::json(); };
   nlohmann::json json{{"law", m.law},
                       {"hysteretic", m.hysteretic},
                       {"fold_N", m.fold_n},
                       {"loop_energy_J", m.loop_energy_j},
-                      {"f_attr_N", m.measured.f_attr_n},
-                      {"f_ad_N", m.measured.f_ad_n},
+                      {"f_attr_N", or_null(m.snaps_in, m.measured.f_attr_n)},
+                      {"f_ad_N", or_null(m.pulls_off, m.measured.f_ad_n)},
                       {"z_jtc_m", m.measured.z_jtc_m},
                       {"z_joc_m", m.measured.z_joc_m},
                       {"sampled_f_attr_N", m.sampled_f_attr_n},
@@ -37,6 +40,13 @@ nlohmann::json json_of(const Measurement& m) {
                       {"error_vs_experiment", nlohmann::json::object()}};
   if (const auto error = m.experiment_error_f_attr()) json["error_vs_experiment"]["f_attr"] = *error;
   if (const auto error = m.experiment_error_f_ad()) json["error_vs_experiment"]["f_ad"] = *error;
+  if (m.recorded) {
+    json["recorded"] = {{"f_attr_N", or_null(m.snaps_in, m.calculation.f_attr_n)},
+                        {"f_ad_N", or_null(m.pulls_off, m.calculation.f_ad_n)},
+                        {"z_jtc_m", or_null(m.snaps_in, m.calculation.z_jtc_m)},
+                        {"z_joc_m", m.calculation.z_joc_m},
+                        {"loop_energy_J", m.recorded_loop_energy_j}};
+  }
   return json;
 }
 
@@ -67,7 +77,15 @@ table { border-collapse: collapse; width: 100%; font-size: 0.93em; background: #
 th, td { border: 1px solid #d5dae1; padding: 0.35em 0.6em; text-align: right; } th { background: #e8ebf0; }
 td:first-child, th:first-child { text-align: left; }
 .note { color: #4a5568; font-size: 0.93em; }
+.wide { overflow-x: auto; } .wide:focus { outline: 2px solid #3b82c4; }
+@media (max-width: 760px) {
+  body { padding: 0.8em; } td, th { white-space: nowrap; }
+  .wide img, .wide svg { width: auto; min-width: 900px; } .wide img.pair { min-width: 1400px; }
+}
 )";
+
+// What is wider than a narrow browser is moved inside its own box; the keyboard reaches that too.
+std::string scrolled(const std::string& html) { return "<div class=\"wide\" tabindex=\"0\">" + html + "</div>"; }
 
 std::string events_table(const DemoResult& result) {
   std::string html =
@@ -94,27 +112,50 @@ std::string events_table(const DemoResult& result) {
           m.title, m.law);
       continue;
     }
-    row(m.title + " (" + m.law + ")", "F<sub>attr</sub>", "nN", m.calculation.f_attr_n * 1e9, m.measured.f_attr_n * 1e9,
-        nn(m.sampled_f_attr_n), nn(m.experiment_f_attr_n), percent(m.experiment_error_f_attr()));
+    if (m.recorded) {
+      html += fmt::format(
+          "<tr><td>{}</td><td colspan=\"7\">a recorded curve: {}{}, loop energy felt {:.4g} aJ, recorded {:.4g} "
+          "aJ</td></tr>\n",
+          m.title, m.snaps_in ? "snaps in" : "no snap-in", m.pulls_off ? ", pulls off" : ", no pull-off",
+          m.loop_energy_j * 1e18, m.recorded_loop_energy_j * 1e18);
+    }
+    if (m.snaps_in) {
+      row(m.title + " (" + m.law + ")", "F<sub>attr</sub>", "nN", m.calculation.f_attr_n * 1e9,
+          m.measured.f_attr_n * 1e9, nn(m.sampled_f_attr_n), nn(m.experiment_f_attr_n),
+          percent(m.experiment_error_f_attr()));
+      row(m.title, "Z<sub>jtc</sub>", "nm", m.calculation.z_jtc_m * 1e9, m.measured.z_jtc_m * 1e9, "\u2013", "\u2013",
+          "\u2013");
+    }
+    if (!m.pulls_off) continue;
     row(m.title, "F<sub>ad</sub>", "nN", m.calculation.f_ad_n * 1e9, m.measured.f_ad_n * 1e9, nn(m.sampled_f_ad_n),
         nn(m.experiment_f_ad_n), percent(m.experiment_error_f_ad()));
-    row(m.title, "Z<sub>jtc</sub>", "nm", m.calculation.z_jtc_m * 1e9, m.measured.z_jtc_m * 1e9, "\u2013", "\u2013",
-        "\u2013");
     row(m.title, "Z<sub>joc</sub>", "nm", m.calculation.z_joc_m * 1e9, m.measured.z_joc_m * 1e9, "\u2013", "\u2013",
         "\u2013");
   }
-  return html + "</table>\n";
+  return scrolled(html + "</table>") + "\n";
+}
+
+// In the unit that leaves 1 to 1000 before the point: "11.49 ms".
+std::string time_text(double seconds) {
+  static constexpr std::array<std::pair<double, const char*>, 3> kTimeUnits{
+      {{1.0, "s"}, {1e-3, "ms"}, {1e-6, "\u00b5s"}}};
+  const auto* unit = kTimeUnits.begin();
+  while (unit + 1 != kTimeUnits.end() && std::abs(seconds) < unit->first) ++unit;
+  return fmt::format("{:.4g} {}", seconds / unit->first, unit->second);
 }
 
 std::string timing_table(const DemoResult& result) {
-  const auto row = [](const char* name, const char* unit, const core::Percentiles& p) {
-    return fmt::format("<tr><td>{}</td><td>{:.4g} {}</td><td>{:.4g} {}</td><td>{:.4g} {}</td><td>{:.4g} {}</td></tr>\n",
-                       name, p.p50, unit, p.p99, unit, p.p999, unit, p.max, unit);
+  const auto row = [](const char* name, double unit_s, const core::Percentiles& p) {
+    return fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", name,
+                       time_text(p.p50 * unit_s), time_text(p.p99 * unit_s), time_text(p.p999 * unit_s),
+                       time_text(p.max * unit_s));
   };
-  return "<table><tr><th>what</th><th>p50</th><th>p99</th><th>p99.9</th><th>max</th></tr>\n" +
-         row("servo: late at wake-up", "\u00b5s", core::percentiles(result.servo.wake_us, result.servo.wake_max_us)) +
-         row("servo: work in a tick", "\u00b5s", core::percentiles(result.servo.work_us, result.servo.work_max_us)) +
-         row("renderer: a stereo frame", "ms", core::percentiles(result.frame_ms)) + "</table>\n";
+  return scrolled(
+             "<table><tr><th>what</th><th>p50</th><th>p99</th><th>p99.9</th><th>max</th></tr>\n" +
+             row("servo: late at wake-up", 1e-6, core::percentiles(result.servo.wake_us, result.servo.wake_max_us)) +
+             row("servo: work in a tick", 1e-6, core::percentiles(result.servo.work_us, result.servo.work_max_us)) +
+             row("renderer: a stereo frame", 1e-3, core::percentiles(result.frame_ms)) + "</table>") +
+         "\n";
 }
 
 }  // namespace
@@ -154,7 +195,9 @@ nlohmann::json summary_json(const DemoResult& result) {
 std::string report_html(const DemoResult& result, const std::vector<ReportPicture>& pictures,
                         const std::string& curves_svg) {
   std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>TouchAFM: approach and retract</title>"
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>TouchAFM: approach and "
+      "retract</title>"
       "<style>{}</style></head><body>\n<h1>Approach and retract on {} samples</h1>\n"
       "<p class=\"note\">TouchAFM {} felt one full cycle on each sample in {:.0f} s, with a {} moving at {:.0f} mm/s "
       "on average, "
@@ -162,7 +205,7 @@ std::string report_html(const DemoResult& result, const std::vector<ReportPictur
       kStyle, result.measurements.size(), core::kVersion, result.seconds, result.haptic_device,
       result.hand_speed_m_per_s * 1e3, result.frame_ms.size(), result.eye_width, result.eye_height,
       result.vulkan_device);
-  html += "<h2>Force-displacement curves</h2>\n<figure>" + curves_svg +
+  html += "<h2>Force-displacement curves</h2>\n<figure>" + scrolled(curves_svg) +
           "<figcaption>Every servo sample. Approach dashed, retract solid; force on the tip is positive away from the "
           "sample.</figcaption></figure>\n";
   html += "<h2>Table 2 of the paper, with our columns</h2>\n" + events_table(result);
@@ -178,9 +221,10 @@ std::string report_html(const DemoResult& result, const std::vector<ReportPictur
       "<h2>The wall</h2>\n<p class=\"note\">Side by side, left eye left: look at them with parallel eyes, or on a "
       "stereo wall.</p>\n";
   for (const ReportPicture& picture : pictures) {
-    html += fmt::format(
-        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-        picture.caption, base64(picture.png));
+    html += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+                        scrolled(fmt::format("<img class=\"pair\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
+                                             picture.caption, base64(picture.png))),
+                        picture.caption);
   }
   html += "<h2>Timing</h2>\n" + timing_table(result);
   html += fmt::format(

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string_view>
@@ -25,6 +26,7 @@ namespace {
 
 constexpr std::int64_t kForceTakenNs = 500'000'000;  // until a choice has taken the force away
 constexpr double kHiddenPauseS = 0.05;               // between two heartbeats of a window that nobody sees
+constexpr double kBesideWallM = 0.01;                // of the contact: so near, B would change nothing
 constexpr double kDrawnHandM = 0.085;                // of the hand, shown as the stroke that a sample's cycle fills
 
 MouseHand hand_over(const exhibit::WallScene& wall_scene) {
@@ -51,9 +53,13 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::Sample
           stage.materials.materials.size(), settings.record_folder),
       wand_(stage.screen, stage.wall_scene.wand_grip_m()),
       view_wand_(view_wand),
-      head_(stage.wall.viewers.front().sweet_spot),
+      head_(stage.wall),
+      simulated_head_(stage.wall.viewers.front().sweet_spot, settings.head_script),
       hand_(hand_over(stage.wall_scene)),
-      person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), HandPath{}) {}
+      person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), input::HandPath{}),
+      visitor_(static_cast<std::int64_t>(settings.idle_s * 1e9)) {
+  if (settings_.unattended) panels_.show_visitors_keys_only();
+}
 
 void LiveView::begin_with(servo::ServoClient& servo, std::optional<std::size_t> felt_before) {
   hand_ = hand_over(stage_.wall_scene);
@@ -63,6 +69,11 @@ void LiveView::begin_with(servo::ServoClient& servo, std::optional<std::size_t> 
 
 core::Result<void> LiveView::run() {
   const core::OrderlyEnd by_itself;
+  if (!settings_.frame_log.empty()) {
+    auto log = servo::FrameLog::create(settings_.frame_log, clock_.now_ns());
+    if (!log) return tl::unexpected(log.error());
+    frame_log_ = std::move(*log);
+  }
   if (auto started = servo_.start(); !started) return started;
   hand_moved_ns_ = clock_.now_ns();
   std::optional<core::Error> lost;
@@ -72,18 +83,20 @@ core::Result<void> LiveView::run() {
     lost = core::Error{core::ErrorCategory::Failed, failure.what()};
   }
   head_.log_latency();
+  view_wand_.log_losses();
   servo_.finish();  // the hand is released, and what was felt is kept, while the last picture still stands
   if (lost) return tl::unexpected(*lost);
   picture_.finish();
   if (servo_.error()) return tl::unexpected(*servo_.error());
-  return {};
+  return frame_log_ ? frame_log_->finish() : core::Result<void>{};
 }
 
 void LiveView::run_frame(std::int64_t now_ns) {
   const ViewInput input = windows_.poll();
-  leaving_ = input.close_requested;
+  leaving_ = input.close_requested && !settings_.unattended;
   for (const ViewEvent& event : input.events) handle(event, now_ns);
   if (std::exchange(cursor_px_, input.cursor_px) != input.cursor_px && !hand_.dragging()) cursor_moved_ns_ = now_ns;
+  if (settings_.unattended) follow_visitor(input, now_ns);
   move_hand(input, now_ns);
   servo_.update(now_ns);
   follow_wand(now_ns);
@@ -108,7 +121,7 @@ void LiveView::handle(const ViewEvent& input, std::int64_t now_ns) {
   }
   if (event.kind != render::WindowEvent::Kind::KeyDown) return;
   for (const LiveKey& row : live_keys()) {
-    if (!row.holds(event.key) || row.press == nullptr) continue;
+    if (!row.holds(event.key) || row.press == nullptr || (row.staff && settings_.unattended)) continue;
     row.press(*this, static_cast<std::size_t>(event.key) - static_cast<std::size_t>(row.key));
   }
 }
@@ -127,6 +140,7 @@ void LiveView::toggle_analogy() {
 void LiveView::bring_home() {
   view_wand_.home();
   to_wall_ = glm::dmat4(1.0);
+  simulated_head_.home();
 }
 
 // The contact comes into the wall's plane, where both eyes see it in one place.
@@ -135,11 +149,14 @@ void LiveView::bring_to_wall() {
     core::log_line("the scene stays while the tip touches it");
     return;
   }
+  const double before_m = before_wall_m();
+  to_wall_ = glm::translate(glm::dmat4(1.0), -before_m * stage_.screen.normal()) * to_wall_;
+  core::log_line(fmt::format("brought to the wall by {:.3f} m", -before_m));
+}
+
+double LiveView::before_wall_m() const {
   const glm::dvec3 contact(to_wall_ * view_wand_.navigation() * glm::dvec4(stage_.wall_scene.contact_m(), 1.0));
-  const glm::dvec3 normal = stage_.screen.normal();
-  const double before_wall_m = glm::dot(contact - stage_.screen.lower_left, normal);
-  to_wall_ = glm::translate(glm::dmat4(1.0), -before_wall_m * normal) * to_wall_;
-  core::log_line(fmt::format("brought to the wall by {:.3f} m", -before_wall_m));
+  return glm::dot(contact - stage_.screen.lower_left, stage_.screen.normal());
 }
 
 Pointed LiveView::pointed_at(std::size_t window, const glm::dvec2& cursor_px) {
@@ -158,12 +175,6 @@ Pointed LiveView::wand_pointed_at() {
   pointed.swatch = view_wand_.hovered();
   if (pointed.swatch) pointed.point_m = swatches_[*pointed.swatch].center_m;
   return pointed;
-}
-
-void LiveView::follow_head(std::int64_t now_ns) {
-  const auto seen = view_wand_.head();
-  const auto pose = seen ? std::optional(seen->pose) : std::nullopt;
-  if (const auto head = head_.update(pose, seen ? seen->time_ns : 0, now_ns)) picture_.look_from(*head);
 }
 
 // The sample's new place is where the hand finds it.
@@ -188,7 +199,7 @@ void LiveView::press(const Pointed& pointed) {
 void LiveView::choose(std::size_t material) {
   if (!servo_.running() || material >= swatches_.size()) return;
   servo_.link().choose(static_cast<std::int32_t>(material), settings_.scale);
-  if (settings_.hand == HandSource::Simulated) {
+  if (hand() == HandSource::Simulated) {
     person_.begin(swatches_[material].center_m, static_cast<std::int32_t>(material), clock_.now_ns());
   }
   core::log_line("chosen: " + stage_.materials.materials[material].title);
@@ -236,7 +247,7 @@ void LiveView::stop_force() {
 // So that the tip follows the cursor.
 double LiveView::hand_m_per_px(std::size_t window) const {
   const WallPicture shown = picture_.picture(window);
-  const double stroke_m = exhibit::kStrokeHeight * exhibit::layout_unit_m(stage_.screen);
+  const double stroke_m = exhibit::kStrokeHeight * 1e3 * stage_.wall_scene.panel_millimetre_m();
   return kDrawnHandM / stroke_m * shown.screen.height_m() / shown.place.size_px.y;
 }
 
@@ -250,7 +261,7 @@ void LiveView::move_hand(const ViewInput& input, std::int64_t now_ns) {
     return;
   }
   const std::int32_t material = servo.tip().material;
-  if (person_.step() == SimulatedPerson::Step::Done && material >= 0) {
+  if (person_.step() == input::SimulatedPerson::Step::Done && material >= 0 && !visitor_.away()) {
     person_.begin(swatches_[static_cast<std::size_t>(material)].center_m, material, now_ns);
   }
   person_.update(now_ns, servo.tip());
@@ -259,10 +270,36 @@ void LiveView::move_hand(const ViewInput& input, std::int64_t now_ns) {
 
 // The mouse and the simulated person do not move a real device.
 HandSource LiveView::hand() const {
-  return servo_.link().device().has_own_hand != 0 ? HandSource::Device : settings_.hand;
+  if (has_own_hand()) return HandSource::Device;
+  return settings_.unattended && visitor_.away() ? HandSource::Simulated : settings_.hand;
 }
 
-exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) const {
+bool LiveView::has_own_hand() const { return servo_.link().device().has_own_hand != 0; }
+
+// What the person at the wall holds.
+exhibit::Controls LiveView::controls() const {
+  using exhibit::HandControls;
+  const exhibit::Pointer pointer = wand_points() ? exhibit::Pointer::Wand : exhibit::Pointer::Mouse;
+  switch (hand()) {
+    case HandSource::Mouse:
+      return {HandControls::Mouse, pointer};
+    case HandSource::Simulated:
+      return {HandControls::Simulated, pointer};
+    case HandSource::Device:
+      break;
+  }
+  return {settings_.device_controls, pointer};
+}
+
+exhibit::Hint LiveView::next_hint(std::int64_t now_ns) {
+  const scene::TipState& tip = servo_.link().tip();
+  const exhibit::CycleHistory& cycles = servo_.cycles();
+  // the pull of the sample jerks the hand down on its way up, which is no new approach
+  const bool ascending = cycles.ascending() || (cycles.pressed() && tip.tip.z_m > 0.0);
+  return procedure_.update(tip, {ascending, cycles.pressed(), cycles.cycles()}, now_ns);
+}
+
+exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) {
   const servo::ServoClient& servo = servo_.link();
   const exhibit::CycleHistory& cycles = servo_.cycles();
   const bool touched = servo.tip().phase == physics::Phase::Attached || cycles.cycles() > 0;
@@ -271,9 +308,8 @@ exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) co
   now.wall.hovered = pointed.swatch;
   now.wall.wand = wand_points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
   now.wall.navigation = to_wall_ * view_wand_.navigation();
-  // the pull of the sample jerks the hand down on its way up, which is no new approach
-  const bool upwards = cycles.ascending() || (cycles.pressed() && servo.tip().tip.z_m > 0.0);
-  now.guidance = stage_.guidance.line(servo.tip(), upwards, cycles.cycles());
+  now.guidance = stage_.guidance.line(next_hint(now_ns), servo.tip(), controls());
+  if (visitor_.away()) now.guidance = stage_.guidance.text(exhibit::Hint::ChooseSample, controls());  // which invites
   now.wall.cue = exhibit::jump_cue(servo_.events(), servo.tip().time_ns);
   now.wall.centerpiece = travel_.orders() ? exhibit::Centerpiece::Journey
                          : analogy_       ? exhibit::Centerpiece::Analogy
@@ -284,7 +320,7 @@ exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) co
   if (auto row = picture_.quality_row()) now.servo.push_back(std::move(*row));
   if (!servo_.running()) {
     now.servo_state = scene::ServoState::Fault;
-    now.guidance = stage_.guidance.text(exhibit::Hint::ServoEnded);
+    now.guidance = stage_.guidance.text(exhibit::Hint::ServoEnded, controls());
   }
   return now;
 }
@@ -330,8 +366,11 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   const auto material = travel_.orders() ? std::nullopt : servo_.material();
   panels_.add_to(frame, pointed, material, material ? stage_.materials.materials[*material].title : "",
                  servo_.link().tip(), hand());
-  picture_.show(frame, now_ns, beat);
-  head_.presented(clock_.now_ns());
+  panels_.add_note(frame, now.wall.centerpiece, stage_.guidance);
+  const bool off_wall = std::abs(before_wall_m()) > kBesideWallM;
+  picture_.show(frame, off_wall ? exhibit::Relief::BringToWall : exhibit::Relief::NarrowEyes, now_ns, beat);
+  const std::int64_t presented_ns = clock_.now_ns();
+  log_frame(now_ns, presented_ns, head_.presented(presented_ns));
 }
 
 void LiveView::pace(std::int64_t frame_start_ns) const {

@@ -10,7 +10,6 @@
 #include "app/live/mouse_hand.h"
 #include "app/live/mouse_wand.h"
 #include "app/live/servo_supervisor.h"
-#include "app/live/simulated_person.h"
 #include "app/live/view_head.h"
 #include "app/live/view_keys.h"
 #include "app/live/view_panels.h"
@@ -21,15 +20,25 @@
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/journey.h"
+#include "exhibit/procedure.h"
+#include "input/idle_watch.h"
+#include "input/simulated_head.h"
+#include "input/simulated_person.h"
+#include "servo/frame_log.h"
 
 namespace afm::app {
 
 struct ViewSettings {
   HandSource hand = HandSource::Mouse;
+  exhibit::HandControls device_controls = exhibit::HandControls::Device;  // of HandSource::Device
   double most_frames_per_s = 60.0;
   scene::ScaleMode scale = scene::ScaleMode::Fit;  // M goes on to the next
   std::optional<std::size_t> first_material;       // chosen whenever a servo has been started
-  std::string record_folder;                       // for the sessions of what is felt; empty: none is kept
+  std::string frame_log;                           // a file; empty: none is written
+  std::vector<input::HeadKey> head_script;         // of a head that no tracker follows; may be empty
+  bool unattended = false;    // keys of staff are locked; without a visitor it begins again and shows itself
+  double idle_s = 60;         // without a visitor, until then
+  std::string record_folder;  // for the sessions of what is felt; empty: none is kept
 };
 
 // The live window: a person's mouse points, chooses and moves the hand of the servo; every frame shows the newest state
@@ -56,26 +65,36 @@ class LiveView {
   void follow_wand(std::int64_t now_ns);
   void follow_head(std::int64_t now_ns);
   void choose(std::size_t material);  // that there is
+  void follow_visitor(const ViewInput& input, std::int64_t now_ns);
+  void begin_for_visitors();
+  void demonstrate_next();
+  bool hand_was_used();
   void next_scale();
   void take_force_away(std::int64_t now_ns);
   void travel(std::int64_t now_ns);
   void begin_again();
   void stop_force();
   void bring_to_wall();
+  double before_wall_m() const;  // where the contact point is
   void bring_home();
+  void move_head(double right_m, double up_m, double nearer_m);
   void turn_journey_round();
   void toggle_analogy();
 
   double hand_m_per_px(std::size_t window) const;
   HandSource hand() const;
+  bool has_own_hand() const;
+  exhibit::Controls controls() const;
   void move_hand(const ViewInput& input, std::int64_t now_ns);
   void follow_edits();
   Pointed pointed_at(std::size_t window, const glm::dvec2& cursor_px);
   bool wand_points() const;
   Pointed wand_pointed_at();
-  exhibit::Moment moment(const Pointed& pointed, std::int64_t now_ns) const;
+  exhibit::Moment moment(const Pointed& pointed, std::int64_t now_ns);
+  exhibit::Hint next_hint(std::int64_t now_ns);
   void record(const exhibit::Moment& now);
   void draw(const ViewInput& input, std::int64_t now_ns);
+  void log_frame(std::int64_t begun_ns, std::int64_t presented_ns, std::optional<double> head_latency_s);
   void pace(std::int64_t frame_start_ns) const;
 
   const exhibit::Stage& stage_;
@@ -91,8 +110,10 @@ class LiveView {
   MouseWand wand_;
   ViewWand& view_wand_;  // in its place, if there is one
   ViewHead head_;
+  input::SimulatedHead simulated_head_;  // where no tracker follows a true one
   MouseHand hand_;
-  SimulatedPerson person_;  // moves the hand with HandSource::Simulated
+  input::SimulatedPerson person_;  // moves the hand with HandSource::Simulated
+  exhibit::Procedure procedure_;
   std::string logged_guidance_;
   std::int64_t hand_moved_ns_ = 0;
   glm::dvec2 cursor_px_{0.0};
@@ -101,6 +122,12 @@ class LiveView {
   std::int64_t force_taken_ns_ = 0;  // by the journey, last
   bool analogy_ = false;
   glm::dmat4 to_wall_{1.0};  // brings the scene to the wall, after the wand's navigation
+  std::unique_ptr<servo::FrameLog> frame_log_;
+  servo::ServoLateness servo_lateness_;
+  input::IdleWatch visitor_;
+  glm::dvec3 hand_seen_m_{0.0};  // of a device with a hand of its own, when it was last moved
+  std::int64_t wand_seen_ns_ = 0;
+  glm::dvec2 cursor_seen_px_{0.0};
   bool leaving_ = false;
 };
 

@@ -102,7 +102,10 @@ void ServoSupervisor::replace(const core::Error& error, std::int64_t now_ns) {
   error_ = error;
   core::log_line(error.message);
   while (!restarts_ns_.empty() && now_ns - restarts_ns_.front() > kMinuteNs) restarts_ns_.pop_front();
-  if (error.category != core::ErrorCategory::Failed || restarts_ns_.size() >= kMostRestarts) return;
+  if (error.category != core::ErrorCategory::Failed || restarts_ns_.size() >= kMostRestarts) {
+    core::log_line("the servo stays ended: press R to start it again");
+    return;
+  }
   restarts_ns_.push_back(now_ns);
   if (auto started = launch("the servo was started again by itself: lift, then press Turn-On"); !started) {
     core::log_line(started.error().message);

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
 #include <utility>
 
 #include "core/log.h"
@@ -11,16 +13,18 @@
 
 namespace afm::app {
 
-// For the windows as they have opened; panels are as sharp as the first one's screen.
+// For the windows as they have opened; panels are as sharp as the finest one's screen.
 render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const DisplayOptions& options) const {
   render::RendererOptions drawing;
   if (options.eye_width > 0) {
     drawing = stage.renderer_options(options.eye_width);
   } else {
     const glm::uvec2 eye_px = glm::max(eye_size_for_all(stage, outputs_, std::nullopt, *windows_), glm::uvec2(1));
+    double narrowest_m = outputs_.front().screen.width_m();
+    for (const ViewOutput& output : outputs_) narrowest_m = std::min(narrowest_m, output.screen.width_m());
     drawing.eye_width = eye_px.x;
     drawing.eye_height = eye_px.y;
-    drawing.panel_texels_per_m = 2.0 * eye_px.x / outputs_.front().screen.width_m();
+    drawing.panel_texels_per_m = 2.0 * eye_px.x / narrowest_m;
     drawing.panel_millimetre_m = stage.wall_scene.panel_millimetre_m();
   }
   drawing.time_passes = options.frame_budget_ms > 0;
@@ -57,6 +61,7 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
                             PictureSettings{.ipd_m = options.picture.ipd_m.value_or(stage.wall.viewers.front().ipd_m),
                                             .eye_px = {drawing.eye_width, drawing.eye_height},
                                             .fixed_eye_size = options.eye_width > 0,
+                                            .comfort_rad = glm::radians(options.comfort_deg),
                                             .frame_budget_ms = options.frame_budget_ms,
                                             .saved_folder = options.saved_folder});
   core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}; F1 shows the keys", drawing.eye_width,

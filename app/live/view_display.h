@@ -21,6 +21,7 @@ struct DisplayOptions {
   WindowOptions window;
   std::uint32_t eye_width = 0;     // 0: the windows'
   double frame_budget_ms = 0;      // 0: none
+  double comfort_deg = 1;          // how much more or less the eyes may turn in than for the wall
   std::string saved_folder = ".";  // for the pictures that are saved
   bool validate = false;           // every Vulkan call
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 
 #include "core/log.h"
 
@@ -18,9 +19,21 @@ constexpr double kLongestLatencyS = 0.25;  // a longer one says that the window 
 
 }  // namespace
 
+bool ViewHead::believed(const scene::HeadPose& pose) {
+  const std::string doubt = scene::doubt_of_head(wall_, pose.position_m);
+  if (doubt.empty() == doubted_) {
+    doubted_ = !doubted_;
+    core::log_line(doubted_ ? fmt::format("head: the tracker puts it {}, where no head can be; the picture is drawn "
+                                          "for the sweet spot; check room_from_tracker in the wand file",
+                                          doubt)
+                            : "head: it is back where a head can be");
+  }
+  return doubt.empty();
+}
+
 std::optional<scene::HeadPose> ViewHead::update(const std::optional<scene::HeadPose>& pose, std::int64_t pose_ns,
                                                 std::int64_t now_ns) {
-  if (pose) {
+  if (pose && believed(*pose)) {
     tracker_.add(*pose, pose_ns);
     tracked_ = true;
     cause_ns_ = pose_ns;
@@ -29,13 +42,14 @@ std::optional<scene::HeadPose> ViewHead::update(const std::optional<scene::HeadP
   return tracker_.head(now_ns, latency_s_);
 }
 
-void ViewHead::presented(std::int64_t now_ns) {
-  if (cause_ns_ == counted_ns_) return;
+std::optional<double> ViewHead::presented(std::int64_t now_ns) {
+  if (cause_ns_ == counted_ns_) return std::nullopt;
   counted_ns_ = cause_ns_;
   const double latency_s = static_cast<double>(now_ns - cause_ns_) * 1e-9;
   latencies_ms_.push_back(latency_s * 1e3);
   if (latency_s < kLongestLatencyS) latency_s_ += kSmoothing * (latency_s - latency_s_);
   if (latencies_ms_.size() >= kToldAfter) log_latency();
+  return latency_s;
 }
 
 void ViewHead::log_latency() {

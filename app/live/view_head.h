@@ -14,20 +14,27 @@ namespace afm::app {
 // packet to the picture that it moved. The main thread alone.
 class ViewHead {
  public:
-  explicit ViewHead(const scene::HeadPose& sweet_spot) : tracker_(sweet_spot) {}
+  // The wall must outlive it.
+  explicit ViewHead(const scene::Wall& wall) : wall_(wall), tracker_(wall.viewers.front().sweet_spot) {}
 
-  // Once a frame, with the newest pose and when it came, if there is one. Empty as long as no head has been tracked.
+  // Once a frame, with the newest pose and when it came, if there is one. Empty as long as no head has been tracked. A
+  // place where no head can be is logged, and counts as a head that is lost.
   std::optional<scene::HeadPose> update(const std::optional<scene::HeadPose>& pose, std::int64_t pose_ns,
                                         std::int64_t now_ns);
 
-  // The frame of the last update() has been presented. Logs the latencies once a minute.
-  void presented(std::int64_t now_ns);
+  // The frame of the last update() has been presented: how long after its pose came, in seconds, if it was the first to
+  // show it. Logs the latencies once a minute.
+  std::optional<double> presented(std::int64_t now_ns);
 
   // Logs the latencies since they were last logged.
   void log_latency();
 
  private:
+  bool believed(const scene::HeadPose& pose);
+
+  const scene::Wall& wall_;
   input::HeadTracker tracker_;
+  bool doubted_ = false;
   bool tracked_ = false;
   std::int64_t cause_ns_ = 0;    // when the pose of this frame came
   std::int64_t counted_ns_ = 0;  // of the pose that was counted last

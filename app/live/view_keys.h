@@ -21,6 +21,14 @@ struct LiveKey {
   void (*press)(LiveView& view, std::size_t number);  // 0 for the run's first key; null: MouseHand follows the key
   const char* mouse = "";                             // does the same
   render::Key last = key;                             // of the run
+  bool staff = false;                                 // does nothing in an unattended window
+
+  // The same row, for staff alone.
+  constexpr LiveKey for_staff() const {
+    LiveKey row = *this;
+    row.staff = true;
+    return row;
+  }
 
   bool holds(render::Key other) const { return other >= key && other <= last; }
 };
@@ -28,7 +36,8 @@ struct LiveKey {
 // Every key of the live window, in the order of the list.
 std::span<const LiveKey> live_keys();
 
-// The list of keys for the wall. Those of MouseHand stand there where the mouse moves the hand.
-render::DataPanel key_list(HandSource hand);
+// The list of keys for the wall, without those of staff where nobody attends. Those of MouseHand stand there where the
+// mouse moves the hand.
+render::DataPanel key_list(HandSource hand, bool unattended);
 
 }  // namespace afm::app

@@ -95,6 +95,16 @@ render::Composition ViewOutput::composition(std::optional<StereoMode> other_mode
   return {shown, twice(order, other_order), picture_from_output};
 }
 
+glm::uvec2 expected_size(const WindowOptions& window, const std::vector<render::Monitor>& monitors) {
+  if (!window.monitor.empty()) {
+    if (const render::Monitor* found = render::find_monitor(monitors, window.monitor)) return found->rect.size_px;
+  }
+  if (window.size_px) return *window.size_px;
+  if (window.full_screen && !monitors.empty()) return monitors.front().rect.size_px;
+  const render::WindowOptions usual;
+  return {usual.width, usual.height};
+}
+
 core::Result<std::vector<ViewOutput>> plan_view(const scene::Wall& wall, const scene::Screen& stage,
                                                 const exhibit::PictureOptions& options, const WindowOptions& window,
                                                 const std::vector<render::Monitor>& monitors) {

@@ -35,6 +35,9 @@ struct WindowOptions {
   bool full_screen = false;
 };
 
+// How large that window will be, as far as it can be known before it opens.
+glm::uvec2 expected_size(const WindowOptions& window, const std::vector<render::Monitor>& monitors);
+
 // The wall file's outputs, each in its place; or one window of the whole stage, in mode dual one for each eye.
 // `monitors` are those of this desktop. DeviceMissing, naming output and monitors: a monitor is not there, or an
 // output lies, with a corner at least, on none of them. WrongUsage: mode dual where an output shows no eye, more

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/log.h"
 #include "exhibit/panel_hit.h"
 #include "render/control_layout.h"
@@ -84,6 +86,17 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
   if (parameters_shown_ || parameters.changed()) exhibit::add_prediction(parameters, frame.force_panel);
 }
 
+void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece,
+                          const exhibit::Guidance& guidance) const {
+  using exhibit::Note;
+  std::string text;
+  if (centerpiece == exhibit::Centerpiece::Journey) text = guidance.text(Note::LeaveJourney);
+  if (centerpiece == exhibit::Centerpiece::Analogy) text = guidance.text(Note::LeaveAnalogy);
+  if (!keys_known_) text += (text.empty() ? "" : "     ") + guidance.text(Note::Keys);
+  if (text.empty()) return;
+  frame.labels.push_back({.text = std::move(text), .highlighted = false, .placement = wall_scene_.note_placement()});
+}
+
 void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
                         const std::string& material_title, const scene::TipState& tip, HandSource hand) {
   if (material) add_parameters(frame, pointed, *material, material_title, tip);
@@ -91,7 +104,7 @@ void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::
     frame.force_placement = frame.data_placement = frame.control_placement = render::kNoPlacement;
   }
   if (keys_shown_) {
-    frame.data_panel = key_list(hand);
+    frame.data_panel = key_list(hand, unattended_);
     frame.data_placement = wall_scene_.parameter_placement();
     frame.control_placement = render::kNoPlacement;
   }

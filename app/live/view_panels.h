@@ -7,6 +7,7 @@
 
 #include "app/live/parameter_edits.h"
 #include "app/live/view_keys.h"
+#include "exhibit/guidance.h"
 #include "exhibit/wall_scene.h"
 #include "input/wand.h"
 #include "render/frame.h"
@@ -27,9 +28,15 @@ class ViewPanels {
   // `wall_scene` must outlive it; `materials` as the servo was started with.
   ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials);
 
-  void toggle_keys() { keys_shown_ = !keys_shown_; }
+  void toggle_keys() {
+    keys_shown_ = !keys_shown_;
+    keys_known_ = true;
+  }
   void toggle_parameters() { parameters_shown_ = !parameters_shown_; }
   void toggle_all() { hidden_ = !hidden_; }
+
+  // The list of keys leaves out those of staff.
+  void show_visitors_keys_only() { unattended_ = true; }
 
   // "keys", "none", "parameters" or "samples": which of them cover the others.
   std::string shown() const;
@@ -42,6 +49,9 @@ class ViewPanels {
   void press(const Pointed& pointed, std::size_t material, servo::ServoClient* servo);
 
   ParameterEdits& edits() { return edits_; }
+
+  // A short note below the left panel: how to leave what is shown, and, until F1 was used, where the keys are listed.
+  void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece, const exhibit::Guidance& guidance) const;
 
   // Adds the panels of this moment to a frame: the parameters or the tab that opens them, the curve that follows from
   // what was changed, the keys; takes away what is hidden.
@@ -57,6 +67,8 @@ class ViewPanels {
   ParameterEdits edits_;
   bool hidden_ = false;
   bool keys_shown_ = false;
+  bool unattended_ = false;
+  bool keys_known_ = false;
   bool parameters_shown_ = false;
 };
 

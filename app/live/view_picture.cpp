@@ -45,6 +45,8 @@ ViewPicture::ViewPicture(const exhibit::Stage& stage, const std::vector<ViewOutp
       settings_(settings),
       head_(stage.wall.viewers.front().sweet_spot),
       eye_size_px_(settings.eye_px),
+      drawn_ipd_m_(settings.ipd_m),
+      comfort_(settings.comfort_rad),
       saver_(context, renderer),
       depth_meter_(context, renderer) {
   if (settings_.frame_budget_ms > 0) budget_.emplace(settings_.frame_budget_ms, renderer.quality().samples);
@@ -52,6 +54,8 @@ ViewPicture::ViewPicture(const exhibit::Stage& stage, const std::vector<ViewOutp
 }
 
 void ViewPicture::fit(std::int64_t now_ns) {
+  drawn_ipd_m_ = comfort_.ipd_m(settings_.ipd_m, now_ns);
+  look_from(head_);
   const glm::uvec2 wanted = eye_size_for_all(stage_, outputs_, other_mode_, windows_);
   if (wanted != wanted_eye_px_) {
     wanted_eye_px_ = wanted;
@@ -87,8 +91,7 @@ void ViewPicture::share_out() {
 void ViewPicture::look_from(const scene::HeadPose& head) {
   head_ = head;
   for (Share& share : shares_) {
-    if (const auto eyes = exhibit::eyes_before(share.screen, head, share.flat ? 0.0 : settings_.ipd_m))
-      share.eyes = *eyes;
+    if (const auto eyes = exhibit::eyes_before(share.screen, head, share.flat ? 0.0 : drawn_ipd_m_)) share.eyes = *eyes;
   }
 }
 
@@ -141,7 +144,7 @@ WallPicture ViewPicture::picture(std::size_t window) const {
 }
 
 // What an earlier frame asked of the eyes; logs when that begins to be too much, and now and then.
-void ViewPicture::measure_depth(std::int64_t now_ns) {
+void ViewPicture::measure_depth(exhibit::Relief relief, std::int64_t now_ns) {
   if (shares_.front().flat || calibrating_ || now_ns - depth_measured_ns_ < kMeasureNs) return;
   depth_measured_ns_ = now_ns;
   if (const auto range = depth_meter_.newest()) {
@@ -149,7 +152,8 @@ void ViewPicture::measure_depth(std::int64_t now_ns) {
     const Share& first = shares_.front();
     const glm::dvec3 middle = 0.5 * (first.eyes[0].eye_position_m + first.eyes[1].eye_position_m);
     const double distance_m = glm::dot(middle - first.screen.lower_left, first.screen.normal());
-    depth_ = exhibit::report_depth(*range, distance_m, settings_.ipd_m);
+    comfort_.measured(*range, distance_m, settings_.ipd_m);
+    depth_ = exhibit::report_depth(*range, distance_m, comfort_.settled_ipd_m(settings_.ipd_m), relief);
     if ((depth_.hard && !was_hard) || now_ns - depth_logged_ns_ >= kDepthLogNs) {
       core::log_line(depth_.text);
       depth_logged_ns_ = now_ns;
@@ -189,7 +193,8 @@ void ViewPicture::log_update(const std::vector<render::SavedPicture>& saved) {
   }
 }
 
-void ViewPicture::show(render::FrameState& frame, std::int64_t now_ns, const std::function<void()>& while_waiting) {
+void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::int64_t now_ns,
+                       const std::function<void()>& while_waiting) {
   if (!calibrating_ && !shares_.front().flat) frame.labels.push_back(exhibit::depth_label(depth_, stage_.screen));
   while_waiting();
   if (!presenter_.begin(pictures_, while_waiting)) {
@@ -204,7 +209,7 @@ void ViewPicture::show(render::FrameState& frame, std::int64_t now_ns, const std
     }
     renderer_.render(frame);
     if (&share == &shares_.front()) {
-      measure_depth(now_ns);
+      measure_depth(relief, now_ns);
       save_newest();
     }
     while_waiting();

@@ -13,6 +13,7 @@
 #include "app/live/view_outputs.h"
 #include "app/live/view_windows.h"
 #include "app/options/dynamic_resolution.h"
+#include "exhibit/comfort_clamp.h"
 #include "exhibit/depth_report.h"
 #include "exhibit/exhibit_setup.h"
 #include "render/depth_meter.h"
@@ -24,10 +25,11 @@ namespace afm::app {
 
 struct PictureSettings {
   double ipd_m = 0.063;
-  glm::uvec2 eye_px{0};            // as the renderer was made
-  bool fixed_eye_size = false;     // else the eyes get as many pixels as the windows have for them
-  double frame_budget_ms = 0;      // frames are drawn coarser to stay within it; 0: as they are
-  std::string saved_folder = ".";  // for the pictures that are saved
+  glm::uvec2 eye_px{0};         // as the renderer was made
+  bool fixed_eye_size = false;  // else the eyes get as many pixels as the windows have for them
+  double comfort_rad = scene::kComfortableDisparityRad;  // how much more or less the eyes may turn in than for the wall
+  double frame_budget_ms = 0;                            // frames are drawn coarser to stay within it; 0: as they are
+  std::string saved_folder = ".";                        // for the pictures that are saved
 };
 
 // How the live windows show the wall: for which eyes, in which layout, how large. The main thread alone.
@@ -38,7 +40,8 @@ class ViewPicture {
               const ViewWindows& windows, render::Renderer& renderer, render::Presenter& presenter,
               const PictureSettings& settings);
 
-  // Once a frame: the eye images get the pixels that the windows have for them, once those have stopped changing.
+  // Once a frame: the eye images get the pixels that the windows have for them, once those have stopped changing; and
+  // the eyes the distance at which the depth that was measured last is comfortable.
   void fit(std::int64_t now_ns);
 
   // The eyes of a head somewhere before the wall; behind a screen, its picture stays as it was.
@@ -75,13 +78,18 @@ class ViewPicture {
     scene::StereoMode mode = scene::StereoMode::Mono;
     scene::EyeOrder order = scene::EyeOrder::Straight;
   };
-  Viewing viewing() const { return {head_, settings_.ipd_m, mode(), other_order_}; }
+  Viewing viewing() const { return {head_, drawn_ipd_m_, mode(), other_order_}; }
+
+  // As measured last; without text before the first measurement, and where both eyes see the same.
+  const exhibit::DepthReport& depth() const { return depth_; }
 
   // How finely frames are drawn to stay within the budget; nothing without one.
   std::optional<render::DataRow> quality_row() const;
 
-  // Draws and shows a frame in all windows, with the depth meter in it; calls `while_waiting` often.
-  void show(render::FrameState& frame, std::int64_t now_ns, const std::function<void()>& while_waiting);
+  // Draws and shows a frame in all windows, with the depth meter in it, which advises `relief`; calls `while_waiting`
+  // often.
+  void show(render::FrameState& frame, exhibit::Relief relief, std::int64_t now_ns,
+            const std::function<void()>& while_waiting);
 
  private:
   // What is drawn once, and shown in one window or more: a screen for two eyes, or for the middle of both.
@@ -95,7 +103,7 @@ class ViewPicture {
   scene::StereoMode mode() const { return other_mode_.value_or(outputs_.front().mode); }
   bool can_show(scene::StereoMode mode) const;
   void share_out();
-  void measure_depth(std::int64_t now_ns);
+  void measure_depth(exhibit::Relief relief, std::int64_t now_ns);
   void save_newest();
   static void log_update(const std::vector<render::SavedPicture>& saved);
 
@@ -113,6 +121,8 @@ class ViewPicture {
   glm::uvec2 eye_size_px_;                       // as the renderer draws
   glm::uvec2 wanted_eye_px_{0};
   std::int64_t windows_steady_since_ns_ = 0;
+  double drawn_ipd_m_;  // what the eyes are drawn for: the viewer's, or less for comfort
+  exhibit::ComfortClamp comfort_;
   std::optional<DynamicResolution> budget_;
   render::ScreenshotQueue saver_;
   std::size_t to_save_ = 0;       // pictures that were asked for

@@ -64,6 +64,13 @@ core::Result<void> parse_head(const std::string& text, WandChoice& choice) {
     choice.head_body = choice.file.head_body;
     return {};
   }
+  constexpr std::string_view kScript = "sim:";
+  if (text.rfind(kScript, 0) == 0 && text.size() > kScript.size()) {
+    auto script = input::load_head_script(text.substr(kScript.size()));
+    if (!script) return tl::unexpected(script.error());
+    choice.head_script = std::move(*script);
+    return {};
+  }
   constexpr std::string_view kDtrack = "dtrack:";
   const std::size_t at = text.find('@');
   std::uint32_t body = 0;
@@ -72,7 +79,7 @@ core::Result<void> parse_head(const std::string& text, WandChoice& choice) {
   if (number.empty() || error != std::errc() || end != number.data() + number.size() || body > 63) {
     return core::failure(core::ErrorCategory::WrongUsage,
                          fmt::format("--head: \"{}\" is not dtrack:BODY or dtrack:BODY@ADDRESS:PORT with a body from 0 "
-                                     "to 63, such as dtrack:0@127.0.0.1:5000",
+                                     "to 63, such as dtrack:0@127.0.0.1:5000, nor sim:FILE",
                                      text));
   }
   choice.head_body = body;
@@ -94,6 +101,7 @@ core::Result<WandChoice> parse_wand_choice(const WandOptions& options) {
     auto file = input::load_wand_file(options.file);
     if (!file) return tl::unexpected(file.error());
     choice.file = std::move(*file);
+    choice.has_tracker_file = choice.file.dtrack.has_value();
   }
   if (auto parsed = parse_source(options.source, choice); !parsed) return tl::unexpected(parsed.error());
   if (auto parsed = parse_head(options.head, choice); !parsed) return tl::unexpected(parsed.error());
@@ -141,7 +149,14 @@ core::Result<void> ViewWand::open_dtrack(const WandChoice& choice, const core::C
   auto source = input::DtrackSource::open(tracker_, clock);
   if (!source) return tl::unexpected(source.error());
   dtrack_ = source->get();
-  core::log_line(fmt::format("listening for a tracker at {}:{}", tracker_.address, tracker_.port));
+  const std::string place = fmt::format("{}:{}", tracker_.address, tracker_.port);
+  core::log_line("listening for a tracker at " + place);
+  if (!choice.has_tracker_file) {
+    core::log_line(
+        "tracker: z is taken as up and y as towards the wall, from the room's origin; room_from_tracker of a wand file "
+        "says otherwise");
+  }
+  tracker_report_.emplace(place, clock.now_ns());
   auto& thread = choice.source == WandChoice::Source::Dtrack ? wand_thread_ : head_thread_;
   thread = std::make_unique<input::WandThread>(std::move(*source));
   return {};
@@ -164,6 +179,9 @@ void ViewWand::update(std::int64_t now_ns, const scene::TipState& tip, const glm
   const bool pressed_before = wand_.pressed(input::WandButton::Select);
   const std::uint32_t stops_before = wand_.stops;
   if (wand_thread_) wand_ = wand_thread_->newest();
+  if (tracker_report_) {
+    if (const auto line = tracker_report_->follow(dtrack_->newest(), now_ns)) core::log_line(*line);
+  }
   stop_pressed_ = wand_.stops > stops_before;
   if (simulated_) aim_simulated(now_ns);
   select_pressed_ = points() && wand_.pressed(input::WandButton::Select) && !pressed_before;
@@ -184,6 +202,10 @@ void ViewWand::update(std::int64_t now_ns, const scene::TipState& tip, const glm
   const bool refused = locked && moves;
   if (refused && !was_locked_) core::log_line("wand: the scene stays where it is while the tip is in contact");
   was_locked_ = refused;
+}
+
+void ViewWand::log_losses() const {
+  if (tracker_report_) core::log_line(tracker_report_->total());
 }
 
 std::optional<ViewWand::Head> ViewWand::head() const {

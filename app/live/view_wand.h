@@ -13,7 +13,9 @@
 #include "input/dtrack_source.h"
 #include "input/navigation.h"
 #include "input/selection.h"
+#include "input/simulated_head.h"
 #include "input/simulated_wand.h"
+#include "input/tracker_report.h"
 #include "input/wand_file.h"
 #include "input/wand_source.h"
 
@@ -23,15 +25,17 @@ namespace afm::app {
 struct WandOptions {
   std::string source = "auto";  // auto, hid, dtrack[:ADDRESS:PORT], sim or mouse
   std::string file{};           // empty: none
-  std::string head{};           // dtrack:BODY[@ADDRESS:PORT], or empty: the wand file's, if it names one
+  std::string head{};           // dtrack:BODY[@ADDRESS:PORT], sim:FILE, or empty: the wand file's, if it names one
 };
 
 // A choice of words that was checked.
 struct WandChoice {
   enum class Source { Auto, Hid, Dtrack, Simulated, Mouse };
   Source source = Source::Auto;
-  input::WandFile file;                    // with the mapping, the hand and the tracker of the file
-  std::optional<std::uint32_t> head_body;  // of the tracker
+  input::WandFile file;                     // with the mapping, the hand and the tracker of the file
+  bool has_tracker_file = false;            // that says how the tracker's frame lies in the room
+  std::optional<std::uint32_t> head_body;   // of the tracker
+  std::vector<input::HeadKey> head_script;  // of a simulated head, instead; may be empty
 };
 
 core::Result<WandChoice> parse_wand_choice(const WandOptions& options);
@@ -68,6 +72,11 @@ class ViewWand {
   };
   std::optional<Head> head() const;
 
+  bool tracks_head() const { return dtrack_ != nullptr && head_body_.has_value(); }
+
+  // Logs what a tracker has lost in the whole run, if there is one.
+  void log_losses() const;
+
  private:
   ViewWand(const exhibit::Stage& stage, const glm::dvec3& grip_m);
 
@@ -92,6 +101,7 @@ class ViewWand {
   input::DtrackSettings tracker_;
   std::optional<std::uint32_t> head_body_;
   const input::DtrackSource* dtrack_ = nullptr;  // owned by a thread below
+  std::optional<input::TrackerReport> tracker_report_;
   std::unique_ptr<input::WandThread> wand_thread_;
   std::unique_ptr<input::WandThread> head_thread_;  // of a tracker that has the head alone
   std::optional<input::SimulatedWand> simulated_;

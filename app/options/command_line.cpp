@@ -7,10 +7,61 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 namespace afm::app {
+
+namespace {
+
+std::string names_of(const char* word, const std::set<CLI::Option*>& options) {
+  // sets of pointers: their order is that of the addresses
+  std::set<std::string> names;
+  for (const CLI::Option* option : options) names.insert(option->get_name());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? word : ", ") + name;
+  return text;
+}
+
+OptionDescription describe_option(const CLI::Option& option) {
+  std::string rules = option.get_required() ? "required" : "";
+  for (const std::string& rule :
+       {names_of("needs ", option.get_needs()), names_of("not with ", option.get_excludes())}) {
+    if (!rule.empty()) rules += (rules.empty() ? "" : "; ") + rule;
+  }
+  return {.name = option.get_name(false, true),
+          .value = option.get_items_expected_max() == 0 ? "" : option.get_type_name(),
+          .help = option.get_description(),
+          .fallback = option.get_default_str(),
+          .rules = rules,
+          .argument = option.get_positional()};
+}
+
+CommandDescription describe_command(const CLI::App& app) {
+  CommandDescription command{.name = app.get_name(),
+                             .help = app.get_description(),
+                             .footer = app.get_footer(),
+                             .options = {},
+                             .alternatives = {},
+                             .commands = {}};
+  for (const CLI::Option* option : app.get_options()) {
+    // CLI11 gives a group of options a help flag that it never shows
+    const bool hidden = app.get_name().empty() && option == app.get_help_ptr();
+    if (!hidden) command.options.push_back(describe_option(*option));
+  }
+  for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
+    const CommandDescription inner = describe_command(*below);
+    if (!below->get_name().empty()) {
+      command.commands.push_back(inner);
+    } else {
+      command.alternatives.push_back({.title = below->get_group(), .options = inner.options});
+    }
+  }
+  return command;
+}
+
+}  // namespace
 
 Option& Option::type_name(const std::string& name) {
   option_->type_name(name);
@@ -138,6 +189,8 @@ CommandLine::CommandLine(const std::string& program, const std::string& version,
 CommandLine::CommandLine(std::unique_ptr<CLI::App> app) : OptionList(*app, chosen_), app_(std::move(app)) {}
 
 CommandLine::~CommandLine() = default;
+
+CommandDescription CommandLine::describe() const { return describe_command(*app_); }
 
 core::Result<std::string> CommandLine::parse(int count, const char* const* arguments) {
   try {

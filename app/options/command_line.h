@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 
@@ -88,6 +89,32 @@ class OptionList {
   Action* chosen_;
 };
 
+// What the help says of one option, or of one argument without dashes.
+struct OptionDescription {
+  std::string name;   // "--model"; of an argument "file"
+  std::string value;  // what may be given, as the help has it; of a flag empty
+  std::string help;
+  std::string fallback;  // the value that holds without the option, or empty
+  std::string rules;     // "required", "needs --gltf", "not with --size", or empty
+  bool argument = false;
+};
+
+// Options of which exactly one must be given.
+struct AlternativesDescription {
+  std::string title;
+  std::vector<OptionDescription> options;
+};
+
+// What the help says of one command, or of the program, whose commands are those below it.
+struct CommandDescription {
+  std::string name;
+  std::string help;
+  std::string footer;
+  std::vector<OptionDescription> options;
+  std::vector<AlternativesDescription> alternatives;
+  std::vector<CommandDescription> commands;
+};
+
 // The command line of a program, with --help and --version.
 class CommandLine : public OptionList {
  public:
@@ -98,6 +125,9 @@ class CommandLine : public OptionList {
 
   // The text that --help or --version asks for; an empty one if a command was chosen. WrongUsage: what is wrong first.
   core::Result<std::string> parse(int count, const char* const* arguments);
+
+  // For the man page and the shell's completion.
+  CommandDescription describe() const;
 
   // Runs what was chosen.
   core::Result<void> run() const { return chosen_(); }

@@ -108,7 +108,7 @@ void add_contact_options(OptionList& command, ContactOptions& options, const Com
   command
       .add_option("--probe", options.probe,
                   "a lever and tip of the probe file, in place of the material's; \"touchafm material\" lists them")
-      .type_name("NAME");
+      .type_name("PROBE");
   command
       .add_option("--probes", options.probe_files,
                   "probe file (TOML) of your own, may be repeated: adds to the built-in probes")
@@ -118,7 +118,7 @@ void add_contact_options(OptionList& command, ContactOptions& options, const Com
       .add_option("--model", options.model,
                   "auto (the law that suits the contact, by its Tabor parameter), or one of " +
                       curves::known_models(curves::ModelUse::Curve))
-      .type_name("NAME")
+      .type_name("MODEL")
       .show_default();
   for (const curves::ContactParameter& parameter : curves::contact_parameters()) {
     command

@@ -62,8 +62,10 @@ void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const 
                   "material file (TOML) of your own, shown instead of mica, gold and silicon nitride of the paper")
       .type_name("FILE");
   command
-      .add_option("--guidance", files.guidance,
-                  "what the wall tells a person to do, in another language (TOML, such as assets/guidance/de.toml)")
+      .add_option(
+          "--guidance", files.guidance,
+          fmt::format("what the wall tells a person to do, in another language (TOML, such as {}/guidance/de.toml)",
+                      context.assets_dir))
       .type_name("FILE");
   command.add_option("--assets", files.assets_dir, "folder of the models, walls and materials").type_name("DIR");
 }

@@ -38,7 +38,7 @@ Option pixel_size_option(OptionList& command, const std::string& name, std::opti
     const auto size = parse_pixel_size(text);
     if (!size || !legal(size->x, range) || !legal(size->y, range)) {
       return core::failure(core::ErrorCategory::WrongUsage,
-                           fmt::format("\"{}\" is not WIDTHxHEIGHT in pixels{}, such as 1280x960", text,
+                           fmt::format("\"{}\" is not WIDTHxHEIGHT in pixels{}, such as 1280x720", text,
                                        legal_values.empty() ? "" : " of " + legal_values));
     }
     size_px = *size;

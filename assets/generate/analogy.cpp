@@ -7,7 +7,7 @@ namespace {
 constexpr double kCm = 0.01;
 
 // The spring, from z = 0 up; it is stretched along z.
-constexpr double kSpringLength = 30 * kCm, kCoil = 7.5 * kCm, kWire = 1.1 * kCm;
+constexpr double kSpringLength = 20 * kCm, kCoil = 7.5 * kCm, kWire = 1.1 * kCm;
 constexpr int kTurns = 7;
 
 // The horseshoe magnet, its poles at z = 0.

@@ -196,6 +196,8 @@ void add_nodes(Writer& writer, const Model& model) {
 
 }  // namespace
 
+Json mark_role() { return {{"touchafm", {{"role", "mark"}}}}; }
+
 std::vector<std::uint8_t> to_glb(const Model& model) {
   Writer writer;
   writer.root["asset"] = {

@@ -39,6 +39,9 @@ struct NodeSpec {
   Json extras{};
 };
 
+// The extras of a unit shape that only the wall gives a length (docs/gltf.md).
+Json mark_role();
+
 // One .glb file to be. Lengths in metres.
 struct Model {
   std::string name;  // the file's, without extension

@@ -106,10 +106,12 @@ Model optics() {
   for (std::size_t i = 0; i < 4; ++i) {
     model.nodes.push_back({.name = names[i], .parent = 1, .parts = {{quadrant(middles[i], half), sensor()}}});
   }
-  model.nodes.push_back({.name = "beam", .parts = {{unit_beam(), red_light("beam light", 0.7)}}});
+  model.nodes.push_back(
+      {.name = "beam", .parts = {{unit_beam(), red_light("beam light", 0.7)}}, .extras = mark_role()});
   Surface disc;
   add_cap(disc, circle(1, 3), 0, Facing::Up);
-  model.nodes.push_back({.name = "spot", .parts = {{std::move(disc), red_light("spot light", 0.95)}}});
+  model.nodes.push_back(
+      {.name = "spot", .parts = {{std::move(disc), red_light("spot light", 0.95)}}, .extras = mark_role()});
   return model;
 }
 

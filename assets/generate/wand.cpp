@@ -70,7 +70,8 @@ Model wand() {
       {.name = "wand", .parts = {{turned(handle()), grip()}, {turned(neck()), shell()}, {turned(sphere()), ball()}}});
   model.nodes.push_back(
       {.name = "ray",
-       .parts = {{unit_beam(), {.name = "ray light", .base_color = {0.20, 1.0, 1.0}, .alpha = 0.75, .unlit = true}}}});
+       .parts = {{unit_beam(), {.name = "ray light", .base_color = {0.20, 1.0, 1.0}, .alpha = 0.75, .unlit = true}}},
+       .extras = mark_role()});
   return model;
 }
 

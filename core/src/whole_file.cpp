@@ -51,9 +51,9 @@ int replace(const fs::path& path, std::string_view bytes, std::optional<mode_t> 
   std::uint64_t random = 0;
   if (::getrandom(&random, sizeof(random), 0) != sizeof(random)) return errno;
   const std::string part = (path.parent_path() / (".touchafm-" + std::to_string(random) + ".part")).string();
+  const OnInterruption undo([part] { ::unlink(part.c_str()); });  // before there is a file: it may find no memory
   FileDescriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kNewFileMode));
   if (!file.is_open()) return errno;
-  const OnInterruption undo([part] { ::unlink(part.c_str()); });
   int error = write_all(file.get(), bytes);
   if (error == 0 && permissions && ::fchmod(file.get(), *permissions) != 0) error = errno;
   if (error == 0 && ::fsync(file.get()) != 0) error = errno;

@@ -11,7 +11,11 @@ void show_calibration(const scene::Screen& screen, scene::StereoMode mode, doubl
   frame.force_placement = frame.data_placement = frame.banner_placement = frame.control_placement =
       render::kNoPlacement;
   frame.labels.clear();
-  frame.calibration = {.screen = screen.name, .mode = std::string(scene::name_of(mode)), .ipd_m = ipd_m};
+  // one picture for both eyes: no letter is one eye's
+  frame.calibration = {.screen = screen.name,
+                       .mode = std::string(scene::name_of(mode)),
+                       .ipd_m = ipd_m,
+                       .eye_marks = mode != scene::StereoMode::Mono};
   frame.calibration_placement = {.lower_left_m = screen.lower_left,
                                  .right_m = screen.lower_right - screen.lower_left,
                                  .up_m = screen.upper_left - screen.lower_left};

@@ -18,7 +18,7 @@ std::string text_of(const scene::Disparity& disparity) {
 
 }  // namespace
 
-DepthReport report_depth(const render::DepthRange& range, double distance_m, double ipd_m) {
+DepthReport report_depth(const render::DepthRange& range, double distance_m, double ipd_m, Relief relief) {
   DepthReport report{.nearest = scene::disparity_at(distance_m, ipd_m, range.nearest_m),
                      .farthest = scene::disparity_at(distance_m, ipd_m, range.farthest_m),
                      .text = {}};
@@ -26,7 +26,9 @@ DepthReport report_depth(const render::DepthRange& range, double distance_m, dou
   report.hard = most > scene::kComfortableDisparityRad;
   report.text = fmt::format("depth {:.2f} m to {:.2f} m from the eyes: {} to {}", range.nearest_m, range.farthest_m,
                             text_of(report.nearest), text_of(report.farthest));
-  if (report.hard) report.text += ", beyond 1\u00b0: press B or step back";
+  if (report.hard) {
+    report.text += fmt::format(", beyond 1\u00b0: press {} or step back", relief == Relief::BringToWall ? "B" : "[");
+  }
   // parallax at the far end never exceeds the eyes it is drawn for; who has closer eyes would have to turn them
   // outwards
   if (report.farthest.uncrossed_m > scene::kSmallestIpdM) {

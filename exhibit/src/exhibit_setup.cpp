@@ -65,29 +65,15 @@ core::Result<scene::MaterialLibrary> shown_materials(const ExhibitFiles& files) 
   return shown;
 }
 
-// The rectangle around all screens if they are tiles of one plane, upright as the first is; else the first screen.
-scene::Screen stage_screen(const scene::Wall& wall) {
-  const scene::Screen& first = wall.screens.front();
-  const glm::dvec3 right = glm::normalize(first.lower_right - first.lower_left);
-  const glm::dvec3 up = glm::cross(first.normal(), right);
-  glm::dvec2 least(0.0), most(0.0);
-  constexpr double kFlatM = 5e-3;  // what a tape measure gets right
-  for (const scene::Screen& screen : wall.screens) {
-    for (const glm::dvec3& corner : {screen.lower_left, screen.lower_right, screen.upper_left}) {
-      const glm::dvec3 from_first = corner - first.lower_left;
-      if (std::abs(glm::dot(from_first, first.normal())) > kFlatM) return first;
-      const glm::dvec2 place(glm::dot(from_first, right), glm::dot(from_first, up));
-      least = glm::min(least, place);
-      most = glm::max(most, place);
-    }
-    if (glm::dot(glm::normalize(screen.lower_right - screen.lower_left), right) < 0.9998) return first;
-  }
-  const auto corner = [&](double x, double y) { return first.lower_left + x * right + y * up; };
-  return wall.screens.size() == 1 ? first
-                                  : scene::Screen{.name = "all screens",
-                                                  .lower_left = corner(least.x, least.y),
-                                                  .lower_right = corner(most.x, least.y),
-                                                  .upper_left = corner(least.x, most.y)};
+// As high as before; who asks for about the same proportions gets the screen itself.
+void take_aspect(double aspect, scene::Screen& screen) {
+  constexpr double kSame = 0.01;
+  if (std::abs(aspect * screen.height_m() / screen.width_m() - 1.0) < kSame) return;
+  const glm::dvec3 right = glm::normalize(screen.lower_right - screen.lower_left);
+  const double more_m = 0.5 * (aspect * screen.height_m() - screen.width_m());
+  screen.lower_left -= more_m * right;
+  screen.upper_left -= more_m * right;
+  screen.lower_right += more_m * right;
 }
 
 }  // namespace
@@ -97,17 +83,18 @@ core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
   if (!materials) return tl::unexpected(materials.error());
   auto wall = scene::load_wall(files.wall.empty() ? files.assets_dir + "/walls/powerwall.toml" : files.wall);
   if (!wall) return tl::unexpected(wall.error());
-  const scene::Screen screen = stage_screen(*wall);
-  const scene::Viewer& viewer = wall->viewers.front();
-  const auto eyes = eyes_before(screen, viewer.sweet_spot, viewer.ipd_m);
+  if (files.wall.empty() && files.aspect) take_aspect(*files.aspect, wall->screens.front());
+  const StagePlace place = stage_place(*wall);
+  const auto eyes = eyes_before(place.main, wall->viewers.front().sweet_spot, place.ipd_m);
   if (!eyes) return tl::unexpected(eyes.error());
   const auto own = load_own_models(files.probe, files.sample);
   if (!own) return tl::unexpected(own.error());
-  auto wall_scene = WallScene::load(files.assets_dir, *materials, screen, viewer.sweet_spot.position_m, *own);
+  auto wall_scene = WallScene::load(files.assets_dir, *materials, place, *own);
   if (!wall_scene) return tl::unexpected(wall_scene.error());
   auto guidance = Guidance::load(files.guidance.empty() ? files.assets_dir + "/guidance/en.toml" : files.guidance);
   if (!guidance) return tl::unexpected(guidance.error());
-  return Stage{std::move(*materials), std::move(*wall), screen, *eyes, std::move(*wall_scene), std::move(*guidance)};
+  return Stage{std::move(*materials),  std::move(*wall),    place.main, *eyes,
+               std::move(*wall_scene), std::move(*guidance)};
 }
 
 bool is_model_file(const std::string& name) {

@@ -159,14 +159,11 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   for (std::size_t i = 0; i < materials_->size(); ++i) {
     const bool in_front =
         moment.wall.centerpiece == Centerpiece::Plot || !moment.wall.material || moment.wall.material == i;
-    if (in_front) axes.include((*materials_)[i]);
+    if (!in_front) continue;  // its forces need other axes: it would cross this plot from edge to edge
+    axes.include((*materials_)[i]);
     if (i >= moment.curves.size() || moment.curves[i].empty()) continue;
-    render::PlotCurve curve = moment.curves[i].plot((*materials_)[i].setup.material.title, curve_color(i));
-    curve.faded = !in_front;
-    panel.curves.push_back(std::move(curve));
+    panel.curves.push_back(moment.curves[i].plot((*materials_)[i].setup.material.title, curve_color(i)));
   }
-  // earlier materials behind, the current one in front
-  std::stable_partition(panel.curves.begin(), panel.curves.end(), [](const render::PlotCurve& c) { return c.faded; });
   axes.apply(panel);
   if (moment.wall.centerpiece == Centerpiece::Plot) {
     panel.title = "Approach and retract, all together";

@@ -38,7 +38,7 @@ double scale_of(double orders) { return std::pow(10.0, std::clamp(orders, 0.0, k
 }  // namespace
 
 const char* journey_place(double orders) {
-  static constexpr std::array<std::pair<double, const char*>, 9> kPlaces{{{0.7, "the instrument on its bench"},
+  static constexpr std::array<std::pair<double, const char*>, 9> kNames{{{0.7, "the instrument on its bench"},
                                                                           {1.7, "head and stage"},
                                                                           {2.6, "probe holder"},
                                                                           {3.5, "chip"},
@@ -47,7 +47,7 @@ const char* journey_place(double orders) {
                                                                           {7.6, "apex, a ball of 50 nm radius"},
                                                                           {8.3, "the last nanometres of the gap"},
                                                                           {1e9, "atoms"}}};
-  const auto place = std::find_if(kPlaces.begin(), kPlaces.end() - 1, [&](const auto& p) { return orders < p.first; });
+  const auto place = std::find_if(kNames.begin(), kNames.end() - 1, [&](const auto& p) { return orders < p.first; });
   return place->second;
 }
 

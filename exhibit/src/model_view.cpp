@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <vector>
 
 #include "exhibit/loading_notice.h"
 #include "scene/graph/pose.h"
@@ -29,11 +31,25 @@ struct Sphere {
   double radius = 1.0;
 };
 
+// One for each node, 0 for the unit shapes that only the wall gives a length: beams, rays, lines. A model that has
+// nothing else shows them.
+std::vector<std::uint8_t> drawn_nodes(const scene::Scene& scene) {
+  std::vector<std::uint8_t> drawn;
+  bool any = false;
+  for (const scene::Node& node : scene.nodes) {
+    drawn.push_back(node.role == "mark" ? 0 : 1);
+    any = any || (node.mesh && drawn.back() != 0);
+  }
+  if (!any) std::fill(drawn.begin(), drawn.end(), std::uint8_t{1});
+  return drawn;
+}
+
 // About the box of everything that is drawn.
-Sphere bounds_of(const scene::Scene& scene, const std::vector<dmat4>& scene_from_node) {
+Sphere bounds_of(const scene::Scene& scene, const std::vector<std::uint8_t>& drawn,
+                 const std::vector<dmat4>& scene_from_node) {
   dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    if (!scene.nodes[i].mesh) continue;
+    if (!scene.nodes[i].mesh || drawn[i] == 0) continue;
     for (const scene::Primitive& primitive : scene.meshes[*scene.nodes[i].mesh].primitives) {
       for (const scene::Vertex& vertex : primitive.vertices) {
         const dvec3 place(scene_from_node[i] * glm::dvec4(dvec3(vertex.position), 1.0));
@@ -186,7 +202,8 @@ core::Result<ModelView> open_model(const ModelChoice& choice) {
                                                 : fmt::format("{}", fmt::join(view.scene.variants, ", "))));
   }
   const std::vector<dmat4> scene_from_node = scene::scene_from_nodes(view.scene);
-  const Sphere bounds = bounds_of(view.scene, scene_from_node);
+  view.frame.visible = drawn_nodes(view.scene);
+  const Sphere bounds = bounds_of(view.scene, view.frame.visible, scene_from_node);
   const auto look = chosen_look(view.scene, scene_from_node, bounds, choice);
   if (!look) return tl::unexpected(look.error());
 

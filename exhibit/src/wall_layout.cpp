@@ -11,8 +11,14 @@ namespace afm::exhibit {
 using glm::dmat4;
 using glm::dvec3;
 
-double layout_unit_m(const scene::Screen& wall) {
-  return std::min(wall.width_m() / kReferenceWallWidthM, wall.height_m() / kReferenceWallHeightM);
+WallShape wall_shape(const StagePlace& stage) {
+  const double width_m = stage.main.width_m(), height_m = stage.main.height_m();
+  if (stage.left && stage.right) {
+    return {Arrangement::SideScreens, std::min(width_m / kNarrowWidth, height_m / kReferenceWallHeightM)};
+  }
+  const double beside_m = std::min(width_m / kReferenceWallWidthM, height_m / kReferenceWallHeightM);
+  const double below_m = std::min(width_m / kNarrowWidth, height_m / (kRoomBelowPanels + kRoomAboveNarrow));
+  return beside_m >= below_m ? WallShape{Arrangement::Beside, beside_m} : WallShape{Arrangement::Below, below_m};
 }
 
 dmat4 frame_matrix(const dvec3& x, const dvec3& y, const dvec3& z, const dvec3& origin) {

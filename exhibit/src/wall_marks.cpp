@@ -62,10 +62,13 @@ void WallMarks::place_ruler(const ScaleBar& bar, std::vector<dmat4>& local) cons
   local[ruler_high_] = stretched(high - reach, high + reach, kRulerRadius);
 }
 
-void WallMarks::place_lever(const dvec3& clamp, const dvec3& unbent_end, const dvec3& end,
-                            std::vector<dmat4>& local) const {
-  const dvec3 beyond = unbent_end + kUnbentBeyond * glm::normalize(unbent_end - clamp);
-  local[unbent_] = stretched(clamp, beyond, kUnbentRadius);
+void WallMarks::place_unbent(const dvec3& clamp, const dvec3& end, std::vector<dmat4>& local) const {
+  local[unbent_] = stretched(clamp, end, kUnbentRadius);
+}
+
+void WallMarks::hide_unbent(std::vector<dmat4>& local) const { local[unbent_] = dmat4(0.0); }
+
+void WallMarks::place_bend(const dvec3& unbent_end, const dvec3& end, std::vector<dmat4>& local) const {
   const bool bent = glm::distance(unbent_end, end) > kSmallestBend;
   local[bend_] = bent ? stretched(unbent_end, end, kBendRadius) : dmat4(0.0);
 }

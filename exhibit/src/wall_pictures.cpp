@@ -164,7 +164,12 @@ render::RendererOptions renderer_options(render::Context& context, const WallPla
     if (render::eye_memory_bytes(size, 4) > render::eye_memory_bytes(largest, 4)) largest = size;
   }
   options.samples = affordable_samples(context, largest);
-  options.panel_texels_per_m = 2.0 * std::clamp(eye_px.x, kLeastPanels, kMostPanels) / first.screen.width_m();
+  options.panel_texels_per_m = 0.0;
+  for (const OutputPicture& output : plan.outputs) {
+    const std::uint32_t across = scene::eye_size(output.composition.mode, output.rect.size_px).x;
+    options.panel_texels_per_m = std::max(
+        options.panel_texels_per_m, 2.0 * std::clamp(across, kLeastPanels, kMostPanels) / output.screen.width_m());
+  }
   options.panel_millimetre_m = panel_millimetre_m;
   return options;
 }

@@ -12,7 +12,6 @@
 #include "core/check.h"
 #include "core/log.h"
 #include "exhibit/model_builder.h"
-#include "exhibit/wall_layout.h"
 #include "physics/contact.h"
 #include "scene/graph/height_field.h"
 
@@ -37,30 +36,6 @@ std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& 
 }
 
 }  // namespace
-
-// Where all is laid out, from the screen and who stands before it.
-void WallScene::lay_out(const scene::Screen& screen, const glm::dvec3& viewer_m) {
-  // the contact point: at eye height, in the middle, as far as everything finds its place above and below it, but never
-  // out of the wall's middle third
-  const double unit = layout_unit_m(screen);
-  const dvec3 right = glm::normalize(screen.lower_right - screen.lower_left);
-  const dvec3 out = screen.normal();
-  const dvec3 up = glm::cross(out, right);
-  const double eye_height = glm::dot(viewer_m - screen.lower_left, up);
-  const double third_m = screen.height_m() / 3.0;
-  const double contact_height = std::clamp(eye_height, std::max(kRoomBelow * unit, third_m),
-                                           std::min(screen.height_m() - kRoomAbove * unit, 2.0 * third_m));
-  const dvec3 contact = screen.lower_left + 0.5 * screen.width_m() * right + contact_height * up;
-  room_from_layout_ = frame_matrix(unit * right, unit * up, unit * out, contact);
-  wall_width_ = screen.width_m() / unit;
-  const double wall_bottom = -contact_height / unit;
-  wall_top_ = wall_bottom + screen.height_m() / unit;
-
-  // who looks down from above the wall sees what stands before it lower: then the shelf is higher
-  const double eye_y = (eye_height - contact_height) / unit, eye_z = glm::dot(viewer_m - screen.lower_left, out) / unit;
-  const double lowest_seen = eye_y + (wall_bottom + kPanelMargin - eye_y) * (eye_z - kShelfZ) / eye_z;
-  shelf_y_ = std::clamp(lowest_seen + kShelfHeight, kShelfY, kHighestShelfY);
-}
 
 void WallScene::add_instrument(ModelBuilder& build, const UserModels& own) {
   layout_ = build.frame("layout", std::nullopt, room_from_layout_);
@@ -106,10 +81,9 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
 }
 
 core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
-                                        const scene::Screen& screen, const glm::dvec3& viewer_m,
-                                        const UserModels& own) {
+                                        const StagePlace& place, const UserModels& own) {
   WallScene w;
-  w.lay_out(screen, viewer_m);
+  w.lay_out(place);
   ModelBuilder build(assets_dir + "/models", w.scene_);
   w.add_instrument(build, own);
   for (const scene::MaterialEntry& material : materials.materials) {
@@ -173,8 +147,8 @@ glm::dvec3 WallScene::swatch_place(std::size_t i) const {
   const auto across = [](std::size_t place, std::size_t count, double spacing) {
     return spacing * (static_cast<double>(place) - 0.5 * static_cast<double>(count - 1));
   };
-  if (i < front) return {across(i, front, kSwatchSpacing), shelf_y_, kShelfZ};
-  return {across(i - front, looks_.size() - front, kBackSpacing), shelf_y_ + kBackRise, kBackZ};
+  if (i < front) return {across(i, front, kSwatchSpacing), shelf_y_, shelf_z_};
+  return {across(i - front, looks_.size() - front, kBackSpacing), shelf_y_ + kBackRise, back_z_};
 }
 
 std::vector<input::Target> WallScene::swatch_targets() const {
@@ -198,7 +172,7 @@ glm::dvec3 WallScene::sample_right() const {
       dvec3(room_from_layout_ * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(1, 0, 0, 0)));
 }
 
-glm::dvec3 WallScene::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(kWandGrip, 1.0)); }
+glm::dvec3 WallScene::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(wand_grip_, 1.0)); }
 
 glm::dvec3 WallScene::below_tip(const WallState& state) const {
   const auto& [x, y] = state.surface.xy_m;

@@ -16,28 +16,33 @@ namespace afm::exhibit {
 using glm::dmat4;
 using glm::dvec3;
 
-void WallScene::place_probe(const WallState& state, std::vector<dmat4>& local, render::BeamBend& bend) const {
-  // everything in the sample's frame, in layout units; the lever runs along `along` towards the viewer, parallel to the
-  // sample
+// Everything in the sample's frame, in layout units; the lever runs towards the viewer, parallel to the sample.
+WallScene::LeverPose WallScene::lever_pose(const WallState& state) const {
   const double per_m = layout_per_m(state);
-  const double lever_scale = kLeverDrawnLength / lever_length_;
-  const double tip_scale = kTipDrawnLength / tip_length_;
   const dvec3 up(0.0, 0.0, 1.0);
   const dvec3 along(std::sin(kLeverAzimuthRad), -std::cos(kLeverAzimuthRad), 0.0);
 
   // the drawn deflection brings the apex exactly to its height although the tip turns with the lever's end slope
+  LeverPose pose;
   const double deflection = state.tip.deflection_m * per_m;
-  double end = -deflection, angle = 0.0;
+  pose.end = -deflection;
   for (int i = 0; i < 4; ++i) {
-    angle = std::atan(physics::beam_slope(1.0) * end / kLeverDrawnLength);
-    end = -deflection - kTipDrawnLength * (1.0 - std::cos(angle));
+    pose.angle = std::atan(physics::beam_slope(1.0) * pose.end / kLeverDrawnLength);
+    pose.end = -deflection - kTipDrawnLength * (1.0 - std::cos(pose.angle));
   }
-  const dvec3 below = below_tip(state);
   const double base_height = state.tip.z_m * per_m + kTipDrawnLength;
 
   // the chip is moved along the lever so that the apex stays over its spot of the sample
-  const dvec3 clamp = below + up * base_height - along * (kLeverDrawnLength + kTipDrawnLength * std::sin(angle));
-  const dmat4 frame_from_lever = frame_matrix(along, glm::cross(up, along), up, clamp);
+  const dvec3 clamp =
+      below_tip(state) + up * base_height - along * (kLeverDrawnLength + kTipDrawnLength * std::sin(pose.angle));
+  pose.frame_from_lever = frame_matrix(along, glm::cross(up, along), up, clamp);
+  return pose;
+}
+
+void WallScene::place_probe(const WallState& state, std::vector<dmat4>& local, render::BeamBend& bend) const {
+  const double lever_scale = kLeverDrawnLength / lever_length_;
+  const double tip_scale = kTipDrawnLength / tip_length_;
+  const auto [frame_from_lever, end, angle] = lever_pose(state);
 
   const dmat4 probe_from_cantilever = ancestor_from_node(scene_, lever_, cantilever_);
   local[lever_] = frame_from_lever * glm::scale(dmat4(1.0), dvec3(lever_scale)) * glm::inverse(probe_from_cantilever);
@@ -53,11 +58,19 @@ void WallScene::place_probe(const WallState& state, std::vector<dmat4>& local, r
   const dmat4 frame_from_parent = local[lever_] * ancestor_from_node(scene_, lever_, *scene_.nodes[tip_].parent);
   local[tip_] = glm::inverse(frame_from_parent) * frame_from_tip;
 
-  const dvec3 middle = up * 0.5 * kLeverDrawnThickness;
-  const auto in_frame = [&](double x, double z) {
-    return dvec3(frame_from_lever * glm::dvec4(x, 0.0, z, 1.0)) + middle;
+  // beside the tip, through which a lever that is bent upwards would draw them, and never under the sample
+  const double unbent_height = frame_from_lever[3].z - below_tip(state).z;
+  const double lowest = std::max(0.0, kUnbentLowest - unbent_height);
+  const auto in_frame = [&from_lever = frame_from_lever](double x, double z) {
+    return dvec3(from_lever * glm::dvec4(x, kUnbentBeside, z + 0.5 * kLeverDrawnThickness, 1.0));
   };
-  marks_.place_lever(in_frame(0.0, 0.0), in_frame(kLeverDrawnLength, 0.0), in_frame(kLeverDrawnLength, end), local);
+  marks_.place_bend(in_frame(kLeverDrawnLength, lowest),
+                    in_frame(kLeverDrawnLength, lowest > 0.0 ? std::max(end, lowest) : end), local);
+  if (lowest > 0.0) {
+    marks_.hide_unbent(local);
+  } else {
+    marks_.place_unbent(in_frame(0.0, 0.0), in_frame(kLeverDrawnLength + kUnbentBeyond, 0.0), local);
+  }
 }
 
 void WallScene::place_optics(const WallState& state, std::vector<dmat4>& local) const {
@@ -65,9 +78,11 @@ void WallScene::place_optics(const WallState& state, std::vector<dmat4>& local) 
     const dmat4 layout_from_parent = ancestor_from_node(scene_, layout_, *scene_.nodes[node].parent);
     local[node] = glm::inverse(layout_from_parent) * layout_from_node;
   };
-  const double apex = (state.tip.z_m - state.tip.deflection_m) * layout_per_m(state);
-  const dvec3 above_apex = below_tip(state) + dvec3(0.0, 0.0, apex + kTipDrawnLength + kBeamRadius);
-  const dvec3 lever_end(scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(above_apex, 1.0));
+  // where the light falls: on the upper face of the lever, over the tip
+  const LeverPose pose = lever_pose(state);
+  const dvec3 face(-std::sin(pose.angle), 0.0, std::cos(pose.angle));
+  const dvec3 lit = dvec3(kLeverDrawnLength, 0.0, pose.end) + kLeverDrawnThickness * face;
+  const dvec3 lever_end(scene_.nodes[sample_frame_].parent_from_node * pose.frame_from_lever * glm::dvec4(lit, 1.0));
 
   // the diode looks between the lever and the viewer, so that its four quadrants and the spot are seen
   const dmat4 photodiode =
@@ -145,25 +160,7 @@ std::vector<dmat4> WallScene::node_transforms(const WallState& state) const {
   return compose(local_transforms(state, bend));
 }
 
-render::PanelPlacement WallScene::panel(double left, double bottom, double width, double height) const {
-  const auto vector = [&](const dvec3& v) { return dvec3(room_from_layout_ * glm::dvec4(v, 0.0)); };
-  return {.lower_left_m = dvec3(room_from_layout_ * glm::dvec4(left, bottom, 0.0, 1.0)),
-          .right_m = vector({width, 0.0, 0.0}),
-          .up_m = vector({0.0, height, 0.0})};
-}
-
 double WallScene::panel_millimetre_m() const { return 1e-3 * glm::length(dvec3(room_from_layout_[0])); }
-
-double WallScene::side_width() const { return 0.5 * wall_width_ - kPanelInnerEdge - kPanelMargin; }
-
-render::PanelPlacement WallScene::parameter_placement() const {
-  return panel(kPanelInnerEdge + kParameterInset, kPanelBottom, side_width() - kParameterInset, kPanelHeight);
-}
-
-render::PanelPlacement WallScene::parameter_tab_placement() const {
-  return panel(kPanelInnerEdge + kTabInset, kPanelBottom - kPanelMargin - kTabHeight, side_width() - kTabInset,
-               kTabHeight);
-}
 
 std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) const {
   using enum Centerpiece;
@@ -217,20 +214,6 @@ void WallScene::update(const WallState& state, render::FrameState& frame) const 
   frame.key_light.shadow_radius_m = static_cast<float>(1.7 * unit_m);
 }
 
-void WallScene::place_panels(const WallState& state, render::FrameState& frame) const {
-  const double half = 0.5 * wall_width_;
-  frame.banner_placement = panel(-half + kPanelMargin, wall_top_ - kBannerHeight - kPanelMargin,
-                                 wall_width_ - 2.0 * kPanelMargin, kBannerHeight);
-  frame.force_placement = frame.data_placement = render::kNoPlacement;
-  if (state.centerpiece == Centerpiece::Journey) return;
-
-  // the finale's large plot takes the room of the instrument
-  const double plot_width =
-      state.centerpiece == Centerpiece::Plot ? 2.0 * kPanelInnerEdge + side_width() - kPanelMargin : side_width();
-  frame.force_placement = panel(-half + kPanelMargin, kPanelBottom, plot_width, kPanelHeight);
-  frame.data_placement = panel(kPanelInnerEdge, kPanelBottom, side_width(), kPanelHeight);
-}
-
 // On the slanted face of each swatch's plinth.
 void WallScene::place_swatch_labels(const WallState& state, render::FrameState& frame) const {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
@@ -256,7 +239,7 @@ void WallScene::place_analogy_labels(const WallState& state, render::FrameState&
   const Analogy::Heights heights = analogy_heights(state);
   const auto beside = [&](double height) {
     const double y = height * std::cos(kSampleTiltRad) - 0.5 * kAnalogyLabelHeight;
-    return panel(-kAnalogyLabelGap - kAnalogyLabelWidth, y, kAnalogyLabelWidth, kAnalogyLabelHeight);
+    return panel_beside(-kAnalogyLabelGap - kAnalogyLabelWidth, y, kAnalogyLabelWidth, kAnalogyLabelHeight);
   };
   frame.labels.push_back({"spring = cantilever", false, beside(analogy_.spring_middle(heights))});
   frame.labels.push_back({"magnet = tip", false, beside(analogy_.magnet_middle(heights))});

@@ -90,11 +90,17 @@ bool DtrackSource::receive(int patience_ms) {
   } else if (!is_silent() && static_cast<std::int32_t>(frame->frame - now_.frame.frame) <= 0) {
     ++now_.old_packets;  // the number comes round after its last
   } else {
+    if (!is_silent()) count_lost(frame->frame - now_.frame.frame);
     now_.frame = *frame;
     now_.time_ns = clock_.now_ns();
     ++now_.good_packets;
   }
   return true;
+}
+
+void DtrackSource::count_lost(std::uint32_t step) {
+  if (frame_step_ == 0 || step < frame_step_) frame_step_ = step;
+  now_.lost_frames += step / frame_step_ - 1;
 }
 
 bool DtrackSource::is_silent() const { return now_.good_packets == 0 || clock_.now_ns() - now_.time_ns > kSilenceNs; }

@@ -51,6 +51,20 @@ TEST(CurveReport, SaysEveryFigureWithItsUnit) {
   EXPECT_THAT(text, testing::Not(HasSubstr("difference")));
 }
 
+TEST(CurveReport, NamesTheMethodOfTheContactPointAndWhatTheOthersSay) {
+  curves::RecordedCurve recorded = test::hertz_curve();
+  recorded.metadata.software = "an instrument's";
+  const auto curve = curves::analysed("hertz", recorded);
+  ASSERT_TRUE(curve.has_value());
+  EXPECT_THAT(curves::features_text(*curve, nullptr), HasSubstr("fit-polynomial  (all methods: "));
+  const auto json = curves::features_json(*curve, nullptr);
+  EXPECT_EQ(json.at("contact_point_method"), "fit-polynomial");
+  EXPECT_EQ(json.at("contact_point_doubtful"), false);
+  EXPECT_EQ(json.at("contact_point_methods_m").size(), 6U);
+  const auto chosen = curves::analysed("hertz", recorded, physics::ContactMethod::Gradient);
+  EXPECT_EQ(chosen->features.contact_point->si, json.at("contact_point_methods_m").at("gradient").get<double>());
+}
+
 TEST(CurveReport, IsInSiAsJson) {
   const auto json = curves::features_json(*curves::analysed("mica", mica_curve(0.1)), nullptr);
   EXPECT_NEAR(json.at("snap_in_z_m").get<double>(), 2.39752e-9, 1e-13);

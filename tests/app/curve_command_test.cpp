@@ -103,6 +103,39 @@ TEST(CurveJson, NamesSourcesAndEstimatesOfTheNumbersThatAct) {
   EXPECT_FALSE(json_of(contact_of("mica", "jkr"))["sources"].contains("hamaker"));
 }
 
+// The samples would be more than a file may hold; the events need none of them.
+TEST(CurveJson, NeedsNoSamples) {
+  const auto json = json_of(contact_of("mica", "paper"), {.from = "1mm", .step = "1pm", .events_only = true});
+  EXPECT_NEAR(json["pull_off"]["force_N"], -1.39989368644e-9, 1e-18);
+}
+
+TEST(CurvePath, PressesASoftStickySampleByDefault) {
+  const auto run = run_of(contact_of("pdms-air", "auto"), {});
+  ASSERT_TRUE(run.has_value()) << run.error().message;
+  const auto deepest = std::min_element(run->curve.samples.begin(), run->curve.samples.end(),
+                                        [](const auto& a, const auto& b) { return a.z < b.z; });
+  EXPECT_GT(deepest->force.si, 0.0);
+  EXPECT_LT(run->curve.samples.size(), 50'000U);
+  EXPECT_EQ(run_of(contact_of("mica", "paper"), {})->plan.to.si, -5e-9);
+  EXPECT_EQ(run_of(contact_of("mica", "paper"), {})->plan.step.si, 1e-11);
+}
+
+TEST(CurvePath, SeedsTheNoiseOfDynamicModelsAlone) {
+  const auto forces = [](const std::string& seed) {
+    std::vector<double> result;
+    const auto run = run_of(contact_of("mica", "dynamic-dmt"), {.step = "1nm", .speed = "1mm/s", .seed = seed});
+    if (run) {
+      for (const auto& sample : run->curve.samples) result.push_back(sample.force.si);
+    }
+    return result;
+  };
+  EXPECT_FALSE(forces("7").empty());
+  EXPECT_EQ(forces("7"), forces("7"));
+  EXPECT_NE(forces("7"), forces("8"));
+  EXPECT_TRUE(forces("seven").empty());
+  EXPECT_FALSE(run_of(contact_of("mica", "dmt"), {.seed = "7"}).has_value());
+}
+
 TEST(CurveJson, LeavesOutWhatTheSweepDidNotReach) {
   const auto json = json_of(contact_of("gold", "paper"), {.from = "20nm"});
   EXPECT_FALSE(json["snap_in"].is_null());

@@ -131,6 +131,7 @@ TEST(CurveProgram, DrawsAMeasuredCurveOverTheModel) {
   const ProgramResult result = touchafm("curve --material mica --format svg --overlay " + folder.file("measured.tab"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("measured, retract"));
+  EXPECT_THAT(result.err, HasSubstr("measured.tab is moved by "));
   const std::string cut = folder.write("cut.tab", text_of(folder.file("measured.tab")).substr(0, 500));
   expect_refusal("curve --material mica --format svg --overlay " + cut, 3, "cut.tab");
 }

@@ -48,6 +48,7 @@ TEST_F(PaperCommand, WritesTablesAndFigures) {
 TEST_F(PaperCommand, NamesEveryErratumAndSaysThatAdhesionIsCircular) {
   ASSERT_TRUE(write_paper(options_).has_value());
   const std::string markdown = text_of("paper.md");
+  ASSERT_GE(curves::errata().size(), 3U);
   for (const curves::Erratum& erratum : curves::errata()) EXPECT_THAT(markdown, HasSubstr(std::string(erratum.name)));
   EXPECT_THAT(markdown, HasSubstr("**circular**"));
 }
@@ -89,6 +90,7 @@ TEST_F(PaperCommand, MeasuresARunOfTheModelWhereNoDemoIsGiven) {
   ASSERT_TRUE(write_paper(options_).has_value());
   const auto json = nlohmann::json::parse(text_of("paper.json"));
   for (const char* table : {"table1", "table2"}) {
+    ASSERT_EQ(json[table].size(), 3U) << table;
     for (const auto& [material, quantities] : json[table].items()) {
       for (const char* quantity : {"F_attr_N", "F_ad_N"}) {
         const auto& cell = quantities[quantity];

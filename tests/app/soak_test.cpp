@@ -229,7 +229,7 @@ TEST_F(SoakTest, RandomHandsNeitherDisturbTheServoNorFillTheMemory) {
   const char* const wanted = std::getenv("AFM_SOAK_ACTIONS");
   const int actions = wanted == nullptr ? kFewActions : std::max(std::atoi(wanted), kFewActions);
   support::LiveProgram program(view(), display_.name());
-  ASSERT_TRUE(program.says("Point at a sample")) << program.said();
+  ASSERT_TRUE(program.says("Choose a sample")) << program.said();
   Hands hands(display_.name(), 20, actions);
   std::vector<double> resident;
   const auto begin = std::chrono::steady_clock::now();
@@ -259,7 +259,7 @@ TEST_F(SoakTest, RandomHandsNeitherDisturbTheServoNorFillTheMemory) {
 
   // beside it, as long an idle hand: a report, since the machine's own load decides here
   support::LiveProgram idle(view(), display_.name());
-  ASSERT_TRUE(idle.says("Point at a sample")) << idle.said();
+  ASSERT_TRUE(idle.says("Choose a sample")) << idle.said();
   std::this_thread::sleep_for(std::min(took, std::chrono::duration<double>(kLongestIdle)));
   idle.signal(SIGTERM);
   EXPECT_EQ(idle.ends(), 0) << idle.said();

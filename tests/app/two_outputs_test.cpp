@@ -97,7 +97,7 @@ class TwoOutputsTest : public ::testing::Test {
 TEST_F(TwoOutputsTest, EachProjectorShowsWhatIsDrawnForItsEyeThroughItsOwnKeystone) {
   support::LiveProgram program(view("named.toml"), monitors_.name());
   ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
-  ASSERT_TRUE(program.says("Point at a sample")) << program.said();
+  ASSERT_TRUE(program.says("Choose a sample")) << program.said();
   const std::string reference = folder_.file("reference.png");
   ASSERT_EQ(
       on_display(AFM_PROGRAM " wall " + folder_.file("placed.toml") + " --test-pattern --out " + reference).exit_code,
@@ -129,7 +129,7 @@ TEST_F(TwoOutputsTest, EachProjectorShowsWhatIsDrawnForItsEyeThroughItsOwnKeysto
 TEST_F(TwoOutputsTest, AMonitorThatIsSwitchedOffAndOnAgainIsFilledAgain) {
   support::LiveProgram program(view("named.toml"), monitors_.name());
   ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
-  ASSERT_TRUE(program.says("Point at a sample")) << program.said();
+  ASSERT_TRUE(program.says("Choose a sample")) << program.said();
   monitors_.xrandr("--output DUMMY0 --off");
   ASSERT_TRUE(program.says("monitor DUMMY0 is lost")) << program.said();
   ASSERT_EQ(on_display("xdotool key 1").exit_code, 0);
@@ -146,7 +146,7 @@ TEST_F(TwoOutputsTest, AMonitorThatIsSwitchedOffAndOnAgainIsFilledAgain) {
 TEST_F(TwoOutputsTest, AMonitorUnderARectangleThatIsSwitchedOffAndOnAgainIsFilledAgain) {
   support::LiveProgram program(view("named.toml"), monitors_.name());
   ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
-  ASSERT_TRUE(program.says("Point at a sample")) << program.said();
+  ASSERT_TRUE(program.says("Choose a sample")) << program.said();
   const auto place = [&] { return on_display("xdotool search --name 'right projector' getwindowgeometry").out; };
   EXPECT_THAT(place(), AllOf(HasSubstr("Position: 320,0"), HasSubstr("Geometry: 320x240")));
   monitors_.xrandr("--output DUMMY1 --off");

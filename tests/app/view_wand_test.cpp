@@ -11,6 +11,7 @@
 #include "exhibit/exhibit_setup.h"
 #include "places.h"
 #include "support/live_program.h"
+#include "support/run_program.h"
 #include "support/tracker.h"
 #include "support/virtual_display.h"
 
@@ -33,7 +34,7 @@ TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
        "--wand", "dtrack:" + tracker.place(), "--head", "dtrack:2", "--validate"},
       display.name());
   ASSERT_TRUE(view.says("listening for a tracker at " + tracker.place())) << view.said();
-  ASSERT_TRUE(view.says("Point at a sample and press")) << view.said();
+  ASSERT_TRUE(view.says("Choose a sample")) << view.said();
   // a press before the ray has reached the swatch chooses nothing
   for (int press = 0; press < 60; ++press) {
     tracker.show(hand, gold, press % 2 == 0 ? 0 : 1);
@@ -48,9 +49,43 @@ TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
   ASSERT_THAT(view.said(), HasSubstr("wand: the scene is moved"));
   tracker.show(hand, gold, 8);
   ASSERT_TRUE(view.says("wand: the scene is home")) << view.said();
+  tracker.show(hand, gold, 0, {0.0, -0.85, 2.0});
+  ASSERT_TRUE(view.says("head: the tracker puts it 0.85 m below the floor")) << view.said();
+  tracker.show(hand, gold, 0);
+  ASSERT_TRUE(view.says("head: it is back where a head can be")) << view.said();
+  tracker.fall_silent();
+  ASSERT_TRUE(view.says("tracker: no frame for 1 s")) << view.said();
   view.signal(SIGINT);
   EXPECT_EQ(view.ends(), 0) << view.said();
   EXPECT_TRUE(view.says("head: from packet to present")) << view.said();
+  EXPECT_TRUE(view.says("tracker: in the whole run ")) << view.said();
+}
+
+// Whoever has a hand on the sample would be thrown by a scene that moves.
+TEST(ViewWand, MovesNothingWhileTheTipIsInContact) {
+  const glm::dvec3 hand(0.5, 1.2, 1.8), aim(0.0, 1.2, 0.0);
+  const support::VirtualDisplay display(320, 240);
+  support::Tracker tracker;
+  tracker.show(hand, aim, 0);
+  support::LiveProgram view(
+      {AFM_PROGRAM, "view", "--size", "320x240", "--frame-rate", "12", "--eye-width", "160", "--servo", AFM_SERVO_MODE,
+       "--haptics", "sim", "--material", "gold", "--wand", "dtrack:" + tracker.place()},
+      display.name());
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  ASSERT_EQ(support::run_program("DISPLAY=" + display.name() + " xdotool mousemove 160 10 key 1").exit_code, 0);
+  ASSERT_TRUE(view.says("jump to contact")) << view.said();
+  for (int step = 0; step < 60; ++step) {
+    tracker.show(hand + (step % 2 == 0 ? glm::dvec3(0.0) : glm::dvec3(0.2, 0.3, 0.0)), aim, 2);
+    if (view.says("wand: the scene stays where it is while the tip is in contact", std::chrono::seconds(1))) break;
+  }
+  const std::string said = view.said();
+  const std::size_t refused = said.rfind("wand: the scene stays"), attached = said.rfind("jump to contact", refused);
+  ASSERT_NE(refused, std::string::npos) << said;
+  EXPECT_EQ(said.substr(attached, refused - attached).find("the scene is moved"), std::string::npos) << said;
+  ASSERT_TRUE(view.says("jump off contact")) << view.said();
+  const std::string until_free = view.said().substr(refused);
+  EXPECT_EQ(until_free.substr(0, until_free.find("jump off contact")).find("the scene is moved"), std::string::npos)
+      << view.said();
 }
 
 }  // namespace

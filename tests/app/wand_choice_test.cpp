@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+
 #include "app/live/view_wand.h"
 #include "places.h"
 
@@ -26,6 +28,19 @@ TEST(WandChoice, KnowsEverySource) {
   EXPECT_EQ(tracker->file.dtrack->address, "10.0.0.7");
   EXPECT_EQ(tracker->file.dtrack->port, 5001);
   EXPECT_EQ(choose("dtrack")->file.dtrack->address, "127.0.0.1");
+}
+
+// A file that was copied and not changed alters nothing.
+TEST(WandChoice, TakesATrackersAxesAsTheShippedFileDoes) {
+  const auto without = choose("dtrack:127.0.0.1:5000", "dtrack:2");
+  const auto with = parse_wand_choice({.file = AFM_SOURCE_DIR "/assets/wands/dtrack.toml"});
+  ASSERT_TRUE(without && with);
+  EXPECT_FALSE(without->has_tracker_file);
+  EXPECT_TRUE(with->has_tracker_file);
+  const glm::dvec3 head(0.1, -2.5, 1.65);  // 2.5 m before the wall, 1.65 m above the floor
+  const glm::dvec3 in_room = without->file.dtrack->room_from_tracker * head;
+  EXPECT_LT(glm::distance(in_room, glm::dvec3(0.1, 1.65, 2.5)), 1e-9);
+  EXPECT_LT(glm::distance(in_room, with->file.dtrack->room_from_tracker * head), 1e-6);
 }
 
 TEST(WandChoice, TakesTheTrackerOfTheWandFile) {

@@ -49,8 +49,7 @@ TEST(ForcePanel, NoLabelCoversAnotherForAnyMaterialOfTheLibrary) {
   std::size_t looked_at = 0;
   for (const scene::MaterialEntry& entry : library.materials) {
     const scene::MaterialLibrary one{{entry}};
-    const WallScene scene =
-        WallScene::load(assets, one, wall.screens.front(), wall.viewers.front().sweet_spot.position_m).value();
+    const WallScene scene = WallScene::load(assets, one, stage_place(wall)).value();
     const std::vector<curves::SampleModel> felt{curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value()};
     const FrameBuilder frames(scene, felt, eyes_at_sweet_spot(wall).value());
     Moment moment;
@@ -76,10 +75,33 @@ TEST(ForcePanel, NoLabelCoversAnotherForAnyMaterialOfTheLibrary) {
   EXPECT_GT(looked_at, 40U);
 }
 
+// An earlier sample's forces need other axes: its curve would cross the plot from edge to edge.
+TEST(ForcePanel, ThePresentSamplesCurveIsThereAlone) {
+  const std::string assets = AFM_SOURCE_DIR "/assets";
+  const scene::MaterialLibrary library =
+      scene::load_materials(assets + "/materials.toml").value().only(scene::kPaperMaterials).value();
+  const scene::Wall wall = scene::load_wall(assets + "/walls/powerwall.toml").value();
+  const WallScene scene = WallScene::load(assets, library, stage_place(wall)).value();
+  std::vector<curves::SampleModel> felt;
+  for (const scene::MaterialEntry& entry : library.materials)
+    felt.push_back(curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value());
+  const std::vector<CycleCurve> curves(felt.size(), CycleCurve::from({{20.0, 0.0}, {-2.0, 0.3}, {20.0, 0.0}}));
+  const FrameBuilder frames(scene, felt, eyes_at_sweet_spot(wall).value());
+  Moment moment;
+  moment.curves = curves;
+  moment.wall.material = 1;
+  const render::ForcePanel present = frames.build(moment).force_panel;
+  ASSERT_EQ(present.curves.size(), 1U);
+  EXPECT_EQ(present.curves.front().label, library.materials[1].title);
+  moment.wall.centerpiece = Centerpiece::Plot;
+  EXPECT_EQ(frames.build(moment).force_panel.curves.size(), felt.size());
+}
+
 TEST(ForcePanel, LabelsOfOnePlaceMakeRoomForEachOther) {
   const std::vector<MarkerLabel> same(5, {PlotMarker::Kind::VerticalLine, 400.0F, {180.0F, kLine}});
   std::vector<LabelBox> boxes;
   render::place_labels(same, kPlot, boxes);
+  ASSERT_EQ(boxes.size(), same.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(render::overlap(boxes[i], boxes[k]));
   }

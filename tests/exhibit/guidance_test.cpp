@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
+#include <string>
 
+#include "core/enumerators.h"
 #include "places.h"
 #include "support/scratch_folder.h"
 
@@ -33,18 +36,38 @@ scene::TipState tip(scene::ServoState state, physics::Phase phase, double hand_h
 TEST(Guidance, LeadsThroughTheProcedureByWhatHasHappened) {
   using State = scene::ServoState;
   using physics::Phase;
-  EXPECT_EQ(next_step({}, false, 0), Hint::ChooseSample);
-  EXPECT_EQ(next_step(tip(State::Disarmed, Phase::WaitForLift, 0.03), false, 0), Hint::Lift);
-  EXPECT_EQ(next_step(tip(State::Disarmed, Phase::Free, 0.051), true, 0), Hint::Lift);
-  EXPECT_EQ(next_step(tip(State::Disarmed, Phase::Free, 0.060), true, 0), Hint::TurnOn);
-  EXPECT_EQ(next_step(tip(State::Arming, Phase::Free, 0.060), true, 0), Hint::ComingOn);
-  EXPECT_EQ(next_step(tip(State::Running, Phase::Free, 0.040), false, 0), Hint::MoveDown);
-  EXPECT_EQ(next_step(tip(State::Running, Phase::Attached, 0.005), false, 0), Hint::PressOn);
-  EXPECT_EQ(next_step(tip(State::Running, Phase::Attached, -0.010), false, 0), Hint::Pressed);
-  EXPECT_EQ(next_step(tip(State::Running, Phase::Attached, 0.030), true, 0), Hint::MoveUp);
-  EXPECT_EQ(next_step(tip(State::Running, Phase::Free, 0.060), true, 1), Hint::LetGo);
-  EXPECT_EQ(next_step(tip(State::Running, Phase::Free, 0.060), false, 1), Hint::MoveDown);
-  EXPECT_EQ(next_step(tip(State::Fading, Phase::Attached, 0.0), true, 0), Hint::GoingOff);
+  EXPECT_EQ(next_step({}, {}), Hint::ChooseSample);
+  EXPECT_EQ(next_step(tip(State::Disarmed, Phase::WaitForLift, 0.03), {}), Hint::Lift);
+  EXPECT_EQ(next_step(tip(State::Disarmed, Phase::Free, 0.051), {.ascending = true}), Hint::Lift);
+  EXPECT_EQ(next_step(tip(State::Disarmed, Phase::Free, 0.060), {.ascending = true}), Hint::TurnOn);
+  EXPECT_EQ(next_step(tip(State::Arming, Phase::Free, 0.060), {.ascending = true}), Hint::ComingOn);
+  EXPECT_EQ(next_step(tip(State::Running, Phase::Free, 0.040), {}), Hint::MoveDown);
+  EXPECT_EQ(next_step(tip(State::Running, Phase::Attached, 0.005), {}), Hint::PressOn);
+  EXPECT_EQ(next_step(tip(State::Running, Phase::Attached, -0.010), {.pressed = true}), Hint::Pressed);
+  EXPECT_EQ(next_step(tip(State::Running, Phase::Attached, 0.030), {.ascending = true, .pressed = true}), Hint::MoveUp);
+  EXPECT_EQ(next_step(tip(State::Running, Phase::Free, 0.060), {.ascending = true, .let_go = true}), Hint::LetGo);
+  EXPECT_EQ(next_step(tip(State::Running, Phase::Free, 0.060), {.let_go = true}), Hint::MoveDown);
+  EXPECT_EQ(next_step(tip(State::Fading, Phase::Attached, 0.0), {}), Hint::GoingOff);
+}
+
+TEST(Guidance, AsksToPressBeforeItAsksToMoveUpHoweverTheHandTrembles) {
+  const scene::TipState snapped = tip(scene::ServoState::Running, physics::Phase::Attached, 0.005);
+  EXPECT_EQ(next_step(snapped, {.ascending = true}), Hint::PressOn);
+  EXPECT_EQ(next_step(snapped, {.ascending = false}), Hint::PressOn);
+  EXPECT_EQ(next_step(snapped, {.ascending = false, .pressed = true}), Hint::MoveUp);
+}
+
+constexpr Controls kMouse{HandControls::Mouse, Pointer::Mouse};
+
+TEST(Guidance, NamesTheControlsOfWhatIsInTheHand) {
+  const Guidance english = Guidance::load(kFolder + "en.toml").value();
+  EXPECT_EQ(english.text(Hint::TurnOn, kMouse), "Press Turn-On to feel the force: key T or middle button");
+  EXPECT_EQ(english.text(Hint::MoveDown, kMouse), "Move down until the tip snaps in: drag down with the right button");
+  EXPECT_EQ(english.text(Hint::TurnOn, {HandControls::Pen, Pointer::Mouse}),
+            "Press Turn-On to feel the force: the button on the pen");
+  EXPECT_THAT(english.text(Hint::MoveDown, {HandControls::Gamepad, Pointer::Mouse}), HasSubstr("left stick down"));
+  EXPECT_THAT(english.text(Hint::ChooseSample, kMouse), HasSubstr("click"));
+  EXPECT_THAT(english.text(Hint::ChooseSample, {HandControls::Mouse, Pointer::Wand}), HasSubstr("wand"));
 }
 
 TEST(Guidance, EveryLanguageThatWeShipIsComplete) {
@@ -53,6 +76,19 @@ TEST(Guidance, EveryLanguageThatWeShipIsComplete) {
     const auto guidance = Guidance::load(file.path());
     ASSERT_TRUE(guidance) << guidance.error().message;
     ++languages;
+    for (const Note note : core::kEnumerators<Note>) EXPECT_NE(guidance->text(note), "") << file.path();
+    for (const Hint hint : core::kEnumerators<Hint>) {
+      std::set<std::string> texts;
+      for (const HandControls hand : core::kEnumerators<HandControls>) {
+        const std::string text = guidance->text(hint, {hand, Pointer::Mouse});
+        EXPECT_FALSE(text.ends_with(": ")) << file.path() << ": " << text;
+        texts.insert(text);
+      }
+      const bool has_control = hint == Hint::Lift || hint == Hint::TurnOn || hint == Hint::TurnOnAndHold ||
+                               hint == Hint::MoveDown || hint == Hint::Pressed || hint == Hint::MoveUp ||
+                               hint == Hint::PressToGoOn;
+      EXPECT_EQ(texts.size(), has_control ? core::kEnumerators<HandControls>.size() : 1) << file.path();
+    }
   }
   EXPECT_GE(languages, 2U);
 }
@@ -61,11 +97,12 @@ TEST(Guidance, SaysWhyTheForceWasTakenAway) {
   scene::TipState fault = tip(scene::ServoState::Fault, physics::Phase::WaitForLift, 0.0);
   fault.fault = scene::FaultCode::VelocityTrip;
   const Guidance english = Guidance::load(kFolder + "en.toml").value();
-  EXPECT_EQ(english.line(fault, false, 0), "Force off: the hand was faster than is safe. Press Turn-On to go on");
+  EXPECT_EQ(english.line(Hint::PressToGoOn, fault, kMouse),
+            "Force off: the hand was faster than is safe. Press Turn-On to go on: key T or middle button");
 
   scene::TipState released = tip(scene::ServoState::Disarmed, physics::Phase::Free, 0.060);
   released.fault = scene::FaultCode::LateTick;
-  EXPECT_THAT(english.line(released, true, 0), AllOf(HasSubstr("20 ms late"), HasSubstr("Press Turn-On")));
+  EXPECT_THAT(english.line(Hint::TurnOn, released, kMouse), AllOf(HasSubstr("20 ms late"), HasSubstr("Press Turn-On")));
 }
 
 TEST(Guidance, RefusesAFileThatDoesNotSayEverythingInOneLineEach) {
@@ -79,6 +116,7 @@ TEST(Guidance, RefusesAFileThatDoesNotSayEverythingInOneLineEach) {
   EXPECT_THAT(refusal("choose-sample = 3\n"), HasSubstr("line 1: choose-sample: must be one line"));
   EXPECT_THAT(refusal("choose-sample = \"" + std::string(91, 'x') + "\"\n"), HasSubstr("1 to 90 characters"));
   EXPECT_THAT(refusal("choose-sample = \"a\\nb\"\n"), HasSubstr("must be one line"));
+  EXPECT_THAT(refusal("choose-sample = \"{button}\"\n"), HasSubstr("line 1: choose-sample: {button} is unknown"));
   EXPECT_THAT(Guidance::load("no-such-file.toml").error().message, HasSubstr("phrase file no-such-file.toml"));
 }
 
@@ -90,14 +128,14 @@ TEST(Guidance, GivesInEnglishTheReasonsOfTheLog) {
     if (fault.code == scene::FaultCode::None) continue;
     released.fault = fault.code;
     const std::string reason = "Force off: " + std::string(fault.reason) + ". ";
-    EXPECT_THAT(guidance->line(released, true, 0), HasSubstr(reason));
+    EXPECT_THAT(guidance->line(Hint::TurnOn, released, kMouse), HasSubstr(reason));
   }
 }
 
 TEST(Guidance, AsksToHoldTheButtonThatTheForceHangsOn) {
   scene::TipState lifted = tip(scene::ServoState::Disarmed, physics::Phase::Free, 0.060);
   lifted.dead_man = 1;
-  EXPECT_EQ(next_step(lifted, true, 0), Hint::TurnOnAndHold);
+  EXPECT_EQ(next_step(lifted, {}), Hint::TurnOnAndHold);
 }
 
 }  // namespace

@@ -59,6 +59,19 @@ TEST_F(OwnModel, IsSeenWholeByTheAutomaticCameraWhateverItsSize) {
   }
 }
 
+// The models of the wall have them: a beam of light is a tube 2 m wide until it is stretched.
+TEST_F(OwnModel, IsSeenWithoutTheMarksThatOnlyTheWallStretches) {
+  const std::string mark = R"({"mesh": 0, "scale": [100, 100, 100], "extras": {"touchafm": {"role": "mark"}}})";
+  const auto alone = open_model({.file = write(R"("nodes": [{"children": [1]}, {"mesh": 0}])")});
+  const auto with_mark = open_model({.file = write(R"("nodes": [{"children": [1, 2]}, {"mesh": 0}, )" + mark + "]")});
+  ASSERT_TRUE(alone && with_mark);
+  EXPECT_EQ(with_mark->frame.room_from_node[1], alone->frame.room_from_node[1]);
+  EXPECT_EQ(with_mark->frame.visible, (std::vector<std::uint8_t>{1, 1, 0}));
+  const auto nothing_else = open_model({.file = write(R"("nodes": [{"children": [1]}, )" + mark + "]")});
+  ASSERT_TRUE(nothing_else) << nothing_else.error().message;
+  EXPECT_EQ(nothing_else->frame.visible, (std::vector<std::uint8_t>{1, 1}));
+}
+
 constexpr double kToleranceOfFile = 1e-7;  // a camera's angle is read as a 32-bit float
 
 TEST_F(OwnModel, IsSeenByItsOwnCameras) {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "exhibit/calibration.h"
+#include "exhibit/comfort_clamp.h"
 #include "exhibit/depth_report.h"
 #include "places.h"
 
@@ -16,6 +18,15 @@ using ::testing::HasSubstr;
 
 scene::Wall preset(const std::string& name) {
   return scene::load_wall(AFM_SOURCE_DIR "/assets/walls/" + name + ".toml").value();
+}
+
+TEST(WallPictures, ThePatternHasALetterForEachEyeOnlyWhereTheirPicturesDiffer) {
+  const scene::Screen screen = preset("two-projectors").screens.front();
+  for (const scene::StereoModeTraits& row : scene::kStereoModes) {
+    render::FrameState frame;
+    show_calibration(screen, row.mode, 0.063, frame);
+    EXPECT_EQ(frame.calibration.eye_marks, row.mode != StereoMode::Mono) << row.name;
+  }
 }
 
 TEST(WallPictures, EveryPresetIsAWallThatCanBeDrawn) {
@@ -97,15 +108,63 @@ TEST(PictureSize, IsWithinTheDevice) {
 }
 
 TEST(DepthReport, WarnsBeyondADegreeAndNamesTheEyesThatWouldDiverge) {
-  const DepthReport easy = report_depth({.nearest_m = 2.3, .farthest_m = 2.8}, 2.5, 0.063);
+  const DepthReport easy = report_depth({.nearest_m = 2.3, .farthest_m = 2.8}, 2.5, 0.063, Relief::BringToWall);
   EXPECT_FALSE(easy.hard);
   EXPECT_THAT(easy.text, HasSubstr("2.30 m to 2.80 m"));
   EXPECT_THAT(easy.text, HasSubstr("(-5 mm)"));
-  const DepthReport near = report_depth({.nearest_m = 1.0, .farthest_m = 2.5}, 2.5, 0.063);
+  const DepthReport near = report_depth({.nearest_m = 1.0, .farthest_m = 2.5}, 2.5, 0.063, Relief::BringToWall);
   EXPECT_TRUE(near.hard);
-  EXPECT_THAT(near.text, HasSubstr("beyond 1"));
-  const DepthReport far = report_depth({.nearest_m = 2.5, .farthest_m = 10.0}, 2.5, 0.063);
+  EXPECT_THAT(near.text, HasSubstr("beyond 1\u00b0: press B or step back"));
+  EXPECT_THAT(report_depth({.nearest_m = 1.0, .farthest_m = 2.5}, 2.5, 0.063, Relief::NarrowEyes).text,
+              HasSubstr("press [ or step back"))
+      << "B changes nothing where the contact is in the wall's plane";
+  const DepthReport far = report_depth({.nearest_m = 2.5, .farthest_m = 10.0}, 2.5, 0.063, Relief::BringToWall);
   EXPECT_THAT(far.text, HasSubstr("not for eyes less than 48 mm apart"));
+}
+
+// ---- the comfort clamp ----
+
+constexpr std::int64_t kFrameNs = 16'666'667;
+constexpr double kDegree = scene::kComfortableDisparityRad;
+
+TEST(ComfortClamp, KeepsEveryDepthWithinItsLimit) {
+  for (const render::DepthRange& range : {render::DepthRange{0.6, 2.5}, {1.0, 30.0}, {0.4, 0.5}}) {
+    ComfortClamp clamp(kDegree);
+    clamp.measured(range, 2.5, 0.063);
+    double ipd_m = 0;
+    for (int frame = 1; frame < 60; ++frame) ipd_m = clamp.ipd_m(0.063, frame * kFrameNs);
+    EXPECT_LT(ipd_m, 0.063);
+    for (const double depth_m : {range.nearest_m, range.farthest_m}) {
+      EXPECT_LT(std::abs(scene::disparity_at(2.5, ipd_m, depth_m).crossed_rad), kDegree) << depth_m;
+    }
+  }
+}
+
+TEST(ComfortClamp, LeavesAnEasyPictureAsItIs) {
+  ComfortClamp clamp(kDegree);
+  clamp.measured({2.2, 3.0}, 2.5, 0.063);
+  for (int frame = 1; frame < 60; ++frame) EXPECT_EQ(clamp.ipd_m(0.063, frame * kFrameNs), 0.063);
+}
+
+TEST(ComfortClamp, NarrowsSoonWidensSlowlyAndNeverJumps) {
+  ComfortClamp clamp(kDegree);
+  std::int64_t now = kFrameNs;
+  double before = clamp.ipd_m(0.063, now);
+  const auto frames_until_still = [&] {
+    int frames = 0;
+    for (double next = 0;; ++frames, before = next) {
+      next = clamp.ipd_m(0.063, now += kFrameNs);
+      EXPECT_LT(std::abs(next - before), 0.07 * 0.063);
+      if (next == before) return frames;
+    }
+  };
+  clamp.measured({0.5, 2.5}, 2.5, 0.063);
+  const int narrowed = frames_until_still();
+  clamp.measured({2.4, 2.5}, 2.5, 0.063);
+  const int widened = frames_until_still();
+  EXPECT_GT(narrowed, 5);
+  EXPECT_GT(widened, 4 * narrowed);
+  EXPECT_NEAR(before, 0.063, 1e-12);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ class WallSceneTest : public test::PaperWall {
  protected:
   const scene::Screen& screen_ = wall_.screens.front();
   const glm::dvec3 viewer_ = wall_.viewers.front().sweet_spot.position_m;
+  const StagePlace stage_ = stage_place(wall_);
 
   render::FrameState frame(const WallState& pose) const {
     render::FrameState state;
@@ -94,12 +95,12 @@ TEST_F(WallSceneTest, TheBeamOfLightFollowsTheTip) {
   EXPECT_NEAR(glm::dot(lever_end(there) - lever_end({}), scene_.sample_right()), there.x / scale, 1e-9);
 }
 
-TEST_F(WallSceneTest, AStrokeFillsAThirdOfTheWallsHeight) {
+TEST_F(WallSceneTest, AStrokeFillsThreeTenthsOfTheWallsHeight) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
     const double z_joc = physics::approach_retract_events(materials_.materials[material].contact).z_joc.si;
     const glm::dvec3 high = apex({.material = material, .tip = {.z_m = 1.40 * z_joc}});
     const glm::dvec3 low = apex({.material = material, .tip = {.z_m = -0.30 * z_joc}});
-    EXPECT_NEAR(glm::length(high - low), screen_.height_m() / 3.0, 0.02);
+    EXPECT_NEAR(glm::length(high - low), 0.30 * screen_.height_m(), 0.002);
   }
 }
 
@@ -147,7 +148,7 @@ TEST_F(WallSceneTest, AMaterialWithoutModelsIsGreyAndNamedInTheLog) {
   strange.materials.push_back(materials_.materials[0]);
   strange.materials.back().name = strange.materials.back().look = "graphite";
   testing::internal::CaptureStderr();
-  EXPECT_TRUE(WallScene::load(assets_, strange, screen_, viewer_));
+  EXPECT_TRUE(WallScene::load(assets_, strange, stage_));
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
               testing::AllOf(testing::HasSubstr("material graphite"), testing::HasSubstr("sample-graphite.glb")));
 }
@@ -159,7 +160,7 @@ TEST_F(WallSceneTest, NineMaterialsStandApartAndAllCanBePicked) {
     nine.materials.back().name += "-" + std::to_string(i);  // no model of its own: the look's, or the neutral one
     if (i < 6) nine.materials.back().look = materials_.materials[i % 3].name;
   }
-  const WallScene many = WallScene::load(assets_, nine, screen_, viewer_).value();
+  const WallScene many = WallScene::load(assets_, nine, stage_).value();
   EXPECT_LE(many.scene().nodes.size(), scene::kMaxNodes) << "what the servo can be told of";
   const auto targets = many.swatch_targets();
   ASSERT_EQ(targets.size(), 9U);
@@ -202,18 +203,18 @@ TEST_F(WallSceneTest, TheStrokeFillsTheSameRoomWithOtherParameters) {
   constexpr double kReleaseM = 50e-9;
   const glm::dvec3 high = apex({.material = 0, .tip = {.z_m = 70e-9}, .release_z_m = kReleaseM});
   const glm::dvec3 low = apex({.material = 0, .tip = {.z_m = -15e-9}, .release_z_m = kReleaseM});
-  EXPECT_NEAR(glm::length(high - low), screen_.height_m() / 3.0, 0.02);
+  EXPECT_NEAR(glm::length(high - low), 0.30 * screen_.height_m(), 0.002);
 }
 
 TEST_F(WallSceneTest, FitsAWallOfAnySize) {
   const scene::Screen desk{"desk", {-0.3, 0.9, 0.0}, {0.3, 0.9, 0.0}, {-0.3, 1.25, 0.0}};
-  const auto small = WallScene::load(assets_, materials_, desk, {0.0, 1.2, 0.6});
+  const auto small = WallScene::load(assets_, materials_, {.main = desk, .viewer_m = {0.0, 1.2, 0.6}});
   ASSERT_TRUE(small.has_value()) << small.error().message;
   EXPECT_NEAR(small->drawn_scale(0).sample_m_per_m / scene_.drawn_scale(0).sample_m_per_m, 2.286 / 0.35, 1e-6);
 }
 
 TEST_F(WallSceneTest, AMissingModelIsABadInputFileThatIsNamed) {
-  const auto missing = WallScene::load("/nowhere", materials_, screen_, viewer_);
+  const auto missing = WallScene::load("/nowhere", materials_, stage_);
   ASSERT_FALSE(missing.has_value());
   EXPECT_EQ(missing.error().category, core::ErrorCategory::BadInputFile);
   EXPECT_THAT(missing.error().message, ::testing::HasSubstr("/nowhere/models/"));

@@ -2,17 +2,27 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtx/quaternion.hpp>
 #include <glm/vector_relational.hpp>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "app/bench/render_subjects.h"
+#include "curves/sample_model.h"
+#include "exhibit/comfort_clamp.h"
+#include "exhibit/depth_report.h"
 #include "exhibit/exhibit_setup.h"
+#include "exhibit/frame_builder.h"
+#include "exhibit/stage_place.h"
+#include "exhibit/wall_pictures.h"
 #include "places.h"
+#include "render/depth_meter.h"
 #include "support/scratch_folder.h"
 #include "support/vulkan_fixture.h"
 
@@ -98,32 +108,58 @@ Rectangle seen(const render::PanelPlacement& panel, const scene::EyeView& eye) {
   return rectangle;
 }
 
+// What must be read, with the screen of the stage that it is seen on.
+struct Place {
+  std::string name, screen;
+  Rectangle rectangle;
+};
+
+Place place_of(const std::string& name, const render::PanelPlacement& panel, const Stage& stage) {
+  const StagePlace screens = stage_place(stage.wall);
+  const scene::Viewer& viewer = stage.wall.viewers.front();
+  const scene::Screen* on = &screens.main;
+  for (const auto* side : {&screens.left, &screens.right}) {
+    if (!*side) continue;
+    const double before_m = glm::dot(panel.lower_left_m - (*side)->lower_left, (*side)->normal());
+    if (std::abs(before_m) < 1e-9 && std::abs(glm::dot(panel.right_m, (*side)->normal())) < 1e-9) on = &**side;
+  }
+  const auto eyes = eyes_before(*on, viewer.sweet_spot, viewer.ipd_m).value();
+  return {name, on->name, seen(panel, eyes[0])};
+}
+
 void expect_everything_in_its_place(const std::string& wall_file, const std::string& what) {
   const auto stage = stage_on(wall_file);
   ASSERT_TRUE(stage) << what << ": " << stage.error().message;
   const double height = glm::dot(stage->wall_scene.contact_m() - stage->screen.lower_left,
                                  glm::normalize(stage->screen.upper_left - stage->screen.lower_left)) /
                         stage->screen.height_m();
-  EXPECT_GE(height, 1.0 / 3.0) << what;
+  EXPECT_GE(height, 1.0 / 3.0 - 1e-12) << what;
   EXPECT_LE(height, 2.0 / 3.0 + 1e-12) << what;
   const render::FrameState frame = app::wall_subject(*stage, kEyeWidth).value().frames[kFrame];
-  const auto place = [&](const render::PanelPlacement& panel) { return seen(panel, stage->eyes[0]); };
-  std::vector<std::pair<std::string, Rectangle>> places{{"banner", place(frame.banner_placement)},
-                                                        {"force", place(frame.force_placement)},
-                                                        {"data", place(frame.data_placement)}};
-  for (const render::Label& label : frame.labels) places.emplace_back(label.text, place(label.placement));
+  std::vector<Place> places{place_of("banner", frame.banner_placement, *stage),
+                            place_of("force", frame.force_placement, *stage),
+                            place_of("data", frame.data_placement, *stage),
+                            place_of("tab", stage->wall_scene.parameter_tab_placement(), *stage)};
+  for (const render::Label& label : frame.labels) places.push_back(place_of(label.text, label.placement, *stage));
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto& [name, rectangle] = places[i];
+    const auto& [name, screen, rectangle] = places[i];
     EXPECT_TRUE(glm::all(glm::greaterThanEqual(rectangle.low, glm::dvec2(0.0)))) << what << ": " << name;
     EXPECT_TRUE(glm::all(glm::lessThanEqual(rectangle.high, glm::dvec2(1.0)))) << what << ": " << name;
     for (std::size_t j = 0; j < i; ++j) {
-      EXPECT_FALSE(rectangle.overlaps(places[j].second)) << what << ": " << name << " and " << places[j].first;
+      EXPECT_FALSE(screen == places[j].screen && rectangle.overlaps(places[j].rectangle))
+          << what << ": " << name << " and " << places[j].name;
     }
+  }
+  for (const render::PanelPlacement& panel : {frame.force_placement, frame.data_placement}) {
+    const double aspect = glm::length(panel.right_m) / glm::length(panel.up_m);
+    EXPECT_LE(aspect, 1.6 + 1e-9) << what;
+    EXPECT_GE(aspect, 0.5) << what;
   }
 }
 
 TEST(EveryWall, HasRoomForAllThatMustBeRead) {
-  for (const char* preset : {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2"}) {
+  for (const char* preset :
+       {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2", "cave", "floor", "wide", "phone"}) {
     expect_everything_in_its_place(fmt::format("{}/assets/walls/{}.toml", AFM_SOURCE_DIR, preset), preset);
   }
   const support::ScratchFolder folder;
@@ -138,6 +174,61 @@ TEST(EveryWall, HasRoomForAllThatMustBeRead) {
   expect("four metres high", 5.3, 4.0, 0.0, {0.0, 1.65, 4.0});
   expect("seen from below", 3.0, 1.7, 2.0, {0.0, 1.4, 4.0});
   expect("on a table", 0.6, 0.34, 0.0, {0.0, 0.5, 0.6});
+}
+
+// ---- no default scene asks more of the eyes than one degree ----
+
+class DepthOfAWall : public test::VulkanTest {
+ protected:
+  // The nearest and the farthest thing of every state that a session goes through without the scene being moved.
+  render::DepthRange range_on(const Stage& stage) {
+    std::vector<curves::SampleModel> materials;
+    for (const scene::MaterialEntry& entry : stage.materials.materials) {
+      materials.push_back(curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value());
+    }
+    const FrameBuilder frames(stage.wall_scene, materials, stage.eyes);
+    auto renderer = make_renderer(stage.wall_scene.scene(), stage.renderer_options(160));
+    render::DepthMeter meter(context_, renderer);
+    render::DepthRange whole{1e9, 0.0};
+    for (const double lift : {-0.3, 1.4}) {
+      const glm::dvec3 grip = stage.wall_scene.wand_grip_m();
+      const glm::dvec3 target = stage.wall_scene.swatch_targets().front().center_m;
+      Moment moment;
+      input::WandState wand;
+      wand.connected = wand.position_valid = wand.orientation_valid = true;
+      wand.position_m = grip;
+      wand.room_from_wand = glm::rotation(glm::dvec3(0.0, 0.0, -1.0), glm::normalize(target - grip));
+      moment.wall = {.material = 1, .tip = {.z_m = lift * materials[1].scaling.release_z_m()}, .wand = wand};
+      renderer.render(frames.build(moment));
+      meter.measure();
+      meter.wait();
+      const render::DepthRange range = meter.newest().value();
+      whole = {std::min(whole.nearest_m, range.nearest_m), std::max(whole.farthest_m, range.farthest_m)};
+    }
+    return whole;
+  }
+};
+
+// What stands before the wall is placed so; what lies far behind a small screen is left to the comfort clamp of the
+// live window, which must then never warn.
+TEST_F(DepthOfAWall, StaysWithinOneDegreeOnEveryPreset) {
+  for (const char* preset : {"powerwall", "3d-tv", "desk-red-cyan", "cave", "wide"}) {
+    const auto stage = stage_on(fmt::format("{}/assets/walls/{}.toml", AFM_SOURCE_DIR, preset));
+    ASSERT_TRUE(stage) << stage.error().message;
+    const scene::Viewer& viewer = stage->wall.viewers.front();
+    const double distance_m = glm::dot(viewer.sweet_spot.position_m - stage->screen.lower_left, stage->screen.normal());
+    const render::DepthRange range = range_on(*stage);
+    const DepthReport as_it_is = report_depth(range, distance_m, viewer.ipd_m, Relief::NarrowEyes);
+    const bool small = std::string_view(preset) == "desk-red-cyan" || std::string_view(preset) == "cave";
+    EXPECT_EQ(as_it_is.hard, small) << preset << ": " << as_it_is.text;
+    ComfortClamp clamp(scene::kComfortableDisparityRad);
+    clamp.measured(range, distance_m, viewer.ipd_m);
+    clamp.ipd_m(viewer.ipd_m, 1);
+    const double ipd_m = clamp.ipd_m(viewer.ipd_m, 10'000'000'000);
+    EXPECT_GT(ipd_m, 0.4 * viewer.ipd_m) << preset << ": hardly any depth is left";
+    const DepthReport report = report_depth(range, distance_m, ipd_m, Relief::NarrowEyes);
+    EXPECT_FALSE(report.hard) << preset << ": " << report.text;
+  }
 }
 
 using PixelsOfAWall = test::VulkanTest;

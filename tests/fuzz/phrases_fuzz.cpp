@@ -9,7 +9,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const afm::fuzz::MemoryFile file(bytes, size);
   constexpr std::array<std::string_view, 1> kKeys{"lift"};
-  const auto phrases = afm::exhibit::load_messages(file.path(), kKeys);
-  if (phrases && (phrases->size() != kKeys.size() || phrases->front().empty())) std::abort();
+  constexpr std::array<std::string_view, 1> kOptionalKeys{"mouse-up"}, kPlaces{"{up}"};
+  const auto phrases =
+      afm::exhibit::load_messages(file.path(), {.keys = kKeys, .optional_keys = kOptionalKeys, .places = kPlaces});
+  if (phrases && (phrases->size() != 2 || phrases->front().empty())) std::abort();
   return 0;
 }

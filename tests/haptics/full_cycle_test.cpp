@@ -73,6 +73,7 @@ TEST_P(FullCycle, RecordsEveryTickInOrder) {
 
 TEST_P(FullCycle, PlacesEachEventBetweenTheSamplesAroundIt) {
   cycle();
+  ASSERT_GE(bench_.events.size(), 2U);
   for (const TipEvent& event : bench_.events) {
     for (std::size_t i = 1; i < bench_.samples.size(); ++i) {
       if (bench_.samples[i].time_ns < event.time_ns) continue;
@@ -87,6 +88,7 @@ TEST_P(FullCycle, PlacesEachEventBetweenTheSamplesAroundIt) {
 
 TEST_P(FullCycle, KeepsTheHandsForceWithinTheCapAndTheSlew) {
   cycle();
+  ASSERT_GT(bench_.samples.size(), 1000U);
   for (std::size_t i = 1; i < bench_.samples.size(); ++i) {
     ASSERT_LE(std::abs(bench_.samples[i].hand_force_n), 2.0 + 1e-12);
     ASSERT_LE(std::abs(bench_.samples[i].hand_force_n - bench_.samples[i - 1].hand_force_n), 0.5 + 1e-12);

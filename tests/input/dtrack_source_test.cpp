@@ -107,6 +107,25 @@ TEST(DtrackSource, DropsFramesThatAreOlderThanTheNewest) {
   EXPECT_NEAR(heard(1, 500), 0.5, 1e-9) << "the tracker was started anew";
 }
 
+TEST(DtrackSource, CountsTheFramesThatAreMissing) {
+  HandClock clock;
+  const auto source = DtrackSource::open(on_any_port(), clock);
+  ASSERT_TRUE(source) << source.error().message;
+  const support::LoopbackSender sender((*source)->port());
+  const auto lost_after = [&](std::uint32_t number) {
+    EXPECT_TRUE(sender.send("fr " + std::to_string(number) + "\n"));
+    (*source)->poll();
+    return (*source)->newest().lost_frames;
+  };
+  EXPECT_EQ(lost_after(10), 0U);
+  EXPECT_EQ(lost_after(12), 0U) << "a tracker that sends every second frame";
+  EXPECT_EQ(lost_after(18), 2U);
+  EXPECT_EQ(lost_after(16), 2U) << "late";
+  clock.now += 260'000'000;
+  EXPECT_EQ(lost_after(900), 2U) << "after a silence the numbers begin anew";
+  EXPECT_EQ(lost_after(902), 2U);
+}
+
 TEST(DtrackSource, SaysWhyItCannotListen) {
   HandClock clock;
   const auto first = DtrackSource::open(on_any_port(), clock);

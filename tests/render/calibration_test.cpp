@@ -9,10 +9,10 @@ namespace {
 
 class Calibration : public VulkanTest {
  protected:
-  Pair pattern(render::PassMode mode, double ipd_m = 0.063) {
+  Pair pattern(render::PassMode mode, bool eye_marks = true) {
     auto frame = bare_frame(test_.scene);
     frame.visible.assign(test_.scene.nodes.size(), 0);
-    frame.calibration = {.screen = "wall", .mode = "side-by-side", .ipd_m = ipd_m};
+    frame.calibration = {.screen = "wall", .mode = "side-by-side", .ipd_m = 0.063, .eye_marks = eye_marks};
     const scene::Screen screen = paper_screen();
     frame.calibration_placement = {.lower_left_m = screen.lower_left,
                                    .right_m = screen.lower_right - screen.lower_left,
@@ -40,6 +40,14 @@ TEST_F(Calibration, ShowsTheLToTheLeftEyeAndTheRToTheRightEyeAlone) {
     EXPECT_LT(whites(eyes.left, 0.64, 0.88), 20U);
     EXPECT_LT(whites(eyes.right, 0.12, 0.36), 20U);
     EXPECT_GT(whites(eyes.right, 0.64, 0.88), 200U);
+  }
+}
+
+TEST_F(Calibration, ShowsNeitherLetterWhereBothEyesSeeOnePicture) {
+  const auto eyes = pattern(render::PassMode::Multiview, false);
+  for (const render::Image* eye : {&eyes.left, &eyes.right}) {
+    EXPECT_LT(whites(*eye, 0.12, 0.36), 20U);
+    EXPECT_LT(whites(*eye, 0.64, 0.88), 20U);
   }
 }
 

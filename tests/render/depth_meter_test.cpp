@@ -45,9 +45,17 @@ TEST_F(DepthMeters, FindsTheNearestAndTheFarthestThing) {
   }
 }
 
-TEST_F(DepthMeters, SeesWhatOneEyeAloneSees) {
+TEST_F(DepthMeters, SeesWhatTheLeftEyeAloneSees) {
   // at the picture's left border, before the wall: inside the left eye's image, outside the right one's
   add_square(1.6, -0.56, 0.06);
+  add_square(0.0, 0.0);
+  const auto range = measure(small());
+  ASSERT_TRUE(range);
+  EXPECT_NEAR(range->nearest_m, kHeadM - 1.6, kToleranceM);
+}
+
+TEST_F(DepthMeters, SeesWhatTheRightEyeAloneSees) {
+  add_square(1.6, 0.56, 0.06);
   add_square(0.0, 0.0);
   const auto range = measure(small());
   ASSERT_TRUE(range);

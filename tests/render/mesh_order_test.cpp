@@ -84,11 +84,13 @@ TEST(MeshOrder, ShadesFewVerticesTwice) {
 
 TEST(MeshOrder, LiesInTheOrderOfUse) {
   const MeshOrder order = drawing_order(grid(16), false);
+  ASSERT_FALSE(order.indices.empty());
   std::uint32_t next = 0;
   for (const std::uint32_t index : order.indices) {
     ASSERT_LE(index, next);
     if (index == next) ++next;
   }
+  EXPECT_GT(next, 16U * 16U);
 }
 
 TEST(MeshOrder, LeavesWhatBlendsAndWhatIsNoTrianglesAlone) {

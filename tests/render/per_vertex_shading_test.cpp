@@ -115,6 +115,7 @@ TEST_F(PerVertexShading, IsNotCompiledAnewInEveryFrame) {
     renderer.wait();
     if (i == 5) warm = compiled_bytes();
   }
+  EXPECT_GT(warm, 0U) << "only lavapipe compiles where it can be seen";
   EXPECT_EQ(compiled_bytes(), warm);
 }
 

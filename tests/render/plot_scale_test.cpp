@@ -49,6 +49,10 @@ TEST(ThinOut, KeepsTheOrderOfAPathThatTurnsBack) {
   }
   auto thin = points;
   thin_out(thin, 5.0F);
+  ASSERT_GE(thin.size(), 20U);  // each of the 20 columns that are 5 wide, there and back
+  EXPECT_LT(thin.size(), points.size());
+  EXPECT_EQ(thin.front(), points.front());
+  EXPECT_EQ(thin.back(), points.back());
   for (std::size_t i = 0; i + 1 < thin.size(); ++i) {
     EXPECT_LT(thin[i].y, thin[i + 1].y);
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "support/pictures.h"
 #include "support/vulkan_fixture.h"
 
 // The shadow map stays as it is while nothing that it depends on changes.
@@ -97,6 +99,28 @@ TEST_F(ShadowTest, IsNotDrawnAgainWhileNothingOfItMoves) {
   frame.eyes = {eye_view(scene::Eye::Left, {0.3, 0.1, 2.0}), eye_view(scene::Eye::Right, {0.3, 0.1, 2.0})};
   EXPECT_EQ(shadow_ms(frame), 0.0);
   for (const auto& [what, changed] : changed_frames()) EXPECT_GT(shadow_ms(changed), 0.0) << what;
+}
+
+// A flat floor and a ball under light that grazes them, on a map whose texels are 4 cm wide: nothing shadows itself.
+// What lies outside the map is lit, so that the same picture without a shadow is to be had.
+TEST_F(ShadowTest, LeavesNoSpecksOnWhatShadowsItself) {
+  scene::Scene scene;
+  const std::uint32_t chalk = add_material(scene, {.name = "chalk", .metallic = 0.0F});
+  add(scene, "floor", quad(chalk),
+      glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.6, 0.0)) *
+          glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), glm::dvec3(1.0, 0.0, 0.0)) *
+          glm::scale(glm::dmat4(1.0), glm::dvec3(30.0, 30.0, 1.0)));
+  render::FrameState frame = bare_frame(scene);
+  for (const double elevation_deg : {3.0, 10.0, 30.0, 80.0}) {
+    const double angle = glm::radians(elevation_deg);
+    frame.key_light.direction_to_light = glm::dvec3(0.6 * std::cos(angle), std::sin(angle), 0.8 * std::cos(angle));
+    frame.key_light.shadow_radius_m = 40.0F;
+    frame.key_light.shadow_center_m = glm::vec3(0.0F);
+    const render::Image shadowed = draw(scene, frame, small(1)).left;
+    frame.key_light.shadow_center_m = glm::vec3(160.0F, 0.0F, -120.0F);  // beside it, as seen from the light
+    const render::Image lit = draw(scene, frame, small(1)).left;
+    EXPECT_EQ(difference(shadowed, lit, 2).share_beyond, 0.0) << elevation_deg;
+  }
 }
 
 }  // namespace

@@ -192,6 +192,37 @@ TEST_F(GltfFeatures, ReadsAStreamOfMeshoptimizer) {
   expect_refused(load(document_, binary_), "stream that is broken");
 }
 
+// Two views of 129 MiB each, of zeros that take a few kilobytes in the file: more than a model may unpack to.
+TEST_F(GltfFeatures, RefusesStreamsOfMeshoptimizerThatUnpackToMoreThan256MiB) {
+  constexpr std::size_t kStride = 252, kCount = (129U << 20U) / kStride;
+  std::string stream(meshopt_encodeVertexBufferBound(kCount, kStride), '\0');
+  {
+    const std::vector<unsigned char> zeros(kCount * kStride);
+    stream.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(stream.data()), stream.size(),
+                                             zeros.data(), kCount, kStride));
+  }
+  const auto view = add_view(document_, binary_, stream);
+  document_["buffers"].push_back({{"byteLength", kCount * kStride}});
+  for (int i = 0; i < 2; ++i) {
+    document_["bufferViews"].push_back({{"buffer", 1},
+                                        {"byteLength", kCount * kStride},
+                                        {"byteStride", kStride},
+                                        {"extensions",
+                                         {{"EXT_meshopt_compression",
+                                           {{"buffer", 0},
+                                            {"byteOffset", document_["bufferViews"][view]["byteOffset"]},
+                                            {"byteLength", stream.size()},
+                                            {"byteStride", kStride},
+                                            {"count", kCount},
+                                            {"mode", "ATTRIBUTES"}}}}}});
+    document_["extensionsUsed"] = document_["extensionsRequired"] = {"EXT_meshopt_compression"};
+    if (i == 0) {
+      EXPECT_NO_THROW(loaded());
+    }
+  }
+  expect_refused(load(document_, binary_), "its compressed buffer views make more than 256 MiB of data");
+}
+
 std::string draco_triangle() {
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(1);

@@ -50,6 +50,22 @@ const std::vector<HostileCase>& hostile_cases() {
        }},
       {"NormalizedFloats", "normalises", [](json& d) { d["accessors"][0]["normalized"] = true; }},
       {"AccessorTooLong", "/accessors/0 reaches past", [](json& d) { d["accessors"][0]["count"] = 5; }},
+      {"AccessorThatBeginsBehindItsView", "/accessors/0 reaches past",
+       [](json& d) { d["accessors"][0]["byteOffset"] = 1000; }},
+      // (17043522 - 1) x 252 + 12 bytes are 8 in 32 bits
+      {"AccessorLongerThan32BitsCount", "/accessors/0 reaches past",
+       [](json& d) {
+         d["bufferViews"][0]["byteStride"] = 252;
+         d["accessors"][0]["count"] = 17'043'522;
+       }},
+      // the indices 0, 1, 2, 0, ... of the square, read as sparse ones of an accessor of two elements
+      {"SparseIndexOnePastTheEnd", "out of range",
+       [](json& d) {
+         d["accessors"][0]["count"] = 2;
+         d["accessors"][0]["sparse"] =
+             json::parse(R"({"count": 2, "indices": {"bufferView": 1, "byteOffset": 2, "componentType": 5123},
+                             "values": {"bufferView": 0}})");
+       }},
       {"AccessorOfFourBillion", "/accessors/0/count is 4000000000",
        [](json& d) { d["accessors"][0]["count"] = 4'000'000'000U; }},
       {"AccessorCountThatOverflows", "/accessors/0/count is",

@@ -243,6 +243,18 @@ TEST(OffAxisView, RefusesCornersThatAreNotSquare) {
   EXPECT_THAT(refusal(screen, {0, 0, 2}), HasSubstr("right angle"));
 }
 
+// A tape's error is let pass; a degree off square is a mistyped corner.
+TEST(OffAxisView, BearsNineTenthsOfADegreeOffSquareAndNotElevenTenths) {
+  const auto leaning = [](double degrees) {
+    const double angle = degrees * 3.14159265358979323846 / 180.0;
+    return Screen{"wall", {0, 0, 0}, {1, 0, 0}, {std::sin(angle), std::cos(angle), 0}};
+  };
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_TRUE(check_screen(leaning(0.9 * side)));
+    EXPECT_FALSE(check_screen(leaning(1.1 * side)));
+  }
+}
+
 TEST(OffAxisView, RefusesAnEyeBehindTheWall) {
   const Screen screen{"wall", {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   EXPECT_THAT(refusal(screen, {0.5, 0.5, -1}), HasSubstr("behind"));
@@ -251,8 +263,36 @@ TEST(OffAxisView, RefusesAnEyeBehindTheWall) {
 }
 
 TEST(OffAxisView, RefusesCornersThatAreNotNumbers) {
-  const Screen screen{"wall", {0, 0, 0}, {std::nan(""), 0, 0}, {0, 1, 0}};
-  EXPECT_THAT(refusal(screen, {0, 0, 2}), HasSubstr("finite"));
+  for (glm::dvec3 Screen::* corner : {&Screen::lower_left, &Screen::lower_right, &Screen::upper_left}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Screen screen{"wall", {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+      (screen.*corner)[axis] = std::nan("");
+      EXPECT_THAT(refusal(screen, {0, 0, 2}), HasSubstr("finite"));
+    }
+  }
+}
+
+// ---- places where no head can be ----
+
+TEST(DoubtOfHead, BelievesAHeadBeforeTheWallAndNoneBelowTheFloorOrBehindAScreen) {
+  const Screen front{"front", {-1.5, 0.4, 0.0}, {1.5, 0.4, 0.0}, {-1.5, 2.6, 0.0}};
+  const Screen left{"left", {-1.5, 0.4, 3.0}, {-1.5, 0.4, 0.0}, {-1.5, 2.6, 3.0}};
+  const Wall wall{.screens = {front, left}, .outputs = {}, .viewers = {{.sweet_spot = {.position_m = {0, 1.6, 2}}}}};
+  EXPECT_EQ(doubt_of_head(wall, {0.0, 1.65, 2.5}), "");
+  EXPECT_EQ(doubt_of_head(wall, {0.0, 0.3, 2.5}), "") << "on the knees, below the screen's edge";
+  EXPECT_EQ(doubt_of_head(wall, {0.0, -1.32, 2.5}), "1.32 m below the floor");
+  EXPECT_EQ(doubt_of_head(wall, {0.0, 1.65, -0.5}), "0.50 m behind the screen \"front\"");
+  EXPECT_EQ(doubt_of_head(wall, {-1.75, 1.65, 1.0}), "0.25 m behind the screen \"left\"");
+}
+
+TEST(DoubtOfHead, KnowsRoomsWhoseOriginIsNotOnTheFloor) {
+  const Screen desk{"desk", {-0.3, 0.12, 0.0}, {0.3, 0.12, 0.0}, {-0.3, 0.45, 0.0}};
+  const Wall on_desk{.screens = {desk}, .outputs = {}, .viewers = {{.sweet_spot = {.position_m = {0, 0.34, 0.65}}}}};
+  EXPECT_EQ(doubt_of_head(on_desk, {0.0, -0.1, 0.6}), "");
+  EXPECT_EQ(doubt_of_head(on_desk, {0.0, -1.66, 0.6}), "1.00 m below the floor");
+  const Screen about_eyes{"wall", {-1.5, -1.4, -2.0}, {1.5, -1.4, -2.0}, {-1.5, 0.9, -2.0}};
+  const Wall of_paraview{.screens = {about_eyes}, .outputs = {}, .viewers = {Viewer{}}};
+  EXPECT_EQ(doubt_of_head(of_paraview, {0.0, -0.2, 0.0}), "");
 }
 
 }  // namespace

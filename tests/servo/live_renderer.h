@@ -78,14 +78,17 @@ class LiveRenderer {
   }
 
   // The paper's procedure, until the tip hangs on mica. When the servo lets go on the way the person begins again, as
-  // a person would.
-  bool hold_attached() {
+  // a person would. With a dead man the button stays pressed.
+  bool hold_attached(bool dead_man = false) {
     side_.store(scene::Selection{.material = kMica, .revision = 1});
-    return eventually([this] {
+    return eventually([this, dead_man] {
       if (!move(0.060, 0.4)) return false;
       const auto lifted_ns = now_ns();
       until([&](const scene::TipState&) { return now_ns() - lifted_ns > 200'000'000; });
-      if (!move(0.060, 0.3, true) || !move(0.060, 0.5) || !move(-0.010, 0.4) || !move(0.025, 0.4)) return false;
+      if (!move(0.060, 0.3, true) || !move(0.060, 0.5, dead_man) || !move(-0.010, 0.4, dead_man) ||
+          !move(0.025, 0.4, dead_man)) {
+        return false;
+      }
       until([this](const scene::TipState& state) {
         return holds() || state.servo_state == scene::ServoState::Disarmed ||
                state.servo_state == scene::ServoState::Fault;

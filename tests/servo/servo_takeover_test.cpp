@@ -49,6 +49,12 @@ auto start(double linger_s, std::uint64_t digest = kScene) {
   return ServoClient::start(test::paper_model(), digest, {.settings = {.linger_s = linger_s}}, kProgram);
 }
 
+// What another renderer may want instead of Predecessor(kLong_s)'s servo.
+struct OtherWish {
+  const char* name;
+  void (*change)(ServoChoice&, scene::SharedModel&);
+};
+
 bool until(ServoClient& link, const std::function<bool(const scene::TipState&)>& condition) {
   return eventually([&] { return link.poll(core::MonotonicClock().now_ns()) && condition(link.tip()); });
 }
@@ -173,6 +179,41 @@ TEST_F(ServoTakeover, TellsAServoOfAnotherSceneToLeaveAndStartsItsOwn) {
   ASSERT_TRUE(link);
   EXPECT_TRUE(until(**link, [](const scene::TipState& tip) { return tip.tick > 20 && tip.material < 0; }));
 }
+
+class ServoTakeoverOfAnother : public ServoTakeover, public testing::WithParamInterface<OtherWish> {};
+
+// Nobody's hand is held by a servo that does otherwise than its renderer says, be it without a dead-man switch.
+TEST_P(ServoTakeoverOfAnother, TellsItToLeaveAndStartsItsOwn) {
+  Predecessor predecessor(kLong_s);
+  predecessor.kill();
+  ServoChoice choice{.settings = {.linger_s = kLong_s}};
+  const auto model = std::make_unique<scene::SharedModel>(test::paper_model());
+  GetParam().change(choice, *model);
+  core::Result<std::unique_ptr<ServoClient>> link;
+  EXPECT_TRUE(eventually([&] {
+    if (const auto code = predecessor.servo_exit_code()) return code == 1;
+    link = ServoClient::start(*model, kScene, choice, kProgram);
+    return false;
+  }));
+  ASSERT_TRUE(link);
+  EXPECT_TRUE(until(**link, [](const scene::TipState& tip) { return tip.tick > 20; }));
+  EXPECT_LT((*link)->tip().material, 0) << "gold was the predecessor's";
+  EXPECT_EQ((*link)->tip().dead_man != 0, choice.settings.dead_man);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Wish, ServoTakeoverOfAnother,
+    testing::Values(OtherWish{"Rate", [](auto& choice, auto&) { choice.settings.rate_hz = 2000.0; }},
+                    OtherWish{"DeadMan", [](auto& choice, auto&) { choice.settings.dead_man = true; }},
+                    OtherWish{"LargestForce", [](auto& choice, auto&) { choice.settings.max_force_n = 1.0; }},
+                    OtherWish{"TimeAwake", [](auto& choice, auto&) { choice.settings.spin_ns = 1000; }},
+                    OtherWish{"NoLingering", [](auto& choice, auto&) { choice.settings.linger_s = 0.0; }},
+                    OtherWish{"Hamaker",
+                              [](auto&, auto& model) {
+                                model.materials[test::kMica].contact.hamaker = physics::Energy(2e-19);
+                              }},
+                    OtherWish{"Surface", [](auto&, auto& model) { model.height_fields.back().spacing_m = 1e-6; }}),
+    [](const auto& test) { return test.param.name; });
 
 // Two walls on one machine: each renderer finds its own servo again, whichever stands first in the folder.
 TEST_F(ServoTakeover, LeavesTheServoOfAnotherWallToItsOwnRenderer) {

@@ -16,8 +16,12 @@ struct DepthReport {
   std::string text;   // one line; empty before the first measurement
 };
 
+// What makes a depth easier to look at, beside stepping back: the key that brings a scene that was moved to the wall,
+// or the one that draws for eyes less far apart.
+enum class Relief { BringToWall, NarrowEyes };
+
 // For eyes `ipd_m` apart, level and facing a wall at `distance_m`.
-DepthReport report_depth(const render::DepthRange& range, double distance_m, double ipd_m);
+DepthReport report_depth(const render::DepthRange& range, double distance_m, double ipd_m, Relief relief);
 
 // The line in the screen's lower left corner; nothing while there is no text.
 render::Label depth_label(const DepthReport& report, const scene::Screen& screen);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ inline constexpr std::size_t kMostMaterials = 9;
 struct ExhibitFiles {
   std::string assets_dir;
   std::string wall;                         // empty: the paper's wall in the assets
+  std::optional<double> aspect{};           // width to height of the picture, which the paper's wall takes on
   std::string guidance;                     // empty: English, in the assets
   std::string materials;                    // a file of the user's own; empty: none
   std::string probe;                        // a glTF model of the user's own instead of the assets'; empty: none
@@ -35,7 +37,7 @@ struct ExhibitFiles {
 struct Stage {
   scene::MaterialLibrary materials;
   scene::Wall wall;
-  scene::Screen screen;  // that the scene stands on: the wall's only one, or the plane of tiles that lie in one
+  scene::Screen screen;  // that the scene stands on: StagePlace::main
   std::array<scene::EyeView, 2> eyes;
   WallScene wall_scene;
   Guidance guidance;

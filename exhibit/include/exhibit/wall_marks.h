@@ -33,9 +33,12 @@ class WallMarks {
   // The ruler, in layout units.
   void place_ruler(const ScaleBar& bar, std::vector<glm::dmat4>& local) const;
 
-  // The unbent lever's middle line from the clamp to beyond its end, and the bend from there to the real end.
-  void place_lever(const glm::dvec3& clamp, const glm::dvec3& unbent_end, const glm::dvec3& end,
-                   std::vector<glm::dmat4>& local) const;
+  // A line along the lever as it would be without its bend; or none.
+  void place_unbent(const glm::dvec3& clamp, const glm::dvec3& end, std::vector<glm::dmat4>& local) const;
+  void hide_unbent(std::vector<glm::dmat4>& local) const;
+
+  // The bend, from the unbent lever's end to the real one's.
+  void place_bend(const glm::dvec3& unbent_end, const glm::dvec3& end, std::vector<glm::dmat4>& local) const;
 
   // Those that are hidden with the instrument, and the ruler's.
   std::vector<scene::NodeIndex> lever_nodes() const { return {unbent_, bend_}; }

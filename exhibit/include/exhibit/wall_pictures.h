@@ -46,8 +46,8 @@ core::Result<WallPlan> plan_wall(const scene::Wall& wall, const PictureOptions& 
 core::Result<std::array<scene::EyeView, 2>> eyes_before(const scene::Screen& screen, const scene::HeadPose& head,
                                                         double ipd_m);
 
-// For the plan's first output, with panels as sharp as its pixels, and with as many samples as the device has the
-// memory for in the largest one; fewer are logged. `panel_millimetre_m` as in render::RendererOptions.
+// For the plan's first output, with panels as sharp as the finest output's pixels, and with as many samples as the
+// device has the memory for in the largest one; fewer are logged. `panel_millimetre_m` as in render::RendererOptions.
 render::RendererOptions renderer_options(render::Context& context, const WallPlan& plan, double panel_millimetre_m);
 
 // As many samples a pixel as the device has the memory for; fewer than usual are logged.

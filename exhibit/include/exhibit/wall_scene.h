@@ -13,6 +13,7 @@
 #include "exhibit/analogy.h"
 #include "exhibit/journey.h"
 #include "exhibit/user_models.h"
+#include "exhibit/wall_layout.h"
 #include "exhibit/wall_marks.h"
 #include "exhibit/wall_state.h"
 #include "input/selection.h"
@@ -38,8 +39,7 @@ struct DrawnScale {
 class WallScene {
  public:
   static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
-                                      const scene::Screen& screen, const glm::dvec3& viewer_m,
-                                      const UserModels& own = {});
+                                      const StagePlace& place, const UserModels& own = {});
 
   const scene::Scene& scene() const { return scene_; }
   scene::NodeIndex sample_node() const { return sample_frame_; }
@@ -74,6 +74,9 @@ class WallScene {
   render::PanelPlacement parameter_placement() const;
   render::PanelPlacement parameter_tab_placement() const;
 
+  // For a short note, below the panel on the left.
+  render::PanelPlacement note_placement() const;
+
   // Room from node, for every node of the scene.
   std::vector<glm::dmat4> node_transforms(const WallState& state) const;
 
@@ -92,18 +95,29 @@ class WallScene {
     std::uint32_t height_field;
   };
 
-  void lay_out(const scene::Screen& screen, const glm::dvec3& viewer_m);
+  // How the lever stands in the sample's frame, layout units.
+  struct LeverPose {
+    glm::dmat4 frame_from_lever{1.0};  // origin at the clamp, x along the unbent lever, z away from the sample
+    double end = 0;                    // of the bent lever, along z
+    double angle = 0;                  // of its slope there, rad
+  };
+
+  void lay_out(const StagePlace& stage);
+  void lay_out_front(const StagePlace& stage, double contact_height_m);
+  void lay_out_panels(const StagePlace& stage);
   void add_instrument(ModelBuilder& build, const UserModels& own);
   void add_material(ModelBuilder& build, const std::string& assets_dir, const scene::MaterialEntry& material,
                     const UserModels& own);
   std::uint32_t height_field_of(const std::string& model, scene::NodeIndex surface);
+  LeverPose lever_pose(const WallState& state) const;
   void place_probe(const WallState& state, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
   void place_sample(const WallState& state, std::vector<glm::dmat4>& local) const;
   void place_optics(const WallState& state, std::vector<glm::dmat4>& local) const;
   void place_wand(const WallState& state, std::vector<glm::dmat4>& local) const;
   double parameter_factor(std::size_t material, double release_z_m) const;  // of Z_joc, against the material's own
   double layout_per_m(const WallState& state) const;                        // layout units per metre of the nanoworld
-  double side_width() const;                                                // of the panels beside the instrument
+  render::PanelPlacement plot_placement() const;                            // of the finale
+  render::PanelPlacement right_of_data(double inset) const;
   glm::dvec3 swatch_place(std::size_t i) const;
   glm::dvec3 below_tip(const WallState& state) const;     // the surface's point, sample's frame, layout units
   double ruler_m_per_unit(const WallState& state) const;  // what a layout unit beside the ruler shows; 0: nothing
@@ -116,18 +130,23 @@ class WallScene {
   void place_marks(const WallState& state, render::FrameState& frame) const;
   std::vector<glm::dmat4> local_transforms(const WallState& state, render::BeamBend& bend) const;
   std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;
-  render::PanelPlacement panel(double left, double bottom, double width, double height) const;
+  render::PanelPlacement panel(double left, double bottom, double width, double height) const;         // in the wall
+  render::PanelPlacement panel_beside(double left, double bottom, double width, double height) const;  // of the scene
 
   scene::Scene scene_;
   std::vector<std::string> titles_;
   std::vector<MaterialLook> looks_;
   std::vector<scene::SharedHeightField> height_fields_;
   std::vector<std::string> surface_models_;  // of which model each of them is
-  glm::dmat4 room_from_layout_{
-      1.0};                // origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre
-  double wall_width_ = 0;  // in layout units
+  // origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre
+  glm::dmat4 room_from_layout_{1.0};
+  glm::dmat4 room_from_wall_{1.0};  // the same, with y along the main screen: another only where that lies flat
+  WallShape shape_;
+  double half_width_ = 0;  // of the composition, in layout units
   double wall_top_ = 0;
-  double shelf_y_ = 0;
+  double shelf_y_ = 0, shelf_z_ = 0, back_z_ = 0;
+  glm::dvec3 wand_grip_{0.0};
+  render::PanelPlacement force_placement_, data_placement_;
 
   scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, stage_{};
   scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{}, wand_{}, ray_{}, apex_{};

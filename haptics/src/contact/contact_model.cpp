@@ -33,7 +33,8 @@ std::shared_ptr<const physics::LawTables> build(const scene::SharedContact& mate
   }
   const scene::SharedMeasuredCurve& curve = curves[material.measured_curve];
   return physics::measured_law_tables(std::span(curve.approach).first(curve.approach_count),
-                                      std::span(curve.retract).first(curve.retract_count), material.contact);
+                                      std::span(curve.retract).first(curve.retract_count), material.contact,
+                                      curve.jumps);
 }
 
 physics::DynamicModel dynamic_model(const scene::SharedContact& material, std::int64_t period_ns) {
@@ -61,6 +62,22 @@ constexpr double kShareOfStiffness = 0.5;
 double largest_curvature_per_m(const Scaling& fit, const DeviceSpec& device) {
   const double stands_n_per_m = std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
   return kShareOfStiffness * stands_n_per_m / force_cap_n(device) * fit.hand_m_per_m();
+}
+
+// What a recorded contact that was pressed down to `lowest` gives the hand on its way up from z beyond what the
+// attached branch gives, until it has gone over to that branch.
+double turn_energy_j(const physics::LawTables& tables, const Scaling& scaling, physics::Length z,
+                     physics::Length lowest) {
+  const physics::Length way = lowest + tables.turn - z;
+  if (tables.turn.si <= 0.0 || way.si <= 0.0) return 0.0;
+  constexpr int kSteps = 32;
+  double sum_n = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const physics::Length at = z + way * ((i + 0.5) / kSteps);
+    sum_n +=
+        scaling.hand_force_n(tables.contact_force(at, lowest).si) - scaling.hand_force_n(tables.attached.force(at).si);
+  }
+  return sum_n / kSteps * way.si * scaling.hand_m_per_m();
 }
 
 double slow_motion_of(const physics::ApproachRetractModel& /*at rest at any time*/) { return 1.0; }
@@ -141,7 +158,9 @@ Touch ContactModel::step(const glm::dvec3& hand_m) noexcept {
 
 // Of F (-slope, 1): the law's stiffness along the steepest way, and the strongest force on the most bent place.
 double ContactModel::stiffness_n_per_m() const noexcept {
-  return stored_energy().stiffness_n_per_m() * (1.0 + steepest_slope_ * steepest_slope_) +
+  // a recorded contact's turn adds at most the stiffness that it has on average
+  const double turning = tables_->turn.si > 0.0 ? 2.0 : 1.0;
+  return turning * stored_energy().stiffness_n_per_m() * (1.0 + steepest_slope_ * steepest_slope_) +
          force_cap_n_ * largest_curvature_per_m_ / scaling().hand_m_per_m();
 }
 
@@ -163,6 +182,12 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
                              .is_dynamic = std::holds_alternative<physics::DynamicModel>(model_)};
   if (touch.response.phase == physics::Phase::WaitForLift) return law;
   law.stored_j = stored_energy().at(touch.response.phase, scaling().hand_height_m(touch.z_m));
+  if (const auto* model = std::get_if<physics::ApproachRetractModel>(&model_); model != nullptr && attached) {
+    // the potential is that of the attached branch, and where the tip jumps to contact all is that of the free one
+    const physics::Length in = tables_->figures.z_jtc;
+    law.stored_j += turn_energy_j(*tables_, scaling(), physics::Length(touch.z_m), model->lowest_z()) -
+                    turn_energy_j(*tables_, scaling(), in, in);
+  }
   if (law.is_dynamic) {
     const auto& branch = attached ? tables_->attached : tables_->free;
     const double at_rest_n = scaling().hand_force_n(branch.force(physics::Length(touch.z_m)).si);

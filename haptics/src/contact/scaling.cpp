@@ -49,15 +49,25 @@ double faint_above_m(const physics::LawTables& tables, double faint_n) {
 struct Extent {
   double reach_m = 0;   // Z that the stroke fills
   double strong_n = 0;  // on the tip: what becomes as strong as the device may be
+  double felt_n = 0;    // on the tip: what must stay strong enough to be felt
 };
 
 Extent extent_of(const physics::LawTables& tables) {
   const double pull_n = strongest_pull_n(tables);
-  if (pull_n > 0.0) {
-    return {std::max(tables.figures.z_joc.si, faint_above_m(tables, Scaling::kFaintShare * pull_n)), pull_n};
+  const double push_n = tables.turn.si > 0.0 ? force_n(tables.pressed, tables.pressed_to.si) : 0.0;
+  if (pull_n > Scaling::kFaintShare * push_n) {
+    // of a recorded curve that hardly pulls, the push is what is felt
+    return {std::max(tables.figures.z_joc.si, faint_above_m(tables, Scaling::kFaintShare * pull_n)), pull_n,
+            std::max(pull_n, push_n)};
+  }
+  if (tables.turn.si > 0.0) {
+    const double depth_m = -tables.pressed_to.si;
+    const double strong_n = push_n / kKneeShare;
+    return {depth_m * Scaling::kStrokeM / Scaling::kPushM, strong_n, strong_n};
   }
   const double push_m = kPushShareOfRadius * tables.contact.tip_radius.si;
-  return {push_m * Scaling::kStrokeM / Scaling::kPushM, force_n(tables.attached, -push_m) / kKneeShare};
+  const double strong_n = force_n(tables.attached, -push_m) / kKneeShare;
+  return {push_m * Scaling::kStrokeM / Scaling::kPushM, strong_n, strong_n};
 }
 
 // The steepest rise of the hand's force on its way down a branch, between two heights of the hand.
@@ -81,7 +91,12 @@ double excess_of_stiffness(const Scaling& scaling, const physics::LawTables& tab
   const double free = steepest_n_per_m(scaling, tables.free, std::clamp(jump_in_m, lowest_m, highest_m), highest_m);
   const double attached =
       steepest_n_per_m(scaling, tables.attached, lowest_m, std::clamp(jump_off_m, lowest_m, highest_m));
-  return std::max(free, attached) / std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
+  // where a recorded contact is pressed, and in the turn from there to the attached branch, which adds at most the
+  // contact's mean stiffness (measured_law_tables)
+  const double pressed = tables.turn.si > 0.0 ? 2.0 * steepest_n_per_m(scaling, tables.pressed, lowest_m,
+                                                                       std::clamp(jump_in_m, lowest_m, highest_m))
+                                              : 0.0;
+  return std::max({free, attached, pressed}) / std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
 }
 
 core::Result<void> check_force(const DeviceSpec& device) {
@@ -139,7 +154,7 @@ core::Result<Scaling> Scaling::fit(const physics::LawTables& tables, const Devic
   for (double excess = excess_of_stiffness(scaling, tables, device); excess > 1.0 + kRounding;
        excess = excess_of_stiffness(scaling, tables, device)) {
     scaling.hand_n_per_n_ *= std::min(0.95, 1.0 / excess);
-    if (scaling.hand_n_per_n_ * extent.strong_n < kFaintestPullN) {
+    if (scaling.hand_n_per_n_ * extent.felt_n < kFaintestPullN) {
       return refusal(
           fmt::format("beside the stiffness of its contact, of which a hand can be given {:.0f} N/m, its force of "
                       "{:.3g} nN would be too faint to feel; use a softer lever",

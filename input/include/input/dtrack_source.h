@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "core/clock.h"
@@ -21,7 +22,8 @@ struct DtrackSettings {
   std::uint16_t port = 5000;
   std::uint32_t flystick = 0;
   glm::dvec3 tracker_origin_m{0.0};  // room_from_tracker, a rigid transform
-  glm::dquat room_from_tracker{1.0, 0.0, 0.0, 0.0};
+  // z upwards and y towards the wall, as DTrack's room calibration leaves them and assets/wands/dtrack.toml says
+  glm::dquat room_from_tracker{std::numbers::sqrt2 / 2.0, -std::numbers::sqrt2 / 2.0, 0.0, 0.0};
 };
 
 // What has come in so far.
@@ -30,7 +32,8 @@ struct DtrackUpdate {
   std::uint64_t good_packets = 0;
   std::uint64_t bad_packets = 0;  // no frames
   std::uint64_t old_packets = 0;  // frames whose number is not above the newest one's: late, or sent again
-  DtrackFrame frame;
+  std::uint64_t lost_frames = 0;  // that are missing between the numbers of two frames
+  DtrackFrame frame{};
 };
 
 // The bodies in the room's frame.
@@ -58,12 +61,15 @@ class DtrackSource final : public WandSource {
 
   bool receive(int patience_ms);
   bool is_silent() const;
+  void count_lost(std::uint32_t step);
 
   DtrackSettings settings_;
   const core::Clock& clock_;
   core::FileDescriptor socket_;
   std::uint16_t port_;
   DtrackUpdate now_;
+  std::uint32_t frame_step_ =
+      0;  // between two numbers of frames, the smallest seen: a tracker may send every second one
   core::LatestValue<DtrackUpdate> update_;
 };
 

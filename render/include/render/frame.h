@@ -176,12 +176,13 @@ struct ControlPanel {
 };
 
 // The picture for setting up a screen, at true scale on all of it: a grid in centimetres or decimetres, a cross in the
-// wall's plane, a circle, a ruler of eye distances, grey steps; and an L that the left eye's picture alone shows, an R
-// in the right eye's. Nothing else should be shown with it.
+// wall's plane, a circle, a ruler of eye distances, grey steps; and, where the eyes have pictures of their own, an L
+// that the left eye's alone shows, an R in the right eye's. Nothing else should be shown with it.
 struct CalibrationPanel {
   std::string screen;  // its name
   std::string mode;    // of stereo
   double ipd_m = 0;    // of the viewer, marked on the ruler
+  bool eye_marks = true;
 
   bool operator==(const CalibrationPanel&) const = default;
 };

@@ -40,7 +40,7 @@ struct WindowInput {
 struct WindowOptions {
   std::string title;
   std::uint32_t width = 1280;
-  std::uint32_t height = 960;
+  std::uint32_t height = 720;
   bool full_screen = false;
   std::string monitor{};                   // to fill, as list_monitors() names it; empty: none in particular
   std::optional<scene::PixelRect> rect{};  // of the desktop, without a frame, instead of width and height

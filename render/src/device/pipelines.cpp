@@ -32,14 +32,6 @@ vk::PipelineDepthStencilStateCreateInfo depth_state(const PipelineRequest& reque
           .depthCompareOp = request.depth_compare};
 }
 
-vk::PipelineRasterizationStateCreateInfo raster_state(const PipelineRequest& request) {
-  return {.polygonMode = vk::PolygonMode::eFill,
-          .depthBiasEnable = request.depth_bias_constant != 0.0F || request.depth_bias_slope != 0.0F,
-          .depthBiasConstantFactor = request.depth_bias_constant,
-          .depthBiasSlopeFactor = request.depth_bias_slope,
-          .lineWidth = 1.0F};
-}
-
 }  // namespace
 
 vk::raii::Pipeline create_pipeline(const Device& device, const PipelineRequest& request) {
@@ -65,7 +57,7 @@ vk::raii::Pipeline create_pipeline(const Device& device, const PipelineRequest& 
       .pVertexAttributeDescriptions = request.attributes.data()};
   const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = request.topology};
   const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
-  const auto raster = raster_state(request);
+  const vk::PipelineRasterizationStateCreateInfo raster{.polygonMode = vk::PolygonMode::eFill, .lineWidth = 1.0F};
   const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = request.samples};
   const auto depth = depth_state(request);
   const auto blend_attachment = blend_state(request.blending);

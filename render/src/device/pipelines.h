@@ -30,8 +30,6 @@ struct PipelineRequest {
   DepthUse depth = DepthUse::None;
   vk::CompareOp depth_compare = vk::CompareOp::eGreater;  // reversed depth
   std::uint32_t variant = 0;                              // the fragment shader's specialisation constant 0
-  float depth_bias_constant = 0.0F;
-  float depth_bias_slope = 0.0F;
 };
 
 vk::raii::Pipeline create_pipeline(const Device& device, const PipelineRequest& request);

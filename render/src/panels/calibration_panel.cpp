@@ -115,7 +115,8 @@ void paint(Canvas& canvas, const CalibrationPanel& panel) {
        written(text, "{}   {:.3f} m x {:.3f} m", panel.screen, true_size_mm.x * 1e-3F, true_size_mm.y * 1e-3F));
   line(320.0F, TextStyle::Strong, panel.mode);
   line(390.0F, TextStyle::Body,
-       written(text, "a square is {:g} mm; the circle is round; L to the left eye, R to the right", step_mm));
+       written(text, "a square is {:g} mm; the circle is round; {}", step_mm,
+               panel.eye_marks ? "L to the left eye, R to the right" : "both eyes see the same"));
   paint_ruler(canvas, {middle.x - 0.5F * kMostIpdMm * canvas.true_mm(), 1840.0F * unit}, unit, panel.ipd_m);
   line(1860.0F, TextStyle::Body,
        written(text, "between the eyes: ticks from 45 to 80 mm, orange {:.1f} mm", panel.ipd_m * 1e3));

@@ -99,6 +99,12 @@ void Canvas::fitted_text(glm::vec2 position, TextStyle style, Color color, std::
   this->text(position + glm::vec2(text_width_mm(style, text), 0.0F), style, color, kEllipsis);
 }
 
+void Canvas::shrunk_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm) {
+  const float scale = std::min(1.0F, width_mm / std::max(text_width_mm(style, text), 1.0F));
+  const float lower = 0.5F * (1.0F - scale) * text_height_mm(style);
+  this->text(position + glm::vec2(0.0F, lower), style, color, text, Align::Left, scale);
+}
+
 void Canvas::line(glm::vec2 from, glm::vec2 to, float width_mm, Color color) {
   list_.AddLine(texel(from), texel(to), packed(color), width_mm * fonts_.texels_per_mm);
 }

@@ -51,6 +51,9 @@ class Canvas {
   // A millimetre of the room: all lengths here are in the panels'.
   float true_mm() const { return fonts_.true_mm; }
 
+  // Pixels of an eye's image on which a millimetre is drawn, about: textures are twice as fine.
+  float pixels_per_mm() const { return 0.5F * fonts_.texels_per_mm; }
+
   // The panel's plate with its rounded edge.
   void panel_background(Color edge = palette::kEdge, float edge_width_mm = 2.0F);
 
@@ -62,6 +65,9 @@ class Canvas {
 
   // The same from the left, cut with an ellipsis where it would be wider than `width_mm`.
   void fitted_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm);
+
+  // The same, drawn smaller where it would be wider; it stays on the middle of its line.
+  void shrunk_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm);
 
   // For who paints: nothing in it is kept from one call to the next, and `points` and `labels` no call here uses.
   CanvasMemory& memory() { return memory_; }

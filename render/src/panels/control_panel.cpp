@@ -15,11 +15,12 @@ constexpr double kTargetWidth = 88.0;
 constexpr double kButtonWidth = 165.0;
 constexpr double kGap = 10.0;
 constexpr double kNoteHeight = 43.0;
+constexpr double kBelowNotes = 20.0;  // to the rounded edge
 constexpr float kValueScale = 0.8F;
 
 // From one row to the next: what the notes leave.
 double row_pitch(const ControlPanel& panel, double height_mm) {
-  const double notes = kNoteHeight * static_cast<double>(panel.notes.size() + 1) + kGap;
+  const double notes = kNoteHeight * static_cast<double>(panel.notes.size() + 1) + kGap + kBelowNotes;
   const double rows = static_cast<double>(std::max<std::size_t>(panel.rows.size(), 1));
   return std::clamp((height_mm - kTop - notes) / rows, 1.0, kTallestRow);
 }
@@ -44,7 +45,7 @@ void paint_row(Canvas& canvas, const ControlPanel& panel, std::size_t row, doubl
   const glm::dvec2 size(canvas.size_mm());
   const auto room = static_cast<float>(size.x - 2.0 * kControlMargin - 2.0 * kTargetWidth - 2.0 * kGap);
   const auto y = static_cast<float>(top + 0.5 * (pitch - 84.0));
-  canvas.fitted_text({kControlMargin, y}, TextStyle::Body, palette::kMuted, content.name, room);
+  canvas.shrunk_text({kControlMargin, y}, TextStyle::Body, palette::kMuted, content.name, room);
   const float scale =
       std::min(kValueScale, room / std::max(canvas.text_width_mm(TextStyle::Title, content.value), 1.0F));
   canvas.text({kControlMargin, y + 36.0F}, TextStyle::Title, content.changed ? palette::kOrange : palette::kInk,
@@ -95,16 +96,16 @@ void paint(Canvas& canvas, const ControlPanel& panel) {
   const glm::dvec2 size(canvas.size_mm());
   const auto width = static_cast<float>(size.x - 2.0 * kControlMargin);
   const float beside = static_cast<float>(static_cast<double>(panel.buttons.size()) * (kButtonWidth + kGap));
-  canvas.fitted_text({kControlMargin, 34.0F}, TextStyle::Title, palette::kInk, panel.title, width - beside);
+  canvas.shrunk_text({kControlMargin, 34.0F}, TextStyle::Title, palette::kInk, panel.title, width - beside);
   const double pitch = row_pitch(panel, size.y);
   for (std::size_t row = 0; row < panel.rows.size(); ++row) {
     paint_row(canvas, panel, row, kTop + pitch * static_cast<double>(row), pitch);
   }
   double y = kTop + pitch * static_cast<double>(panel.rows.size()) + kGap;
-  canvas.fitted_text({kControlMargin, static_cast<float>(y)}, TextStyle::Body, palette::kYellow, panel.status, width);
+  canvas.shrunk_text({kControlMargin, static_cast<float>(y)}, TextStyle::Body, palette::kYellow, panel.status, width);
   for (const std::string& note : panel.notes) {
     y += kNoteHeight;
-    canvas.fitted_text({kControlMargin, static_cast<float>(y)}, TextStyle::Body, palette::kInk, note, width);
+    canvas.shrunk_text({kControlMargin, static_cast<float>(y)}, TextStyle::Body, palette::kInk, note, width);
   }
   for (std::size_t button = 0; button < panel.buttons.size(); ++button) {
     const ControlTarget target{ControlTarget::Kind::Button, button};

@@ -45,15 +45,22 @@ void paint_heading(Canvas& canvas, const ForcePanel& panel) {
                      canvas.size_mm().x - 2.0F * kMargin);
 }
 
-// One entry for each curve, and what dashed and solid mean.
+// One entry for each curve, smaller where there are many, and what dashed and solid mean.
 void paint_legend(Canvas& canvas, const ForcePanel& panel, float y) {
+  constexpr float kStroke = 42.0F, kLabel = 54.0F, kApart = 34.0F;
+  float whole = -kApart;
+  for (const auto& curve : panel.curves) {
+    whole += kLabel + canvas.text_width_mm(TextStyle::Small, curve.label) + kApart;
+  }
+  const float scale = std::min(1.0F, (canvas.size_mm().x - 2.0F * kMargin) / std::max(whole, 1.0F));
   float x = kMargin;
   const float middle = y + 19.0F;
   for (const auto& curve : panel.curves) {
     const Color color{curve.color, curve.faded ? 0.65F : 1.0F};
-    canvas.line({x, middle}, {x + 42.0F, middle}, kRetractWidth, color);
-    canvas.text({x + 54.0F, y + 2.0F}, TextStyle::Small, curve.faded ? palette::kMuted : palette::kInk, curve.label);
-    x += 54.0F + canvas.text_width_mm(TextStyle::Small, curve.label) + 34.0F;
+    canvas.line({x, middle}, {x + scale * kStroke, middle}, kRetractWidth, color);
+    canvas.text({x + scale * kLabel, middle - scale * 17.0F}, TextStyle::Small,
+                curve.faded ? palette::kMuted : palette::kInk, curve.label, Align::Left, scale);
+    x += scale * (kLabel + canvas.text_width_mm(TextStyle::Small, curve.label) + kApart);
   }
   const float right = canvas.size_mm().x - kMargin;
   const float retract = right - canvas.text_width_mm(TextStyle::Small, "retract");

@@ -3,8 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <cstdlib>
+#include <deque>
+#include <new>
 #include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/whole_file.h"
 
 namespace afm::render {
 namespace {
@@ -36,11 +42,23 @@ constexpr std::array<StyleRow, kTextStyles> kStyles{{
 constexpr std::array<ImWchar, 17> kGlyphRanges{0x0020, 0x00FF, 0x0391, 0x03C9, 0x2010, 0x2027, 0x2030, 0x2044, 0x2070,
                                                0x209C, 0x2190, 0x2193, 0x2200, 0x2265, 0x2266, 0x226B, 0};
 
-bool readable(const std::string& path) { return std::ifstream(path).good(); }
+// OpenType's signatures: of anything else ImGui ends the program.
+bool is_font(const std::string& bytes) {
+  using namespace std::string_view_literals;
+  return bytes.starts_with("OTTO"sv) || bytes.starts_with("\0\1\0\0"sv);
+}
+
+// ImGui does not look at what it is given.
+void* memory_or_throw(std::size_t size, void* /*unused*/) {
+  if (void* place = std::malloc(size)) return place;
+  throw std::bad_alloc();
+}
+void give_back(void* place, void* /*unused*/) { std::free(place); }
 
 core::Result<PanelFonts> draw_glyphs(float texels_per_mm, float true_mm) {
   PanelFonts result{.atlas = std::make_unique<ImFontAtlas>(), .texels_per_mm = texels_per_mm, .true_mm = true_mm};
   result.atlas->Flags |= ImFontAtlasFlags_NoMouseCursors;
+  std::deque<std::string> files;  // which the atlas reads when it is built
   for (std::size_t style = 0; style < kTextStyles; ++style) {
     const auto& row = kStyles[style];
     const float pixels = std::max(1.0F, std::round(row.height_mm * result.texels_per_mm));
@@ -48,8 +66,12 @@ core::Result<PanelFonts> draw_glyphs(float texels_per_mm, float true_mm) {
     config.OversampleH = 2;
     config.OversampleV = 1;
     for (const std::string& path : {std::string(kInterFolder) + row.inter, std::string(kDejavuFolder) + row.dejavu}) {
-      if (readable(path)) {
-        ImFont* font = result.atlas->AddFontFromFileTTF(path.c_str(), pixels, &config, kGlyphRanges.data());
+      auto bytes = core::read_file(path);
+      if (bytes && is_font(*bytes)) {
+        std::string& file = files.emplace_back(std::move(*bytes));
+        config.FontDataOwnedByAtlas = false;
+        ImFont* font = result.atlas->AddFontFromMemoryTTF(file.data(), static_cast<int>(file.size()), pixels, &config,
+                                                          kGlyphRanges.data());
         result.fonts[style] = config.MergeMode ? result.fonts[style] : font;
         config.MergeMode = result.fonts[style] != nullptr;
       }
@@ -72,6 +94,7 @@ core::Result<PanelFonts> draw_glyphs(float texels_per_mm, float true_mm) {
 float text_height_mm(TextStyle style) { return kStyles[static_cast<std::size_t>(style)].height_mm; }
 
 core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m, std::uint32_t largest_image) {
+  ImGui::SetAllocatorFunctions(memory_or_throw, give_back);
   const auto true_mm = static_cast<float>(1e-3 / millimetre_m);
   float texels_per_mm = std::min(static_cast<float>(texels_per_m * millimetre_m), kMostTexelsPerMm);
   auto fonts = draw_glyphs(texels_per_mm, true_mm);

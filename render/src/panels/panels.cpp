@@ -61,12 +61,12 @@ vk::raii::PipelineLayout create_rectangle_layout(const Device& device, vk::Descr
 constexpr EyeCode kRectangleVertex{shaders::panel_vert, shaders::panel_vert_one_view};
 constexpr EyeCode kRectangleFragment{shaders::panel_frag, shaders::panel_frag};
 
-PipelineRequest rectangle_request(vk::PipelineLayout layout) {
-  return {.name = "panels",
+PipelineRequest rectangle_request(vk::PipelineLayout layout, const char* name, DepthUse depth) {
+  return {.name = name,
           .layout = layout,
           .topology = vk::PrimitiveTopology::eTriangleStrip,
           .blending = Blending::Premultiplied,
-          .depth = DepthUse::TestOnly};
+          .depth = depth};
 }
 
 glm::dvec2 size_m(const PanelPlacement& placement) {
@@ -108,7 +108,10 @@ Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout f
                                                      .push_size = sizeof(CanvasBlock)})),
       canvas_pipeline_(create_canvas_pipeline(device, *canvas_layout_)),
       rectangle_layout_(create_rectangle_layout(device, frame_set_layout, *texture_layout_)),
-      rectangle_pipeline_(device, rectangle_request(*rectangle_layout_), kRectangleVertex, kRectangleFragment),
+      rectangle_pipeline_(device, rectangle_request(*rectangle_layout_, "panels", DepthUse::TestOnly), kRectangleVertex,
+                          kRectangleFragment),
+      over_all_pipeline_(device, rectangle_request(*rectangle_layout_, "banner", DepthUse::None), kRectangleVertex,
+                         kRectangleFragment),
       sampler_(*device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                               .minFilter = vk::Filter::eLinear,
                                               .addressModeU = vk::SamplerAddressMode::eClampToEdge,
@@ -272,7 +275,8 @@ bool Panels::update(const FrameState& frame, std::size_t slot) {
   update(calibration_, frame.calibration, frame.calibration_placement);
   for (std::size_t i = 0; i < eye_marks_.size(); ++i) {
     eye_marks_[i].only_eye = scene::kEyes[i];
-    update(eye_marks_[i], EyeMark{scene::kEyes[i]}, mark_placement(frame.calibration_placement, scene::kEyes[i]));
+    update(eye_marks_[i], EyeMark{scene::kEyes[i]},
+           frame.calibration.eye_marks ? mark_placement(frame.calibration_placement, scene::kEyes[i]) : kNoPlacement);
   }
   return !paintings_.empty();
 }
@@ -351,9 +355,12 @@ void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const Eye
   };
   show(force_);
   show(data_);
-  show(banner_);
   show(control_);
   std::for_each(labels_.begin(), labels_.end(), show);
+  // whether a force reaches the hand is to be seen, wherever the scene has been moved
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, over_all_pipeline_.get(drawing.pass, drawing.samples));
+  show(banner_);
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, rectangle_pipeline_.get(drawing.pass, drawing.samples));
   show(calibration_);
   std::for_each(eye_marks_.begin(), eye_marks_.end(), show);
 }

@@ -21,7 +21,8 @@ namespace afm::render {
 inline constexpr std::size_t kFramesInFlight = 2;
 
 // The panels of a frame: each is painted into a texture of its own, again only when its content or size has changed,
-// and shown on its rectangle in the room. Panels without area are neither painted nor shown.
+// and shown on its rectangle in the room, the banner over all that is there. Panels without area are neither painted
+// nor shown.
 class Panels {
  public:
   Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout);
@@ -93,6 +94,7 @@ class Panels {
   vk::raii::Pipeline canvas_pipeline_;
   vk::raii::PipelineLayout rectangle_layout_;
   EyePipeline rectangle_pipeline_;
+  EyePipeline over_all_pipeline_;  // of the banner, which nothing covers
   vk::raii::Sampler sampler_;
   DeviceImage atlas_;
   vk::raii::ImageView atlas_view_{nullptr};

@@ -36,30 +36,60 @@ void paint_shape(Canvas& canvas, StateShape shape, glm::vec2 c, float r, Color c
   }
 }
 
-// The state in a word and a shape; ends at `right`. Returns where it begins.
-float paint_state(Canvas& canvas, const Banner& banner, float right, float top) {
-  const float height = text_height_mm(TextStyle::Strong) + 24.0F;
-  const float width = canvas.text_width_mm(TextStyle::Strong, banner.state_word) + 96.0F;
+struct Plate {
+  glm::vec2 from, to;
+};
+
+// The state in a word and a shape; ends at `right`. It is read on the smallest picture, so it does not become smaller
+// than its pixels allow.
+Plate paint_state(Canvas& canvas, const Banner& banner, float right, float top) {
+  constexpr float kReadablePx = 14.0F;  // the height of the letters' em square, in pixels of an eye
+  constexpr float kMostEnlarged = 2.4F, kEdge = 12.0F;
+  const float em = text_height_mm(TextStyle::Strong);
+  const float room = (canvas.size_mm().y - 2.0F * kEdge) / (em + 24.0F);
+  const float scale =
+      std::clamp(kReadablePx / (em * canvas.pixels_per_mm()), 1.0F, std::clamp(room, 1.0F, kMostEnlarged));
+  const float height = scale * (em + 24.0F);
+  top = std::min(top, std::max(kEdge, canvas.size_mm().y - kEdge - height));
+  const float width = canvas.text_width_mm(TextStyle::Strong, banner.state_word, scale) + scale * 96.0F;
   const glm::vec2 from(right - width, top);
   const Color color{banner.state_color, 1.0F};
   canvas.rectangle(from, {right, top + height}, Color{banner.state_color, 0.16F}, 0.5F * height);
-  canvas.outline(from, {right, top + height}, 2.5F, Color{banner.state_color, 0.8F}, 0.5F * height);
-  paint_shape(canvas, banner.state_shape, from + glm::vec2(40.0F, 0.5F * height), 17.0F, color);
-  canvas.text(from + glm::vec2(70.0F, 11.0F), TextStyle::Strong, palette::kInk, banner.state_word);
-  return from.x;
+  canvas.outline(from, {right, top + height}, 2.5F * scale, Color{banner.state_color, 0.8F}, 0.5F * height);
+  paint_shape(canvas, banner.state_shape, from + glm::vec2(scale * 40.0F, 0.5F * height), scale * 17.0F, color);
+  canvas.text(from + scale * glm::vec2(70.0F, 11.0F), TextStyle::Strong, palette::kInk, banner.state_word, Align::Left,
+              scale);
+  return {from, {right, top + height}};
 }
 
-// Name and value on one line, the source below.
+struct Ink {
+  TextStyle style;
+  Color color;
+  float smallest = 0.55F;  // share of the style's size below which a text is cut instead
+};
+
+// From the left, smaller where it would be wider than `room_mm`, so that no word is cut; what would be too small to
+// read ends in an ellipsis.
+void shrunk_text(Canvas& canvas, glm::vec2 position, const Ink& ink, std::string_view text, float room_mm,
+                 float scale = 1.0F) {
+  const float fit = std::min(1.0F, room_mm / std::max(canvas.text_width_mm(ink.style, text, scale), 1.0F));
+  if (fit < ink.smallest) return canvas.fitted_text(position, ink.style, ink.color, text, room_mm);
+  const float lift = 0.5F * scale * (1.0F - fit) * text_height_mm(ink.style);
+  canvas.text(position + glm::vec2(0.0F, lift), ink.style, ink.color, text, Align::Left, fit * scale);
+}
+
+// Name and value on one line, the source below; smaller where the rows stand close.
 void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
   const float right = canvas.size_mm().x - kMargin;
-  const float value_width = canvas.text_width_mm(TextStyle::Strong, row.value);
   const float block = row.source.empty() ? 46.0F : 78.0F;
+  const float scale = std::min(1.0F, pitch / block);
+  const float value_width = canvas.text_width_mm(TextStyle::Strong, row.value, scale);
   const float y = top + std::max(0.0F, 0.5F * (pitch - block));
-  canvas.fitted_text({kMargin, y + 2.0F}, TextStyle::Body, palette::kMuted, row.name,
-                     right - kMargin - value_width - 20.0F);
-  canvas.text({right, y}, TextStyle::Strong, palette::kInk, row.value, Align::Right);
-  canvas.fitted_text({kMargin, y + 46.0F}, TextStyle::Small, Color{palette::kMuted.srgb, 0.85F}, row.source,
-                     right - kMargin);
+  shrunk_text(canvas, {kMargin, y + 2.0F}, {TextStyle::Body, palette::kMuted}, row.name,
+              right - kMargin - value_width - 20.0F, scale);
+  canvas.text({right, y}, TextStyle::Strong, palette::kInk, row.value, Align::Right, scale);
+  shrunk_text(canvas, {kMargin, y + 46.0F * scale}, {TextStyle::Small, Color{palette::kMuted.srgb, 0.85F}}, row.source,
+              right - kMargin, scale);
   canvas.line({kMargin, top + pitch}, {right, top + pitch}, 1.5F, palette::kGrid);
 }
 
@@ -68,8 +98,8 @@ void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
 void paint(Canvas& canvas, const DataPanel& panel) {
   canvas.panel_background();
   const float width = canvas.size_mm().x - 2.0F * kMargin;
-  canvas.fitted_text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title, width);
-  canvas.fitted_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.subtitle, width);
+  shrunk_text(canvas, {kMargin, 24.0F}, {TextStyle::Title, palette::kInk}, panel.title, width);
+  shrunk_text(canvas, {kMargin, 92.0F}, {TextStyle::Body, palette::kYellow}, panel.subtitle, width);
   const float top = 150.0F;
   canvas.line({kMargin, top}, {kMargin + width, top}, 2.0F, palette::kEdge);
   if (panel.rows.empty()) {
@@ -92,23 +122,25 @@ void paint(Canvas& canvas, const Banner& banner) {
   const float content = text_height_mm(TextStyle::Guidance) + 16.0F + text_height_mm(TextStyle::Body) + third;
   const float top = std::max(12.0F, 0.5F * (canvas.size_mm().y - content));
   const float right = canvas.size_mm().x - kMargin;
-  const float state_left = banner.state_word.empty() ? right : paint_state(canvas, banner, right, top + 2.0F);
-  const float room = state_left - kMargin - 24.0F;
+  const Plate state =
+      banner.state_word.empty() ? Plate{{right, top}, {right, top}} : paint_state(canvas, banner, right, top + 2.0F);
+  const float room = state.from.x - kMargin - 24.0F;
   const float scale = std::min(1.0F, room / std::max(canvas.text_width_mm(TextStyle::Guidance, banner.guidance), 1.0F));
   const float lift = 0.5F * (1.0F - scale) * text_height_mm(TextStyle::Guidance);
   canvas.text({kMargin, top + lift}, TextStyle::Guidance, palette::kInk, banner.guidance, Align::Left, scale);
 
   const float second = top + text_height_mm(TextStyle::Guidance) + 16.0F;
-  canvas.text({kMargin, second}, TextStyle::Body, palette::kMuted, std::string_view(banner.scale).substr(0, end));
-  if (!more.empty()) {
-    const float whole = right - kMargin;
-    const float shrink = std::min(1.0F, whole / std::max(canvas.text_width_mm(TextStyle::Body, more), 1.0F));
-    canvas.text({kMargin, second + third}, TextStyle::Body, palette::kMuted, more, Align::Left, shrink);
-  }
+  const float width = banner.warning.empty() ? 0.0F : canvas.text_width_mm(TextStyle::Body, banner.warning);
+  const bool beside_state = state.to.y > second;  // enlarged, it reaches down to these lines
+  const float end_mm = beside_state ? state.from.x - 24.0F : right;
+  const float whole = end_mm - kMargin;
+  constexpr Ink kLower{TextStyle::Body, palette::kMuted, 0.0F};
+  shrunk_text(canvas, {kMargin, second}, kLower, std::string_view(banner.scale).substr(0, end),
+              banner.warning.empty() ? whole : whole - width - 70.0F);
+  if (!more.empty()) shrunk_text(canvas, {kMargin, second + third}, kLower, more, whole);
   if (!banner.warning.empty()) {
-    const float width = canvas.text_width_mm(TextStyle::Body, banner.warning);
-    paint_shape(canvas, StateShape::Triangle, {right - width - 30.0F, second + 21.0F}, 17.0F, palette::kOrange);
-    canvas.text({right, second}, TextStyle::Body, palette::kOrange, banner.warning, Align::Right);
+    paint_shape(canvas, StateShape::Triangle, {end_mm - width - 30.0F, second + 21.0F}, 17.0F, palette::kOrange);
+    canvas.text({end_mm, second}, TextStyle::Body, palette::kOrange, banner.warning, Align::Right);
   }
 }
 

@@ -22,10 +22,6 @@
 namespace afm::render {
 namespace {
 
-// Slope and constant bias of the shadow map; the shader's step along the normal does the rest.
-constexpr float kShadowBiasConstant = 1.0F;
-constexpr float kShadowBiasSlope = 1.5F;
-
 constexpr EyeCode kSceneVertex{shaders::scene_vert, shaders::scene_vert_one_view};
 constexpr EyeCode kSceneFragment{shaders::scene_frag, shaders::scene_frag_one_view};
 constexpr EyeCode kFineVertex{shaders::per_vertex_vert, shaders::per_vertex_vert_one_view};
@@ -95,9 +91,7 @@ vk::raii::Pipeline create_shadow_pipeline(const Device& device, vk::PipelineLayo
                                   .attributes = {SceneGeometry::attributes().data(), 1},
                                   .depth_format = kDepthFormat,
                                   .depth = DepthUse::TestAndWrite,
-                                  .depth_compare = vk::CompareOp::eLessOrEqual,
-                                  .depth_bias_constant = kShadowBiasConstant,
-                                  .depth_bias_slope = kShadowBiasSlope});
+                                  .depth_compare = vk::CompareOp::eLessOrEqual});
 }
 
 }  // namespace

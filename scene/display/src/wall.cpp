@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -98,6 +99,21 @@ core::Result<void> check_screen(const Screen& screen) {
 glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m, const glm::dvec3& eye_from_tracker_m) {
   const double side = eye == Eye::Left ? -0.5 : 0.5;
   return head.position_m + head.room_from_head * (eye_from_tracker_m + glm::dvec3(side * ipd_m, 0.0, 0.0));
+}
+
+std::string doubt_of_head(const Wall& wall, const glm::dvec3& head_m) {
+  constexpr double kSitting = 1.0;  // a seated head is higher above its floor
+  double floor = std::min(0.0, wall.viewers.front().sweet_spot.position_m.y - kSitting);
+  for (const Screen& screen : wall.screens) {
+    const double lowest = std::min({screen.lower_left.y, screen.lower_right.y, screen.upper_left.y});
+    floor = std::min(floor, lowest);
+  }
+  if (head_m.y < floor) return fmt::format("{:.2f} m below the floor", floor - head_m.y);
+  for (const Screen& screen : wall.screens) {
+    const double before = glm::dot(head_m - screen.lower_left, screen.normal());
+    if (before < kSmallestEyeDistanceM) return fmt::format("{:.2f} m behind the screen \"{}\"", -before, screen.name);
+  }
+  return {};
 }
 
 core::Result<EyeView> off_axis_view(const Screen& screen, const glm::dvec3& eye_position_m, DepthConvention convention,

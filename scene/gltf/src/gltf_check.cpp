@@ -216,7 +216,7 @@ class Checker {
     if (own.is_null()) return;
     const Place role{&place, "extras/touchafm/role"};
     if (!own.is_object() || !own.contains("role") || !own["role"].is_string()) role.fail("is no text");
-    check_choice(own["role"], GltfMember{"role", Kind::Choice, 0, 0, "tip base surface"}, role);
+    check_choice(own["role"], GltfMember{"role", Kind::Choice, 0, 0, "tip base surface mark"}, role);
     object["extras"] = {{"touchafm", {{"role", own["role"]}}}};
   }
 

@@ -75,6 +75,7 @@ bool rising_and_sane(std::span<const physics::MeasuredPoint> branch) {
 bool is_valid(const SharedMeasuredCurve& curve) {
   const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxMeasuredPoints; };
   return counted(curve.approach_count) && counted(curve.retract_count) &&
+         curve.jumps.approach <= curve.approach_count && curve.jumps.retract <= curve.retract_count &&
          rising_and_sane(std::span(curve.approach).first(curve.approach_count)) &&
          rising_and_sane(std::span(curve.retract).first(curve.retract_count));
 }

@@ -32,7 +32,7 @@ core::Error ended(int status) {
       return {core::ErrorCategory::BadInputFile, "the servo cannot replay that session: the line above says why"};
     default:
       return {core::ErrorCategory::Failed,
-              fmt::format("the servo ended unexpectedly (status {}): no force reaches the hand; start again", status)};
+              fmt::format("the servo ended unexpectedly (status {}): no force reaches the hand", status)};
   }
 }
 

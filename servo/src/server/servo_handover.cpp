@@ -19,6 +19,7 @@
 #include "core/system_error.h"
 #include "descriptor_letter.h"
 #include "private_folder.h"
+#include "trusted_peer.h"
 
 namespace afm::servo {
 
@@ -65,14 +66,6 @@ std::string name_of(const std::string& program, std::uint64_t scene_digest, cons
 
 core::FileDescriptor seqpacket_socket() {
   return core::FileDescriptor(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-}
-
-// Who is at the other end, if it is a process of this user.
-std::optional<pid_t> trusted_peer(int socket) {
-  ucred peer{};
-  socklen_t size = sizeof(peer);
-  const bool known = ::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0;
-  return known && peer.uid == ::getuid() ? std::optional(peer.pid) : std::nullopt;
 }
 
 bool readable_within(int descriptor, int milliseconds) {
@@ -130,7 +123,7 @@ HandoverPort::~HandoverPort() {
 HandoverPort::Answer HandoverPort::receive(int segment, const std::vector<std::string>& arguments,
                                            core::FileDescriptor& lifeline) const {
   const core::FileDescriptor visitor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  if (!visitor.is_open() || !trusted_peer(visitor.get())) return Answer::Nobody;
+  if (!visitor.is_open() || !trusted_peer(visitor.get(), ::getuid())) return Answer::Nobody;
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return Answer::Nobody;
   core::FileDescriptor ours(ends[0]);
@@ -174,7 +167,7 @@ std::optional<WaitingServo> visit_servo(const fs::path& path) {
     if (errno == ECONNREFUSED) ::unlink(path.c_str());  // its servo was killed
     return std::nullopt;
   }
-  const auto servo = trusted_peer(socket.get());
+  const auto servo = trusted_peer(socket.get(), ::getuid());
   if (!servo) return std::nullopt;
   core::FileDescriptor process(static_cast<int>(::syscall(SYS_pidfd_open, *servo, 0)));
   std::array<core::FileDescriptor, 2> descriptors;

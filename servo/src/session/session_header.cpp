@@ -129,7 +129,8 @@ nlohmann::json header_of(const RecordedSession& session) {
                         {"surface_bytes", sizeof(scene::SharedHeightField)}};
   if (const auto& curve = session.curve) {
     header["measured"] = {{"approach", json_of(std::span(curve->approach).first(curve->approach_count))},
-                          {"retract", json_of(std::span(curve->retract).first(curve->retract_count))}};
+                          {"retract", json_of(std::span(curve->retract).first(curve->retract_count))},
+                          {"jumps", {curve->jumps.approach, curve->jumps.retract}}};
   }
   if (!session.shown.empty()) header["shown"] = session.shown;
   if (!session.earlier_curves.empty()) header["earlier_curves"] = json_of(session.earlier_curves);
@@ -157,6 +158,9 @@ RecordedSession session_of(const nlohmann::json& header) {
     scene::SharedMeasuredCurve& curve = session.curve.emplace();
     curve.approach_count = branch_of(measured->at("approach"), curve.approach);
     curve.retract_count = branch_of(measured->at("retract"), curve.retract);
+    // 0.1.0 wrote none
+    const auto jumps = measured->value("jumps", std::array<std::uint32_t, 2>{});
+    curve.jumps = {.approach = jumps[0], .retract = jumps[1]};
   }
   if (const auto shown = header.find("shown"); shown != header.end()) shown->get_to(session.shown);
   if (const auto curves = header.find("earlier_curves"); curves != header.end()) {

@@ -102,6 +102,11 @@ struct Wall {
   std::vector<Viewer> viewers;
 };
 
+// Why no head can be at that place before this wall, in a few words such as "0.85 m below the floor"; empty: it can.
+// The floor is at y = 0, or as low as a screen reaches, or a metre below the sweet spot where the room's origin lies
+// higher.
+std::string doubt_of_head(const Wall& wall, const glm::dvec3& head_m);
+
 // Reads and checks a wall file: TOML, or the corners of a ParaView .pvx. The error names file, line and key.
 core::Result<Wall> load_wall(const std::string& path);
 

@@ -108,7 +108,7 @@ struct Node {
   std::optional<std::uint32_t> camera{};
   std::optional<std::uint32_t> light{};
   std::vector<float> weights{};  // of the mesh's morph targets, instead of the mesh's own
-  std::string role{};            // what the node is for TouchAFM (docs/gltf.md), "tip", "base" or "surface"
+  std::string role{};            // what the node is for TouchAFM (docs/gltf.md), "tip", "base", "surface" or "mark"
 };
 
 // The scene graph: filled by the loader, constant from then on, and shared by everything that draws or feels. What

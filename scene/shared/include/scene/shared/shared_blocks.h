@@ -63,6 +63,7 @@ struct SharedContact {
 struct SharedMeasuredCurve {
   std::uint32_t approach_count = 0;
   std::uint32_t retract_count = 0;
+  physics::MeasuredJumps jumps{};
   std::array<physics::MeasuredPoint, kMaxMeasuredPoints> approach{};
   std::array<physics::MeasuredPoint, kMaxMeasuredPoints> retract{};
 };

@@ -8,7 +8,7 @@
 #include "input/simulated_wand.h"
 #include "scene/shared/tip_blocks.h"
 
-namespace afm::app {
+namespace afm::input {
 
 // Where the hand goes, heights above the contact point along the sample's normal (haptics/scaling.h: the tip lets go at
 // 50 mm, where it tears at the hand with 2 N, so the aim must lie well above).
@@ -41,7 +41,7 @@ class SimulatedPerson {
   void set_normal(const glm::dvec3& normal) { normal_ = normal; }
 
   Step step() const { return step_; }
-  input::WandState wand(std::int64_t now_ns) const { return wand_.state(now_ns); }
+  WandState wand(std::int64_t now_ns) const { return wand_.state(now_ns); }
   const scene::HandScript& hand() const { return hand_; }
 
   // How often in this procedure the force was taken away in mid-stroke, so that it had to be begun again with a lift.
@@ -57,7 +57,7 @@ class SimulatedPerson {
   void move_hand(double height_m, double seconds);
   double stroke_seconds() const;
 
-  input::SimulatedWand wand_;
+  SimulatedWand wand_;
   glm::dvec3 normal_;
   HandPath path_;
   scene::HandScript hand_;
@@ -68,4 +68,4 @@ class SimulatedPerson {
   std::int64_t button_change_ns_ = 0;
 };
 
-}  // namespace afm::app
+}  // namespace afm::input

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/simulated_person.h"
+#include "input/simulated_person.h"
 
-namespace afm::app {
+namespace afm::input {
 
 namespace {
 
@@ -131,4 +131,4 @@ std::string SimulatedPerson::waiting_for() const {
   return "the next material";
 }
 
-}  // namespace afm::app
+}  // namespace afm::input

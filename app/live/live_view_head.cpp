@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whose head the live window is drawn for, and what is kept of each frame.
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "app/live/live_view.h"
+#include "core/log.h"
+
+namespace afm::app {
+
+void LiveView::follow_head(std::int64_t now_ns) {
+  auto seen = view_wand_.head();
+  if (!view_wand_.tracks_head()) {
+    if (const auto simulated = simulated_head_.pose(now_ns)) seen = {.pose = *simulated, .time_ns = now_ns};
+  }
+  const auto pose = seen ? std::optional(seen->pose) : std::nullopt;
+  if (const auto head = head_.update(pose, seen ? seen->time_ns : 0, now_ns)) picture_.look_from(*head);
+}
+
+void LiveView::move_head(double right_m, double up_m, double nearer_m) {
+  if (view_wand_.tracks_head()) {
+    core::log_line("the head is where the tracker sees it; its keys do nothing");
+    return;
+  }
+  const scene::Screen& screen = stage_.screen;
+  const glm::dvec3 right = glm::normalize(screen.lower_right - screen.lower_left), normal = screen.normal();
+  simulated_head_.step(right_m * right + up_m * glm::cross(normal, right) - nearer_m * normal);
+  core::log_line(fmt::format("head: {:+.2f} m to the right, {:+.2f} m up, {:+.2f} m nearer", right_m, up_m, nearer_m));
+}
+
+void LiveView::log_frame(std::int64_t begun_ns, std::int64_t presented_ns, std::optional<double> head_latency_s) {
+  if (!frame_log_) return;
+  const scene::ServoTiming timing = servo_.link().timing();
+  const exhibit::DepthReport& depth = picture_.depth();
+  const bool measured = !depth.text.empty();
+  frame_log_->add({.begun_ns = begun_ns,
+                   .presented_ns = presented_ns,
+                   .head_latency_s = head_latency_s,
+                   .nearest_rad = measured ? std::optional(depth.nearest.crossed_rad) : std::nullopt,
+                   .farthest_rad = measured ? std::optional(depth.farthest.crossed_rad) : std::nullopt,
+                   .ipd_m = picture_.viewing().ipd_m,
+                   .servo_late_us = servo_lateness_.since_last(timing),
+                   .servo_missed = timing.missed});
+}
+
+}  // namespace afm::app

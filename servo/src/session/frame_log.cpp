@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "servo/frame_log.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <chrono>
+#include <iterator>
+#include <numbers>
+#include <utility>
+
+#include "core/system_error.h"
+#include "core/version.h"
+#include "core/write_all.h"
+
+namespace afm::servo {
+
+namespace {
+
+constexpr mode_t kFrameLogMode = 0666;  // less what the user's umask takes off
+constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
+constexpr auto kBetweenWrites = std::chrono::milliseconds(500);
+
+constexpr const char* kColumns =
+    "# time_s: begin of the frame, since the start; drawn_ms: until it was presented; interval_ms: since the frame "
+    "before\n"
+    "# head_latency_ms: from a tracker's packet to the presenting of the first frame that it moved\n"
+    "# nearest_deg, farthest_deg: how much more the eyes turn in than for the wall, as measured last, four times a "
+    "second\n"
+    "# ipd_mm: eye distance that was drawn; servo_late_us: of the latest tick reported since; servo_missed: in all\n"
+    "frame,time_s,drawn_ms,interval_ms,head_latency_ms,nearest_deg,farthest_deg,ipd_mm,servo_late_us,servo_missed\n";
+
+core::Result<void> cannot_log(const std::string& path, int error) {
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("--frame-log: cannot write {} ({}); name a file in a folder that you may write to",
+                                   path, core::system_error(error)));
+}
+
+std::string text_of(const std::optional<double>& value, double factor) {
+  return value ? fmt::format("{:.3f}", factor * *value) : "";
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> ServoLateness::since_last(const scene::ServoTiming& timing) {
+  std::optional<std::uint32_t> latest;
+  if (timing.ticks > before_.ticks) {
+    for (std::size_t us = timing.wake_us.size(); us > 0 && !latest; --us) {
+      if (timing.wake_us[us - 1] > before_.wake_us[us - 1]) latest = static_cast<std::uint32_t>(us - 1);
+    }
+    // the last bin holds all that is later
+    if (latest == timing.wake_us.size() - 1) latest = timing.wake_max_us;
+  }
+  before_ = timing;
+  return latest;
+}
+
+core::Result<std::unique_ptr<FrameLog>> FrameLog::create(const std::string& path, std::int64_t start_ns) {
+  core::FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kFrameLogMode));
+  if (!file.is_open()) return tl::unexpected(cannot_log(path, errno).error());
+  return std::unique_ptr<FrameLog>(new FrameLog(path, std::move(file), start_ns));
+}
+
+FrameLog::FrameLog(std::string path, core::FileDescriptor file, std::int64_t start_ns)
+    : path_(std::move(path)),
+      file_(std::move(file)),
+      start_ns_(start_ns),
+      waiting_(fmt::format("# TouchAFM {}: frames of touchafm view\n{}", core::kVersion, kColumns)),
+      writer_([this] { write_all_that_comes(); }) {}
+
+FrameLog::~FrameLog() { end(); }
+
+void FrameLog::add(const FrameRecord& frame) {
+  const auto ms = [](std::int64_t ns) { return 1e-6 * static_cast<double>(ns); };
+  const std::int64_t before_ns = std::exchange(presented_before_ns_, frame.presented_ns);
+  const std::lock_guard lock(changing_);
+  fmt::format_to(std::back_inserter(waiting_), "{},{:.6f},{:.3f},{},{},{},{},{:.1f},{},{}\n", frames_++,
+                 1e-9 * static_cast<double>(frame.begun_ns - start_ns_), ms(frame.presented_ns - frame.begun_ns),
+                 before_ns == 0 ? "" : fmt::format("{:.3f}", ms(frame.presented_ns - before_ns)),
+                 text_of(frame.head_latency_s, 1e3), text_of(frame.nearest_rad, kDegreesPerRad),
+                 text_of(frame.farthest_rad, kDegreesPerRad), 1e3 * frame.ipd_m,
+                 frame.servo_late_us ? std::to_string(*frame.servo_late_us) : "", frame.servo_missed);
+}
+
+void FrameLog::write_all_that_comes() {
+  for (bool ended = false; !ended;) {
+    std::string lines;
+    {
+      std::unique_lock lock(changing_);
+      more_.wait_for(lock, kBetweenWrites, [this] { return ending_; });
+      ended = ending_;
+      lines.swap(waiting_);
+    }
+    if (error_ == 0) error_ = core::write_all(file_.get(), lines);
+  }
+}
+
+void FrameLog::end() {
+  if (!writer_.joinable()) return;
+  {
+    const std::lock_guard lock(changing_);
+    ending_ = true;
+  }
+  more_.notify_one();
+  writer_.join();
+}
+
+core::Result<void> FrameLog::finish() {
+  end();
+  return error_ == 0 ? core::Result<void>{} : cannot_log(path_, error_);
+}
+
+}  // namespace afm::servo

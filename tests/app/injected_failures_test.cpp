@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "core/whole_file.h"
+#include "places.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+
+// The program while one allocation or one system call fails: it does its work all the same, or says one line and ends
+// with a code of the table, and leaves nothing partial.
+namespace afm::app {
+namespace {
+
+struct Command {
+  const char* name;
+  const char* line;
+};
+// Quick ones, which need neither a device nor a picture.
+constexpr Command kCommands[]{
+    {"curve", "curve --material mica --step 1nm"},
+    {"material", "material gold"},
+    {"wall", "wall " AFM_SOURCE_DIR "/assets/walls/3d-tv.toml"},
+    {"analyse", "analyse " AFM_SOURCE_DIR "/tests/formats/0.1.0/curve.csv"},
+};
+
+support::ProgramResult with_failure(const std::string& wish, const std::string& report, const std::string& line) {
+  return support::run_program("env LD_PRELOAD=" AFM_FAILING_CALLS " AFM_FAIL=" + wish + " AFM_FAIL_REPORT=" + report +
+                              " " AFM_PROGRAM " " + line);
+}
+
+class InjectedFailures : public ::testing::TestWithParam<Command> {
+ protected:
+  // Every failure of one kind, each in a process of its own; returns how many there were.
+  long expect_every_one_borne(const std::string& kind) const {
+    const std::string report = folder_.file(kind);
+    const auto whole = with_failure(kind + ":all", report, GetParam().line);
+    EXPECT_EQ(whole.exit_code, 0) << whole.err;
+    std::istringstream lines(core::read_file(report).value_or(""));
+    std::set<std::string> results;
+    long tried = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("count")) break;
+      std::istringstream words(line);
+      long number = 0;
+      std::string call, hash;
+      int status = 0, said = 0;
+      words >> number >> call >> status >> said >> hash;
+      EXPECT_FALSE(words.fail()) << line;
+      EXPECT_EQ(number, ++tried);
+      EXPECT_TRUE(WIFEXITED(status)) << line << " ended by signal " << WTERMSIG(status) << ": "
+                                     << core::read_file(report + ".err").value_or("");
+      const int code = WEXITSTATUS(status);
+      EXPECT_TRUE(code == 0 || code == 1 || code == 3) << line;
+      if (code == 0) results.insert(hash);
+      EXPECT_LE(said, 1) << line << ": " << core::read_file(report + ".err").value_or("");
+      EXPECT_TRUE(code == 0 || said == 1) << line;
+      if (HasFailure()) return tried;
+    }
+    EXPECT_LE(results.size(), 1U) << "a run that ended with 0 printed something else";
+    std::printf("%s: %ld failures of %s\n", GetParam().name, tried, kind.c_str());
+    return tried;
+  }
+
+  support::ScratchFolder folder_;
+};
+
+TEST_P(InjectedFailures, OfEveryAllocationAreBorne) { EXPECT_GT(expect_every_one_borne("memory"), 1000); }
+
+TEST_P(InjectedFailures, OfEverySystemCallAreBorne) { EXPECT_GE(expect_every_one_borne("calls"), 1); }
+
+INSTANTIATE_TEST_SUITE_P(Of, InjectedFailures, testing::ValuesIn(kCommands),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// What is written is whole or not there, whichever call fails between.
+TEST(InjectedFailure, LeavesNoPartOfAFile) {
+  const support::ScratchFolder reports;
+  const std::string line = "curve --material mica --step 1nm --out ";
+  for (const std::string kind : {"calls", "memory"}) {
+    std::minstd_rand random(15);
+    long count = -1, failed = 0;
+    for (long run = 0; count < 0 || run < 60; ++run) {
+      const support::ScratchFolder out;
+      const std::string report = reports.file(kind + std::to_string(run));
+      // the calls one after the other, and every allocation of the last fiftieth, in which the file is written, as
+      // likely
+      const long number = run == 0 ? 0 : kind == "calls" ? run : count - static_cast<long>(random()) % (count / 50);
+      if (kind == "calls" && count >= 0 && number > count) break;
+      const auto done = with_failure(kind + ":" + std::to_string(number), report, line + out.file("curve.csv"));
+      if (run == 0) {
+        std::istringstream(core::read_file(report).value_or("").substr(6)) >> count;
+        ASSERT_EQ(done.exit_code, 0) << done.err;
+        ASSERT_GE(count, 5) << kind;
+        continue;
+      }
+      EXPECT_TRUE(done.exit_code == 0 || done.exit_code == 1 || done.exit_code == 3) << kind << number << done.err;
+      EXPECT_EQ(std::count(done.err.begin(), done.err.end(), '\n'), done.exit_code == 0 ? 0 : 1)
+          << kind << number << ": " << done.err;
+      EXPECT_EQ(std::filesystem::is_empty(out.path()), done.exit_code != 0) << kind << number << ": " << done.err;
+      failed += done.exit_code != 0 ? 1 : 0;
+    }
+    EXPECT_GT(failed, 0) << kind;
+  }
+}
+
+// A picture, with the calls of the program alone: its driver would end any program. Each call, and 100 of some 22 000
+// allocations.
+TEST(InjectedFailure, OfAPictureIsBorne) {
+  const support::ScratchFolder reports;
+  for (const std::string kind : {"calls", "memory"}) {
+    std::minstd_rand random(15);
+    long count = -1, failed = 0;
+    for (long run = 0; run <= (kind == "calls" ? count : 100) || run == 0; ++run) {
+      const support::ScratchFolder out;
+      const std::string report = reports.file(kind + std::to_string(run));
+      const long number = kind == "calls" || run == 0 ? run : 1 + static_cast<long>(random()) % count;
+      const auto done = with_failure(kind + ":" + std::to_string(number) + " AFM_FAIL_PROGRAM=1", report,
+                                     "render --journey 4 --size 64x48 --out " + out.file("picture.png"));
+      if (run == 0) {
+        std::istringstream(core::read_file(report).value_or("").substr(6)) >> count;
+        ASSERT_EQ(done.exit_code, 0) << done.err;
+        ASSERT_GE(count, 10) << kind;
+        continue;
+      }
+      EXPECT_TRUE(done.exit_code == 0 || done.exit_code == 1 || done.exit_code == 3) << kind << number << done.err;
+      EXPECT_EQ(std::count(done.err.begin(), done.err.end(), '\n'), done.exit_code == 0 ? 0 : 1)
+          << kind << number << ": " << done.err;
+      EXPECT_EQ(std::filesystem::is_empty(out.path()), done.exit_code != 0) << kind << number << ": " << done.err;
+      failed += done.exit_code != 0 ? 1 : 0;
+    }
+    EXPECT_GT(failed, 0) << kind;
+  }
+}
+
+}  // namespace
+}  // namespace afm::app

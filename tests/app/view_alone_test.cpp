@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real window without a tracker, and without anyone who attends it, on an X server without a screen.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include "core/whole_file.h"
+#include "support/live_program.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+#include "support/virtual_display.h"
+
+namespace afm::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class ViewAlone : public ::testing::Test {
+ protected:
+  std::vector<std::string> view(std::vector<std::string> more) const {
+    std::vector<std::string> all{AFM_PROGRAM,   "view", "--size",  "320x180",      "--frame-rate", "12",
+                                 "--eye-width", "160",  "--servo", AFM_SERVO_MODE, "--wand",       "mouse"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  void xdotool(const std::string& what) const {
+    const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool " + what);
+    ASSERT_EQ(done.exit_code, 0) << "xdotool " << what << ": " << done.err << " (package xdotool)";
+  }
+
+  support::ScratchFolder folder_;
+  support::VirtualDisplay display_{320, 180};
+};
+
+TEST_F(ViewAlone, ArrowKeysMoveAHeadAndTheFrameLogFollowsIt) {
+  const std::string log = folder_.file("frames.csv");
+  support::LiveProgram program(view({"--stereo", "anaglyph-red-cyan", "--frame-log", log}), display_.name());
+  ASSERT_TRUE(program.says("Choose a sample")) << program.said();
+  xdotool("key Right");
+  ASSERT_TRUE(program.says("head: +0.05 m to the right")) << program.said();
+  xdotool("key Next");
+  ASSERT_TRUE(program.says("-0.05 m nearer")) << program.said();
+  ASSERT_TRUE(program.says("depth ")) << program.said();
+  xdotool("key Escape");
+  ASSERT_EQ(program.ends(), 0) << program.said();
+  EXPECT_THAT(program.said(), HasSubstr("head: from packet to present"));
+  const std::string text = core::read_file(log).value();
+  EXPECT_THAT(text, HasSubstr("frame,time_s,drawn_ms,interval_ms,head_latency_ms,nearest_deg,"));
+  EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 10);
+}
+
+TEST_F(ViewAlone, FollowsAScriptOfTheHead) {
+  const std::string script = folder_.write("head.csv", "0, 0, 1.65, 2.5\n1, 0.4, 1.65, 2.5\n2, 0, 1.65, 2.5\n");
+  support::LiveProgram program(view({"--head", "sim:" + script}), display_.name());
+  ASSERT_TRUE(program.says("Choose a sample")) << program.said();
+  xdotool("key Escape");
+  ASSERT_EQ(program.ends(), 0) << program.said();
+  EXPECT_THAT(program.said(), HasSubstr("head: from packet to present"));
+  EXPECT_THAT(program.said(), Not(HasSubstr("no head can be")));
+}
+
+TEST_F(ViewAlone, AnUnattendedWindowStaysShowsItselfAndMakesWay) {
+  support::LiveProgram program(view({"--kiosk", "--idle", "5"}), display_.name());
+  ASSERT_TRUE(program.says("Choose a sample")) << program.said();
+  xdotool("key Escape key s key F12");
+  ASSERT_TRUE(program.says("nobody is there: the wall shows itself")) << program.said();
+  ASSERT_TRUE(program.says("chosen: Mica")) << program.said();
+  xdotool("mousemove 30 40");
+  ASSERT_TRUE(program.says("someone is there")) << program.said();
+  EXPECT_THAT(program.said(), Not(HasSubstr("eyes swapped")));
+  EXPECT_THAT(program.said(), Not(HasSubstr("saved ")));
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.ends(), 0) << program.said();
+}
+
+}  // namespace
+}  // namespace afm::app

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lever, its light and its marks, as the viewer of the paper's wall sees them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <string>
+
+#include "exhibit/wall_scene.h"
+#include "physics/beam_shape.h"
+#include "physics/contact.h"
+#include "support/paper_wall.h"
+
+namespace afm::exhibit {
+namespace {
+
+constexpr double kLeastAbove = 0.1;  // sine of the light's angle with the lever's face
+
+class InstrumentTest : public test::PaperWall {
+ protected:
+  double z_joc(std::size_t material) const {
+    return physics::approach_retract_events(materials_.materials[material].contact).z_joc.si;
+  }
+
+  render::FrameState frame(const WallState& state) const {
+    render::FrameState frame;
+    scene_.update(state, frame);
+    return frame;
+  }
+
+  glm::dvec3 seen_on_wall(const glm::dvec3& place) const {
+    const glm::dvec3 eye = wall_.viewers.front().sweet_spot.position_m;
+    return eye + (place - eye) * (eye.z / (eye.z - place.z));
+  }
+
+  // The highest place on the wall where a vertex below the node is seen that no panel in the wall's plane hides.
+  double highest_before_wall(const render::FrameState& frame, const std::string& root) const {
+    double highest = -1e9;
+    for (scene::NodeIndex i = 0; i < scene_.scene().nodes.size(); ++i) {
+      const auto& mesh = scene_.scene().nodes[i].mesh;
+      if (!mesh || frame.visible[i] == 0 || !scene_.scene().nodes[i].name.starts_with(root)) continue;
+      for (const scene::Primitive& primitive : scene_.scene().meshes[*mesh].primitives) {
+        for (const scene::Vertex& vertex : primitive.vertices) {
+          const glm::dvec3 place(frame.room_from_node[i] * glm::dvec4(glm::dvec3(vertex.position), 1.0));
+          if (place.z > 0.0) highest = std::max(highest, seen_on_wall(place).y);
+        }
+      }
+    }
+    return highest;
+  }
+
+  glm::dvec3 origin(const render::FrameState& frame, const std::string& name) const {
+    return glm::dvec3(frame.room_from_node[node(name)][3]);
+  }
+};
+
+TEST_F(InstrumentTest, TheLiftedTipAndHandleStayBelowTheBanner) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const scene::Tip lifted{.z_m = 1.4 * z_joc(material)};
+    const render::FrameState instrument = frame({.material = material, .tip = lifted});
+    const double banner_y = instrument.banner_placement.lower_left_m.y;
+    EXPECT_LT(highest_before_wall(instrument, "probe/"), banner_y) << material;
+    EXPECT_GT(highest_before_wall(instrument, "probe/"), banner_y - 0.1) << "the stroke uses the room that there is";
+    const render::FrameState analogy =
+        frame({.material = material, .tip = lifted, .centerpiece = Centerpiece::Analogy});
+    EXPECT_LT(highest_before_wall(analogy, "analogy/"), banner_y) << material;
+  }
+}
+
+// From the deepest push to the pull-off; the tip is at the sample, and the lever bends by Z.
+TEST_F(InstrumentTest, TheLightMeetsTheLeversUpperFaceAtEveryBend) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    for (double share = -0.6; share <= 1.0; share += 0.05) {
+      const double z_m = share * z_joc(material);
+      const render::FrameState state = frame({.material = material, .tip = {.z_m = z_m, .deflection_m = z_m}});
+      const glm::dmat4& room_from_lever = state.room_from_node[node("probe/cantilever")];
+      const glm::dmat4 lever_from_room = glm::inverse(room_from_lever);
+      const double length = static_cast<double>(state.bends.front().length),
+                   end_z = static_cast<double>(state.bends.front().end_deflection);
+      const double slope = physics::beam_slope(1.0) * end_z / length;
+      const glm::dvec3 face = glm::normalize(glm::dmat3(room_from_lever) * glm::dvec3(-slope, 0.0, 1.0));
+
+      const glm::dvec3 lit = origin(state, "optics/beam-reflected");
+      const glm::dvec3 on_lever(lever_from_room * glm::dvec4(lit, 1.0));
+      EXPECT_NEAR(on_lever.x, length, 0.02 * length) << share;
+      EXPECT_NEAR(on_lever.z, end_z, 0.02 * length) << share;
+      for (const char* part : {"optics/laser", "optics/spot"}) {
+        const glm::dvec3 to_part = origin(state, part) - lit;
+        EXPECT_GT(glm::dot(face, glm::normalize(to_part)), kLeastAbove) << part << " " << share;
+        // all the way it stays above the lever, also where that bends up towards the chip
+        for (double way = 0.1; way <= 1.0; way += 0.1) {
+          const glm::dvec3 there(lever_from_room * glm::dvec4(lit + way * to_part, 1.0));
+          const double along = std::clamp(there.x / length, 0.0, 1.0);
+          EXPECT_GT(there.z, end_z * physics::beam_deflection(along)) << part << " " << share << " " << way;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(InstrumentTest, LaserAndPhotodiodeAreSeenBelowTheBannerAndBetweenThePanels) {
+  const render::FrameState state = frame({.material = 0});
+  for (const char* part : {"optics/laser", "optics/spot"}) {
+    const glm::dvec3 seen = seen_on_wall(origin(state, part));
+    EXPECT_LT(seen.y, state.banner_placement.lower_left_m.y) << part;
+    EXPECT_GT(seen.x, state.force_placement.lower_left_m.x + state.force_placement.right_m.x) << part;
+    EXPECT_LT(seen.x, state.data_placement.lower_left_m.x) << part;
+  }
+}
+
+TEST_F(InstrumentTest, TheMarksOfTheUnbentLeverPassBesideTheTipAndOverTheSample) {
+  const double tip_half_width = [&] {
+    double widest = 0.0;
+    const render::FrameState state = frame({.material = 0});
+    const glm::dmat4 sample_from_room = glm::inverse(state.room_from_node[node("sample")]);
+    for (const scene::Primitive& primitive :
+         scene_.scene().meshes[*scene_.scene().nodes[node("probe/tip")].mesh].primitives) {
+      for (const scene::Vertex& vertex : primitive.vertices) {
+        const glm::dvec4 place(glm::dvec3(vertex.position), 1.0);
+        widest = std::max(widest,
+                          glm::length(glm::dvec2(sample_from_room * state.room_from_node[node("probe/tip")] * place)));
+      }
+    }
+    return widest;
+  }();
+  int shown = 0;
+  for (double share = -0.6; share <= 1.0; share += 0.05) {
+    const double z_m = share * z_joc(0);
+    const render::FrameState state = frame({.material = 0, .tip = {.z_m = z_m, .deflection_m = z_m}});
+    const glm::dmat4 sample_from_room = glm::inverse(state.room_from_node[node("sample")]);
+    for (const char* mark : {"marks/unbent", "marks/bend"}) {
+      const glm::dmat4 sample_from_mark = sample_from_room * state.room_from_node[node(mark)];
+      if (glm::length(glm::dvec3(sample_from_mark[2])) == 0.0) continue;  // not drawn
+      ++shown;
+      for (double way = 0.0; way <= 1.0; way += 0.02) {
+        const glm::dvec3 there(sample_from_mark * glm::dvec4(0.0, 0.0, way, 1.0));
+        EXPECT_GT(glm::length(glm::dvec2(there)), tip_half_width) << mark << " " << share;
+        EXPECT_GT(there.z, 0.0) << mark << " " << share;
+      }
+    }
+  }
+  EXPECT_GT(shown, 40);
+}
+
+}  // namespace
+}  // namespace afm::exhibit
