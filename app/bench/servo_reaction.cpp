@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -46,14 +47,19 @@ bool until(const std::function<void()>& act, const std::function<bool()>& condit
   return true;
 }
 
-// The renderer: its person holds the tip on the sample once, and it goes on beating until it dies.
+std::atomic<bool> stop_pressed{false};
+
+// The renderer: its person holds the tip on the sample once, and it goes on beating until it dies; SIGUSR1 is its Stop.
 [[noreturn]] void draw(const std::string& servo_program, scene::SharedSegment& segment) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  ::signal(SIGUSR1, [](int) { stop_pressed = true; });
   scene::RendererSide side = segment.renderer_side();
   auto servo = servo::ServoProcess::spawn(servo_program, segment, side, {});
   if (!servo) ::_exit(1);
   const core::MonotonicClock clock;
-  const auto beat = [&] { side.store(scene::RendererHeartbeat{.time_ns = clock.now_ns()}); };
+  const auto beat = [&] {
+    side.store(scene::RendererHeartbeat{.time_ns = clock.now_ns(), .stop = stop_pressed ? 1U : 0U});
+  };
   side.store(scene::Selection{.material = 0, .revision = 1});
   struct Move {
     double height_m, seconds;
@@ -74,8 +80,8 @@ bool until(const std::function<void()>& act, const std::function<bool()>& condit
   for (;;) until(beat, [] { return false; });
 }
 
-// Ends, or rather abandons, the renderer and returns how long the force lasted; empty if there was none to begin with.
-std::optional<double> one_round(const std::string& servo_program, RendererFate fate) {
+// Sends the signal and returns how long the force lasted; empty if there was none to begin with.
+std::optional<double> one_round(const std::string& servo_program, const Release& release) {
   auto segment = scene::SharedSegment::create(mica_alone(), 0);
   if (!segment) return std::nullopt;
   scene::RendererSide side = segment->renderer_side();
@@ -87,7 +93,7 @@ std::optional<double> one_round(const std::string& servo_program, RendererFate f
     while (side.pop_sample()) {
     }
     const std::int64_t end_ns = core::MonotonicClock().now_ns();
-    ::kill(renderer, fate == RendererFate::Killed ? SIGKILL : SIGSTOP);
+    ::kill(renderer, release.signal);
     std::int64_t released_ns = 0;
     until(nothing, [&] {
       while (const auto sample = side.pop_sample()) {
@@ -95,9 +101,8 @@ std::optional<double> one_round(const std::string& servo_program, RendererFate f
       }
       return released_ns != 0;
     });
-    const auto wanted = fate == RendererFate::Killed ? scene::FaultCode::RendererDied : scene::FaultCode::RendererHung;
     const auto state = side.tip_state();
-    if (released_ns != 0 && state && state->fault == wanted) {
+    if (released_ns != 0 && state && state->fault == release.fault) {
       lasted_ms = 1e-6 * static_cast<double>(released_ns - end_ns);
     }
   }
@@ -110,10 +115,9 @@ std::optional<double> one_round(const std::string& servo_program, RendererFate f
 
 }  // namespace
 
-core::Result<std::vector<double>> measure_reaction(const std::string& program, RendererFate fate, int rounds) {
+core::Result<std::vector<double>> measure_reaction(const std::string& program, const Release& release, int rounds) {
   ::prctl(PR_SET_CHILD_SUBREAPER, 1UL, 0UL, 0UL, 0UL);
   const std::string servo = std::filesystem::path(program).replace_filename("touchafm-servo").string();
-  const char* what = fate == RendererFate::Killed ? "killed" : "stopped";
   std::vector<double> lasted_ms;
   for (int tried = 0; static_cast<int>(lasted_ms.size()) < rounds; ++tried) {
     if (tried >= rounds * kTriesPerRound) {
@@ -121,8 +125,8 @@ core::Result<std::vector<double>> measure_reaction(const std::string& program, R
                            "the servo does not hold the hand long enough to measure: close what else runs");
     }
     core::log_line(
-        fmt::format("a renderer is {} while the hand is held ({} of {})", what, lasted_ms.size() + 1, rounds));
-    if (const auto one = one_round(servo, fate)) lasted_ms.push_back(*one);
+        fmt::format("a renderer {} while the hand is held ({} of {})", release.what, lasted_ms.size() + 1, rounds));
+    if (const auto one = one_round(servo, release)) lasted_ms.push_back(*one);
   }
   return lasted_ms;
 }

@@ -186,6 +186,10 @@ core::Result<void> run_render(const RenderOptions& options) {
   const auto seen = scene::parse_stereo_mode(session->wall.empty() ? "" : session->wall.front().stereo);
   files.aspect = aspect_of(options.picture, seen.value_or(scene::StereoMode::SideBySide));
   auto stage = exhibit::load_exhibit(files);
+  if (!stage && stage.error().category == core::ErrorCategory::WrongUsage) {  // of the materials that it names
+    return core::failure(core::ErrorCategory::BadInputFile,
+                         fmt::format("session file {}: {}", options.session, stage.error().message));
+  }
   if (!stage) return tl::unexpected(stage.error());
   const auto& materials = stage->materials.materials;
   const auto found =

@@ -39,14 +39,14 @@ double scale_of(double orders) { return std::pow(10.0, std::clamp(orders, 0.0, k
 
 const char* journey_place(double orders) {
   static constexpr std::array<std::pair<double, const char*>, 9> kNames{{{0.7, "the instrument on its bench"},
-                                                                          {1.7, "head and stage"},
-                                                                          {2.6, "probe holder"},
-                                                                          {3.5, "chip"},
-                                                                          {4.7, "cantilever"},
-                                                                          {6.2, "tip"},
-                                                                          {7.6, "apex, a ball of 50 nm radius"},
-                                                                          {8.3, "the last nanometres of the gap"},
-                                                                          {1e9, "atoms"}}};
+                                                                         {1.7, "head and stage"},
+                                                                         {2.6, "probe holder"},
+                                                                         {3.5, "chip"},
+                                                                         {4.7, "cantilever"},
+                                                                         {6.2, "tip"},
+                                                                         {7.6, "apex, a ball of 50 nm radius"},
+                                                                         {8.3, "the last nanometres of the gap"},
+                                                                         {1e9, "atoms"}}};
   const auto place = std::find_if(kNames.begin(), kNames.end() - 1, [&](const auto& p) { return orders < p.first; });
   return place->second;
 }

@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
 #include <string>
+#include <tuple>
 
+#include "core/exit_code.h"
 #include "mock_control.h"
 
 namespace {
@@ -123,6 +127,18 @@ TEST_F(DeviceRegistry, LooksForEveryKindAndNamesItByItsWord) {
     })) << kind.word;
   }
   EXPECT_EQ(find_device_kind("falcon"), nullptr);
+}
+
+// The process cannot go on beside a thread that is caught in a vendor's library.
+TEST_F(DeviceRegistry, EndsTheProcessWhereADriverDoesNotComeBack) {
+  constexpr std::chrono::milliseconds kPatience(200);
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto code = testing::ExitedWithCode(static_cast<int>(afm::core::ExitCode::DeviceMissing));
+  const char* message = "hdapi device: its driver did not answer within 0.2 s";
+  ASSERT_EQ(::setenv("MOCK_HD_FAULT", "hangs", 1), 0);
+  EXPECT_EXIT(std::ignore = open_device(*find_device_kind("hdapi"), mock, clock, {}, kPatience), code, message);
+  EXPECT_EXIT(probe_devices(mock, kPatience), code, message);
+  ::unsetenv("MOCK_HD_FAULT");
 }
 
 TEST_F(DeviceRegistry, KnowsWhichHandNobodyHolds) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <span>
@@ -87,16 +88,22 @@ struct OpenedDevice {
   std::vector<ProbeLine> lines;  // what was tried, in order; the last one was taken
 };
 
+// Longer than any driver takes that works. One that takes longer to open a device, or to look for one, hangs in its
+// maker's library: the process ends with DeviceMissing and a line that names the kind.
+inline constexpr std::chrono::milliseconds kOpeningPatience{10'000};
+
 // DeviceMissing: it is not there; the message has all that was tried. `clock` outlives the device. Takes up to some
 // seconds.
 core::Result<OpenedDevice> open_device(const DeviceKind& kind, const Environment& environment, const core::Clock& clock,
-                                       const OfferReleasePath& offer = {});
+                                       const OfferReleasePath& offer = {},
+                                       std::chrono::milliseconds patience = kOpeningPatience);
 
 // The first one that opens.
 OpenedDevice open_best_device(const Environment& environment, const core::Clock& clock,
                               const OfferReleasePath& offer = {});
 
 // Looks for every kind of device without starting any.
-std::vector<ProbeLine> probe_devices(const Environment& environment);
+std::vector<ProbeLine> probe_devices(const Environment& environment,
+                                     std::chrono::milliseconds patience = kOpeningPatience);
 
 }  // namespace afm::haptics

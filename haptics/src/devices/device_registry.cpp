@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <string>
 #include <utility>
 
 #include "core/check.h"
 #include "devices/gamepad_device.h"
 #include "devices/haply_device.h"
 #include "devices/hdapi_device.h"
+#include "devices/opening_limit.h"
 #include "haptics/simulated_device.h"
 
 namespace afm::haptics {
@@ -54,7 +57,9 @@ constexpr std::array kDevices{
 };
 
 core::Result<std::unique_ptr<HapticDevice>> open_kind(const DeviceKind& kind, const DeviceRequest& request,
-                                                      std::vector<ProbeLine>& lines) {
+                                                      std::vector<ProbeLine>& lines,
+                                                      std::chrono::milliseconds patience = kOpeningPatience) {
+  const OpeningLimit limit(std::string(kind.subject), patience);
   ProbeLog log(kind.subject);
   auto device = kind.open(request, log);
   lines.insert(lines.end(), log.lines().begin(), log.lines().end());
@@ -74,9 +79,9 @@ const DeviceKind* find_device_kind(std::string_view word) {
 }
 
 core::Result<OpenedDevice> open_device(const DeviceKind& kind, const Environment& environment, const core::Clock& clock,
-                                       const OfferReleasePath& offer) {
+                                       const OfferReleasePath& offer, std::chrono::milliseconds patience) {
   OpenedDevice opened;
-  auto device = open_kind(kind, {environment, clock, DeviceChoice::ByName, offer}, opened.lines);
+  auto device = open_kind(kind, {environment, clock, DeviceChoice::ByName, offer}, opened.lines, patience);
   if (!device) return tl::unexpected(device.error());
   opened.device = std::move(*device);
   return opened;
@@ -94,9 +99,10 @@ OpenedDevice open_best_device(const Environment& environment, const core::Clock&
   return opened;
 }
 
-std::vector<ProbeLine> probe_devices(const Environment& environment) {
+std::vector<ProbeLine> probe_devices(const Environment& environment, std::chrono::milliseconds patience) {
   std::vector<ProbeLine> lines;
   for (const DeviceKind& kind : kDevices) {
+    const OpeningLimit limit(std::string(kind.subject), patience);
     ProbeLog log(kind.subject);
     kind.probe(environment, log);
     lines.insert(lines.end(), log.lines().begin(), log.lines().end());

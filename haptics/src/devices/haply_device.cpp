@@ -15,6 +15,7 @@
 #include "devices/haply_link.h"
 #include "devices/haply_message.h"
 #include "devices/release_patience.h"
+#include "devices/waiting_states.h"
 
 namespace afm::haptics {
 
@@ -113,19 +114,16 @@ void HaplyDevice::exchange() {
   force_ns_ = heard_ns_ = clock_.now_ns();
   trust_ns_ = 0;
   bool silent = false;
+  WaitingStates waiting;
   while (!link_->ended() && !closing_.load()) {
-    bool asked = false;
-    // of several that have waited, the newest; whoever tells without a pause is answered all the same
     const auto end = std::chrono::steady_clock::now() + kReceivePatience;
-    for (auto message = link_->receive(kReceivePatience); message;
-         message = std::chrono::steady_clock::now() < end ? link_->receive(std::chrono::microseconds(0))
-                                                          : std::nullopt) {
-      asked = true;
-      const auto state = parse_haply_state(*message);
-      if (!state) continue;
-      if (std::exchange(device_id_, state->device_id) != state->device_id) offer_release();
+    const auto [asked, newest] = waiting.take(
+        [&](bool first) { return link_->receive(first ? kReceivePatience : std::chrono::microseconds(0)); },
+        [&] { return std::chrono::steady_clock::now() >= end; });
+    if (newest) {
+      if (std::exchange(device_id_, newest->device_id) != newest->device_id) offer_release();
       heard_ns_ = clock_.now_ns();
-      frames_.store({.time_ns = heard_ns_, .position_m = state->position_m, .button = state->button ? 1U : 0U});
+      frames_.store({.time_ns = heard_ns_, .position_m = newest->position_m, .button = newest->button ? 1U : 0U});
     }
     const std::int64_t now_ns = clock_.now_ns();
     const glm::dvec3 force_n = force_for(now_ns);

@@ -94,7 +94,7 @@ class Player {
     std::unique_ptr<Player> player(new Player(session, std::move(*segment)));
     auto loop = haptics::ServoLoop::create(player->segment_, player->hand_,
                                            {.rate_hz = session.rate_hz, .dead_man = session.dead_man});
-    if (!loop) return tl::unexpected(loop.error());
+    if (!loop) return core::failure(core::ErrorCategory::BadInputFile, loop.error().message);
     player->loop_ = std::move(*loop);
     player->lay_sample();
     return player;

@@ -133,6 +133,8 @@ bool can_be(const WallFrame& frame) {
          (!frame.wand || can_be(frame.wand->pose)) && can_be(frame.head);
 }
 
+bool can_be_a_name(const std::string& name) { return !name.empty() && name.size() < scene::kNameLength; }
+
 // What cannot be in a session that was read, or nothing.
 std::string what_cannot_be(const RecordedSession& session) {
   if (const auto valid = scene::validate(*model_of(session)); !valid) return valid.error().message;
@@ -141,6 +143,12 @@ std::string what_cannot_be(const RecordedSession& session) {
     return "its rate or its scale cannot be";
   }
   if (session.samples.empty()) return "it holds no sample";
+  if (!can_be_a_name(session.material)) return "its material has no name that can be";
+  const auto not_before = [](const TipSample& a, const TipSample& b) { return a.time_ns >= b.time_ns; };
+  if (session.samples.front().time_ns < 0 ||
+      std::adjacent_find(session.samples.begin(), session.samples.end(), not_before) != session.samples.end()) {
+    return "the times of its ticks do not grow";
+  }
   const auto is_finite = [](const auto& record) { return finite(record); };
   if (!std::all_of(session.samples.begin(), session.samples.end(), is_finite) ||
       !std::all_of(session.events.begin(), session.events.end(), is_finite)) {

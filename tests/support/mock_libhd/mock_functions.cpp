@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "mock_control.h"
@@ -77,6 +79,7 @@ extern "C" {
 unsigned hdInitDevice(const char* name) {
   mock().record("init");
   mock().follow_environment();
+  while (mock().hangs) std::this_thread::sleep_for(std::chrono::seconds(1));
   const std::string asked = name == nullptr ? "" : name;
   for (mock_hd::InitFailure& failure : mock().init_failures) {
     if (failure.times <= 0 || (failure.name != "*" && failure.name != asked)) continue;

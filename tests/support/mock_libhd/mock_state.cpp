@@ -29,7 +29,7 @@ Mock& Mock::instance() {
 void Mock::reset() {
   init_failures.clear();
   script.clear();
-  threaded = false;
+  threaded = hangs = false;
   impulse_limit_n_per_ms = 2.0;
   nominal_force_n = 3.3;
   continuous_force_n = 0.88;
@@ -58,6 +58,7 @@ void Mock::follow_environment() {
   if (const char* fault = std::getenv("MOCK_HD_FAULT")) {
     const std::string_view name = fault;
     threaded = true;
+    hangs = name == "hangs";
     if (name == "missing") init_failures.push_back({"*", kNotConnected, 1000});
     if (name == "busy") init_failures.push_back({"*", kAlreadyInitiated, 1000});
     if (name == "uncalibrated") calibration = kNeedsManualInput;

@@ -85,6 +85,7 @@ class Mock {
   std::vector<InitFailure> init_failures;
   std::vector<KeyFrame> script;
   bool threaded = false;
+  bool hangs = false;  // hdInitDevice does not come back
   double impulse_limit_n_per_ms = 2.0;
   double nominal_force_n = 3.3;
   double continuous_force_n = 0.88;
