@@ -29,7 +29,9 @@ core::Result<curves::AnalysedCurve> load_analysed(const std::string& file, const
                                                   std::optional<physics::ContactMethod> method) {
   auto curve = curves::load_curve(file, reading);
   if (!curve) return tl::unexpected(curve.error());
-  return curves::analysed(std::filesystem::path(file).filename().string(), std::move(*curve), method);
+  auto analysed = curves::analysed(file, std::move(*curve), method);
+  if (analysed) analysed->name = std::filesystem::path(file).filename().string();
+  return analysed;
 }
 
 std::string contact_method_names() {

@@ -49,6 +49,12 @@ TEST(TomlFile, RefusesWhatNoPersonWrites) {
   EXPECT_THAT(outcome(std::string((4U << 20U) + 1, '\n')), HasSubstr("a.toml: is larger than 4 MiB"));
 }
 
+TEST(TomlFile, SaysWhatIsWrongInOneLine) {
+  const std::string said = outcome("a = tr\nb = 1\n");
+  EXPECT_THAT(said, HasSubstr("a.toml: line 1: "));
+  EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+}
+
 TEST(TomlFile, LeavesUnfinishedStringsToTheParser) {
   for (const char* text : {"a = \"", "a = '", "a = \"\"\"", "a = '''x", "a = \"\\", "a = \"\n.\""}) {
     EXPECT_THAT(outcome(text), HasSubstr("a.toml: line ")) << text;

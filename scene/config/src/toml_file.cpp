@@ -64,6 +64,11 @@ std::optional<std::size_t> line_of_too_long_key(std::string_view text) {
   return std::nullopt;
 }
 
+std::string in_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 }  // namespace
 
 core::Result<toml::table> parse_toml(const char* kind, const std::string& path) {
@@ -76,7 +81,10 @@ core::Result<toml::table> parse_toml(const char* kind, const std::string& path) 
   try {
     return toml::parse(*text, path);
   } catch (const toml::parse_error& error) {
-    return tl::unexpected(bad(kind, path, fmt::format("line {}: {}", error.source().begin.line, error.description())));
+    // it quotes what it saw, which may be the end of the line
+    return tl::unexpected(
+        bad(kind, path,
+            fmt::format("line {}: {}", error.source().begin.line, in_one_line(std::string(error.description())))));
   }
 }
 
