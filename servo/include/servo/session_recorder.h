@@ -12,6 +12,11 @@
 
 namespace afm::servo {
 
+// Whether a servo that starts at this sample feels the same from here on: no force is on, and the phase follows from
+// the place alone. In the tick that drops the force the model still has the phase of the tick before. `tip` is the
+// newest state; `dynamic`: the lever swings.
+bool can_begin_with(const scene::TipSample& sample, const scene::TipState& tip, bool dynamic);
+
 // Makes sessions of what a servo tells: a new one whenever another material, other parameters or another scale have
 // taken effect. A session begins where no force was on and the tip was off the sample, holds every tick from there, and
 // ends at a gap or at kLongestTicks: whatever it is cut to can be replayed. One thread.

@@ -14,13 +14,21 @@ bool same_contact(const TipSample& a, const TipSample& b) {
   return a.material == b.material && a.edit_revision == b.edit_revision && a.scale_mode == b.scale_mode;
 }
 
-// A servo that starts here feels the same from here on.
-bool is_released(const TipSample& sample) {
-  const bool off = sample.servo_state == ServoState::Disarmed || sample.servo_state == ServoState::Fault;
-  return off && sample.hand_force_n == 0.0 && sample.phase != physics::Phase::Attached;
+bool is_of(const TipSample& sample, const scene::TipState& tip) {
+  return tip.material == sample.material && tip.active.edit_revision == sample.edit_revision &&
+         tip.active.scale_mode == sample.scale_mode;
 }
 
 }  // namespace
+
+bool can_begin_with(const TipSample& sample, const scene::TipState& tip, bool dynamic) {
+  const bool off = sample.servo_state == ServoState::Disarmed || sample.servo_state == ServoState::Fault;
+  if (!off || sample.hand_force_n != 0.0) return false;
+  if (sample.phase == physics::Phase::WaitForLift) return true;
+  // a lever that swings remembers more than the place
+  return sample.phase == physics::Phase::Free && !dynamic && is_of(sample, tip) &&
+         sample.tip.z_m > tip.active.release_z_m;
+}
 
 bool SessionRecorder::goes_on_with(const TipSample& sample) const {
   return previous_ && same_contact(*previous_, sample) && sample.tick == previous_->tick + 1 && ticks_ < kLongestTicks;
@@ -31,7 +39,10 @@ bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
   const bool begins = ticks_ == 0;
   const bool fresh = previous_ && !same_contact(*previous_, sample) && sample.tick == previous_->tick + 1;
   previous_ = sample;
-  if (begins && !fresh && !is_released(sample)) return false;
+  const auto is_dynamic = [&] {
+    return servo.parameters(static_cast<std::size_t>(sample.material), sample.edit_revision).dynamic != 0;
+  };
+  if (begins && !fresh && !can_begin_with(sample, servo.tip(), is_dynamic())) return false;
   if (begins) begin(sample, servo);
   if (!scale_known_) take_scale(sample, servo.tip());
   session_.samples.push_back(sample);
@@ -85,8 +96,7 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo) {
 
 // The newest state may still be, or already be, that of another contact model; then the next sample asks again.
 void SessionRecorder::take_scale(const TipSample& sample, const scene::TipState& tip) {
-  scale_known_ = tip.material == sample.material && tip.active.edit_revision == sample.edit_revision &&
-                 tip.active.scale_mode == sample.scale_mode;
+  scale_known_ = is_of(sample, tip);
   if (!scale_known_) return;
   session_.realtime = tip.realtime != 0;
   session_.hand_m_per_m = tip.active.scale.hand_m_per_m;
