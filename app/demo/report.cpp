@@ -166,7 +166,9 @@ std::string timing_table(const DemoResult& result, const Phrases& phrases) {
 
 std::string run_html(const DemoResult& result, const Phrases& phrases) {
   using enum Phrase;
-  const std::string title = phrases.text<ReportHeading>(std::to_string(result.measurements.size()));
+  const std::size_t samples = result.measurements.size();
+  const std::string title =
+      samples == 1 ? phrases[ReportHeadingOne] : phrases.text<ReportHeading>(std::to_string(samples));
   const std::string run = phrases.text<ReportRun>(
       core::kVersion, fmt::format("{:.0f} s", result.seconds), phrases.word(result.haptic_device),
       fmt::format("{:.0f} mm/s", result.hand_speed_m_per_s * 1e3), std::to_string(result.frame_ms.size()),

@@ -33,9 +33,10 @@
 namespace afm::exhibit {
 namespace {
 
-// Names: of symbols (F_attr), laws, products, scheduling classes, and parts of "p99".
-const std::set<std::string, std::less<>> kNames{"attr",  "ad",     "joc",      "fold",     "hao",   "paper",
-                                                "hertz", "maugis", "TouchAFM", "llvmpipe", "SCHED", "OTHER"};
+// Names: of symbols (F_attr), units, laws, products and scheduling classes; and the number of a report without a run.
+const std::set<std::string, std::less<>> kNames{"attr",  "ad",  "joc",      "fold",    "kPa",    "MPa",
+                                                "GPa",   "hao", "paper",    "hertz",   "maugis", "SCHED",
+                                                "OTHER", "nan", "TouchAFM", "llvmpipe"};
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 

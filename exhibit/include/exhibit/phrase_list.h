@@ -214,6 +214,7 @@
 #define AFM_FOR_EACH_REPORT_PHRASE(PHRASE)                                                  \
   PHRASE(ReportTitle, "report-title", "", kLine)                                            \
   PHRASE(ReportHeading, "report-heading", "count", kLine)                                   \
+  PHRASE(ReportHeadingOne, "report-heading-one", "", kLine)                                 \
   PHRASE(ReportRun, "report-run", "version time hand speed frames size gpu", kParagraph)    \
   PHRASE(ReportCurves, "report-curves", "", kLine)                                          \
   PHRASE(ReportCurvesNote, "report-curves-note", "", kParagraph)                            \
