@@ -15,6 +15,7 @@ struct CommandContext {
   std::string assets_dir;                // folder that holds models/, walls/ and materials.toml
   std::string program_path;              // the running program; touchafm-servo lies beside it
   std::vector<std::string> arguments{};  // as they were typed, without the program
+  std::string language = "en";           // of wall and report, unless --language says another: the locale's
 };
 
 // Every command, in the order of the help. A line declares add_NAME_command, which a file in app/commands defines, and

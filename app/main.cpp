@@ -3,16 +3,19 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "app/commit.h"
 #include "app/program.h"
 #include "core/exit_code.h"
 #include "core/run_main.h"
 #include "core/version.h"
+#include "exhibit/exhibit_setup.h"
 
 namespace {
 
@@ -28,6 +31,15 @@ std::string find_assets(const std::filesystem::path& program) {
   return (folder.parent_path().parent_path() / "share" / "touchafm").string();
 }
 
+std::string language_of_environment() {
+  std::vector<std::string> values;
+  for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
+    const char* value = ::secure_getenv(name);
+    values.emplace_back(value == nullptr ? "" : value);
+  }
+  return afm::exhibit::language_of_locale(values);
+}
+
 // The command line would only say that a command is missing.
 bool names_unknown_command(int count, char** arguments) {
   if (count < 2 || arguments[1][0] == '-') return false;
@@ -41,7 +53,8 @@ int run(int count, char** arguments) {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
   const afm::app::CommandContext context{.assets_dir = find_assets(program),
                                          .program_path = program.string(),
-                                         .arguments = {arguments + 1, arguments + count}};
+                                         .arguments = {arguments + 1, arguments + count},
+                                         .language = language_of_environment()};
 
   afm::app::CommandLine command_line("touchafm", fmt::format("{} ({})", afm::core::kVersion, afm::app::kCommit),
                                      afm::app::kProgramHelp);

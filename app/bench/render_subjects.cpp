@@ -12,6 +12,7 @@
 #include "curves/sample_model.h"
 #include "exhibit/cycle_curve.h"
 #include "exhibit/frame_builder.h"
+#include "exhibit/guidance.h"
 #include "scene/gltf/gltf_loader.h"
 
 namespace afm::app {
@@ -176,7 +177,7 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
     moment.servo_state = scene::ServoState::Running;
     moment.phase = physics::Phase::Attached;
     moment.retracting = 2 * i > kFrames;
-    moment.guidance = "One full cycle: approach and retract";
+    moment.guidance = exhibit::step_text(stage.phrases(), exhibit::Hint::LetGo, {});
     moment.curves = curves;
     subject.frames.push_back(frames.build(moment));
   }

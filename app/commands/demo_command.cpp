@@ -151,12 +151,11 @@ void draw_picture(const std::string& file, const std::string& caption, const exh
 }
 
 core::Result<void> draw_journey(const exhibit::FrameBuilder& frames, render::Renderer& renderer, OutputFolder& out,
-                                std::vector<ReportPicture>& pictures) {
+                                std::vector<ReportPicture>& pictures, const exhibit::Phrases& phrases) {
   say("  journey.png");
   const auto png = render::encode_png(journey_strip(frames, renderer));
   if (!png) return tl::unexpected(png.error());
-  pictures.push_back(
-      {"The journey of scale: each picture shows a tenth of the one before.", std::string(png->begin(), png->end())});
+  pictures.push_back({phrases[exhibit::Phrase::CaptionJourney], std::string(png->begin(), png->end())});
   return out.write("journey.png", pictures.back().png);
 }
 
@@ -166,22 +165,24 @@ core::Result<void> draw_figures(render::Context& context, const exhibit::Stage& 
   if (!renderer) return tl::unexpected(renderer.error());
   const exhibit::FrameBuilder frames(stage.wall_scene, plan.materials, stage.eyes);
   ReportPictures drawn(context, *renderer, out);
-  const FigurePlan figures(result.sessions, result.measurements, 0);
+  const exhibit::Phrases& phrases = stage.phrases();
+  const FigurePlan figures(result.sessions, result.measurements, 0, phrases);
   for (const Figure& figure : figures.figures()) {
     draw_picture(figure.file, figure.caption, figure.moment, frames, *renderer, drawn);
   }
   for (std::size_t i = 0; i < plan.materials.size(); ++i) {
     if (plan.variations[i].empty()) continue;
-    const VariationFigure figure(result.sessions[i], result.measurements[i], plan.materials[i], result.variations, i);
+    const VariationFigure figure(result.sessions[i], result.measurements[i], plan.materials[i], result.variations, i,
+                                 phrases);
     const exhibit::FrameBuilder varied(stage.wall_scene, figure.materials(), stage.eyes);
     const scene::MaterialEntry& entry = plan.materials[i].setup.material;
-    draw_picture("vary-" + entry.name + ".png", entry.title + ", felt with other numbers.", figure.moment(), varied,
-                 *renderer, drawn);
+    draw_picture("vary-" + entry.name + ".png", phrases.text<exhibit::Phrase::CaptionVaried>(phrases.word(entry.title)),
+                 figure.moment(), varied, *renderer, drawn);
   }
   auto written = drawn.finish();
   if (!written) return tl::unexpected(written.error());
   std::move(written->begin(), written->end(), std::back_inserter(pictures));
-  return draw_journey(frames, *renderer, out, pictures);
+  return draw_journey(frames, *renderer, out, pictures, phrases);
 }
 
 core::Result<void> write_session(const servo::RecordedSession& session, const std::string& name, OutputFolder& out) {
@@ -190,7 +191,7 @@ core::Result<void> write_session(const servo::RecordedSession& session, const st
 }
 
 core::Result<void> write_results(const DemoResult& result, const std::vector<ReportPicture>& pictures,
-                                 OutputFolder& out) {
+                                 const exhibit::Phrases& phrases, OutputFolder& out) {
   std::vector<LabelledSession> plotted;
   for (std::size_t i = 0; i < result.sessions.size(); ++i) {
     const servo::RecordedSession& session = result.sessions[i];
@@ -205,7 +206,8 @@ core::Result<void> write_results(const DemoResult& result, const std::vector<Rep
     }
   }
   if (auto saved = out.write("summary.json", summary_json(result).dump(2) + "\n"); !saved) return saved;
-  if (auto saved = out.write("report.html", report_html(result, pictures, curves_svg(plotted))); !saved) return saved;
+  const std::string report = report_html(result, pictures, curves_svg(plotted, phrases), phrases);
+  if (auto saved = out.write("report.html", report); !saved) return saved;
   return out.commit();
 }
 
@@ -279,9 +281,8 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
     auto servo = servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
     if (!servo) return tl::unexpected(servo.error());
     ReportPictures live_pictures(*context, *renderer, *out);
-    Demonstration live(*stage, *plan, *renderer, **servo, clock, on_scale(options.scale, options.hand), [&] {
-      live_pictures.add("choosing.png", "The wand's ray chooses the sample: a frame of the live run.");
-    });
+    Demonstration live(*stage, *plan, *renderer, **servo, clock, on_scale(options.scale, options.hand),
+                       [&] { live_pictures.add("choosing.png", stage->phrases()[exhibit::Phrase::CaptionChoosing]); });
     if (auto ran = live.run(result, say); !ran) return ran;
     renderer->wait();
     auto written = live_pictures.finish();
@@ -293,7 +294,7 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   say("drawing the figures");
   if (auto drawn = draw_figures(*context, *stage, *plan, result, *out, pictures); !drawn) return drawn;
   result.seconds = static_cast<double>(clock.now_ns() - start_ns) * 1e-9;
-  if (auto written = write_results(result, pictures, *out); !written) return written;
+  if (auto written = write_results(result, pictures, stage->phrases(), *out); !written) return written;
   if (auto accurate = check_accuracy(result); !accurate) return accurate;
 
   std::printf("open %s/report.html\n", options.out.c_str());

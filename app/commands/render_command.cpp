@@ -53,7 +53,6 @@ exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::
     scene::MaterialEntry entry;
     entry.name = session.material;
     entry.title = "Measured curve";
-    entry.note = "a recorded curve";
     entry.look = paper.front();
     entry.contact = session.parameters.contact;
     files.added.push_back(entry);
@@ -171,8 +170,8 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
   const bool travels = then.moment.wall.centerpiece == exhibit::Centerpiece::Journey;
   const auto material = travels ? std::nullopt : then.moment.wall.material;
   const auto add_panels = [&](render::FrameState& frame) {
-    panels.add_to(frame, {}, material, material ? stage.materials.materials[*material].title : "", {},
-                  HandSource::Mouse);
+    panels.add_to(frame, {}, material, material ? stage.phrases().word(stage.materials.materials[*material].title) : "",
+                  {}, HandSource::Mouse);
   };
   return draw(stage, models, then.moment, picture, options.out, add_panels);
 }
@@ -223,7 +222,8 @@ core::Result<void> run_render(const RenderOptions& options) {
   std::vector<exhibit::CycleCurve> curves(materials.size());
   curves[material] = exhibit::curve_until(*session, time_ns);
   exhibit::Moment moment = exhibit::moment_of(*session, material, time_ns, curves);
-  moment.guidance = fmt::format("{} at {:.2f} s", found->title, options.at_s);
+  moment.guidance = stage->phrases().text<exhibit::Phrase::ReplayedMoment>(stage->phrases().word(found->title),
+                                                                           fmt::format("{:.2f} s", options.at_s));
   if (options.analogy) moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
   return draw(*stage, models, moment, options.picture, options.out);
 }

@@ -35,6 +35,7 @@ struct WallOptions {
   bool test_pattern = false;
   std::string out;
   exhibit::PictureOptions picture;
+  exhibit::ExhibitFiles files;  // its language
 };
 
 core::Result<scene::HeadPose> parse_head(std::string_view text) {
@@ -155,6 +156,8 @@ scene::Scene nothing() {
 }
 
 core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions& options) {
+  const auto phrases = exhibit::load_phrases(options.files);
+  if (!phrases) return tl::unexpected(phrases.error());
   auto drawing = exhibit::WallDrawing::open(wall, options.picture);
   if (!drawing) return tl::unexpected(drawing.error());
   const scene::Scene scene = nothing();
@@ -164,7 +167,7 @@ core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions&
     render::FrameState frame;
     frame.eyes = eyes;
     frame.room_from_node.assign(scene.nodes.size(), glm::dmat4(1.0));
-    exhibit::show_calibration(output.screen, output.mode, ipd_m, frame);
+    exhibit::show_calibration(output.screen, output.mode, ipd_m, phrases->wall, frame);
     return frame;
   };
   return drawing->write(scene, millimetre_m, build, options.out);
@@ -225,6 +228,7 @@ void add_wall_command(OptionList& program, const CommandContext& context) {
   command.add_option("--out", options->out, "where the test pattern is written").type_name("FILE.png");
   pixel_size_option(command, "--size", options->picture.size_px, "size of the whole test pattern in pixels");
   add_stereo_options(command, options->picture, "the outputs of the wall file, else side-by-side");
+  add_phrase_options(command, options->files, context);
   command.when_chosen([options] { return run_wall(*options); });
 }
 

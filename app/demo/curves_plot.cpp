@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "curves/svg_plot.h"
 #include "exhibit/cycle_curve.h"
@@ -12,6 +11,8 @@
 namespace afm::app {
 
 namespace {
+
+using exhibit::Phrase;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -33,17 +34,21 @@ std::vector<curves::SvgPoint> points_within(const std::vector<render::PlotPoint>
   return result;
 }
 
-curves::SvgPlot plot_within(std::span<const LabelledSession> sessions, std::string title, const Window& window) {
+curves::SvgPlot plot_within(std::span<const LabelledSession> sessions, Phrase title, const Window& window,
+                            const exhibit::Phrases& phrases) {
   curves::SvgPlot plot;
-  plot.title = std::move(title);
-  plot.x_label = "Z, piezo displacement (nm)";
-  plot.y_label = "force on the tip (nN)";
+  plot.title = phrases[title];
+  plot.decimal_mark = phrases.decimal_mark();
+  plot.x_label = phrases[Phrase::ReportZAxis];
+  plot.y_label = phrases[Phrase::ReportForceAxis];
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     const auto& [name, session] = sessions[i];
     const render::PlotCurve curve = exhibit::curve_until(*session, session->samples.back().time_ns).plot(name, {});
-    plot.lines.push_back({name + ", approach", std::string(curves::distinct_color(i)), curves::LineStyle::Dashed,
+    plot.lines.push_back({phrases.text<Phrase::ReportApproach>(phrases.word(name)),
+                          std::string(curves::distinct_color(i)), curves::LineStyle::Dashed,
                           points_within(curve.approach, window)});
-    plot.lines.push_back({name + ", retract", std::string(curves::distinct_color(i)), curves::LineStyle::Solid,
+    plot.lines.push_back({phrases.text<Phrase::ReportRetract>(phrases.word(name)),
+                          std::string(curves::distinct_color(i)), curves::LineStyle::Solid,
                           points_within(curve.retract, window)});
   }
   return plot;
@@ -67,10 +72,10 @@ std::optional<Window> window_of_smallest(std::span<const LabelledSession> sessio
 
 }  // namespace
 
-std::string curves_svg(std::span<const LabelledSession> sessions) {
-  std::string plots = curves::svg(plot_within(sessions, "Approach and retract", {}));
+std::string curves_svg(std::span<const LabelledSession> sessions, const exhibit::Phrases& phrases) {
+  std::string plots = curves::svg(plot_within(sessions, Phrase::ReportAllCurves, {}, phrases));
   if (const auto near = window_of_smallest(sessions)) {
-    plots += "\n" + curves::svg(plot_within(sessions, "The same, near the surface", *near));
+    plots += "\n" + curves::svg(plot_within(sessions, Phrase::ReportNearCurves, *near, phrases));
   }
   return plots;
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "exhibit/phrases.h"
 #include "servo/session_file.h"
 
 namespace afm::app {
@@ -15,6 +16,6 @@ struct LabelledSession {
 
 // The whole curves of the sessions as plots: all together, and, where the largest loop dwarfs the smallest, the same
 // around that. Self-contained SVG elements, one below the other.
-std::string curves_svg(std::span<const LabelledSession> sessions);
+std::string curves_svg(std::span<const LabelledSession> sessions, const exhibit::Phrases& phrases);
 
 }  // namespace afm::app

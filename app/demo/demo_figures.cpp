@@ -2,6 +2,7 @@
 #include "app/demo/demo_figures.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "app/demo/demonstration.h"
@@ -33,27 +34,24 @@ std::pair<std::int64_t, std::int64_t> contact_of(const servo::RecordedSession& s
 }  // namespace
 
 FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
-                       const std::vector<Measurement>& measurements, std::size_t shown_material) {
+                       const std::vector<Measurement>& measurements, std::size_t shown_material,
+                       const exhibit::Phrases& phrases) {
   const servo::RecordedSession& shown = sessions.at(shown_material);
   const auto [in_ns, off_ns] = contact_of(shown);
   const auto deepest = std::min_element(shown.samples.begin(), shown.samples.end(),
                                         [](const auto& a, const auto& b) { return a.tip.z_m < b.tip.z_m; });
 
+  using enum exhibit::Phrase;
   struct Plan {
     const char* file;
-    const char* caption;
-    const char* guidance;
+    exhibit::Phrase caption;
+    exhibit::Phrase guidance;
     std::int64_t time_ns;
   };
-  const std::vector<Plan> plans{
-      {"fig5a.png", "(a) Sudden attraction: the tip has jumped to contact and pulls the lever down.",
-       "The tip has snapped onto the surface", in_ns + kAfterJumpInNs},
-      {"fig5b.png", "(b) Pressed: the cantilever bends away from the sample.", "Pressed: the beam bends",
-       deepest->time_ns},
-      {"fig5c.png", "(c) Sudden adhesion: the last moment before the tip lets go.",
-       "Adhesion holds the tip: keep pulling", off_ns},
-      {"fig5d.png", "(d) Free: no force after the jump off contact.", "Released: no force any more",
-       off_ns + kAfterJumpOffNs}};
+  const std::array<Plan, 4> plans{{{"fig5a.png", CaptionSnapIn, SnappedIn, in_ns + kAfterJumpInNs},
+                                   {"fig5b.png", CaptionPressed, BeamBends, deepest->time_ns},
+                                   {"fig5c.png", CaptionAdhesion, AdhesionHolds, off_ns},
+                                   {"fig5d.png", CaptionFree, Released, off_ns + kAfterJumpOffNs}}};
 
   // reserved, because the moments point into it
   curves_.reserve(plans.size() + 1);
@@ -61,8 +59,8 @@ FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
     curves_.emplace_back(sessions.size());
     curves_.back()[shown_material] = exhibit::curve_until(shown, plan.time_ns);
     exhibit::Moment moment = exhibit::moment_of(shown, shown_material, plan.time_ns, curves_.back());
-    moment.guidance = plan.guidance;
-    figures_.push_back({plan.file, plan.caption, moment});
+    moment.guidance = phrases[plan.guidance];
+    figures_.push_back({plan.file, phrases[plan.caption], moment});
   }
 
   curves_.emplace_back();
@@ -73,13 +71,13 @@ FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
   for (const Measurement& m : measurements) {
     finale.results.push_back(result_of(m));
   }
-  finale.guidance = "All samples together";
-  figures_.push_back({"fig5e.png", "(e) The force-displacement curves of all samples.", finale});
+  finale.guidance = phrases[AllSamples];
+  figures_.push_back({"fig5e.png", phrases[CaptionAll], finale});
 }
 
 VariationFigure::VariationFigure(const servo::RecordedSession& base, const Measurement& measurement,
                                  const curves::SampleModel& model, std::span<const Variation> variations,
-                                 std::size_t material) {
+                                 std::size_t material, const exhibit::Phrases& phrases) {
   std::vector<exhibit::CycleResult> all;
   const auto add = [&](const servo::RecordedSession& session, const Measurement& m,
                        const curves::SampleModel& was_felt) {
@@ -94,7 +92,7 @@ VariationFigure::VariationFigure(const servo::RecordedSession& base, const Measu
   moment_ = exhibit::moment_of(base, material, base.samples.back().time_ns, curves_);
   moment_.results = std::move(all);
   moment_.wall.centerpiece = exhibit::Centerpiece::Plot;
-  moment_.guidance = "The same sample, felt with other numbers";
+  moment_.guidance = phrases[exhibit::Phrase::OtherParameters];
 }
 
 render::Image journey_strip(const exhibit::FrameBuilder& frames, render::Renderer& renderer) {

@@ -26,7 +26,7 @@ struct Figure {
 class FigurePlan {
  public:
   FigurePlan(const std::vector<servo::RecordedSession>& sessions, const std::vector<Measurement>& measurements,
-             std::size_t shown_material);
+             std::size_t shown_material, const exhibit::Phrases& phrases);
 
   const std::vector<Figure>& figures() const { return figures_; }
 
@@ -40,7 +40,7 @@ class FigurePlan {
 class VariationFigure {
  public:
   VariationFigure(const servo::RecordedSession& base, const Measurement& measurement, const curves::SampleModel& model,
-                  std::span<const Variation> variations, std::size_t material);
+                  std::span<const Variation> variations, std::size_t material, const exhibit::Phrases& phrases);
   VariationFigure(const VariationFigure&) = delete;
   VariationFigure& operator=(const VariationFigure&) = delete;
 

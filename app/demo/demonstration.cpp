@@ -28,7 +28,7 @@ Demonstration::Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, 
                              servo::ServoClient& servo, const core::Clock& clock, const input::HandPath& path,
                              std::function<void()> chosen)
     : wall_scene_(stage.wall_scene),
-      guidance_(stage.guidance),
+      phrases_(stage.phrases()),
       plan_(plan),
       materials_(plan.materials),
       frames_(wall_scene_, materials_, stage.eyes),
@@ -188,10 +188,10 @@ exhibit::Moment Demonstration::moment(const input::WandState& wand, const input:
   exhibit::Moment now = exhibit::moment_of(servo_.tip(), exhibit::is_retracting(servo_.tip().tip.z_m, deepest_z_m_));
   now.wall.hovered = pointing.hovered;
   now.wall.wand = wand;
-  now.guidance = guidance_.text(hint(), {});
+  now.guidance = exhibit::step_text(phrases_, hint(), {});
   now.curves = curves_;
-  now.servo = exhibit::servo_rows(servo_.tip(), servo_.timing(), servo_.device());
-  if (budget_) now.servo.push_back(budget_->row());
+  now.servo = exhibit::servo_rows(servo_.tip(), servo_.timing(), servo_.device(), phrases_);
+  if (budget_) now.servo.push_back(budget_->row(phrases_));
   now.wall.cue = exhibit::jump_cue(recorder_.session().events, servo_.tip().time_ns);
   return now;
 }

@@ -61,7 +61,7 @@ class Demonstration {
   exhibit::Hint hint() const;
 
   const exhibit::WallScene& wall_scene_;
-  const exhibit::Guidance& guidance_;
+  const exhibit::Phrases& phrases_;
   const DemoPlan& plan_;
   std::vector<curves::SampleModel> materials_;  // as they are felt now
   exhibit::FrameBuilder frames_;

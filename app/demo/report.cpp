@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/demo/report.h"
-#include "core/percentiles.h"
 
 #include <fmt/format.h>
 
@@ -8,13 +7,27 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
+#include "core/percentiles.h"
 #include "core/version.h"
+#include "exhibit/html_page.h"
 
 namespace afm::app {
 
 namespace {
+
+using exhibit::html_figure;
+using exhibit::html_head;
+using exhibit::html_heading;
+using exhibit::html_note;
+using exhibit::html_picture;
+using exhibit::html_scrolled;
+using exhibit::html_table_head;
+using exhibit::html_text;
+using exhibit::Phrase;
+using exhibit::Phrases;
 
 nlohmann::json json_of(const CycleEvents& e) {
   return {{"f_attr", e.f_attr_n}, {"f_ad", e.f_ad_n}, {"z_jtc", e.z_jtc_m}, {"z_joc", e.z_joc_m}};
@@ -50,89 +63,78 @@ nlohmann::json json_of(const Measurement& m) {
   return json;
 }
 
-std::string base64(const std::string& bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      word = word << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k <= bytes.size() ? kDigits[word >> (18U - 6U * k) & 63U] : '=';
-    }
-  }
-  return text;
-}
+constexpr const char* kNone = "\u2013";
 
-std::string signed_percent(double relative) { return fmt::format("{:+.3f} %", 100.0 * relative); }
+// Writes the rows of the table of events.
+class EventRows {
+ public:
+  explicit EventRows(const Phrases& phrases) : phrases_(phrases) {}
 
-constexpr const char* kStyle = R"(
-body { font: 16px/1.5 Inter, "DejaVu Sans", sans-serif; color: #1c2430; background: #f4f5f7; margin: 0 auto; max-width: 1100px; padding: 1.5em; }
-h1 { font-size: 1.7em; margin-bottom: 0.2em; } h2 { margin-top: 1.8em; font-size: 1.25em; }
-figure { margin: 1em 0; } figure img, figure svg { width: 100%; height: auto; border-radius: 6px; background: #fff; }
-figcaption { color: #4a5568; font-size: 0.93em; margin-top: 0.3em; }
-table { border-collapse: collapse; width: 100%; font-size: 0.93em; background: #fff; }
-th, td { border: 1px solid #d5dae1; padding: 0.35em 0.6em; text-align: right; } th { background: #e8ebf0; }
-td:first-child, th:first-child { text-align: left; }
-.note { color: #4a5568; font-size: 0.93em; }
-.wide { overflow-x: auto; } .wide:focus { outline: 2px solid #3b82c4; }
-@media (max-width: 760px) {
-  body { padding: 0.8em; } td, th { white-space: nowrap; }
-  .wide img, .wide svg { width: auto; min-width: 900px; } .wide img.pair { min-width: 1400px; }
-}
-)";
-
-// What is wider than a narrow browser is moved inside its own box; the keyboard reaches that too.
-std::string scrolled(const std::string& html) { return "<div class=\"wide\" tabindex=\"0\">" + html + "</div>"; }
-
-std::string events_table(const DemoResult& result) {
-  std::string html =
-      "<table><tr><th>sample</th><th>quantity</th><th>calculation</th><th>simulation (this run)</th><th>against "
-      "calculation</th><th>sampled at the ticks</th><th>experiment</th><th>against experiment</th></tr>\n";
-  const auto row = [&](const std::string& sample, const char* name, const char* unit, double calculation,
-                       double measured, const std::string& sampled, const std::string& experiment,
-                       const std::string& error) {
-    html += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{:.5g} {}</td><td>{:.5g} "
-        "{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-        sample, name, calculation, unit, measured, unit, signed_percent(measured / calculation - 1.0), sampled,
-        experiment, error);
-  };
-  const auto nn = [](std::optional<double> n) { return n ? fmt::format("{:.5g} nN", *n * 1e9) : "\u2013"; };
-  const auto percent = [](std::optional<double> error) { return error ? signed_percent(*error) : "\u2013"; };
-  std::vector<Measurement> measurements = result.measurements;
-  for (const Variation& variation : result.variations) measurements.push_back(variation.measurement);
-  for (const Measurement& m : measurements) {
-    if (!m.hysteretic) {
-      html += fmt::format(
-          "<tr><td>{} ({})</td><td colspan=\"7\">no jumps: so stiff a lever follows the force wherever it "
-          "goes</td></tr>\n",
-          m.title, m.law);
-      continue;
-    }
+  void add(const Measurement& m) {
+    const std::string title = phrases_.word(m.title);
+    if (!m.hysteretic) return note(fmt::format("{} ({})", title, m.law), phrases_[Phrase::ReportNoJumps]);
     if (m.recorded) {
-      html += fmt::format(
-          "<tr><td>{}</td><td colspan=\"7\">a recorded curve: {}{}, loop energy felt {:.4g} aJ, recorded {:.4g} "
-          "aJ</td></tr>\n",
-          m.title, m.snaps_in ? "snaps in" : "no snap-in", m.pulls_off ? ", pulls off" : ", no pull-off",
-          m.loop_energy_j * 1e18, m.recorded_loop_energy_j * 1e18);
+      note(title, phrases_.text<Phrase::ReportRecording>(
+                      phrases_[m.snaps_in ? Phrase::ReportSnapsIn : Phrase::ReportNoSnapIn],
+                      phrases_[m.pulls_off ? Phrase::ReportPullsOff : Phrase::ReportNoPullOff],
+                      fmt::format("{:.4g} aJ", m.loop_energy_j * 1e18),
+                      fmt::format("{:.4g} aJ", m.recorded_loop_energy_j * 1e18)));
     }
+    const CycleEvents &simulated = m.measured, &calculated = m.calculation;
     if (m.snaps_in) {
-      row(m.title + " (" + m.law + ")", "F<sub>attr</sub>", "nN", m.calculation.f_attr_n * 1e9,
-          m.measured.f_attr_n * 1e9, nn(m.sampled_f_attr_n), nn(m.experiment_f_attr_n),
-          percent(m.experiment_error_f_attr()));
-      row(m.title, "Z<sub>jtc</sub>", "nm", m.calculation.z_jtc_m * 1e9, m.measured.z_jtc_m * 1e9, "\u2013", "\u2013",
-          "\u2013");
+      row({fmt::format("{} ({})", title, m.law), "F_attr", "nN"}, calculated.f_attr_n, simulated.f_attr_n,
+          m.sampled_f_attr_n, m.experiment_f_attr_n, m.experiment_error_f_attr());
+      row({title, "Z_jtc", "nm"}, calculated.z_jtc_m, simulated.z_jtc_m);
     }
-    if (!m.pulls_off) continue;
-    row(m.title, "F<sub>ad</sub>", "nN", m.calculation.f_ad_n * 1e9, m.measured.f_ad_n * 1e9, nn(m.sampled_f_ad_n),
-        nn(m.experiment_f_ad_n), percent(m.experiment_error_f_ad()));
-    row(m.title, "Z<sub>joc</sub>", "nm", m.calculation.z_joc_m * 1e9, m.measured.z_joc_m * 1e9, "\u2013", "\u2013",
-        "\u2013");
+    if (!m.pulls_off) return;
+    row({title, "F_ad", "nN"}, calculated.f_ad_n, simulated.f_ad_n, m.sampled_f_ad_n, m.experiment_f_ad_n,
+        m.experiment_error_f_ad());
+    row({title, "Z_joc", "nm"}, calculated.z_joc_m, simulated.z_joc_m);
   }
-  return scrolled(html + "</table>") + "\n";
+
+  const std::string& html() const { return html_; }
+
+ private:
+  struct Name {
+    std::string sample;
+    const char* quantity;
+    const char* unit;  // of values in SI times 1e9
+  };
+
+  void note(const std::string& sample, const std::string& text) {
+    html_ += fmt::format("<tr><td>{}</td><td colspan=\"7\">{}</td></tr>\n", html_text(sample), html_text(text));
+  }
+
+  void row(const Name& name, double calculated, double simulated, std::optional<double> sampled = {},
+           std::optional<double> experiment = {}, std::optional<double> experiment_error = {}) {
+    const auto quantity = [&](std::optional<double> si) {
+      return si ? phrases_.number(fmt::format("{:.5g} {}", *si * 1e9, name.unit)) : kNone;
+    };
+    const auto percent = [&](std::optional<double> relative) {
+      return relative ? phrases_.number(fmt::format("{:+.3f} %", 100.0 * *relative)) : kNone;
+    };
+    html_ += fmt::format("<tr><td>{}</td><td>{}</td>", html_text(name.sample), html_text(name.quantity));
+    for (const std::string& cell : {quantity(calculated), quantity(simulated), percent(simulated / calculated - 1.0),
+                                    quantity(sampled), quantity(experiment), percent(experiment_error)}) {
+      html_ += "<td>" + cell + "</td>";
+    }
+    html_ += "</tr>\n";
+  }
+
+  const Phrases& phrases_;
+  std::string html_;
+};
+
+std::string events_table(const DemoResult& result, const Phrases& phrases) {
+  using enum Phrase;
+  EventRows rows(phrases);
+  for (const Measurement& m : result.measurements) rows.add(m);
+  for (const Variation& variation : result.variations) rows.add(variation.measurement);
+  const std::string head =
+      html_table_head({phrases[ReportSample], phrases[ReportQuantity], phrases[ReportCalculation],
+                       phrases[ReportSimulation], phrases[ReportVersusCalculation], phrases[ReportSampled],
+                       phrases[ReportExperiment], phrases[ReportVersusExperiment]});
+  return html_scrolled(head + rows.html() + "</table>") + "\n";
 }
 
 // In the unit that leaves 1 to 1000 before the point: "11.49 ms".
@@ -144,18 +146,44 @@ std::string time_text(double seconds) {
   return fmt::format("{:.4g} {}", seconds / unit->first, unit->second);
 }
 
-std::string timing_table(const DemoResult& result) {
-  const auto row = [](const char* name, double unit_s, const core::Percentiles& p) {
-    return fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", name,
-                       time_text(p.p50 * unit_s), time_text(p.p99 * unit_s), time_text(p.p999 * unit_s),
-                       time_text(p.max * unit_s));
+std::string timing_table(const DemoResult& result, const Phrases& phrases) {
+  using enum Phrase;
+  const auto row = [&](Phrase name, double unit_s, const core::Percentiles& p) {
+    std::string html = "<tr><td>" + html_text(phrases[name]) + "</td>";
+    for (const double value : {p.p50, p.p99, p.p999, p.max}) {
+      html += "<td>" + phrases.number(time_text(value * unit_s)) + "</td>";
+    }
+    return html + "</tr>\n";
   };
-  return scrolled(
-             "<table><tr><th>what</th><th>p50</th><th>p99</th><th>p99.9</th><th>max</th></tr>\n" +
-             row("servo: late at wake-up", 1e-6, core::percentiles(result.servo.wake_us, result.servo.wake_max_us)) +
-             row("servo: work in a tick", 1e-6, core::percentiles(result.servo.work_us, result.servo.work_max_us)) +
-             row("renderer: a stereo frame", 1e-3, core::percentiles(result.frame_ms)) + "</table>") +
+  const scene::ServoTiming& servo = result.servo;
+  return html_scrolled(
+             html_table_head({phrases[ReportWhat], "p50", "p99", phrases.number("p99.9"), phrases[ReportMaximum]}) +
+             row(ReportWakeUp, 1e-6, core::percentiles(servo.wake_us, servo.wake_max_us)) +
+             row(ReportWork, 1e-6, core::percentiles(servo.work_us, servo.work_max_us)) +
+             row(ReportFrame, 1e-3, core::percentiles(result.frame_ms)) + "</table>") +
          "\n";
+}
+
+std::string run_html(const DemoResult& result, const Phrases& phrases) {
+  using enum Phrase;
+  const std::size_t samples = result.measurements.size();
+  const std::string title =
+      samples == 1 ? phrases[ReportHeadingOne] : phrases.text<ReportHeading>(std::to_string(samples));
+  const std::string run = phrases.text<ReportRun>(
+      core::kVersion, fmt::format("{:.0f} s", result.seconds), phrases.word(result.haptic_device),
+      fmt::format("{:.0f} mm/s", result.hand_speed_m_per_s * 1e3), std::to_string(result.frame_ms.size()),
+      fmt::format("2 \u00d7 {} \u00d7 {}", result.eye_width, result.eye_height), result.vulkan_device);
+  return "<h1>" + html_text(title) + "</h1>\n" + html_note(html_text(run));
+}
+
+std::string servo_html(const scene::ServoTiming& servo, std::uint64_t lost_samples, const Phrases& phrases) {
+  using enum Phrase;
+  const std::string policy =
+      servo.policy_fifo != 0 ? "SCHED_FIFO" : phrases.text<ReportNotRealTime>(std::string("SCHED_OTHER"));
+  return html_note(html_text(phrases.text<ReportServo>(
+      fmt::format("{:.0f}", servo.rate_hz), policy,
+      phrases[servo.pages_locked != 0 ? ReportPagesLocked : ReportPagesNotLocked], std::to_string(servo.ticks),
+      std::to_string(servo.missed), std::to_string(lost_samples))));
 }
 
 }  // namespace
@@ -193,46 +221,18 @@ nlohmann::json summary_json(const DemoResult& result) {
 }
 
 std::string report_html(const DemoResult& result, const std::vector<ReportPicture>& pictures,
-                        const std::string& curves_svg) {
-  std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>TouchAFM: approach and "
-      "retract</title>"
-      "<style>{}</style></head><body>\n<h1>Approach and retract on {} samples</h1>\n"
-      "<p class=\"note\">TouchAFM {} felt one full cycle on each sample in {:.0f} s, with a {} moving at {:.0f} mm/s "
-      "on average, "
-      "and drew {} stereo frames of 2 \u00d7 {} \u00d7 {} pixels on {}.</p>\n",
-      kStyle, result.measurements.size(), core::kVersion, result.seconds, result.haptic_device,
-      result.hand_speed_m_per_s * 1e3, result.frame_ms.size(), result.eye_width, result.eye_height,
-      result.vulkan_device);
-  html += "<h2>Force-displacement curves</h2>\n<figure>" + scrolled(curves_svg) +
-          "<figcaption>Every servo sample. Approach dashed, retract solid; force on the tip is positive away from the "
-          "sample.</figcaption></figure>\n";
-  html += "<h2>Table 2 of the paper, with our columns</h2>\n" + events_table(result);
-  html +=
-      "<p class=\"note\">Simulation: the force at the place where the hand's path crossed the fold inside a servo "
-      "tick; beside it, "
-      "what the ticks alone have seen. The agreement of F<sub>ad</sub> with the experiment is circular: the surface "
-      "energies were "
-      "computed from the measured pull-off forces. Only F<sub>attr</sub> is a prediction. The inertia and the noise of "
-      "a "
-      "dynamic lever move its jumps, which no calculation at rest can judge.</p>\n";
-  html +=
-      "<h2>The wall</h2>\n<p class=\"note\">Side by side, left eye left: look at them with parallel eyes, or on a "
-      "stereo wall.</p>\n";
+                        const std::string& curves_svg, const Phrases& phrases) {
+  using enum Phrase;
+  std::string html = html_head(phrases[Language], phrases[ReportTitle]) + run_html(result, phrases);
+  html += html_heading(phrases[ReportCurves]) + html_figure(curves_svg, phrases[ReportCurvesNote]);
+  html += html_heading(phrases[ReportTable]) + events_table(result, phrases);
+  html += html_note(html_text(phrases[ReportTableNote]));
+  html += html_heading(phrases[ReportWall]) + html_note(html_text(phrases[ReportWallNote]));
   for (const ReportPicture& picture : pictures) {
-    html += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
-                        scrolled(fmt::format("<img class=\"pair\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
-                                             picture.caption, base64(picture.png))),
-                        picture.caption);
+    html += html_figure(html_picture(picture.png, picture.caption), picture.caption);
   }
-  html += "<h2>Timing</h2>\n" + timing_table(result);
-  html += fmt::format(
-      "<p class=\"note\">Servo: {:.0f} Hz, {}{}, {} ticks, {} deadlines missed, {} samples lost.</p>\n</body></html>\n",
-      result.servo.rate_hz, result.servo.policy_fifo != 0 ? "SCHED_FIFO" : "SCHED_OTHER (not real-time)",
-      result.servo.pages_locked != 0 ? ", pages locked" : ", pages not locked", result.servo.ticks, result.servo.missed,
-      result.lost_samples);
-  return html;
+  html += html_heading(phrases[ReportTiming]) + timing_table(result, phrases);
+  return html + servo_html(result.servo, result.lost_samples, phrases) + "</body></html>\n";
 }
 
 std::string session_csv(const servo::RecordedSession& session) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/demo/measurement.h"
+#include "exhibit/phrases.h"
 #include "render/frame.h"
 #include "scene/shared/shared_blocks.h"
 #include "servo/session_file.h"
@@ -47,7 +48,7 @@ struct ReportPicture {
 
 // One HTML file that opens anywhere: pictures and plots are inside it.
 std::string report_html(const DemoResult& result, const std::vector<ReportPicture>& pictures,
-                        const std::string& curves_svg);
+                        const std::string& curves_svg, const exhibit::Phrases& phrases);
 
 // Every sample of a session as CSV with a # header that holds every parameter and event.
 std::string session_csv(const servo::RecordedSession& session);

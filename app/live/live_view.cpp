@@ -208,7 +208,8 @@ void LiveView::choose(std::size_t material) {
 // Felt once the tip is off the sample, as another material is.
 void LiveView::next_scale() {
   settings_.scale = scene::after(settings_.scale);
-  core::log_line("scale " + exhibit::scale_text(settings_.scale));
+  const scene::ScaleModeText& text = scene::text_of(settings_.scale);
+  core::log_line(fmt::format("scale {}: {}", text.word, text.meaning));
   if (const auto current = servo_.material(); current && servo_.running()) {
     servo_.link().choose(static_cast<std::int32_t>(*current), settings_.scale);
   }
@@ -299,29 +300,33 @@ exhibit::Hint LiveView::next_hint(std::int64_t now_ns) {
   return procedure_.update(tip, {ascending, cycles.pressed(), cycles.cycles()}, now_ns);
 }
 
+std::string LiveView::guidance(const exhibit::Phrases& phrases) const {
+  if (!servo_.running()) return exhibit::step_text(phrases, exhibit::Hint::ServoEnded, controls());
+  // without a visitor it invites
+  if (visitor_.away()) return exhibit::step_text(phrases, exhibit::Hint::ChooseSample, controls());
+  return exhibit::guidance_line(phrases, hint_, servo_.link().tip(), controls());
+}
+
 exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) {
   const servo::ServoClient& servo = servo_.link();
   const exhibit::CycleHistory& cycles = servo_.cycles();
+  hint_ = next_hint(now_ns);
   const bool touched = servo.tip().phase == physics::Phase::Attached || cycles.cycles() > 0;
   exhibit::Moment now = exhibit::moment_of(servo.tip(), touched && cycles.ascending());
   now.curves = cycles.curves();
   now.wall.hovered = pointed.swatch;
   now.wall.wand = wand_points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
   now.wall.navigation = to_wall_ * view_wand_.navigation();
-  now.guidance = stage_.guidance.line(next_hint(now_ns), servo.tip(), controls());
-  if (visitor_.away()) now.guidance = stage_.guidance.text(exhibit::Hint::ChooseSample, controls());  // which invites
+  now.guidance = guidance(stage_.phrases());
   now.wall.cue = exhibit::jump_cue(servo_.events(), servo.tip().time_ns);
   now.wall.centerpiece = travel_.orders() ? exhibit::Centerpiece::Journey
                          : analogy_       ? exhibit::Centerpiece::Analogy
                                           : exhibit::Centerpiece::Instrument;
   now.wall.journey_orders = travel_.orders().value_or(0.0);
   now.wall.fade = travel_.fade();
-  now.servo = exhibit::servo_rows(servo.tip(), servo.timing(), servo.device());
+  now.servo = exhibit::servo_rows(servo.tip(), servo.timing(), servo.device(), stage_.phrases());
   if (auto row = picture_.quality_row()) now.servo.push_back(std::move(*row));
-  if (!servo_.running()) {
-    now.servo_state = scene::ServoState::Fault;
-    now.guidance = stage_.guidance.text(exhibit::Hint::ServoEnded, controls());
-  }
+  if (!servo_.running()) now.servo_state = scene::ServoState::Fault;
   return now;
 }
 
@@ -361,12 +366,14 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   servo_.link().place(exhibit::shared_transforms(frame.room_from_node));
   record(now);
 
-  if (std::exchange(logged_guidance_, now.guidance) != now.guidance) core::log_line(now.guidance);
+  const std::string said = guidance(stage_.english);
+  if (std::exchange(logged_guidance_, said) != said) core::log_line(said);
 
   const auto material = travel_.orders() ? std::nullopt : servo_.material();
-  panels_.add_to(frame, pointed, material, material ? stage_.materials.materials[*material].title : "",
+  panels_.add_to(frame, pointed, material,
+                 material ? stage_.phrases().word(stage_.materials.materials[*material].title) : "",
                  servo_.link().tip(), hand());
-  panels_.add_note(frame, now.wall.centerpiece, stage_.guidance);
+  panels_.add_note(frame, now.wall.centerpiece);
   const bool off_wall = std::abs(before_wall_m()) > kBesideWallM;
   picture_.show(frame, off_wall ? exhibit::Relief::BringToWall : exhibit::Relief::NarrowEyes, now_ns, beat);
   const std::int64_t presented_ns = clock_.now_ns();

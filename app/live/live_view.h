@@ -92,6 +92,7 @@ class LiveView {
   Pointed wand_pointed_at();
   exhibit::Moment moment(const Pointed& pointed, std::int64_t now_ns);
   exhibit::Hint next_hint(std::int64_t now_ns);
+  std::string guidance(const exhibit::Phrases& phrases) const;
   void record(const exhibit::Moment& now);
   void draw(const ViewInput& input, std::int64_t now_ns);
   void log_frame(std::int64_t begun_ns, std::int64_t presented_ns, std::optional<double> head_latency_s);
@@ -114,6 +115,7 @@ class LiveView {
   MouseHand hand_;
   input::SimulatedPerson person_;  // moves the hand with HandSource::Simulated
   exhibit::Procedure procedure_;
+  exhibit::Hint hint_ = exhibit::Hint::ChooseSample;  // of this frame
   std::string logged_guidance_;
   std::int64_t hand_moved_ns_ = 0;
   glm::dvec2 cursor_px_{0.0};

@@ -33,7 +33,7 @@ void LiveView::log_frame(std::int64_t begun_ns, std::int64_t presented_ns, std::
   if (!frame_log_) return;
   const scene::ServoTiming timing = servo_.link().timing();
   const exhibit::DepthReport& depth = picture_.depth();
-  const bool measured = !depth.text.empty();
+  const bool measured = depth.measured;
   frame_log_->add({.begun_ns = begun_ns,
                    .presented_ns = presented_ns,
                    .head_latency_s = head_latency_s,

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <string>
-#include <string_view>
 
 #include "app/live/live_view.h"
 
@@ -11,6 +10,7 @@ namespace afm::app {
 
 namespace {
 
+using exhibit::Phrase;
 using render::Key;
 
 constexpr double kEyeStepM = 1e-3;
@@ -20,83 +20,85 @@ constexpr double kHeadStepM = 0.05;
 
 std::span<const LiveKey> live_keys() {
   static constexpr std::array kKeys{
-      LiveKey{Key::Digit1, "1 to 9", "Choose a sample", [](LiveView& view, std::size_t number) { view.choose(number); },
-              "left click", Key::Digit9},
-      LiveKey{MouseHand::kGripKey, "Space", "Move the hand", nullptr, "right drag, wheel"},
-      LiveKey{MouseHand::kTurnOnKey, "T", "Turn-On", nullptr, "middle click"},
-      LiveKey{Key::Enter, "Enter", "Stop: no force, at once", [](LiveView& view, std::size_t) { view.stop_force(); }},
-      LiveKey{Key::F2, "F2", "Parameters", [](LiveView& view, std::size_t) { view.panels_.toggle_parameters(); }},
-      LiveKey{Key::M, "M", "Next scale of the hand", [](LiveView& view, std::size_t) { view.next_scale(); }}
-          .for_staff(),
-      LiveKey{Key::J, "J", "Journey of scale, and back",
-              [](LiveView& view, std::size_t) { view.turn_journey_round(); }},
-      LiveKey{Key::A, "A", "A magnet on a spring instead", [](LiveView& view, std::size_t) { view.toggle_analogy(); }},
-      LiveKey{Key::R, "R", "Begin again", [](LiveView& view, std::size_t) { view.begin_again(); }},
-      LiveKey{Key::H, "H", "Scene back to its place", [](LiveView& view, std::size_t) { view.bring_home(); }},
-      LiveKey{Key::Left, "Left", "Head left, right",
+      LiveKey{Key::Digit1, "1 to 9", Phrase::KeyChoose, [](LiveView& view, std::size_t number) { view.choose(number); },
+              Phrase::LeftClick, Key::Digit9},
+      LiveKey{MouseHand::kGripKey, "Space", Phrase::KeyHand, nullptr, Phrase::RightDragOrWheel},
+      LiveKey{MouseHand::kTurnOnKey, "T", Phrase::KeyTurnOn, nullptr, Phrase::MiddleClick},
+      LiveKey{Key::Enter, "Enter", Phrase::KeyStop, [](LiveView& view, std::size_t) { view.stop_force(); }},
+      LiveKey{Key::F2, "F2", Phrase::KeyParameters,
+              [](LiveView& view, std::size_t) { view.panels_.toggle_parameters(); }},
+      LiveKey{Key::M, "M", Phrase::KeyScale, [](LiveView& view, std::size_t) { view.next_scale(); }}.for_staff(),
+      LiveKey{Key::J, "J", Phrase::KeyJourney, [](LiveView& view, std::size_t) { view.turn_journey_round(); }},
+      LiveKey{Key::A, "A", Phrase::KeyAnalogy, [](LiveView& view, std::size_t) { view.toggle_analogy(); }},
+      LiveKey{Key::R, "R", Phrase::KeyStartAgain, [](LiveView& view, std::size_t) { view.begin_again(); }},
+      LiveKey{Key::H, "H", Phrase::KeyHome, [](LiveView& view, std::size_t) { view.bring_home(); }},
+      LiveKey{Key::Left, "Left", Phrase::KeyHeadAcross,
               [](LiveView& view, std::size_t) { view.move_head(-kHeadStepM, 0.0, 0.0); }}
           .for_staff(),
-      LiveKey{Key::Right, "Right", "Head left, right",
+      LiveKey{Key::Right, "Right", Phrase::KeyHeadAcross,
               [](LiveView& view, std::size_t) { view.move_head(kHeadStepM, 0.0, 0.0); }}
           .for_staff(),
-      LiveKey{Key::Up, "Up", "Head up, down", [](LiveView& view, std::size_t) { view.move_head(0.0, kHeadStepM, 0.0); }}
+      LiveKey{Key::Up, "Up", Phrase::KeyHeadHeight,
+              [](LiveView& view, std::size_t) { view.move_head(0.0, kHeadStepM, 0.0); }}
           .for_staff(),
-      LiveKey{Key::Down, "Down", "Head up, down",
+      LiveKey{Key::Down, "Down", Phrase::KeyHeadHeight,
               [](LiveView& view, std::size_t) { view.move_head(0.0, -kHeadStepM, 0.0); }}
           .for_staff(),
-      LiveKey{Key::PageUp, "PgUp", "Head nearer, farther",
+      LiveKey{Key::PageUp, "PgUp", Phrase::KeyHeadDistance,
               [](LiveView& view, std::size_t) { view.move_head(0.0, 0.0, kHeadStepM); }}
           .for_staff(),
-      LiveKey{Key::PageDown, "PgDn", "Head nearer, farther",
+      LiveKey{Key::PageDown, "PgDn", Phrase::KeyHeadDistance,
               [](LiveView& view, std::size_t) { view.move_head(0.0, 0.0, -kHeadStepM); }}
           .for_staff(),
-      LiveKey{Key::P, "P", "Hide the panels", [](LiveView& view, std::size_t) { view.panels_.toggle_all(); }}
+      LiveKey{Key::P, "P", Phrase::KeyPanels, [](LiveView& view, std::size_t) { view.panels_.toggle_all(); }}
           .for_staff(),
-      LiveKey{Key::S, "S", "Swap the eyes", [](LiveView& view, std::size_t) { view.picture_.swap_eyes(); }}.for_staff(),
-      LiveKey{Key::V, "V", "Stereo mode: next, before",
+      LiveKey{Key::S, "S", Phrase::KeySwapEyes, [](LiveView& view, std::size_t) { view.picture_.swap_eyes(); }}
+          .for_staff(),
+      LiveKey{Key::V, "V", Phrase::KeyStereoMode,
               [](LiveView& view, std::size_t) { view.picture_.change_mode(ViewPicture::Step::Next); }}
           .for_staff(),
-      LiveKey{Key::C, "C", "Stereo mode: next, before",
+      LiveKey{Key::C, "C", Phrase::KeyStereoMode,
               [](LiveView& view, std::size_t) { view.picture_.change_mode(ViewPicture::Step::Previous); }}
           .for_staff(),
-      LiveKey{Key::LeftBracket, "[", "Eyes 1 mm nearer, farther",
+      LiveKey{Key::LeftBracket, "[", Phrase::KeyEyeDistance,
               [](LiveView& view, std::size_t) { view.picture_.widen_eyes(-kEyeStepM); }}
           .for_staff(),
-      LiveKey{Key::RightBracket, "]", "Eyes 1 mm nearer, farther",
+      LiveKey{Key::RightBracket, "]", Phrase::KeyEyeDistance,
               [](LiveView& view, std::size_t) { view.picture_.widen_eyes(kEyeStepM); }}
           .for_staff(),
-      LiveKey{Key::G, "G", "Test pattern", [](LiveView& view, std::size_t) { view.picture_.toggle_calibration(); }}
+      LiveKey{Key::G, "G", Phrase::KeyTestPattern,
+              [](LiveView& view, std::size_t) { view.picture_.toggle_calibration(); }}
           .for_staff(),
-      LiveKey{Key::B, "B", "Contact to the wall's plane", [](LiveView& view, std::size_t) { view.bring_to_wall(); }}
+      LiveKey{Key::B, "B", Phrase::KeyContactToWall, [](LiveView& view, std::size_t) { view.bring_to_wall(); }}
           .for_staff(),
-      LiveKey{Key::F11, "F11", "Full screen", [](LiveView& view, std::size_t) { view.windows_.toggle_full_screen(); }}
+      LiveKey{Key::F11, "F11", Phrase::KeyFullScreen,
+              [](LiveView& view, std::size_t) { view.windows_.toggle_full_screen(); }}
           .for_staff(),
-      LiveKey{Key::F12, "F12", "Save the picture", [](LiveView& view, std::size_t) { view.picture_.save(); }}
+      LiveKey{Key::F12, "F12", Phrase::KeySavePicture, [](LiveView& view, std::size_t) { view.picture_.save(); }}
           .for_staff(),
-      LiveKey{Key::Escape, "Esc", "End", [](LiveView& view, std::size_t) { view.leaving_ = true; }}.for_staff(),
-      LiveKey{Key::F1, "F1", "", [](LiveView& view, std::size_t) { view.panels_.toggle_keys(); }},
+      LiveKey{Key::Escape, "Esc", Phrase::KeyEnd, [](LiveView& view, std::size_t) { view.leaving_ = true; }}
+          .for_staff(),
+      LiveKey{Key::F1, "F1", Phrase::Keys, [](LiveView& view, std::size_t) { view.panels_.toggle_keys(); }},
   };
   return kKeys;
 }
 
-render::DataPanel key_list(HandSource hand, bool unattended) {
+render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases) {
   render::DataPanel panel;
-  panel.title = "Keys";
-  panel.subtitle = "F1 hides them";
-  std::string_view text_above;
+  panel.title = phrases[Phrase::Keys];
+  panel.subtitle = phrases[Phrase::KeysHidden];
+  Phrase text_above = Phrase::Keys;
   for (const LiveKey& key : live_keys()) {
-    const std::string_view text = key.text;
-    if (text.empty() || (key.press == nullptr && hand != HandSource::Mouse) || (key.staff && unattended)) {
+    const bool shown = key.press != nullptr || hand == HandSource::Mouse;
+    if (key.text == Phrase::Keys || !shown || (key.staff && unattended)) continue;
+    const std::string name = phrases.word(key.name);
+    if (key.text == text_above) {
+      panel.rows.back().value += ", " + name;
       continue;
     }
-    if (text == text_above) {
-      panel.rows.back().value += std::string(", ") + key.name;
-      continue;
-    }
-    text_above = text;
-    const std::string_view mouse = key.mouse;
+    text_above = key.text;
     // without notes below them: with those the rows would stand on one another
-    panel.rows.push_back({key.text, key.name + (mouse.empty() ? "" : ", " + std::string(mouse)), ""});
+    panel.rows.push_back({phrases[key.text], name + (key.mouse ? ", " + phrases[*key.mouse] : ""), ""});
   }
   return panel;
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
+#include "exhibit/phrases.h"
 #include "render/frame.h"
 #include "render/key.h"
 
@@ -16,10 +18,10 @@ enum class HandSource { Mouse, Simulated, Device };
 // A key of the live window, or a run of keys that do the same with a number each.
 struct LiveKey {
   render::Key key;
-  const char* name;  // as the wall and docs/manual.md print it
-  const char* text;  // on the list of keys; neighbours of the same text share a line; empty: not listed
+  const char* name;      // as docs/manual.md prints it; the wall translates it
+  exhibit::Phrase text;  // on the list of keys; neighbours of the same text share a line; Keys: not listed
   void (*press)(LiveView& view, std::size_t number);  // 0 for the run's first key; null: MouseHand follows the key
-  const char* mouse = "";                             // does the same
+  std::optional<exhibit::Phrase> mouse{};             // does the same
   render::Key last = key;                             // of the run
   bool staff = false;                                 // does nothing in an unattended window
 
@@ -38,6 +40,6 @@ std::span<const LiveKey> live_keys();
 
 // The list of keys for the wall, without those of staff where nobody attends. Those of MouseHand stand there where the
 // mouse moves the hand.
-render::DataPanel key_list(HandSource hand, bool unattended);
+render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases);
 
 }  // namespace afm::app

@@ -44,9 +44,9 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
   const double millimetre_m = wall_scene_.panel_millimetre_m();
   if (const auto hit =
           material && parameters_shown_ && !hidden_ ? exhibit::hit_of(ray, panel, millimetre_m) : std::nullopt) {
-    pointed.control =
-        render::control_at(exhibit::parameter_panel(edits_.of(*material), "", exhibit::ChangeState::AsLoaded),
-                           exhibit::size_mm(panel, millimetre_m), hit->place_mm);
+    pointed.control = render::control_at(
+        exhibit::parameter_panel(edits_.of(*material), "", exhibit::ChangeState::AsLoaded, phrases()),
+        exhibit::size_mm(panel, millimetre_m), hit->place_mm);
     return pointed;
   }
   if (!parameters_shown_ && material && exhibit::hit_of(ray, wall_scene_.parameter_tab_placement(), millimetre_m)) {
@@ -67,32 +67,33 @@ void ViewPanels::press(const Pointed& pointed, std::size_t material, servo::Serv
     return;
   }
   edits_.apply(*pointed.control, material, *servo);
-  log_parameters(edits_.of(material));
+  const curves::LiveParameters& parameters = edits_.of(material);
+  if (parameters.refusal().empty()) return log_parameters(parameters);
+  core::log_line("parameters: not changed: " + parameters.refusal());
 }
 
 void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material,
                                 const std::string& material_title, const scene::TipState& tip) {
   const curves::LiveParameters& parameters = edits_.of(material);
   if (parameters_shown_) {
-    frame.control_panel = exhibit::parameter_panel(parameters, material_title, edits_.state(material, tip));
+    frame.control_panel = exhibit::parameter_panel(parameters, material_title, edits_.state(material, tip), phrases());
     frame.control_panel.pointed = pointed.control;
     frame.control_placement = wall_scene_.parameter_placement();
     frame.data_placement = render::kNoPlacement;
   } else {
-    frame.labels.push_back({.text = "Change the parameters (F2)",
+    frame.labels.push_back({.text = phrases()[exhibit::Phrase::ChangeParameters],
                             .highlighted = pointed.tab,
                             .placement = wall_scene_.parameter_tab_placement()});
   }
-  if (parameters_shown_ || parameters.changed()) exhibit::add_prediction(parameters, frame.force_panel);
+  if (parameters_shown_ || parameters.changed()) exhibit::add_prediction(parameters, phrases(), frame.force_panel);
 }
 
-void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece,
-                          const exhibit::Guidance& guidance) const {
+void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece) const {
   using exhibit::Note;
   std::string text;
-  if (centerpiece == exhibit::Centerpiece::Journey) text = guidance.text(Note::LeaveJourney);
-  if (centerpiece == exhibit::Centerpiece::Analogy) text = guidance.text(Note::LeaveAnalogy);
-  if (!keys_known_) text += (text.empty() ? "" : "     ") + guidance.text(Note::Keys);
+  if (centerpiece == exhibit::Centerpiece::Journey) text = note_text(phrases(), Note::LeaveJourney);
+  if (centerpiece == exhibit::Centerpiece::Analogy) text = note_text(phrases(), Note::LeaveAnalogy);
+  if (!keys_known_) text += (text.empty() ? "" : "     ") + note_text(phrases(), Note::Keys);
   if (text.empty()) return;
   frame.labels.push_back({.text = std::move(text), .highlighted = false, .placement = wall_scene_.note_placement()});
 }
@@ -104,7 +105,7 @@ void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::
     frame.force_placement = frame.data_placement = frame.control_placement = render::kNoPlacement;
   }
   if (keys_shown_) {
-    frame.data_panel = key_list(hand, unattended_);
+    frame.data_panel = key_list(hand, unattended_, phrases());
     frame.data_placement = wall_scene_.parameter_placement();
     frame.control_placement = render::kNoPlacement;
   }

@@ -51,7 +51,7 @@ class ViewPanels {
   ParameterEdits& edits() { return edits_; }
 
   // A short note below the left panel: how to leave what is shown, and, until F1 was used, where the keys are listed.
-  void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece, const exhibit::Guidance& guidance) const;
+  void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece) const;
 
   // Adds the panels of this moment to a frame: the parameters or the tab that opens them, the curve that follows from
   // what was changed, the keys; takes away what is hidden.
@@ -59,6 +59,7 @@ class ViewPanels {
               const std::string& material_title, const scene::TipState& tip, HandSource hand);
 
  private:
+  const exhibit::Phrases& phrases() const { return wall_scene_.phrases(); }
   void add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material,
                       const std::string& material_title, const scene::TipState& tip);
 

@@ -155,7 +155,7 @@ void ViewPicture::measure_depth(exhibit::Relief relief, std::int64_t now_ns) {
     comfort_.measured(*range, distance_m, settings_.ipd_m);
     depth_ = exhibit::report_depth(*range, distance_m, comfort_.settled_ipd_m(settings_.ipd_m), relief);
     if ((depth_.hard && !was_hard) || now_ns - depth_logged_ns_ >= kDepthLogNs) {
-      core::log_line(depth_.text);
+      core::log_line(exhibit::depth_text(depth_, stage_.english));
       depth_logged_ns_ = now_ns;
     }
   }
@@ -195,7 +195,8 @@ void ViewPicture::log_update(const std::vector<render::SavedPicture>& saved) {
 
 void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::int64_t now_ns,
                        const std::function<void()>& while_waiting) {
-  if (!calibrating_ && !shares_.front().flat) frame.labels.push_back(exhibit::depth_label(depth_, stage_.screen));
+  if (!calibrating_ && !shares_.front().flat)
+    frame.labels.push_back(exhibit::depth_label(depth_, stage_.screen, stage_.phrases()));
   while_waiting();
   if (!presenter_.begin(pictures_, while_waiting)) {
     times_.hidden();
@@ -205,7 +206,7 @@ void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::i
     frame.eyes = share.eyes;
     if (calibrating_) {
       const scene::StereoMode mode = other_mode_.value_or(outputs_[share.windows.front()].mode);
-      exhibit::show_calibration(share.screen, mode, settings_.ipd_m, frame);
+      exhibit::show_calibration(share.screen, mode, settings_.ipd_m, stage_.phrases(), frame);
     }
     renderer_.render(frame);
     if (&share == &shares_.front()) {
@@ -223,7 +224,7 @@ void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::i
 }
 
 std::optional<render::DataRow> ViewPicture::quality_row() const {
-  return budget_ ? std::optional(budget_->row()) : std::nullopt;
+  return budget_ ? std::optional(budget_->row(stage_.phrases())) : std::nullopt;
 }
 
 }  // namespace afm::app

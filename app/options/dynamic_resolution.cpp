@@ -71,9 +71,7 @@ bool DynamicResolution::add(double frame_ms) {
 std::string DynamicResolution::text() const {
   std::string text = fmt::format("{:.0f} % of the pixels each way, {} sample{}", 100.0 * quality().scale,
                                  quality().samples, quality().samples == 1 ? "" : "s");
-  if (step_ + 1 == steps_.size() && typical_ms_ > budget_ms_) {
-    text += fmt::format(", and still {:.0f} ms", typical_ms_);
-  }
+  if (over_budget()) text += fmt::format(", and still {:.0f} ms", typical_ms_);
   return text;
 }
 
@@ -84,7 +82,15 @@ void DynamicResolution::follow(render::Renderer& renderer) {
   core::log_line("to stay within the frame's budget: " + text());
 }
 
-render::DataRow DynamicResolution::row() const { return {"picture", text(), fmt::format("{} ms a frame", budget_ms_)}; }
+render::DataRow DynamicResolution::row(const exhibit::Phrases& phrases) const {
+  using enum exhibit::Phrase;
+  const std::string budget = fmt::format("{:g} ms", budget_ms_);
+  return {
+      phrases[Picture],
+      phrases.text<PictureQuality>(fmt::format("{:.0f}", 100.0 * quality().scale), std::to_string(quality().samples)),
+      over_budget() ? phrases.text<PictureOverBudget>(fmt::format("{:.0f} ms", typical_ms_), budget)
+                    : phrases.text<PictureBudget>(budget)};
+}
 
 void add_frame_budget(OptionList& command, double& budget_ms) {
   command

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "exhibit/phrases.h"
 #include "render/frame.h"
 #include "render/renderer.h"
 
@@ -33,10 +34,13 @@ class DynamicResolution {
   std::string text() const;
 
   // The same for the wall.
-  render::DataRow row() const;
+  render::DataRow row(const exhibit::Phrases& phrases) const;
 
  private:
   bool go(std::size_t step);
+  bool over_budget() const {
+    return step_ + 1 == steps_.size() && typical_ms_ > budget_ms_;
+  }  // nothing coarser is left
   double finer_cost() const;
 
   double budget_ms_;

@@ -51,8 +51,25 @@ void add_scale_option(OptionList& command, scene::ScaleMode& mode) {
       fmt::format("how nm and nN become mm and N in the hand: {}default: {}", meanings, scene::text_of(mode).word));
 }
 
-void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
+void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
   files.assets_dir = context.assets_dir;
+  files.language = context.language;
+  enum_option(command, "--language", files.language, "a language", exhibit::kLanguages, &exhibit::LanguageRow::word,
+              &exhibit::LanguageRow::word,
+              "language of wall and report; default: that of the locale (LC_ALL, LC_MESSAGES or LANG), else en");
+  command
+      .add_option(
+          "--guidance", files.guidance,
+          fmt::format("phrase file (TOML) of your own, such as a part of {}/guidance/en.toml in your words; what "
+                      "it lacks is as in --language",
+                      context.assets_dir))
+      .type_name("FILE");
+  command.add_option("--assets", files.assets_dir, "folder of the models, walls, materials and languages")
+      .type_name("DIR");
+}
+
+void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
+  add_phrase_options(command, files, context);
   command
       .add_option("--wall", files.wall,
                   "wall file (TOML): the screen's corners and the viewer; default: the paper's 10 ft x 7.5 ft wall")
@@ -61,13 +78,6 @@ void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const 
       .add_option("--materials", files.materials,
                   "material file (TOML) of your own, shown instead of mica, gold and silicon nitride of the paper")
       .type_name("FILE");
-  command
-      .add_option(
-          "--guidance", files.guidance,
-          fmt::format("what the wall tells a person to do, in another language (TOML, such as {}/guidance/de.toml)",
-                      context.assets_dir))
-      .type_name("FILE");
-  command.add_option("--assets", files.assets_dir, "folder of the models, walls and materials").type_name("DIR");
 }
 
 }  // namespace afm::app

@@ -19,7 +19,10 @@ void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files);
 // --scale.
 void add_scale_option(OptionList& command, scene::ScaleMode& mode);
 
-// --wall, --materials and --assets.
-void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const app::CommandContext& context);
+// --language, --guidance and --assets: the words of what is drawn or reported.
+void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context);
+
+// The same, and --wall and --materials.
+void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context);
 
 }  // namespace afm::app

@@ -107,24 +107,6 @@ bool LiveParameters::step(Row row, int direction) {
 
 bool LiveParameters::reset() { return changed() && take({}); }
 
-std::string LiveParameters::name(Row row) const {
-  switch (row) {
-    case Row::TipRadius:
-      return "Tip radius R";
-    case Row::SpringConstant:
-      return "Spring constant k";
-    case Row::Hamaker:
-      return "Hamaker constant A";
-    case Row::WorkOfAdhesion:
-      return "Work of adhesion W";
-    case Row::ReducedModulus:
-      return "Reduced modulus E*";
-    case Row::Law:
-      break;
-  }
-  return "Law of force";
-}
-
 std::string typographic(std::string text) {
   if (text.ends_with("m2")) text.replace(text.size() - 1, 1, "\u00b2");
   if (const std::size_t micro = text.find(" u"); micro != std::string::npos) text.replace(micro + 1, 1, "\u00b5");
@@ -149,7 +131,7 @@ std::string LiveParameters::value(Row row) const {
     case Row::Law:
       break;
   }
-  return fmt::format("{}{}", law_after(steps_[index(row)]) ? "" : "auto: ", law_name(now_.parameters));
+  return fmt::format("{}{}", automatic_law() ? "auto: " : "", law_name(now_.parameters));
 }
 
 }  // namespace afm::curves

@@ -20,7 +20,7 @@ scene::MaterialEntry entry_of(const std::string& path, const CurveMetadata& meta
   entry.name = "measured";
   entry.title = std::filesystem::path(path).stem().string();
   entry.look = like.look;
-  entry.note = metadata.instrument.empty() ? "a recorded curve" : "recorded by " + metadata.instrument;
+  entry.note = metadata.instrument;
   entry.contact = like.contact;
   if (metadata.spring_constant) {
     entry.contact.spring_constant = *metadata.spring_constant;

@@ -86,13 +86,4 @@ std::string law_name(const scene::SharedContact& parameters) {
   return fmt::format("{}{}", parameters.dynamic != 0 ? "dynamic-" : "", physics::name_of(parameters.law));
 }
 
-std::string law_reason(const SampleModel& material) {
-  const Law law = material.parameters.law;
-  if (law == Law::Measured) return "as an instrument recorded it";
-  const std::string place = fmt::format("Tabor parameter {:.2g}, regime {}", material.contact.tabor,
-                                        physics::name_of(material.contact.regime));
-  if (law == material.contact.law) return place + ": it suits";
-  return fmt::format("{}: {} would suit", place, physics::name_of(material.contact.law));
-}
-
 }  // namespace afm::curves

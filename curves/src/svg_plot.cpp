@@ -77,6 +77,7 @@ struct Axis {
   double high = -std::numeric_limits<double>::infinity();
   double step = 1;
   AxisScale scale = AxisScale::Linear;
+  char decimal_mark = '.';
 
   // where a number stands on the axis; NaN where it has no place
   double place(double value) const {
@@ -84,7 +85,12 @@ struct Axis {
     return value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
   }
 
-  std::string text(double tick) const { return scale == AxisScale::Linear ? tick_text(tick, step) : power_text(tick); }
+  std::string text(double tick) const {
+    if (scale == AxisScale::Logarithmic) return power_text(tick);
+    std::string digits = tick_text(tick, step);
+    std::replace(digits.begin(), digits.end(), '.', decimal_mark);
+    return digits;
+  }
 
   bool is_zero(double tick) const { return scale == AxisScale::Linear && tick == 0; }
 
@@ -159,6 +165,7 @@ class Frame {
         bottom_(plot.height - kBottom) {
     x_.scale = plot.x_scale;
     y_.scale = plot.y_scale;
+    x_.decimal_mark = y_.decimal_mark = plot.decimal_mark;
     for (const SvgLine& line : plot.lines) {
       for (const SvgPoint& point : line.points) include(placed(point));
     }

@@ -118,7 +118,7 @@ std::string man_page(const app::CommandDescription& program, const Release& rele
   page +=
       ".SH FILES\n"
       "Installed by the Debian package; with another prefix, below that instead of /usr.\n"
-      ".TP\n\\fI/usr/share/touchafm\\fR\nmaterials, probes, models, walls, wands and the guidance\\(aqs languages\n"
+      ".TP\n\\fI/usr/share/touchafm\\fR\nmaterials, probes, models, walls, wands and the languages of wall and report\n"
       ".TP\n\\fI/usr/share/doc/touchafm\\fR\nthe manual, the documents that the help names\n"
       "below docs/, and in\n\\fIexamples\\fR\nfiles to copy and change\n";
   return page;

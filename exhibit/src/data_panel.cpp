@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -26,22 +27,24 @@ std::string signed_text(double value, int decimals, const char* unit) {
   return fmt::format("{}{:.{}f} {}", sign, std::abs(value), decimals, unit);
 }
 
-// A number of the contact: with where it comes from, or, marked, what it was before it was changed.
+// A number of the contact: with its source or, if it was changed, with its first value.
 template <class Q, class Text>
-render::DataRow row(const curves::SampleModel& material, const char* name, const char* option,
+render::DataRow row(const curves::SampleModel& material, const Phrases& phrases, Phrase name, const char* option,
                     Q physics::ContactParameters::* member, const Text& text) {
   const Q now = material.parameters.contact.*member;
   const Q before = material.setup.material.contact.*member;
-  render::DataRow row{name, text(now), ""};
+  render::DataRow row{phrases[name], phrases.number(text(now)), ""};
   if (now != before) {
     row.value = "\u2192 " + row.value;
-    row.source = "changed from " + text(before);
+    row.source = phrases.text<Phrase::ChangedFrom>(text(before));
     return row;
   }
   for (const std::string_view key : curves::find_contact_parameter(option)->source_keys) {
     const scene::SourcedValue* sourced = scene::find_source(material.setup.material.sources, key);
     if (sourced == nullptr) continue;
-    row.source = (sourced->estimated ? "estimated: " : "") + sourced->source;
+    const std::string source = phrases.word(sourced->source);
+    const std::array values{source};
+    row.source = sourced->estimated ? phrases.filled(Phrase::Estimated, values) : source;
     break;
   }
   return row;
@@ -51,76 +54,96 @@ std::string length_text(physics::Length q) { return format_quantity(q, physics::
 std::string stiffness_text(physics::Stiffness q) { return fmt::format("{:.3g} N/m", q.si); }
 std::string energy_text(physics::Energy q) { return format_quantity(q, physics::kEnergyUnits, kDigits); }
 std::string surface_energy_text(physics::SurfaceEnergy q) { return fmt::format("{:.3f} mJ/m\u00b2", q.si * 1e3); }
-std::string pressure_text(physics::Pressure q) {
-  return physics::isfinite(q) ? format_quantity(q, physics::kPressureUnits, kDigits) : "rigid";
+
+std::string hysteresis_text(const physics::CycleFigures& figures, const Phrases& phrases) {
+  const physics::Stiffness critical = figures.critical_stiffness;
+  if (!physics::isfinite(critical)) return phrases[Phrase::HysteresisAlways];
+  const std::string k = stiffness_text(critical);
+  return figures.hysteretic ? phrases.text<Phrase::HysteresisBelow>(k) : phrases.text<Phrase::NoHysteresisAbove>(k);
 }
 
-std::string hysteresis_text(const physics::CycleFigures& figures) {
-  const physics::Stiffness critical = figures.critical_stiffness;
-  if (!physics::isfinite(critical)) return "hysteresis with any lever";
-  return fmt::format("{} {}", figures.hysteretic ? "hysteresis vanishes at k =" : "no hysteresis: k is above",
-                     stiffness_text(critical));
+// The reason for the law, from the Tabor parameter.
+std::string law_text(const curves::SampleModel& material, const Phrases& phrases) {
+  const Law law = material.parameters.law;
+  if (law == Law::Measured) return phrases[Phrase::LawOfRecording];
+  const std::string tabor = fmt::format("{:.2g}", material.contact.tabor);
+  const std::string regime = phrases.word(std::string(physics::name_of(material.contact.regime)));
+  if (law == material.contact.law) return phrases.text<Phrase::LawSuits>(tabor, regime);
+  return phrases.text<Phrase::OtherLawSuits>(tabor, regime, physics::name_of(material.contact.law));
+}
+
+// The numbers that the law uses.
+void add_contact_rows(const curves::SampleModel& material, const Phrases& phrases, render::DataPanel& panel) {
+  using enum Phrase;
+  using physics::ContactParameters;
+  const auto add = [&](Phrase name, const char* option, auto member, const auto& text) {
+    panel.rows.push_back(row(material, phrases, name, option, member, text));
+  };
+  const auto pressure_text = [&](physics::Pressure q) {
+    return physics::isfinite(q) ? format_quantity(q, physics::kPressureUnits, kDigits) : phrases[Rigid];
+  };
+  const physics::LawTraits& traits = physics::traits_of(material.parameters.law);
+  add(TipRadius, "tip-radius", &ContactParameters::tip_radius, length_text);
+  add(SpringConstant, "spring-constant", &ContactParameters::spring_constant, stiffness_text);
+  if (traits.van_der_waals) add(HamakerConstant, "hamaker", &ContactParameters::hamaker, energy_text);
+  if (traits.adhesion) {
+    add(SurfaceEnergy, "work-of-adhesion", &ContactParameters::mean_surface_energy, surface_energy_text);
+  }
+  if (traits.modulus != physics::ModulusUse::Unused) {
+    add(ReducedModulus, "reduced-modulus", &ContactParameters::reduced_modulus, pressure_text);
+  }
+  if (traits.atomic_distance) {
+    add(AtomicDistance, "atomic-distance", &ContactParameters::atomic_distance, length_text);
+  }
 }
 
 }  // namespace
 
-render::DataPanel data_panel(const curves::SampleModel& material, const scene::Tip& tip) {
-  using physics::ContactParameters;
+render::DataPanel data_panel(const curves::SampleModel& material, const scene::Tip& tip, const Phrases& phrases) {
   const physics::CycleFigures& figures = material.figures();
-  const Law law = material.parameters.law;
+  const scene::MaterialEntry& entry = material.setup.material;
   render::DataPanel panel;
-  panel.title = material.setup.material.title;
-  panel.subtitle = law == Law::Measured
-                       ? material.setup.material.note
-                       : fmt::format("{} tip, in {}", material.setup.material.tip, material.setup.material.medium);
-  panel.rows = {
-      row(material, "Tip radius R", "tip-radius", &ContactParameters::tip_radius, length_text),
-      row(material, "Spring constant k", "spring-constant", &ContactParameters::spring_constant, stiffness_text)};
-  const physics::LawTraits& traits = physics::traits_of(law);
-  if (traits.van_der_waals) {
-    panel.rows.push_back(row(material, "Hamaker constant A", "hamaker", &ContactParameters::hamaker, energy_text));
+  panel.title = phrases.word(entry.title);
+  if (material.parameters.law != Law::Measured) {
+    panel.subtitle = phrases.text<Phrase::TipAndMedium>(phrases.word(entry.tip), phrases.word(entry.medium));
+  } else if (!entry.note.empty()) {
+    panel.subtitle = phrases.text<Phrase::RecordedBy>(entry.note);
   }
-  if (traits.adhesion) {
-    panel.rows.push_back(row(material, "Surface energy \u221a(\u03b3\u03b3)", "work-of-adhesion",
-                             &ContactParameters::mean_surface_energy, surface_energy_text));
-  }
-  if (traits.modulus != physics::ModulusUse::Unused) {
-    panel.rows.push_back(
-        row(material, "Reduced modulus E*", "reduced-modulus", &ContactParameters::reduced_modulus, pressure_text));
-  }
-  if (traits.atomic_distance) {
-    panel.rows.push_back(
-        row(material, "Atomic distance z0", "atomic-distance", &ContactParameters::atomic_distance, length_text));
-  }
-  panel.rows.push_back({"Law of force", curves::law_name(material.parameters), curves::law_reason(material)});
+  add_contact_rows(material, phrases, panel);
+  panel.rows.push_back({phrases[Phrase::ForceLaw], curves::law_name(material.parameters), law_text(material, phrases)});
   if (figures.hysteretic) {
-    panel.rows.push_back({"Snap-in / pull-off",
-                          fmt::format("{:.3f} / {:.3f} nN", std::abs(figures.force_after_jtc.si) * curves::kNnPerN,
-                                      std::abs(figures.force_before_joc.si) * curves::kNnPerN),
-                          fmt::format("at Z = {:.2f} nm / {:.2f} nm", figures.z_jtc.si * curves::kNmPerM,
-                                      figures.z_joc.si * curves::kNmPerM)});
+    panel.rows.push_back(
+        {phrases[Phrase::SnapInAndPullOff],
+         phrases.number(fmt::format("{:.3f} / {:.3f} nN", std::abs(figures.force_after_jtc.si) * curves::kNnPerN,
+                                    std::abs(figures.force_before_joc.si) * curves::kNnPerN)),
+         phrases.text<Phrase::AtHeights>(fmt::format("{:.2f} nm", figures.z_jtc.si * curves::kNmPerM),
+                                         fmt::format("{:.2f} nm", figures.z_joc.si * curves::kNmPerM))});
   }
-  panel.rows.push_back({"Energy of the loop", fmt::format("{:.3g} aJ", figures.loop_energy.si * curves::kAjPerJ),
-                        hysteresis_text(figures)});
-  panel.rows.push_back({"Force on the tip", signed_text(tip.force_n * curves::kNnPerN, 3, "nN"),
-                        fmt::format("lever bent by {}", signed_text(tip.deflection_m * curves::kNmPerM, 2, "nm"))});
+  panel.rows.push_back({phrases[Phrase::LoopEnergy],
+                        phrases.number(fmt::format("{:.3g} aJ", figures.loop_energy.si * curves::kAjPerJ)),
+                        hysteresis_text(figures, phrases)});
+  panel.rows.push_back({phrases[Phrase::ForceOnTip],
+                        phrases.number(signed_text(tip.force_n * curves::kNnPerN, 3, "nN")),
+                        phrases.text<Phrase::LeverBent>(signed_text(tip.deflection_m * curves::kNmPerM, 2, "nm"))});
   return panel;
 }
 
-render::DataPanel results_panel(std::span<const CycleResult> results) {
+render::DataPanel results_panel(std::span<const CycleResult> results, const Phrases& phrases) {
   render::DataPanel panel;
-  panel.title = "What was felt";
-  panel.subtitle = "jump to contact / jump off contact";
+  panel.title = phrases[Phrase::Results];
+  panel.subtitle = phrases[Phrase::SnapInAndPullOff];
   for (const CycleResult& result : results) {
+    const std::string title = phrases.word(result.title);
     if (!result.hysteretic) {
-      panel.rows.push_back({result.title, "no jumps", fmt::format("law {}, a lever too stiff for them", result.law)});
+      panel.rows.push_back({title, phrases[Phrase::NoJumps], phrases.text<Phrase::NoJumpsBecause>(result.law)});
       continue;
     }
     panel.rows.push_back(
-        {result.title,
-         fmt::format("{:.3f} / {:.3f} nN", result.f_attr_n * curves::kNnPerN, result.f_ad_n * curves::kNnPerN),
-         fmt::format("at {:.2f} nm / {:.2f} nm, law {}", result.z_jtc_m * curves::kNmPerM,
-                     result.z_joc_m * curves::kNmPerM, result.law)});
+        {title,
+         phrases.number(
+             fmt::format("{:.3f} / {:.3f} nN", result.f_attr_n * curves::kNnPerN, result.f_ad_n * curves::kNnPerN)),
+         phrases.text<Phrase::ResultHeights>(fmt::format("{:.2f} nm", result.z_jtc_m * curves::kNmPerM),
+                                             fmt::format("{:.2f} nm", result.z_joc_m * curves::kNmPerM), result.law)});
   }
   return panel;
 }

@@ -78,7 +78,32 @@ void take_aspect(double aspect, scene::Screen& screen) {
 
 }  // namespace
 
+std::string language_of_locale(std::span<const std::string> values) {
+  const auto set = std::find_if(values.begin(), values.end(), [](const std::string& value) { return !value.empty(); });
+  if (set != values.end()) {
+    const std::string_view language = std::string_view(*set).substr(0, set->find_first_of("_.@-"));
+    for (const LanguageRow& row : kLanguages) {
+      if (row.word == language) return std::string(language);
+    }
+  }
+  return std::string(kLanguages.front().word);
+}
+
+core::Result<LoadedPhrases> load_phrases(const ExhibitFiles& files) {
+  const auto of_language = [&](std::string_view language) {
+    return Phrases::load(fmt::format("{}/guidance/{}.toml", files.assets_dir, language));
+  };
+  auto english = of_language(kLanguages.front().word);
+  if (!english) return tl::unexpected(english.error());
+  auto wall = files.language == kLanguages.front().word ? english : of_language(files.language);
+  if (wall && !files.guidance.empty()) wall = Phrases::load(files.guidance, *wall);
+  if (!wall) return tl::unexpected(wall.error());
+  return LoadedPhrases{std::move(*english), std::move(*wall)};
+}
+
 core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
+  auto phrases = load_phrases(files);
+  if (!phrases) return tl::unexpected(phrases.error());
   auto materials = shown_materials(files);
   if (!materials) return tl::unexpected(materials.error());
   auto wall = scene::load_wall(files.wall.empty() ? files.assets_dir + "/walls/powerwall.toml" : files.wall);
@@ -89,12 +114,10 @@ core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
   if (!eyes) return tl::unexpected(eyes.error());
   const auto own = load_own_models(files.probe, files.sample);
   if (!own) return tl::unexpected(own.error());
-  auto wall_scene = WallScene::load(files.assets_dir, *materials, place, *own);
+  auto wall_scene = WallScene::load(files.assets_dir, *materials, place, phrases->wall, *own);
   if (!wall_scene) return tl::unexpected(wall_scene.error());
-  auto guidance = Guidance::load(files.guidance.empty() ? files.assets_dir + "/guidance/en.toml" : files.guidance);
-  if (!guidance) return tl::unexpected(guidance.error());
-  return Stage{std::move(*materials),  std::move(*wall),    place.main, *eyes,
-               std::move(*wall_scene), std::move(*guidance)};
+  return Stage{std::move(*materials),  std::move(*wall),           place.main, *eyes,
+               std::move(*wall_scene), std::move(phrases->english)};
 }
 
 bool is_model_file(const std::string& name) {

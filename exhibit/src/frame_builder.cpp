@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 
+#include "core/enumerators.h"
 #include "curves/plot_units.h"
 #include "exhibit/data_panel.h"
+#include "exhibit/journey.h"
 #include "haptics/scaling.h"
 #include "panel_conventions.h"
 #include "physics/quantity_text.h"
@@ -23,28 +25,20 @@ using physics::format_quantity;
 constexpr double kAxisBelow = 0.42, kAxisAbove = 1.42;
 constexpr double kPushShare = 0.4;  // of the reach: the deepest push
 constexpr double kHardlyPulled = 0.05;
+constexpr const char* kApart = "     ";  // between two facts on a line
 
 struct StateSign {
-  const char* word;
   render::StateShape shape;
   glm::vec3 color;
 };
 
-StateSign sign_of(scene::ServoState state) {
-  switch (state) {
-    case scene::ServoState::Arming:
-      return {"ARMING", render::StateShape::Triangle, {0.94F, 0.89F, 0.26F}};
-    case scene::ServoState::Running:
-      return {"FORCE ON", render::StateShape::Circle, {0.34F, 0.85F, 0.60F}};
-    case scene::ServoState::Fading:
-      return {"RELEASING", render::StateShape::Diamond, {0.90F, 0.62F, 0.0F}};
-    case scene::ServoState::Fault:
-      return {"FAULT", render::StateShape::Cross, {0.95F, 0.35F, 0.25F}};
-    case scene::ServoState::Disarmed:
-      break;
-  }
-  return {"FORCE OFF", render::StateShape::Square, {0.70F, 0.74F, 0.80F}};
-}
+// In the order of scene::ServoState.
+const std::array<StateSign, 5> kStateSigns{{{render::StateShape::Square, {0.70F, 0.74F, 0.80F}},
+                                            {render::StateShape::Triangle, {0.94F, 0.89F, 0.26F}},
+                                            {render::StateShape::Circle, {0.34F, 0.85F, 0.60F}},
+                                            {render::StateShape::Diamond, {0.90F, 0.62F, 0.0F}},
+                                            {render::StateShape::Cross, {0.95F, 0.35F, 0.25F}}}};
+static_assert(after(Phrase::StateOff, core::kEnumerators<scene::ServoState>.size()) == Phrase::NotRealTime);
 
 // "33.1 nm": how much one metre of the wall shows.
 std::string scale_text(double m_per_m) {
@@ -79,19 +73,20 @@ class Axes {
 
 // The three forces that a cycle is known by: of the law at the fold, which is felt just before the jump; just after it,
 // the paper's F_attr; and the pull-off.
-std::vector<render::PlotMarker> jump_markers(const physics::CycleFigures& figures) {
+std::vector<render::PlotMarker> jump_markers(const physics::CycleFigures& figures, const Phrases& phrases) {
   using Kind = render::PlotMarker::Kind;
   const double z_jtc_nm = figures.z_jtc.si * curves::kNmPerM, z_joc_nm = figures.z_joc.si * curves::kNmPerM;
   const double fold_nn = figures.force_before_jtc.si * curves::kNnPerN;
   const double after_nn = figures.force_after_jtc.si * curves::kNnPerN;
   const double pull_off_nn = figures.force_before_joc.si * curves::kNnPerN;
   std::vector<render::PlotMarker> markers{
-      {Kind::VerticalLine, z_jtc_nm, fmt::format("Z_jtc {:.2f} nm", z_jtc_nm)},
-      {Kind::VerticalLine, z_joc_nm, fmt::format("Z_joc {:.2f} nm", z_joc_nm)},
-      {Kind::HorizontalLine, after_nn, fmt::format("F_attr {:.3f} nN", std::abs(after_nn))},
-      {Kind::HorizontalLine, pull_off_nn, fmt::format("F_ad {:.3f} nN", std::abs(pull_off_nn))}};
+      {Kind::VerticalLine, z_jtc_nm, phrases.number(fmt::format("Z_jtc {:.2f} nm", z_jtc_nm))},
+      {Kind::VerticalLine, z_joc_nm, phrases.number(fmt::format("Z_joc {:.2f} nm", z_joc_nm))},
+      {Kind::HorizontalLine, after_nn, phrases.number(fmt::format("F_attr {:.3f} nN", std::abs(after_nn)))},
+      {Kind::HorizontalLine, pull_off_nn, phrases.number(fmt::format("F_ad {:.3f} nN", std::abs(pull_off_nn)))}};
   if (fold_nn != 0.0) {
-    markers.push_back({Kind::HorizontalLine, fold_nn, fmt::format("F_fold {:.3f} nN", std::abs(fold_nn))});
+    markers.push_back(
+        {Kind::HorizontalLine, fold_nn, phrases.number(fmt::format("F_fold {:.3f} nN", std::abs(fold_nn)))});
   }
   return markers;
 }
@@ -122,19 +117,20 @@ core::Result<std::array<scene::EyeView, 2>> eyes_at_sweet_spot(const scene::Wall
   return eyes;
 }
 
-std::string stage_of_cycle(const Moment& moment, double z_jtc_m) {
-  if (moment.phase == physics::Phase::WaitForLift) return "lift the tip";
+Phrase stage_of_cycle(const Moment& moment, double z_jtc_m) {
+  using enum Phrase;
+  if (moment.phase == physics::Phase::WaitForLift) return StageLift;
   if (moment.phase == physics::Phase::Free) {
-    if (moment.retracting) return "B \u2192 A   free again";
-    return moment.wall.tip.z_m < 2.0 * z_jtc_m ? "A \u2192 C   close to the jump" : "A \u2192 C   approach, no force";
+    if (moment.retracting) return StageFree;
+    return moment.wall.tip.z_m < 2.0 * z_jtc_m ? StageNear : StageApproach;
   }
-  if (!moment.retracting) return moment.wall.tip.z_m > 0.0 ? "C \u2192 D   jump to contact" : "D \u2192 E   press";
-  return moment.wall.tip.z_m > 0.0 ? "E \u2192 F   adhesion pulls" : "E \u2192 F   retract";
+  if (!moment.retracting) return moment.wall.tip.z_m > 0.0 ? StageSnapIn : StagePress;
+  return moment.wall.tip.z_m > 0.0 ? StageAdhesion : StageRetract;
 }
 
 FrameBuilder::FrameBuilder(const WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
                            const std::array<scene::EyeView, 2>& eyes)
-    : wall_scene_(&wall_scene), materials_(&materials), eyes_(eyes) {}
+    : wall_scene_(&wall_scene), phrases_(&wall_scene.phrases()), materials_(&materials), eyes_(eyes) {}
 
 render::FrameState FrameBuilder::build(const Moment& moment) const {
   render::FrameState frame;
@@ -142,19 +138,24 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
   wall_scene_->update(moment.wall, frame);
   frame.force_panel = force_panel(moment);
   if (moment.wall.centerpiece == Centerpiece::Plot) {
-    frame.data_panel = results_panel(moment.results);
+    frame.data_panel = results_panel(moment.results, *phrases_);
   } else if (moment.wall.material) {
-    frame.data_panel = data_panel((*materials_)[*moment.wall.material], moment.wall.tip);
+    frame.data_panel = data_panel((*materials_)[*moment.wall.material], moment.wall.tip, *phrases_);
   } else {
-    frame.data_panel = {.title = "No material yet", .subtitle = "point at a swatch and press", .rows = {}};
+    frame.data_panel = {
+        .title = (*phrases_)[Phrase::NoSample], .subtitle = (*phrases_)[Phrase::NoSampleAdvice], .rows = {}};
   }
   frame.banner = banner(moment);
   return frame;
 }
 
 render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
+  const Phrases& phrases = *phrases_;
   render::ForcePanel panel;
-  panel.title = "Force on the tip";
+  panel.title = phrases[Phrase::PlotTitle];
+  panel.words = {.approach = phrases[Phrase::PlotApproach],
+                 .retract = phrases[Phrase::PlotRetract],
+                 .decimal_mark = phrases.decimal_mark()};
   Axes axes;
   for (std::size_t i = 0; i < materials_->size(); ++i) {
     const bool in_front =
@@ -162,19 +163,19 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
     if (!in_front) continue;  // its forces need other axes: it would cross this plot from edge to edge
     axes.include((*materials_)[i]);
     if (i >= moment.curves.size() || moment.curves[i].empty()) continue;
-    panel.curves.push_back(moment.curves[i].plot((*materials_)[i].setup.material.title, curve_color(i)));
+    panel.curves.push_back(moment.curves[i].plot(phrases.word((*materials_)[i].setup.material.title), curve_color(i)));
   }
   axes.apply(panel);
   if (moment.wall.centerpiece == Centerpiece::Plot) {
-    panel.title = "Approach and retract, all together";
+    panel.title = phrases[Phrase::PlotTitleAll];
     panel.stage = "";
     return panel;
   }
   if (!moment.wall.material) return panel;
 
   const physics::CycleFigures& figures = (*materials_)[*moment.wall.material].figures();
-  if (figures.hysteretic) panel.markers = jump_markers(figures);
-  panel.stage = stage_of_cycle(moment, figures.z_jtc.si);
+  if (figures.hysteretic) panel.markers = jump_markers(figures, phrases);
+  panel.stage = phrases[stage_of_cycle(moment, figures.z_jtc.si)];
   if (moment.phase != physics::Phase::WaitForLift) {
     panel.cursor = render::PlotPoint{moment.wall.tip.z_m * curves::kNmPerM, moment.wall.tip.force_n * curves::kNnPerN};
   }
@@ -182,32 +183,34 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
 }
 
 render::Banner FrameBuilder::banner(const Moment& moment) const {
-  const StateSign sign = sign_of(moment.servo_state);
+  const Phrases& phrases = *phrases_;
+  const std::size_t state = core::index_of(moment.servo_state);
   render::Banner banner;
   banner.guidance = moment.guidance;
-  banner.state_word = sign.word;
-  banner.state_shape = sign.shape;
-  banner.state_color = sign.color;
-  if (!moment.realtime) banner.warning = "not real-time";
+  banner.state_word = phrases[after(Phrase::StateOff, state)];
+  banner.state_shape = kStateSigns[state].shape;
+  banner.state_color = kStateSigns[state].color;
+  if (!moment.realtime) banner.warning = phrases[Phrase::NotRealTime];
   if (moment.slow_motion > 1.0) {
-    banner.warning =
-        fmt::format("slow motion \u00d7{:.3g}{}", moment.slow_motion, moment.realtime ? "" : ", not real-time");
+    banner.warning = phrases.text<Phrase::SlowMotion>(fmt::format("{:.3g}", moment.slow_motion)) +
+                     (moment.realtime ? "" : ", " + phrases[Phrase::NotRealTime]);
   }
   if (moment.wall.centerpiece == Centerpiece::Journey) {
-    banner.guidance = fmt::format("Journey of scale: {}", journey_place(moment.wall.journey_orders));
-    banner.scale = fmt::format("true to scale: 1 m on the wall = {}",
-                               scale_text(wall_scene_->journey_m_per_m(moment.wall.journey_orders)));
+    const double orders = moment.wall.journey_orders;
+    banner.guidance = phrases.text<Phrase::Journey>(phrases[journey_place(orders)]);
+    banner.scale = phrases.text<Phrase::TrueScale>(scale_text(wall_scene_->journey_m_per_m(orders)));
     return banner;
   }
   const DrawnScale scale = wall_scene_->drawn_scale(moment.wall.material.value_or(0), moment.wall.release_z_m);
   banner.scale = fmt::format(
-      "sample and motion: 1 m = {}     lever: 1 m = {}     tip: 1 m = {}     deflection \u00d7{:.0f} against the lever",
-      scale_text(scale.sample_m_per_m), scale_text(scale.lever_m_per_m), scale_text(scale.tip_m_per_m),
-      scale.lever_m_per_m / scale.sample_m_per_m);
+      "{1}{0}{2}{0}{3}{0}{4}", kApart, phrases.text<Phrase::SampleScale>(scale_text(scale.sample_m_per_m)),
+      phrases.text<Phrase::LeverScale>(scale_text(scale.lever_m_per_m)),
+      phrases.text<Phrase::TipScale>(scale_text(scale.tip_m_per_m)),
+      phrases.text<Phrase::DeflectionScale>(fmt::format("{:.0f}", scale.lever_m_per_m / scale.sample_m_per_m)));
   // on a line of its own
   for (const render::DataRow& row : moment.servo) {
     banner.scale +=
-        fmt::format("{}{}: {} ({})", &row == &moment.servo.front() ? "\n" : "     ", row.name, row.value, row.source);
+        fmt::format("{}{}: {} ({})", &row == &moment.servo.front() ? "\n" : kApart, row.name, row.value, row.source);
   }
   return banner;
 }

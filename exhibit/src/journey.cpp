@@ -37,18 +37,12 @@ double scale_of(double orders) { return std::pow(10.0, std::clamp(orders, 0.0, k
 
 }  // namespace
 
-const char* journey_place(double orders) {
-  static constexpr std::array<std::pair<double, const char*>, 9> kNames{{{0.7, "the instrument on its bench"},
-                                                                         {1.7, "head and stage"},
-                                                                         {2.6, "probe holder"},
-                                                                         {3.5, "chip"},
-                                                                         {4.7, "cantilever"},
-                                                                         {6.2, "tip"},
-                                                                         {7.6, "apex, a ball of 50 nm radius"},
-                                                                         {8.3, "the last nanometres of the gap"},
-                                                                         {1e9, "atoms"}}};
-  const auto place = std::find_if(kNames.begin(), kNames.end() - 1, [&](const auto& p) { return orders < p.first; });
-  return place->second;
+Phrase journey_place(double orders) {
+  // where the places end
+  static constexpr std::array kEnds{0.7, 1.7, 2.6, 3.5, 4.7, 6.2, 7.6, 8.3};
+  static_assert(after(Phrase::PlaceBench, kEnds.size()) == Phrase::PlaceAtoms);
+  const auto* const end = std::find_if(kEnds.begin(), kEnds.end(), [&](double e) { return orders < e; });
+  return after(Phrase::PlaceBench, static_cast<std::size_t>(end - kEnds.begin()));
 }
 
 Journey::Journey(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout) {

@@ -81,8 +81,9 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
 }
 
 core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
-                                        const StagePlace& place, const UserModels& own) {
+                                        const StagePlace& place, const Phrases& phrases, const UserModels& own) {
   WallScene w;
+  w.phrases_ = phrases;
   w.lay_out(place);
   ModelBuilder build(assets_dir + "/models", w.scene_);
   w.add_instrument(build, own);
@@ -90,7 +91,8 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
     w.add_material(build, assets_dir, material, own);
     const auto of_this_title = [&](const scene::MaterialEntry& other) { return other.title == material.title; };
     const bool alone = std::count_if(materials.materials.begin(), materials.materials.end(), of_this_title) == 1;
-    w.titles_.push_back(alone ? material.title : fmt::format("{}, {}", material.title, material.medium));
+    const std::string title = phrases.word(material.title);
+    w.titles_.push_back(alone ? title : phrases.text<Phrase::TitleAndMedium>(title, phrases.word(material.medium)));
   }
   if (build.error()) return tl::unexpected(*build.error());
 

@@ -241,12 +241,12 @@ void WallScene::place_analogy_labels(const WallState& state, render::FrameState&
     const double y = height * std::cos(kSampleTiltRad) - 0.5 * kAnalogyLabelHeight;
     return panel_beside(-kAnalogyLabelGap - kAnalogyLabelWidth, y, kAnalogyLabelWidth, kAnalogyLabelHeight);
   };
-  frame.labels.push_back({"spring = cantilever", false, beside(analogy_.spring_middle(heights))});
-  frame.labels.push_back({"magnet = tip", false, beside(analogy_.magnet_middle(heights))});
+  frame.labels.push_back({phrases_[Phrase::AnalogySpring], false, beside(analogy_.spring_middle(heights))});
+  frame.labels.push_back({phrases_[Phrase::AnalogyMagnet], false, beside(analogy_.magnet_middle(heights))});
   const dmat4& room_from_sample = frame.room_from_node[sample_frame_];
   const auto vector = [&](const dvec3& v) { return dvec3(room_from_sample * glm::dvec4(v, 0.0)); };
   const dvec3 front = kAnalogyPlateLabel - dvec3(0.5 * kAnalogyLabelWidth, 0.0, 0.5 * kAnalogyLabelHeight);
-  frame.labels.push_back({"iron plate = sample",
+  frame.labels.push_back({phrases_[Phrase::AnalogyPlate],
                           false,
                           {.lower_left_m = dvec3(room_from_sample * glm::dvec4(front, 1.0)),
                            .right_m = vector({kAnalogyLabelWidth, 0.0, 0.0}),

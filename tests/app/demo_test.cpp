@@ -27,8 +27,8 @@ class Demo : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new support::ScratchFolder;
-    const std::string command =
-        AFM_PROGRAM " demo --out " + folder_->path() + " --hand-speed 120mm/s --eye-width 320 --servo " AFM_SERVO_MODE;
+    const std::string command = AFM_PROGRAM " demo --out " + folder_->path() +
+                                " --language en --hand-speed 120mm/s --eye-width 320 --servo " AFM_SERVO_MODE;
     result_ = new support::ProgramResult(support::run_program(command));
     // a virtual machine that stands still releases the hand again and again: then as a person would
     for (int more = 0; more < 2 && gave_up_for_load(*result_); ++more) *result_ = support::run_program(command);
@@ -160,10 +160,10 @@ TEST_F(Demo, ASessionIsDrawnAgain) {
   fs::remove(picture);
 }
 
-// Another law, and its parameters changed while the servo runs.
+// Another law, and its parameters changed while the servo runs; a locale chooses the report's language.
 TEST(DemoOfAnotherLaw, FeelsTheSameSampleWithOtherNumbers) {
   const support::ScratchFolder folder;
-  const auto result = support::run_program(AFM_PROGRAM " demo --out " + folder.path() +
+  const auto result = support::run_program("LC_ALL=de_DE.UTF-8 " AFM_PROGRAM " demo --out " + folder.path() +
                                            " --material mica --model dmt --vary spring-constant=0.2N/m:0.4N/m:2"
                                            " --hand-speed 150mm/s --eye-width 160 --servo " AFM_SERVO_MODE);
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -177,6 +177,11 @@ TEST(DemoOfAnotherLaw, FeelsTheSameSampleWithOtherNumbers) {
   EXPECT_NEAR(all["variations"][1]["z_joc_m"].get<double>(), 0.3819e-9 + 1.399894e-9 / 0.4, 1e-12);
   EXPECT_EQ(servo::load_session(folder.file("session-mica-vary-2.afms"))->parameters.contact.spring_constant.si, 0.4);
   EXPECT_TRUE(support::read_png(folder.file("vary-mica.png")).has_value());
+  EXPECT_EQ(all["variations"][0]["title"], "Mica 200 mN/m") << "data and log stay English";
+  EXPECT_THAT(result.err, HasSubstr("Mica"));
+  const std::string html = core::read_file(folder.file("report.html")).value();
+  EXPECT_THAT(html, HasSubstr("<html lang=\"de\">"));
+  EXPECT_THAT(html, HasSubstr("<td>Glimmer 200 mN/m (dmt)</td>"));
 }
 
 TEST(DemoOfAnotherLaw, RefusesWhatCannotBeFeltBeforeAnythingMoves) {

@@ -6,6 +6,8 @@
 
 #include <string>
 
+#include "support/phrases.h"
+
 namespace afm::app {
 namespace {
 
@@ -24,7 +26,7 @@ std::string report() {
   result.servo.wake_us.back() = 10;
   result.servo.wake_max_us = 11490;
   result.frame_ms = {1250.0, 1250.0};
-  return report_html(result, {{.caption = "a picture", .png = "PNG"}}, "<svg></svg>");
+  return report_html(result, {{.caption = "a picture", .png = "PNG"}}, "<svg></svg>", test::english());
 }
 
 TEST(Report, GivesTimesInTheUnitThatFits) {

@@ -11,6 +11,7 @@
 
 #include "core/whole_file.h"
 #include "places.h"
+#include "support/phrases.h"
 
 namespace afm::app {
 namespace {
@@ -51,21 +52,23 @@ TEST(LiveKeys, AreBoundOnce) {
 
 TEST(LiveKeys, FillTheListOnTheWall) {
   std::string list;
-  for (const render::DataRow& row : key_list(HandSource::Mouse, false).rows) list += row.name + ": " + row.value + "\n";
+  for (const render::DataRow& row : key_list(HandSource::Mouse, false, test::english()).rows)
+    list += row.name + ": " + row.value + "\n";
   for (const char* line : {"Choose a sample: 1 to 9, left click\n", "Turn-On: T, middle click\n", "Parameters: F2\n",
-                           "Stereo mode: next, before: V, C\n", "Eyes 1 mm nearer, farther: [, ]\n", "End: Esc\n"}) {
+                           "Stereo mode: next, previous: V, C\n", "Eyes 1 mm closer, farther: [, ]\n", "Quit: Esc\n"}) {
     EXPECT_THAT(list, testing::HasSubstr(line));
   }
-  for (const render::DataRow& row : key_list(HandSource::Device, false).rows) EXPECT_NE(row.name, "Turn-On");
+  for (const render::DataRow& row : key_list(HandSource::Device, false, test::english()).rows)
+    EXPECT_NE(row.name, "Turn-On");
 }
 
 TEST(LiveKeys, OfAnUnattendedWindowAreThoseOfVisitors) {
   std::string list;
-  for (const render::DataRow& row : key_list(HandSource::Mouse, true).rows) list += row.name + "\n";
-  for (const char* kept : {"Choose a sample", "Move the hand", "Turn-On", "Stop: no force, at once", "Begin again"}) {
+  for (const render::DataRow& row : key_list(HandSource::Mouse, true, test::english()).rows) list += row.name + "\n";
+  for (const char* kept : {"Choose a sample", "Move the hand", "Turn-On", "Stop the force", "Start again"}) {
     EXPECT_THAT(list, testing::HasSubstr(kept));
   }
-  for (const char* locked : {"End", "Full screen", "Save the picture", "Swap the eyes", "Test pattern", "Hide"}) {
+  for (const char* locked : {"Quit", "Full screen", "Save the picture", "Swap the eyes", "Test pattern", "Hide"}) {
     EXPECT_THAT(list, testing::Not(testing::HasSubstr(locked)));
   }
 }

@@ -10,6 +10,7 @@
 #include "curves/sample_model.h"
 #include "places.h"
 #include "scene/samples/material_library.h"
+#include "support/phrases.h"
 
 namespace afm::exhibit {
 namespace {
@@ -20,7 +21,7 @@ render::DataPanel panel_of(Law law) {
   const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
   curves::ContactSetup setup{*library.find("mica"), {}, {}};
   setup.model.law = law;
-  return data_panel(curves::make_sample_model(setup).value(), {});
+  return data_panel(curves::make_sample_model(setup).value(), {}, test::english());
 }
 
 bool shows(const render::DataPanel& panel, std::string_view begin) {

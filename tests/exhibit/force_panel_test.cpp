@@ -13,6 +13,7 @@
 #include "panels/marker_layout.h"
 #include "physics/cycle_figures.h"
 #include "places.h"
+#include "support/phrases.h"
 
 namespace afm::exhibit {
 namespace {
@@ -49,7 +50,7 @@ TEST(ForcePanel, NoLabelCoversAnotherForAnyMaterialOfTheLibrary) {
   std::size_t looked_at = 0;
   for (const scene::MaterialEntry& entry : library.materials) {
     const scene::MaterialLibrary one{{entry}};
-    const WallScene scene = WallScene::load(assets, one, stage_place(wall)).value();
+    const WallScene scene = WallScene::load(assets, one, stage_place(wall), test::english()).value();
     const std::vector<curves::SampleModel> felt{curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value()};
     const FrameBuilder frames(scene, felt, eyes_at_sweet_spot(wall).value());
     Moment moment;
@@ -81,7 +82,7 @@ TEST(ForcePanel, ThePresentSamplesCurveIsThereAlone) {
   const scene::MaterialLibrary library =
       scene::load_materials(assets + "/materials.toml").value().only(scene::kPaperMaterials).value();
   const scene::Wall wall = scene::load_wall(assets + "/walls/powerwall.toml").value();
-  const WallScene scene = WallScene::load(assets, library, stage_place(wall)).value();
+  const WallScene scene = WallScene::load(assets, library, stage_place(wall), test::english()).value();
   std::vector<curves::SampleModel> felt;
   for (const scene::MaterialEntry& entry : library.materials)
     felt.push_back(curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value());

@@ -9,6 +9,7 @@
 #include "render/control_layout.h"
 #include "render/presenter.h"
 #include "scene/samples/material_library.h"
+#include "support/phrases.h"
 
 namespace afm::exhibit {
 namespace {
@@ -28,7 +29,7 @@ curves::LiveParameters mica() {
 }
 
 TEST(ParameterPanel, TellsWhatFollowsFromTheParameters) {
-  const auto panel = parameter_panel(mica(), "Mica", ChangeState::AsLoaded);
+  const auto panel = parameter_panel(mica(), "Mica", ChangeState::AsLoaded, test::english());
   EXPECT_THAT(panel.notes, Contains(HasSubstr("Snap-in 240 pN at 2.4 nm")));
   EXPECT_THAT(panel.notes, Contains(HasSubstr("Pull-off 1.4 nN at 14 nm")));
   EXPECT_THAT(panel.notes, Contains(HasSubstr("Tabor")));
@@ -37,7 +38,7 @@ TEST(ParameterPanel, TellsWhatFollowsFromTheParameters) {
 }
 
 TEST(ParameterPanel, EveryTargetIsHitInItsMiddleAndNoTwoOverlap) {
-  const auto panel = parameter_panel(mica(), "Mica", ChangeState::AsLoaded);
+  const auto panel = parameter_panel(mica(), "Mica", ChangeState::AsLoaded, test::english());
   std::vector<Target> targets;
   for (std::size_t i = 0; i < panel.rows.size(); ++i) {
     targets.push_back({Target::Kind::Less, i});
@@ -60,7 +61,7 @@ TEST(ParameterPanel, EveryTargetIsHitInItsMiddleAndNoTwoOverlap) {
 TEST(ParameterPanel, ThePredictionStandsBehindTheFeltCurvesWithAxesThatHoldIt) {
   render::ForcePanel panel;
   panel.curves.resize(1);
-  add_prediction(mica(), panel);
+  add_prediction(mica(), test::english(), panel);
   ASSERT_EQ(panel.curves.size(), 2U);
   EXPECT_EQ(panel.curves.front().label, "predicted");
   EXPECT_TRUE(panel.curves.front().faded);

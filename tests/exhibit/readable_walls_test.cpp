@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -12,13 +13,24 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/bench/render_subjects.h"
+#include "app/live/view_keys.h"
+#include "core/enumerators.h"
+#include "core/whole_file.h"
+#include "exhibit/calibration.h"
+#include "exhibit/depth_report.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/guidance.h"
+#include "exhibit/parameter_panel.h"
+#include "exhibit/servo_rows.h"
 #include "panels/panel_painting.h"
 #include "places.h"
+#include "scene/shared/shared_blocks.h"
+#include "support/phrases.h"
+#include "support/scratch_folder.h"
 
 namespace afm::exhibit {
 namespace {
@@ -41,7 +53,9 @@ struct Painted {
   bool cut = false;              // there is an ellipsis
   float state_height_px = 0.0F;  // of the plate around the state's word
 
-  bool inside() const { return low.x >= -1.0F && low.y >= -1.0F && high.x <= size.x + 1.0F && high.y <= size.y + 1.0F; }
+  bool inside(float slack = 1.0F) const {
+    return low.x >= -slack && low.y >= -slack && high.x <= size.x + slack && high.y <= size.y + slack;
+  }
 };
 
 class Painter {
@@ -98,47 +112,119 @@ class Painter {
 };
 
 // The longest that the banner has to show in the live window.
-render::Banner full_banner(const Stage& stage, render::Banner banner) {
-  banner.guidance = stage.guidance.text(Hint::LetGo, {.hand = HandControls::Mouse, .pointer = Pointer::Mouse});
-  banner.state_word = "FORCE OFF";
+render::Banner full_banner(const Phrases& phrases, render::Banner banner) {
+  const Controls mouse{.hand = HandControls::Mouse, .pointer = Pointer::Mouse};
+  for (const Hint hint : core::kEnumerators<Hint>) {
+    const std::string text = step_text(phrases, hint, mouse);
+    if (text.size() > banner.guidance.size()) banner.guidance = text;
+  }
+  banner.state_word = phrases[Phrase::StateReleasing];
   banner.state_color = {0.70F, 0.74F, 0.81F};
-  banner.warning = "not real-time";
-  banner.scale +=
-      "\nScale of the hand: 0.708 mm/nm, 0.15 N/nN (fit: each sample fills the hand's stroke and force)     Force at "
-      "most: "
-      "2 N, 20 N/s (simulated hand)     Servo: 1000 Hz, not real-time (wakes late by p99 1000 \u00b5s, 12 of 61234 "
-      "ticks "
-      "missed)";
+  banner.warning = phrases[Phrase::NotRealTime];
+  scene::TipState tip;
+  tip.active.scale.hand_m_per_m = 7e5;
+  tip.active.scale.hand_n_per_n = 1.5e8;
+  tip.safety.force_cap_n = 2.0;
+  tip.safety.slew_limit_n_per_s = 20.0;
+  scene::ServoTiming timing;
+  timing.rate_hz = 1000.0;
+  timing.ticks = 61222;
+  timing.missed = 12;
+  timing.wake_us[999] = 61222;
+  timing.wake_max_us = 1000;
+  scene::SharedDevice device;
+  device.name = scene::to_name("simulated hand");
+  banner.scale += "\n";
+  for (const render::DataRow& row : servo_rows(tip, timing, device, phrases)) {
+    banner.scale += fmt::format("{}: {} ({})     ", row.name, row.value, row.source);
+  }
   return banner;
 }
 
-TEST(ReadableWalls, CutNoWordAndShowTheStateOnPicturesOfEverySize) {
-  for (const char* preset : kPresets) {
+render::ControlPanel full_parameters(const Stage& stage) {
+  const curves::LiveParameters gold(
+      curves::make_sample_model(curves::ContactSetup{stage.materials.materials[1], {}, {}}).value());
+  return parameter_panel(gold, stage.phrases().word("Silicon nitride"), ChangeState::Waiting, stage.phrases());
+}
+
+// What a visitor can see on one wall in one language, at one width.
+void expect_readable(const Stage& stage, const render::FrameState& frame, std::uint32_t width_px,
+                     const std::string& where) {
+  const Phrases& phrases = stage.phrases();
+  Painter painter(2.0 * width_px / stage.screen.width_m(), stage.wall_scene.panel_millimetre_m());
+  const auto expect_whole = [&](const auto& panel, const render::PanelPlacement& placement, const char* name) {
+    const Painted painted = painter.paint(panel, placement);
+    EXPECT_TRUE(painted.inside()) << where << ": " << name;
+    EXPECT_FALSE(painted.cut) << where << ": " << name << " is cut";
+  };
+  const render::Banner shown = full_banner(phrases, frame.banner);
+  const Painted banner = painter.paint(shown, frame.banner_placement, shown.state_color);
+  EXPECT_TRUE(banner.inside() && !banner.cut) << where << ": the banner";
+  const float letters = render::text_height_mm(render::TextStyle::Strong);
+  const float letter_px = banner.state_height_px * letters / (letters + 24.0F);
+  // a picture of 12 m x 2 m that is 400 pixels wide has 67 rows, 7 of them for the banner
+  if (glm::length(frame.banner_placement.up_m) * width_px / stage.screen.width_m() > kLeastBannerPx) {
+    EXPECT_GE(letter_px, kLeastLetterPx) << where;
+  }
+  expect_whole(frame.force_panel, frame.force_placement, "the plot");
+  expect_whole(frame.data_panel, frame.data_placement, "the data");
+  expect_whole(app::key_list(app::HandSource::Mouse, false, phrases), stage.wall_scene.parameter_placement(),
+               "the list of keys");
+  expect_whole(full_parameters(stage), stage.wall_scene.parameter_placement(), "the parameters");
+  const DepthReport depth = report_depth({.nearest_m = 1.0, .farthest_m = 10.0}, 2.5, 0.063, Relief::BringToWall);
+  std::vector<render::Label> labels = frame.labels;
+  labels.push_back(depth_label(depth, stage.screen, phrases));
+  labels.push_back({.text = phrases[Phrase::ChangeParameters],
+                    .highlighted = false,
+                    .placement = stage.wall_scene.parameter_tab_placement()});
+  labels.push_back({.text = phrases[Phrase::LeaveAnalogy] + "     " + phrases[Phrase::AllKeys],
+                    .highlighted = false,
+                    .placement = stage.wall_scene.note_placement()});
+  for (const render::Label& label : labels) expect_whole(label, label.placement, label.text.c_str());
+  render::FrameState pattern;
+  show_calibration(stage.screen, scene::StereoMode::SideBySide, 0.063, phrases, pattern);
+  const Painted whole_screen = painter.paint(pattern.calibration, pattern.calibration_placement);
+  const float half_line = 1.5F * whole_screen.size.y / 2286.0F;  // of the grid, on the screen's edge
+  constexpr float kSoftEdge = 3.0F;
+  EXPECT_TRUE(whole_screen.inside(kSoftEdge + half_line)) << where << ": the test pattern";
+}
+
+class ReadableWalls : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ReadableWalls, CutNoWordAndShowTheStateOnPicturesOfEverySizeInEveryLanguage) {
+  const support::ScratchFolder folder;
+  const std::string pseudo = folder.write("pseudo.toml", test::pseudo_language());
+  for (const auto& [language, own] : {std::pair<std::string, std::string>{"en", ""}, {"de", ""}, {"en", pseudo}}) {
     ExhibitFiles files;
     files.assets_dir = AFM_SOURCE_DIR "/assets";
-    files.wall = fmt::format("{}/walls/{}.toml", files.assets_dir, preset);
+    files.wall = fmt::format("{}/walls/{}.toml", files.assets_dir, GetParam());
+    files.language = language;
+    files.guidance = own;
     const auto stage = load_exhibit(files);
     ASSERT_TRUE(stage) << stage.error().message;
     const render::FrameState frame = app::wall_subject(*stage, 64).value().frames.back();
     for (const std::uint32_t width_px : kWidthsPx) {
-      const std::string where = fmt::format("{} at {} pixels", preset, width_px);
-      Painter painter(2.0 * width_px / stage->screen.width_m(), stage->wall_scene.panel_millimetre_m());
-      const render::Banner shown = full_banner(*stage, frame.banner);
-      const Painted banner = painter.paint(shown, frame.banner_placement, shown.state_color);
-      const Painted force = painter.paint(frame.force_panel, frame.force_placement);
-      const Painted data = painter.paint(frame.data_panel, frame.data_placement);
-      EXPECT_TRUE(banner.inside()) << where << ": the banner";
-      EXPECT_TRUE(force.inside()) << where << ": the plot";
-      EXPECT_TRUE(data.inside()) << where << ": the data";
-      EXPECT_FALSE(banner.cut || force.cut || data.cut) << where << (banner.cut ? ": the banner" : ": a panel");
-      const float letters = render::text_height_mm(render::TextStyle::Strong);
-      const float letter_px = banner.state_height_px * letters / (letters + 24.0F);
-      // a picture of 12 m x 2 m that is 400 pixels wide has 67 rows, 7 of them for the banner
-      if (glm::length(frame.banner_placement.up_m) * width_px / stage->screen.width_m() > kLeastBannerPx) {
-        EXPECT_GE(letter_px, kLeastLetterPx) << where;
-      }
-      for (const render::Label& label : frame.labels) {
-        EXPECT_TRUE(painter.paint(label, label.placement).inside()) << where << ": " << label.text;
+      expect_readable(*stage, frame, width_px,
+                      fmt::format("{} at {} pixels, {}", GetParam(), width_px, own.empty() ? language : "pseudo"));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, ReadableWalls, ::testing::ValuesIn(kPresets));
+
+// The accents of the pseudo-locale and of German.
+TEST(PanelFonts, HoldEveryLetterOfEveryLanguage) {
+  const render::PanelFonts fonts = render::load_panel_fonts(400.0, 1e-3, kLargestImage).value();
+  for (const std::string& text : {std::string("äöüßÄÖÜáêïÿÅÉÏØÝ„“–…×°µ²√γ→−"), test::pseudo_language(),
+                                  core::read_file(test::kPhraseFolder + "de.toml").value()}) {
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (at < end) {
+      unsigned int letter = 0;
+      at += ImTextCharFromUtf8(&letter, at, end);
+      if (letter < ' ') continue;
+      for (ImFont* font : fonts.fonts) {
+        EXPECT_NE(font->FindGlyphNoFallback(static_cast<ImWchar>(letter)), nullptr) << "U+" << std::hex << letter;
       }
     }
   }

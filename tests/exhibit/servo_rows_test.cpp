@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "support/phrases.h"
+
 namespace afm::exhibit {
 namespace {
 
@@ -16,7 +18,7 @@ std::string text(const scene::TipState& tip, const scene::ServoTiming& timing) {
   scene::SharedDevice device;
   std::copy_n("Omni", 4, device.name.begin());
   std::string all;
-  for (const render::DataRow& row : servo_rows(tip, timing, device)) {
+  for (const render::DataRow& row : servo_rows(tip, timing, device, test::english())) {
     all += row.name + ": " + row.value + " (" + row.source + ")\n";
   }
   return all;
@@ -37,9 +39,9 @@ TEST(ServoRows, TellLimitsScaleAndPunctualityWithTheirUnits) {
   timing.wake_max_us = 38;
   const std::string all = text(tip, timing);
   EXPECT_THAT(all, HasSubstr("Scale of the hand: 3.57 mm/nm, 1.43 N/nN (compressed"));
-  EXPECT_THAT(all, HasSubstr("Force at most: 2 N, 500 N/s (Omni)"));
+  EXPECT_THAT(all, HasSubstr("Force limit: 2 N, 500 N/s (Omni)"));
   EXPECT_THAT(all, HasSubstr("Servo: 1000 Hz, not real-time"));
-  EXPECT_THAT(all, HasSubstr("p99 38 \u00b5s, 3 of 1003 ticks missed"));
+  EXPECT_THAT(all, HasSubstr("p99 of wake-ups 38 \u00b5s late, 3 of 1003 ticks missed"));
   EXPECT_THAT(all, Not(HasSubstr("Motors")));
 }
 

@@ -8,6 +8,7 @@
 #include "exhibit/comfort_clamp.h"
 #include "exhibit/depth_report.h"
 #include "places.h"
+#include "support/phrases.h"
 
 namespace afm::exhibit {
 namespace {
@@ -24,7 +25,7 @@ TEST(WallPictures, ThePatternHasALetterForEachEyeOnlyWhereTheirPicturesDiffer) {
   const scene::Screen screen = preset("two-projectors").screens.front();
   for (const scene::StereoModeTraits& row : scene::kStereoModes) {
     render::FrameState frame;
-    show_calibration(screen, row.mode, 0.063, frame);
+    show_calibration(screen, row.mode, 0.063, test::english(), frame);
     EXPECT_EQ(frame.calibration.eye_marks, row.mode != StereoMode::Mono) << row.name;
   }
 }
@@ -110,16 +111,17 @@ TEST(PictureSize, IsWithinTheDevice) {
 TEST(DepthReport, WarnsBeyondADegreeAndNamesTheEyesThatWouldDiverge) {
   const DepthReport easy = report_depth({.nearest_m = 2.3, .farthest_m = 2.8}, 2.5, 0.063, Relief::BringToWall);
   EXPECT_FALSE(easy.hard);
-  EXPECT_THAT(easy.text, HasSubstr("2.30 m to 2.80 m"));
-  EXPECT_THAT(easy.text, HasSubstr("(-5 mm)"));
+  EXPECT_THAT(depth_text(easy, test::english()), HasSubstr("2.30 m to 2.80 m"));
+  EXPECT_THAT(depth_text(easy, test::english()), HasSubstr("(-5 mm)"));
   const DepthReport near = report_depth({.nearest_m = 1.0, .farthest_m = 2.5}, 2.5, 0.063, Relief::BringToWall);
   EXPECT_TRUE(near.hard);
-  EXPECT_THAT(near.text, HasSubstr("beyond 1\u00b0: press B or step back"));
-  EXPECT_THAT(report_depth({.nearest_m = 1.0, .farthest_m = 2.5}, 2.5, 0.063, Relief::NarrowEyes).text,
-              HasSubstr("press [ or step back"))
+  EXPECT_THAT(depth_text(near, test::english()), HasSubstr("beyond 1\u00b0: press B or step back"));
+  EXPECT_THAT(
+      depth_text(report_depth({.nearest_m = 1.0, .farthest_m = 2.5}, 2.5, 0.063, Relief::NarrowEyes), test::english()),
+      HasSubstr("press [ or step back"))
       << "B changes nothing where the contact is in the wall's plane";
   const DepthReport far = report_depth({.nearest_m = 2.5, .farthest_m = 10.0}, 2.5, 0.063, Relief::BringToWall);
-  EXPECT_THAT(far.text, HasSubstr("not for eyes less than 48 mm apart"));
+  EXPECT_THAT(depth_text(far, test::english()), HasSubstr("not for eyes less than 48 mm apart"));
 }
 
 // ---- the comfort clamp ----

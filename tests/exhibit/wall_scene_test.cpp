@@ -148,7 +148,7 @@ TEST_F(WallSceneTest, AMaterialWithoutModelsIsGreyAndNamedInTheLog) {
   strange.materials.push_back(materials_.materials[0]);
   strange.materials.back().name = strange.materials.back().look = "graphite";
   testing::internal::CaptureStderr();
-  EXPECT_TRUE(WallScene::load(assets_, strange, stage_));
+  EXPECT_TRUE(WallScene::load(assets_, strange, stage_, test::english()));
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
               testing::AllOf(testing::HasSubstr("material graphite"), testing::HasSubstr("sample-graphite.glb")));
 }
@@ -160,7 +160,7 @@ TEST_F(WallSceneTest, NineMaterialsStandApartAndAllCanBePicked) {
     nine.materials.back().name += "-" + std::to_string(i);  // no model of its own: the look's, or the neutral one
     if (i < 6) nine.materials.back().look = materials_.materials[i % 3].name;
   }
-  const WallScene many = WallScene::load(assets_, nine, stage_).value();
+  const WallScene many = WallScene::load(assets_, nine, stage_, test::english()).value();
   EXPECT_LE(many.scene().nodes.size(), scene::kMaxNodes) << "what the servo can be told of";
   const auto targets = many.swatch_targets();
   ASSERT_EQ(targets.size(), 9U);
@@ -208,13 +208,13 @@ TEST_F(WallSceneTest, TheStrokeFillsTheSameRoomWithOtherParameters) {
 
 TEST_F(WallSceneTest, FitsAWallOfAnySize) {
   const scene::Screen desk{"desk", {-0.3, 0.9, 0.0}, {0.3, 0.9, 0.0}, {-0.3, 1.25, 0.0}};
-  const auto small = WallScene::load(assets_, materials_, {.main = desk, .viewer_m = {0.0, 1.2, 0.6}});
+  const auto small = WallScene::load(assets_, materials_, {.main = desk, .viewer_m = {0.0, 1.2, 0.6}}, test::english());
   ASSERT_TRUE(small.has_value()) << small.error().message;
   EXPECT_NEAR(small->drawn_scale(0).sample_m_per_m / scene_.drawn_scale(0).sample_m_per_m, 2.286 / 0.35, 1e-6);
 }
 
 TEST_F(WallSceneTest, AMissingModelIsABadInputFileThatIsNamed) {
-  const auto missing = WallScene::load("/nowhere", materials_, stage_);
+  const auto missing = WallScene::load("/nowhere", materials_, stage_, test::english());
   ASSERT_FALSE(missing.has_value());
   EXPECT_EQ(missing.error().category, core::ErrorCategory::BadInputFile);
   EXPECT_THAT(missing.error().message, ::testing::HasSubstr("/nowhere/models/"));

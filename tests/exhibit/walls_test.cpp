@@ -220,14 +220,14 @@ TEST_F(DepthOfAWall, StaysWithinOneDegreeOnEveryPreset) {
     const render::DepthRange range = range_on(*stage);
     const DepthReport as_it_is = report_depth(range, distance_m, viewer.ipd_m, Relief::NarrowEyes);
     const bool small = std::string_view(preset) == "desk-red-cyan" || std::string_view(preset) == "cave";
-    EXPECT_EQ(as_it_is.hard, small) << preset << ": " << as_it_is.text;
+    EXPECT_EQ(as_it_is.hard, small) << preset << ": " << depth_text(as_it_is, stage->phrases());
     ComfortClamp clamp(scene::kComfortableDisparityRad);
     clamp.measured(range, distance_m, viewer.ipd_m);
     clamp.ipd_m(viewer.ipd_m, 1);
     const double ipd_m = clamp.ipd_m(viewer.ipd_m, 10'000'000'000);
     EXPECT_GT(ipd_m, 0.4 * viewer.ipd_m) << preset << ": hardly any depth is left";
     const DepthReport report = report_depth(range, distance_m, ipd_m, Relief::NarrowEyes);
-    EXPECT_FALSE(report.hard) << preset << ": " << report.text;
+    EXPECT_FALSE(report.hard) << preset << ": " << depth_text(report, stage->phrases());
   }
 }
 

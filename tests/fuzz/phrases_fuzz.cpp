@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <cstdlib>
 
-#include "exhibit/message_catalog.h"
+#include "exhibit/phrases.h"
 #include "fuzz/memory_file.h"
 
-// Whatever the bytes: every phrase that was asked for, or an error.
+// Whatever the bytes: phrases within their limits with the placeholders that they need, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  using afm::exhibit::Phrase;
+  using afm::exhibit::Phrases;
   const afm::fuzz::MemoryFile file(bytes, size);
-  constexpr std::array<std::string_view, 1> kKeys{"lift"};
-  constexpr std::array<std::string_view, 1> kOptionalKeys{"mouse-up"}, kPlaces{"{up}"};
-  const auto phrases =
-      afm::exhibit::load_messages(file.path(), {.keys = kKeys, .optional_keys = kOptionalKeys, .places = kPlaces});
-  if (phrases && (phrases->size() != 2 || phrases->front().empty())) std::abort();
+  const auto phrases = Phrases::load(file.path(), Phrases{});
+  if (!phrases) return 0;
+  if ((*phrases)[Phrase::Lift].size() > 4 * afm::exhibit::kLine) std::abort();
+  const std::string journey = phrases->text<Phrase::Journey>(std::string("1.5"));
+  if (!(*phrases)[Phrase::Journey].empty() && journey.find("{place}") != std::string::npos) std::abort();
   return 0;
 }

@@ -12,7 +12,12 @@ class Calibration : public VulkanTest {
   Pair pattern(render::PassMode mode, bool eye_marks = true) {
     auto frame = bare_frame(test_.scene);
     frame.visible.assign(test_.scene.nodes.size(), 0);
-    frame.calibration = {.screen = "wall", .mode = "side-by-side", .ipd_m = 0.063, .eye_marks = eye_marks};
+    frame.calibration = {.size = "wall",
+                         .mode = "side-by-side",
+                         .legend = "squares",
+                         .ruler = "eyes",
+                         .ipd_m = 0.063,
+                         .eye_marks = eye_marks};
     const scene::Screen screen = paper_screen();
     frame.calibration_placement = {.lower_left_m = screen.lower_left,
                                    .right_m = screen.lower_right - screen.lower_left,

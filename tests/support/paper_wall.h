@@ -9,6 +9,7 @@
 #include "places.h"
 #include "scene/display/wall.h"
 #include "scene/samples/material_library.h"
+#include "support/phrases.h"
 
 namespace afm::test {
 
@@ -19,7 +20,8 @@ class PaperWall : public ::testing::Test {
   const scene::MaterialLibrary materials_ =
       scene::load_materials(assets_ + "/materials.toml").value().only(scene::kPaperMaterials).value();
   const scene::Wall wall_ = scene::load_wall(assets_ + "/walls/powerwall.toml").value();
-  const exhibit::WallScene scene_ = exhibit::WallScene::load(assets_, materials_, exhibit::stage_place(wall_)).value();
+  const exhibit::WallScene scene_ =
+      exhibit::WallScene::load(assets_, materials_, exhibit::stage_place(wall_), english()).value();
 
   scene::NodeIndex node(const std::string& name) const { return scene_.scene().find_node(name).value(); }
 };

@@ -190,6 +190,7 @@ render::FrameState full_frame(const TestScene& test) {
   frame.highlighted = {test.gold};
 
   frame.force_panel = {.title = "Force on the tip",
+                       .words = {.approach = "approach", .retract = "retract"},
                        .z_min_nm = -5,
                        .z_max_nm = 20,
                        .force_min_nn = -1.6,

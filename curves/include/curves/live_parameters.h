@@ -38,8 +38,8 @@ class LiveParameters {
   // As it would be felt now; its parameters are what the servo is to get.
   const SampleModel& model() const { return now_; }
 
-  std::string name(Row row) const;
-  std::string value(Row row) const;  // with its unit
+  std::string value(Row row) const;                                           // with its unit
+  bool automatic_law() const { return !law_after(steps_[index(Row::Law)]); }  // the adhesion map's
   bool changed(Row row) const { return steps_[index(row)] != 0; }
   bool changed() const { return steps_ != Steps{}; }
 

@@ -41,6 +41,7 @@ struct SvgPlot {
   std::vector<SvgMark> marks;
   AxisScale x_scale = AxisScale::Linear;  // on a logarithmic axis what is not positive breaks the line
   AxisScale y_scale = AxisScale::Linear;
+  char decimal_mark = '.';
   int width = 960;
   int height = 600;
 };

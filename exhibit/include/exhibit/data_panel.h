@@ -4,6 +4,7 @@
 #include <span>
 
 #include "curves/sample_model.h"
+#include "exhibit/phrases.h"
 #include "render/frame.h"
 #include "scene/shared/tip_blocks.h"
 
@@ -11,11 +12,11 @@ namespace afm::exhibit {
 
 struct CycleResult;
 
-// What the wall says of the material under the tip: its numbers with their sources, the law that it is given and why,
-// what that comes to, and the two values that move. Values that are not their files' are marked.
-render::DataPanel data_panel(const curves::SampleModel& material, const scene::Tip& tip);
+// The material under the tip: its numbers with their sources, its law of force and the reason for it, the jumps and the
+// energy that follow, and the two values that move. Numbers that were changed are marked.
+render::DataPanel data_panel(const curves::SampleModel& material, const scene::Tip& tip, const Phrases& phrases);
 
-// What was felt on each material, when all is done.
-render::DataPanel results_panel(std::span<const CycleResult> results);
+// The jumps of each material's cycle, when all are done.
+render::DataPanel results_panel(std::span<const CycleResult> results, const Phrases& phrases);
 
 }  // namespace afm::exhibit

@@ -4,11 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/guidance.h"
+#include "exhibit/phrases.h"
 #include "exhibit/wall_pictures.h"
 #include "exhibit/wall_scene.h"
 #include "render/renderer.h"
@@ -20,18 +22,36 @@ namespace afm::exhibit {
 // What the shelf in front of the wall holds.
 inline constexpr std::size_t kMostMaterials = 9;
 
+// The languages of the assets: guidance/en.toml and on.
+struct LanguageRow {
+  std::string_view word;
+  std::string_view name;  // in English
+};
+inline constexpr std::array kLanguages{LanguageRow{"en", "English"}, LanguageRow{"de", "German"}};
+
+// The first of these values of LC_ALL, LC_MESSAGES and LANG that is set decides: "de" for "de_AT.UTF-8"; "en" for a
+// language that the assets lack.
+std::string language_of_locale(std::span<const std::string> values);
+
 // The files that a picture of the wall is made of.
 struct ExhibitFiles {
   std::string assets_dir;
   std::string wall;                         // empty: the paper's wall in the assets
   std::optional<double> aspect{};           // width to height of the picture, which the paper's wall takes on
-  std::string guidance;                     // empty: English, in the assets
+  std::string language = "en";              // a row of kLanguages
+  std::string guidance;                     // a phrase file of the user's own on top of it; empty: none
   std::string materials;                    // a file of the user's own; empty: none
   std::string probe;                        // a glTF model of the user's own instead of the assets'; empty: none
   std::string sample;                       // the same, of all materials
   std::vector<std::string> shown;           // names; empty: those of the user's file, or the paper's three
   std::vector<scene::MaterialEntry> added;  // shown behind those
 };
+
+// English, and the language of the wall: the file of that language with the user's own file on top.
+struct LoadedPhrases {
+  Phrases english, wall;
+};
+core::Result<LoadedPhrases> load_phrases(const ExhibitFiles& files);
 
 // All that is loaded before anything moves.
 struct Stage {
@@ -40,7 +60,9 @@ struct Stage {
   scene::Screen screen;  // that the scene stands on: StagePlace::main
   std::array<scene::EyeView, 2> eyes;
   WallScene wall_scene;
-  Guidance guidance;
+  Phrases english;  // for the log, which staff and bug reports share
+
+  const Phrases& phrases() const { return wall_scene.phrases(); }
 
   // Square pixels: the height follows the wall's proportions.
   render::RendererOptions renderer_options(std::uint32_t eye_width) const;

@@ -8,6 +8,7 @@
 
 #include "curves/sample_model.h"
 #include "exhibit/moment.h"
+#include "exhibit/phrases.h"
 #include "exhibit/wall_scene.h"
 #include "render/frame.h"
 #include "scene/display/wall.h"
@@ -15,13 +16,14 @@
 
 namespace afm::exhibit {
 
-// The part of the cycle in words, with the letters of the paper's Fig. 2.
-std::string stage_of_cycle(const Moment& moment, double z_jtc_m);
+// The part of the cycle, which has the letters of the paper's Fig. 2.
+Phrase stage_of_cycle(const Moment& moment, double z_jtc_m);
 
 // Turns moments into frames for one wall and one viewer.
 class FrameBuilder {
  public:
-  // `wall_scene` and `materials` must outlive it; what a material is felt with may change between two frames.
+  // `wall_scene`, whose language it uses, and `materials` must outlive it; the parameters of a material may change
+  // between two frames.
   FrameBuilder(const WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
                const std::array<scene::EyeView, 2>& eyes);
 
@@ -32,6 +34,7 @@ class FrameBuilder {
   render::Banner banner(const Moment& moment) const;
 
   const WallScene* wall_scene_;
+  const Phrases* phrases_;
   const std::vector<curves::SampleModel>* materials_;
   std::array<scene::EyeView, 2> eyes_;
 };

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "core/result.h"
+#include "exhibit/phrases.h"
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
 
-// What a person can be told on the wall's one line: the steps of the procedure, and why the force went off.
+// The lines of guidance: the steps of the procedure, and the end of the servo.
 enum class Hint {
   ChooseSample,
   Lift,
@@ -43,7 +42,7 @@ struct CycleProgress {
 // The step of the procedure that comes next, from what has really happened to the tip.
 Hint next_step(const scene::TipState& tip, const StepsDone& done);
 
-// What a person holds: its controls are named on the wall. Device: one that is named nowhere, found by --haptics auto.
+// The device in the hand, whose controls the wall names. Device: one without names for them, found by --haptics auto.
 enum class HandControls { Mouse, Pen, Grip, Gamepad, Device, Simulated };
 enum class Pointer { Mouse, Wand };
 struct Controls {
@@ -51,23 +50,14 @@ struct Controls {
   Pointer pointer = Pointer::Wand;
 };
 
-// How what is shown instead of the instrument is left, and where the keys are listed.
+// Ways back from what is shown instead of the instrument, and the place of the list of keys.
 enum class Note { Keys, LeaveJourney, LeaveAnalogy };
+const std::string& note_text(const Phrases& phrases, Note note);
 
-// The steps in words, of a language that is loaded from a file (assets/guidance). Const after loading; any thread.
-class Guidance {
- public:
-  // Where the file names no controls, or says nothing in a note, nothing is said of them.
-  static core::Result<Guidance> load(const std::string& path);
+// The step in words, with the controls of the device in the hand.
+std::string step_text(const Phrases& phrases, Hint hint, const Controls& controls);
 
-  std::string text(Hint hint, const Controls& controls) const;
-  const std::string& text(Note note) const;
-
-  // One short line: why the force went off, if it did, and the next step.
-  std::string line(Hint hint, const scene::TipState& tip, const Controls& controls) const;
-
- private:
-  std::vector<std::string> phrases_;
-};
+// One line for the wall: why the force went off, if it did, and the next step.
+std::string guidance_line(const Phrases& phrases, Hint hint, const scene::TipState& tip, const Controls& controls);
 
 }  // namespace afm::exhibit

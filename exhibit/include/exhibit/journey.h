@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "exhibit/model_builder.h"
+#include "exhibit/phrases.h"
 #include "scene/graph/scene.h"
 
 namespace afm::exhibit {
@@ -15,8 +16,8 @@ namespace afm::exhibit {
 // From the bench to the atoms: one layout unit shows 10^-orders metres.
 inline constexpr double kJourneyOrders = 9.0;
 
-// What is seen from there: "cantilever".
-const char* journey_place(double orders);
+// The name of the part that is seen there, such as the cantilever.
+Phrase journey_place(double orders);
 
 // The instrument at its true proportions, from the bench to the last atom of its tip, and the samples below it: one
 // scale at a time, with the contact point, which stays where it is on the wall, as the origin. Parts are meshes of

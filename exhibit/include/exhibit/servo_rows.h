@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "exhibit/phrases.h"
 #include "render/frame.h"
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
 
-// "fit: each sample on its own scale"
-std::string scale_text(scene::ScaleMode mode);
-
-// What the wall says of the servo: what it holds and how hard that may push, on which scale, how punctually, and how
-// warm the motors are once that matters.
+// The servo on the wall: the scale of the hand, the device and its limits of force, punctuality, and the motors' heat
+// once that matters.
 std::vector<render::DataRow> servo_rows(const scene::TipState& tip, const scene::ServoTiming& timing,
-                                        const scene::SharedDevice& device);
+                                        const scene::SharedDevice& device, const Phrases& phrases);
 
 }  // namespace afm::exhibit

@@ -12,6 +12,7 @@
 #include "core/result.h"
 #include "exhibit/analogy.h"
 #include "exhibit/journey.h"
+#include "exhibit/phrases.h"
 #include "exhibit/user_models.h"
 #include "exhibit/wall_layout.h"
 #include "exhibit/wall_marks.h"
@@ -39,7 +40,10 @@ struct DrawnScale {
 class WallScene {
  public:
   static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
-                                      const StagePlace& place, const UserModels& own = {});
+                                      const StagePlace& place, const Phrases& phrases, const UserModels& own = {});
+
+  // The language of everything that is read on this wall.
+  const Phrases& phrases() const { return phrases_; }
 
   const scene::Scene& scene() const { return scene_; }
   scene::NodeIndex sample_node() const { return sample_frame_; }
@@ -134,7 +138,8 @@ class WallScene {
   render::PanelPlacement panel_beside(double left, double bottom, double width, double height) const;  // of the scene
 
   scene::Scene scene_;
-  std::vector<std::string> titles_;
+  Phrases phrases_;
+  std::vector<std::string> titles_;  // of the swatches, in that language
   std::vector<MaterialLook> looks_;
   std::vector<scene::SharedHeightField> height_fields_;
   std::vector<std::string> surface_models_;  // of which model each of them is

@@ -100,9 +100,18 @@ struct PlotMarker {  // a labelled value: "Z_jtc 2.40 nm"
   bool operator==(const PlotMarker&) const = default;
 };
 
+// The words of a plot.
+struct PlotWords {
+  std::string approach, retract;  // what dashed and solid mean
+  char decimal_mark = '.';
+
+  bool operator==(const PlotWords&) const = default;
+};
+
 // The force-displacement panel: Z (nm) to the right, force on the tip (nN, positive away from the sample) up.
 struct ForcePanel {
   std::string title;
+  PlotWords words{};
   double z_min_nm = -5, z_max_nm = 20, force_min_nn = -2, force_max_nn = 1;
   std::vector<PlotCurve> curves;
   std::vector<PlotMarker> markers;
@@ -179,9 +188,12 @@ struct ControlPanel {
 // wall's plane, a circle, a ruler of eye distances, grey steps; and, where the eyes have pictures of their own, an L
 // that the left eye's alone shows, an R in the right eye's. Nothing else should be shown with it.
 struct CalibrationPanel {
-  std::string screen;  // its name
-  std::string mode;    // of stereo
-  double ipd_m = 0;    // of the viewer, marked on the ruler
+  std::string size;       // of the screen, with its name
+  std::string mode;       // of stereo
+  std::string legend;     // of grid and letters
+  std::string ruler;      // its legend
+  double square_m = 0.1;  // of the grid
+  double ipd_m = 0;       // of the viewer, marked on the ruler
   bool eye_marks = true;
 
   bool operator==(const CalibrationPanel&) const = default;

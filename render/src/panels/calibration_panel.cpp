@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <string_view>
 
 #include "panels/panel_painting.h"
@@ -80,23 +78,12 @@ void paint_greys(Canvas& canvas, glm::vec2 at, float unit) {
                    grey(188.0F / 255.0F));
 }
 
-// As fmt::format(), into memory of the caller's.
-template <class... Values>
-std::string_view written(fmt::memory_buffer& text, fmt::format_string<const Values&...> format,
-                         const Values&... values) {
-  text.clear();
-  fmt::format_to(std::back_inserter(text), format, values...);
-  return {text.data(), text.size()};
-}
-
 }  // namespace
 
 void paint(Canvas& canvas, const CalibrationPanel& panel) {
   const glm::vec2 size = canvas.size_mm(), middle = 0.5F * size;
   const float unit = size.y / kWallHeightMm;
-  const glm::vec2 true_size_mm = size / canvas.true_mm();
-  const float step_mm = true_size_mm.x < 1000.0F ? 10.0F : 100.0F;
-  const float step = step_mm * canvas.true_mm();
+  const float step = static_cast<float>(panel.square_m * 1e3) * canvas.true_mm();
   canvas.rectangle({0.0F, 0.0F}, size, kGround);
   paint_grid(canvas, step, 1.5F * unit, kFine);
   paint_grid(canvas, 10.0F * step, 3.0F * unit, kCoarse);
@@ -108,18 +95,14 @@ void paint(Canvas& canvas, const CalibrationPanel& panel) {
               palette::kYellow);
 
   const auto line = [&](float y, TextStyle style, std::string_view text) {
-    canvas.text({middle.x, y * unit}, style, kWhite, text, Align::Center, unit);
+    const float scale = std::min(unit, 0.96F * size.x / std::max(canvas.text_width_mm(style, text), 1.0F));
+    canvas.text({middle.x, y * unit}, style, kWhite, text, Align::Center, scale);
   };
-  fmt::memory_buffer text;
-  line(220.0F, TextStyle::Title,
-       written(text, "{}   {:.3f} m x {:.3f} m", panel.screen, true_size_mm.x * 1e-3F, true_size_mm.y * 1e-3F));
+  line(220.0F, TextStyle::Title, panel.size);
   line(320.0F, TextStyle::Strong, panel.mode);
-  line(390.0F, TextStyle::Body,
-       written(text, "a square is {:g} mm; the circle is round; {}", step_mm,
-               panel.eye_marks ? "L to the left eye, R to the right" : "both eyes see the same"));
+  line(390.0F, TextStyle::Body, panel.legend);
   paint_ruler(canvas, {middle.x - 0.5F * kMostIpdMm * canvas.true_mm(), 1840.0F * unit}, unit, panel.ipd_m);
-  line(1860.0F, TextStyle::Body,
-       written(text, "between the eyes: ticks from 45 to 80 mm, orange {:.1f} mm", panel.ipd_m * 1e3));
+  line(1860.0F, TextStyle::Body, panel.ruler);
   paint_greys(canvas, {middle.x - 490.0F * unit, 1950.0F * unit}, unit);
 }
 

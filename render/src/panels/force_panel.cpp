@@ -40,9 +40,9 @@ std::pair<double, double> sane_range(double low, double high) {
 }
 
 void paint_heading(Canvas& canvas, const ForcePanel& panel) {
-  canvas.text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title);
-  canvas.fitted_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.stage,
-                     canvas.size_mm().x - 2.0F * kMargin);
+  const float width = canvas.size_mm().x - 2.0F * kMargin;
+  canvas.shrunk_text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title, width);
+  canvas.shrunk_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.stage, width);
 }
 
 // One entry for each curve, smaller where there are many, and what dashed and solid mean.
@@ -63,25 +63,25 @@ void paint_legend(Canvas& canvas, const ForcePanel& panel, float y) {
     x += scale * (kLabel + canvas.text_width_mm(TextStyle::Small, curve.label) + kApart);
   }
   const float right = canvas.size_mm().x - kMargin;
-  const float retract = right - canvas.text_width_mm(TextStyle::Small, "retract");
-  const float approach = retract - 88.0F - canvas.text_width_mm(TextStyle::Small, "approach");
+  const float retract = right - canvas.text_width_mm(TextStyle::Small, panel.words.retract);
+  const float approach = retract - 88.0F - canvas.text_width_mm(TextStyle::Small, panel.words.approach);
   if (approach - 64.0F < x) {
     return;
   }
   const std::array<glm::vec2, 2> dashes{glm::vec2(approach - 64.0F, middle), glm::vec2(approach - 12.0F, middle)};
   canvas.dashed_polyline(dashes, kApproachWidth, 14.0F, 9.0F, palette::kMuted);
-  canvas.text({approach, y + 2.0F}, TextStyle::Small, palette::kMuted, "approach");
+  canvas.text({approach, y + 2.0F}, TextStyle::Small, palette::kMuted, panel.words.approach);
   canvas.line({retract - 58.0F, middle}, {retract - 12.0F, middle}, kRetractWidth, palette::kMuted);
-  canvas.text({retract, y + 2.0F}, TextStyle::Small, palette::kMuted, "retract");
+  canvas.text({retract, y + 2.0F}, TextStyle::Small, palette::kMuted, panel.words.retract);
 }
 
-void paint_axes(Canvas& canvas, const Plot& plot, double z_step, double force_step) {
+void paint_axes(Canvas& canvas, const Plot& plot, double z_step, double force_step, char mark) {
   const float tick_height = text_height_mm(TextStyle::Body);
   for (double z = std::ceil(plot.z_min / z_step - 1e-9) * z_step; z <= plot.z_max + 1e-9 * z_step; z += z_step) {
     const float x = plot.x(z);
     canvas.line({x, plot.top_left.y}, {x, plot.bottom_right.y}, 1.5F, palette::kGrid);
     canvas.line({x, plot.bottom_right.y}, {x, plot.bottom_right.y + 9.0F}, 2.5F, palette::kAxis);
-    canvas.text({x, plot.bottom_right.y + 12.0F}, TextStyle::Body, palette::kMuted, tick_text(z, z_step),
+    canvas.text({x, plot.bottom_right.y + 12.0F}, TextStyle::Body, palette::kMuted, tick_text(z, z_step, mark),
                 Align::Center);
   }
   for (double f = std::ceil(plot.force_min / force_step - 1e-9) * force_step; f <= plot.force_max + 1e-9 * force_step;
@@ -90,7 +90,7 @@ void paint_axes(Canvas& canvas, const Plot& plot, double z_step, double force_st
     canvas.line({plot.top_left.x, y}, {plot.bottom_right.x, y}, 1.5F, palette::kGrid);
     canvas.line({plot.top_left.x - 9.0F, y}, {plot.top_left.x, y}, 2.5F, palette::kAxis);
     canvas.text({plot.top_left.x - 16.0F, y - 0.5F * tick_height}, TextStyle::Body, palette::kMuted,
-                tick_text(f, force_step), Align::Right);
+                tick_text(f, force_step, mark), Align::Right);
   }
   const std::array<glm::vec2, 3> frame{plot.top_left, glm::vec2(plot.top_left.x, plot.bottom_right.y),
                                        plot.bottom_right};
@@ -199,16 +199,17 @@ void paint(Canvas& canvas, const ForcePanel& panel) {
   const float legend_y = 146.0F;
   paint_legend(canvas, panel, legend_y);
 
+  const char mark = panel.words.decimal_mark;
   Plot plot;
   std::tie(plot.z_min, plot.z_max) = sane_range(panel.z_min_nm, panel.z_max_nm);
   std::tie(plot.force_min, plot.force_max) = sane_range(panel.force_min_nn, panel.force_max_nn);
   const double z_step = tick_step(plot.z_max - plot.z_min, 6);
   const double force_step = tick_step(plot.force_max - plot.force_min, 6);
-  const float widest = std::max(canvas.text_width_mm(TextStyle::Body, tick_text(plot.force_min, force_step)),
-                                canvas.text_width_mm(TextStyle::Body, tick_text(plot.force_max, force_step)));
+  const float widest = std::max(canvas.text_width_mm(TextStyle::Body, tick_text(plot.force_min, force_step, mark)),
+                                canvas.text_width_mm(TextStyle::Body, tick_text(plot.force_max, force_step, mark)));
   plot.top_left = {kMargin + widest + 16.0F, legend_y + 56.0F};
   plot.bottom_right = canvas.size_mm() - glm::vec2(kMargin, 112.0F);
-  paint_axes(canvas, plot, z_step, force_step);
+  paint_axes(canvas, plot, z_step, force_step, mark);
 
   // markers before the curves: no label hides what was measured
   paint_markers(canvas, plot, panel.markers);

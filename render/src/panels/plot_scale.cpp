@@ -20,10 +20,11 @@ double tick_step(double range, int most) {
   return 10.0 * decade;
 }
 
-std::string tick_text(double value, double step) {
+std::string tick_text(double value, double step, char decimal_mark) {
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
   const double rounded = std::abs(value) < 0.5 * std::pow(10.0, -decimals) ? 0.0 : value;
   std::string digits = fmt::format("{:.{}f}", std::abs(rounded), decimals);
+  std::replace(digits.begin(), digits.end(), '.', decimal_mark);
   return rounded < 0.0 ? "\u2212" + digits : digits;
 }
 

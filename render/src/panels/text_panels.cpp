@@ -78,18 +78,21 @@ void shrunk_text(Canvas& canvas, glm::vec2 position, const Ink& ink, std::string
   canvas.text(position + glm::vec2(0.0F, lift), ink.style, ink.color, text, Align::Left, fit * scale);
 }
 
-// Name and value on one line, the source below; smaller where the rows stand close.
+// Name and value on one line, the source below; smaller where the rows stand close or the line is long.
 void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
+  constexpr float kNameGap = 20.0F;
   const float right = canvas.size_mm().x - kMargin;
   const float block = row.source.empty() ? 46.0F : 78.0F;
-  const float scale = std::min(1.0F, pitch / block);
-  const float value_width = canvas.text_width_mm(TextStyle::Strong, row.value, scale);
+  const float width =
+      canvas.text_width_mm(TextStyle::Body, row.name) + canvas.text_width_mm(TextStyle::Strong, row.value) + kNameGap;
+  const float by_height = std::min(1.0F, pitch / block);
+  const float scale = std::min(by_height, (right - kMargin) / width);
   const float y = top + std::max(0.0F, 0.5F * (pitch - block));
-  shrunk_text(canvas, {kMargin, y + 2.0F}, {TextStyle::Body, palette::kMuted}, row.name,
-              right - kMargin - value_width - 20.0F, scale);
-  canvas.text({right, y}, TextStyle::Strong, palette::kInk, row.value, Align::Right, scale);
-  shrunk_text(canvas, {kMargin, y + 46.0F * scale}, {TextStyle::Small, Color{palette::kMuted.srgb, 0.85F}}, row.source,
-              right - kMargin, scale);
+  const float lift = 0.5F * (by_height - scale) * text_height_mm(TextStyle::Strong);
+  canvas.text({kMargin, y + lift + 2.0F}, TextStyle::Body, palette::kMuted, row.name, Align::Left, scale);
+  canvas.text({right, y + lift}, TextStyle::Strong, palette::kInk, row.value, Align::Right, scale);
+  shrunk_text(canvas, {kMargin, y + 46.0F * by_height}, {TextStyle::Small, Color{palette::kMuted.srgb, 0.85F}},
+              row.source, right - kMargin, by_height);
   canvas.line({kMargin, top + pitch}, {right, top + pitch}, 1.5F, palette::kGrid);
 }
 
