@@ -10,9 +10,9 @@ namespace afm::app {
 
 enum class RendererFate { Killed, Stopped };
 
-// How long the hand still felt a force after the renderer's end, milliseconds, once for each round: a renderer in a
-// process of its own starts touchafm-servo, which lies beside `program`, and holds the tip on the sample; then it is
-// killed, or stopped. A round in which the machine made the servo let go before is done again. The caller has one
+// Time from the renderer's end to zero force, milliseconds, one value per round. In each round a renderer in a separate
+// process starts touchafm-servo from the folder of `program` and holds the tip on the sample; then it is killed or
+// stopped. Repeats a round in which the load on the machine made the servo release the hand early. The caller has one
 // thread only. Two seconds a round.
 core::Result<std::vector<double>> measure_reaction(const std::string& program, RendererFate fate, int rounds);
 
