@@ -17,10 +17,11 @@ using afm::core::ExitCode;
 using afm::core::fail;
 
 int run(int count, char** arguments) {
-  afm::app::CommandLine command_line("touchafm-bench", afm::core::kVersion,
-                                     "a tick and the tables of each law, the dynamics, a whole curve");
+  afm::app::CommandLine command_line(
+      "touchafm-bench", afm::core::kVersion,
+      "measure a tick and the tables of each law, the lever's dynamics, and a whole curve");
   bool as_json = false;
-  command_line.add_flag("--json", as_json, "print JSON, in seconds, instead of a table");
+  command_line.add_flag("--json", as_json, "print JSON with times in seconds instead of a table");
   const auto answer = command_line.parse(count, arguments);
   if (!answer) return fail(ExitCode::WrongUsage, answer.error().message + "; see touchafm-bench --help");
   std::string text = *answer;

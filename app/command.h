@@ -10,7 +10,7 @@
 
 namespace afm::app {
 
-// What every command may know about its surroundings.
+// Environment of a command.
 struct CommandContext {
   std::string assets_dir;                // folder that holds models/, walls/ and materials.toml
   std::string program_path;              // the running program; touchafm-servo lies beside it
@@ -18,8 +18,8 @@ struct CommandContext {
   std::string language = "en";           // of wall and report, unless --language says another: the locale's
 };
 
-// Every command, in the order of the help. A line declares add_NAME_command, which a file in app/commands defines, and
-// makes a row of kCommands.
+// All commands, in the order of the help. Each line declares add_NAME_command, which a file in app/commands defines,
+// and adds a row to kCommands.
 #define AFM_FOR_EACH_COMMAND(COMMAND) \
   COMMAND(demo)                       \
   COMMAND(view)                       \
@@ -34,7 +34,7 @@ struct CommandContext {
   COMMAND(doctor)                     \
   COMMAND(bench)
 
-// Adds the command of that name with its options and with what it does when it is chosen. The context must outlive it.
+// Adds the command of that name with its options and its action. The context must outlive it.
 #define AFM_DECLARE_COMMAND(name) void add_##name##_command(OptionList& program, const CommandContext& context);
 AFM_FOR_EACH_COMMAND(AFM_DECLARE_COMMAND)
 #undef AFM_DECLARE_COMMAND

@@ -3,8 +3,7 @@
 
 namespace afm::app {
 
-// The commit that was built, in words: cmake/WriteCommit.cmake writes the definition, which is linked to touchafm
-// alone.
+// Name of the commit that was built: cmake/WriteCommit.cmake writes the definition, which only touchafm links.
 extern const char* const kCommit;
 
 }  // namespace afm::app

@@ -62,7 +62,7 @@ int run(int count, char** arguments) {
 
   if (names_unknown_command(count, arguments)) {
     return fail(afm::core::ExitCode::WrongUsage,
-                "there is no command \"" + std::string(arguments[1]) + "\"; see touchafm --help");
+                "unknown command \"" + std::string(arguments[1]) + "\"; see touchafm --help");
   }
   const auto answer = command_line.parse(count, arguments);
   if (!answer) return fail(afm::core::ExitCode::WrongUsage, answer.error().message + "; see touchafm --help");

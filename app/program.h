@@ -8,7 +8,8 @@ namespace afm::app {
 // The first lines of the program's help: its name and purpose, then the exit codes.
 inline constexpr const char* kProgramHelp =
     "TouchAFM: feel and see the approach-retract cycle of an atomic force microscope.\n"
-    "Exit codes: 0 done, 1 the run failed, 2 wrong usage, 3 bad input file, 4 a needed device is missing.";
+    "Exit codes: 0 done, 1 the run failed or was interrupted, 2 wrong usage, 3 bad input file, 4 a required device is "
+    "missing.";
 
 // All of kCommands. The context must outlive the command line.
 inline void add_commands(CommandLine& program, const CommandContext& context) {

@@ -88,13 +88,13 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE ${package_release})
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${maintainer}")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "virtual atomic force microscope to be felt and seen")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "virtual atomic force microscope to feel and see")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "One hand moves the tip of an atomic force microscope, with a force-feedback
 device or a mouse. A window or a powerwall shows cantilever, sample and force
 curve in stereo. The tip snaps onto the surface, is pressed, and is torn off.
 
-Without hardware a simulated hand runs the whole procedure. Curves of any tip,
-lever and sample are computed, and measured ones are analysed.")
+Without hardware, a simulated hand runs the whole procedure. The program also
+computes curves of any tip, lever and sample, and analyses measured ones.")
 # The libraries that the programs are linked with, from their files. Opened while they run: libvulkan1, and what GLFW 3.3 opens
 # to know monitors and pointers, and depends on in Debian 13 alone.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

@@ -93,7 +93,7 @@ ExitCode run(const Options& options) {
     afm::core::log_line(segment.error().message);
     return afm::core::exit_code(segment.error().category);
   }
-  // a device may bring threads of its own, which must leave the signals to the monitor
+  // a device may start threads, which must leave the signals to the monitor
   const afm::core::FileDescriptor signals = catch_signals();
   const auto watchdog = afm::servo::Watchdog::start(afm::servo::executable_path(), segment->descriptor());
   if (!watchdog) {
@@ -144,7 +144,7 @@ int main(int count, char** arguments) {
   ::signal(SIGPIPE, SIG_IGN);
   const auto options = parse_options(count, arguments);
   if (!options) {
-    afm::core::log_line("touchafm-servo is started by touchafm; run 'touchafm demo --out DIR' instead");
+    afm::core::log_line("touchafm starts this program; run 'touchafm demo --out DIR' instead");
     return static_cast<int>(ExitCode::WrongUsage);
   }
   return afm::core::report_exceptions(

@@ -65,7 +65,7 @@ core::Result<void> measure_beside_renderer(const CommandContext& context, const 
   const render::FrameState frame = frames.build(exhibit::Moment{});
   figures.renderer =
       fmt::format("the wall, 2 x {} x {} pixels on {}", size.eye_width, size.eye_height, vulkan->device_name());
-  core::log_line(fmt::format("the servo runs for {} s beside {}", options.seconds, figures.renderer));
+  core::log_line(fmt::format("running the servo for {} s alongside {}", options.seconds, figures.renderer));
   auto wake = measure_servo_wake(context.program_path, options.seconds, [&] { renderer->render(frame); });
   renderer->wait();
   if (!wake) return tl::unexpected(wake.error());
@@ -97,8 +97,10 @@ double share(std::uint64_t missed, std::uint64_t ticks) {
 }
 
 std::string table(const Figures& figures, const HapticsBenchOptions& options) {
-  std::string text = fmt::format("work of a tick, us, {} ticks flat out\n{:<22}{:>8}{:>8}{:>8}{:>9}   {:<24}{}\n",
-                                 options.ticks, "", "p50", "p99", "p99.9", "max", "bar", "met");
+  std::string text = fmt::format(
+      "work per tick, us, {} ticks back to back\n"
+      "{:<22}{:>8}{:>8}{:>8}{:>9}   {:<24}{}\n",
+      options.ticks, "", "p50", "p99", "p99.9", "max", "bar", "met");
   for (const WorkFigure& each : figures.work) {
     const std::string bar = each.p50_bar_us > 0 ? fmt::format("p50 {}, p99 {}", each.p50_bar_us, each.p99_bar_us)
                                                 : fmt::format("p99 {}", each.p99_bar_us);
@@ -108,9 +110,10 @@ std::string table(const Figures& figures, const HapticsBenchOptions& options) {
 
   const core::Percentiles servo = core::percentiles(figures.wake.servo.wake_us, figures.wake.servo.wake_max_us);
   const core::Percentiles plain = core::percentiles(figures.wake.plain.late_us, figures.wake.plain.max_us);
-  text +=
-      fmt::format("\nwake-up at 1 kHz, us late, {} s beside {} ({} frames)\n{:<22}{:>8}{:>8}{:>8}{:>9}   {}\n",
-                  options.seconds, figures.renderer, figures.wake.frames, "", "p50", "p99", "p99.9", "max", "missed");
+  text += fmt::format(
+      "\nscheduling latency at 1 kHz, us, {} s alongside {} ({} frames)\n"
+      "{:<22}{:>8}{:>8}{:>8}{:>9}   {}\n",
+      options.seconds, figures.renderer, figures.wake.frames, "", "p50", "p99", "p99.9", "max", "missed");
   const auto row = [&](const char* name, const core::Percentiles& us, std::uint64_t missed, std::uint64_t ticks) {
     text += fmt::format("{:<22}{:>8.0f}{:>8.0f}{:>8.0f}{:>9.0f}   {} of {} ({:.2f} %)\n", name, us.p50, us.p99, us.p999,
                         us.max, missed, missed + ticks, 100.0 * share(missed, ticks));
@@ -121,7 +124,7 @@ std::string table(const Figures& figures, const HapticsBenchOptions& options) {
                       servo.p999 / plain.p999, servo.max / plain.max);
 
   text += fmt::format(
-      "\nforce after the renderer is killed, stopped, or told to stop it, ms, {} rounds\n"
+      "\ntime until zero force after the renderer is killed, stopped, or told to stop the force, ms, {} rounds\n"
       "{:<22}{:>8}{:>8}{:>8}{:>9}   {:<24}{}\n",
       options.rounds, "", "p50", "", "", "max", "bar", "met");
   for (std::size_t i = 0; i < kReleases.size(); ++i) {
@@ -175,18 +178,19 @@ std::string json(const Figures& figures, const HapticsBenchOptions& options) {
 
 void add_haptics_benchmarks(OptionList& bench, const CommandContext& context) {
   OptionList command = bench.add_command(
-      "haptics", "a tick of the servo with each law, its wake-ups beside the renderer, and its release of the hand");
+      "haptics",
+      "measure a servo tick with each law, the scheduling latency alongside the renderer, and the release of the hand");
   const auto options = std::make_shared<HapticsBenchOptions>();
-  command.add_option("--ticks", options->ticks, "ticks of each law, 1000 to 10000000")
+  command.add_option("--ticks", options->ticks, "ticks per law, 1000 to 10000000")
       .within(1000, 10'000'000)
       .show_default();
-  command.add_option("--seconds", options->seconds, "how long the servo runs beside the renderer, s, 0.5 to 600")
+  command.add_option("--seconds", options->seconds, "run time of the servo alongside the renderer, s, 0.5 to 600")
       .within(0.5, 600.0)
       .show_default();
-  command.add_option("--rounds", options->rounds, "renderers that are killed, and stopped, 1 to 1000")
+  command.add_option("--rounds", options->rounds, "number of renderers to kill and to stop, 1 to 1000")
       .within(1, 1000)
       .show_default();
-  command.add_flag("--json", options->json, "print JSON, in seconds, instead of tables");
+  command.add_flag("--json", options->json, "print JSON with times in seconds instead of tables");
   command.footer("example: touchafm bench haptics --seconds 60");
   command.when_chosen([options, &context]() -> core::Result<void> {
     const auto figures = measure_all(context, *options);

@@ -5,8 +5,8 @@
 
 namespace afm::app {
 
-// touchafm bench haptics: the work of a tick, the wake-ups of the real servo beside a renderer that draws as fast as it
-// can, and how long a force outlives its renderer.
+// touchafm bench haptics: work per tick, scheduling latency of the real servo alongside a renderer at full speed, and
+// the time until zero force after the renderer fails.
 void add_haptics_benchmarks(OptionList& bench, const CommandContext& context);
 
 }  // namespace afm::app

@@ -72,12 +72,12 @@ std::string in_quotes(const std::string& text) {
   return result + "'";
 }
 
-// By this program in a process of its own, whose driver finds an empty shader cache, and then the one that it has left.
+// Times of this program in a separate process, whose driver finds first an empty shader cache and then a full one.
 core::Result<FirstFrame> first_frames(const std::string& program, const RenderBenchOptions& options) {
   std::string folder = (std::filesystem::temp_directory_path() / "touchafm-shader-cache-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) {
-    return core::failure(core::ErrorCategory::Failed, "cannot make the folder " + folder +
-                                                          " for a shader cache: set TMPDIR to one that can be written");
+    return core::failure(core::ErrorCategory::Failed,
+                         "cannot create the folder " + folder + " for a shader cache: set TMPDIR to a writable folder");
   }
   const std::string command = fmt::format(
       "MESA_SHADER_CACHE_DIR={} {} bench render --first-frame-alone --eye-width {} --samples {} --assets {}",
@@ -111,8 +111,8 @@ core::Result<std::vector<RenderSubject>> subjects_of(const RenderBenchOptions& o
 
 std::string table(const RenderFigures& result, const FirstFrame& first, const RenderBenchOptions& options) {
   std::string text = fmt::format(
-      "ms a frame, {} samples, {} rounds of {} frames on {}\n{:<34}{:>8}{:>8}{:>8}{:>8}{:>8}   "
-      "{:>8}{:>8}{:>8}{:>8}{:>8}\n",
+      "ms per frame, {} samples, {} rounds of {} frames on {}\n"
+      "{:<34}{:>8}{:>8}{:>8}{:>8}{:>8}   {:>8}{:>8}{:>8}{:>8}{:>8}\n",
       options.plan.samples, options.plan.rounds, options.plan.frames, result.device, "", "p50", "p99", "max", "ratio",
       "cpu", "panels", "shadow", "eyes", "compose", "read");
   for (const RenderFigure& each : result.figures) {
@@ -127,13 +127,13 @@ std::string table(const RenderFigures& result, const FirstFrame& first, const Re
     text += "\n";
   }
   const double wall_ms = result.figures.front().frame_ms.p50;
-  text += fmt::format("\nthe wall: {:.1f} frames/s, bar {:.0f}: {}\n", 1000.0 / wall_ms, 1000.0 / kFrameBar_ms,
+  text += fmt::format("\nthe wall: {:.1f} frames/s, target {:.0f}: {}\n", 1000.0 / wall_ms, 1000.0 / kFrameBar_ms,
                       wall_ms <= kFrameBar_ms ? "met" : "not met");
   text += fmt::format(
-      "first frame: {:.0f} ms with an empty shader cache, {:.0f} ms with a full one, bar {:.0f} cold: {}\n",
+      "first frame: {:.0f} ms with an empty shader cache, {:.0f} ms with a full one, target {:.0f} when empty: {}\n",
       first.cold_ms, first.warm_ms, kFirstFrameBar_ms, first.cold_ms <= kFirstFrameBar_ms ? "met" : "not met");
-  text += fmt::format("resident memory: {:.0f} MB at first, {:.0f} MB at the end\n", 1e-6 * result.memory_before_bytes,
-                      1e-6 * result.memory_after_bytes);
+  text += fmt::format("resident memory: {:.0f} MB at the start, {:.0f} MB at the end\n",
+                      1e-6 * result.memory_before_bytes, 1e-6 * result.memory_after_bytes);
   return text;
 }
 
@@ -188,27 +188,29 @@ core::Result<void> run(const RenderBenchOptions& options, const std::string& pro
 }  // namespace
 
 void add_render_benchmarks(OptionList& bench, const CommandContext& context) {
-  OptionList command = bench.add_command("render", "a frame of the wall and of other scenes, and the first frame");
+  OptionList command =
+      bench.add_command("render", "measure frames of the wall and of other scenes, and the time to the first frame");
   const auto options = std::make_shared<RenderBenchOptions>();
-  command.add_option("--rounds", options->plan.rounds, "how often everything is drawn in turn, 1 to 1000")
+  command.add_option("--rounds", options->plan.rounds, "number of rounds, each of which draws everything, 1 to 1000")
       .within(1, 1000)
       .show_default();
-  command.add_option("--frames", options->plan.frames, "frames of each way in a round, 1 to 10000")
+  command.add_option("--frames", options->plan.frames, "frames per scene and method in a round, 1 to 10000")
       .within(1, 10'000)
       .show_default();
-  command.add_option("--eye-width", options->eye_width, "width of each eye's picture in pixels")
+  command.add_option("--eye-width", options->eye_width, "width of each eye image in pixels")
       .within(16, 8192)
       .show_default()
       .type_name("PIXELS");
-  command.add_option("--samples", options->plan.samples, "samples a pixel: 1 or 4").one_of({1, 4}).show_default();
-  command.add_option("--gltf", options->gltf, "a glTF file to draw too; may be given again").type_name("FILE");
+  command.add_option("--samples", options->plan.samples, "samples per pixel: 1 or 4").one_of({1, 4}).show_default();
+  command.add_option("--gltf", options->gltf, "glTF file to draw as well; repeatable").type_name("FILE");
   command
       .add_option("--peer", options->plan.peers,
-                  "a shell command to run in each round, which prints a JSON object with frame_ms; may be given again")
+                  "shell command to time in each round; it must print a JSON object with frame_ms; repeatable")
       .type_name("COMMAND");
-  command.add_flag("--first-frame-alone", options->first_frame_alone,
-                   "print the ms to the first frame of the wall, as a peer does, and nothing else");
-  command.add_flag("--json", options->json, "print JSON, in seconds, instead of a table");
+  command.add_flag(
+      "--first-frame-alone", options->first_frame_alone,
+      "print only a JSON object with frame_ms, the time to the first frame of the wall, as --peer expects");
+  command.add_flag("--json", options->json, "print JSON with times in seconds instead of a table");
   add_stage_options(command, options->files, context);
   command.footer("example: touchafm bench render --rounds 3 --gltf model.glb");
   command.when_chosen([options, &context] { return run(*options, context.program_path); });

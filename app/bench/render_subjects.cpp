@@ -32,7 +32,7 @@ double height_at(double turn, double release_m) {
   return release_m * (kBottomOfRelease + (kTopOfRelease - kBottomOfRelease) * down);
 }
 
-// ---- what stands alone ----
+// ---- separate subjects ----
 
 struct Box {
   glm::dvec3 low{1e300};
@@ -98,7 +98,7 @@ core::Result<RenderSubject> standing_alone(std::string name, scene::Scene scene,
   const Box box = box_of(scene, room);
   if (!(glm::length(box.high - box.low) > 0.0)) {
     return core::failure(core::ErrorCategory::BadInputFile,
-                         name + ": has nothing to look at: no mesh, or one of no size");
+                         name + ": has nothing to draw: no mesh, or a mesh without size");
   }
   RenderSubject subject{.name = std::move(name),
                         .scene = std::move(scene),

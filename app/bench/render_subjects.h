@@ -27,12 +27,12 @@ struct RenderSubject {
 // painted again for every frame. As high as the wall's proportions make `eye_width_px`.
 core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint32_t eye_width_px);
 
-// A glTF file before a viewer that sways: 30 degrees of height show its whole box, the wall stands in the box's middle,
+// A glTF file before a viewer that sways: 30 degrees of height show its whole box, the wall cuts the box in the middle,
 // and the eyes are 3 % of the distance to it apart.
 core::Result<RenderSubject> gltf_subject(const std::string& path, glm::uvec2 eye_px);
 
-// A square of `quads` x `quads` hills of one material; and `side`^3 small boxes, each a node of its own. Seen as a file
-// is.
+// A square of `quads` x `quads` hills of one material; and `side`^3 small boxes, each a separate node. Seen like a
+// file.
 RenderSubject hills_subject(std::uint32_t quads, glm::uvec2 eye_px);
 RenderSubject boxes_subject(std::uint32_t side, glm::uvec2 eye_px);
 

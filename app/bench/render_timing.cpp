@@ -132,9 +132,8 @@ void set_ratios(std::vector<RenderFigure>& figures) {
 
 core::Result<double> printed_frame_ms(const std::string& command) {
   const auto refuse = [&](const std::string& why) {
-    return core::failure(
-        core::ErrorCategory::Failed,
-        fmt::format("the command \"{}\" {}: give one that prints a JSON object with frame_ms", command, why));
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("the command \"{}\" {}: it must print a JSON object with frame_ms", command, why));
   };
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "re"), pclose);
   if (!pipe) return refuse("could not be started");

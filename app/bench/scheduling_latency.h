@@ -10,7 +10,7 @@
 
 namespace afm::app {
 
-// How late a thread that does nothing wakes on this machine: what the servo can hope for.
+// Wake-up latency of an idle thread on this machine: a lower bound for the servo's.
 struct SchedulingLatency {
   haptics::RealtimeGrant grant;  // what the thread was granted; its pages were not locked
   std::uint64_t ticks = 0;       // that came
@@ -19,8 +19,8 @@ struct SchedulingLatency {
   std::array<std::uint32_t, scene::kHistogramBins> late_us{};  // bins of 1 us; the last holds all that is longer
 };
 
-// Sleeps to absolute deadlines at `rate_hz` for `seconds`, in a thread of its own that asks for the servo's priority.
-// The caller waits. Not for a servo tick.
+// Sleeps to absolute deadlines at `rate_hz` for `seconds`, in a separate thread that asks for the servo's priority. The
+// caller waits. Not for a servo tick.
 SchedulingLatency measure_wake_jitter(const core::Clock& clock, double rate_hz, double seconds);
 
 }  // namespace afm::app

@@ -11,16 +11,15 @@
 
 namespace afm::app {
 
-// How late the servo's own thread wakes, beside a plain loop at the same rate and priority at the same time.
+// Wake-up latency of the servo's thread and, at the same time, of a plain loop at the same rate and priority.
 struct ServoWake {
   scene::ServoTiming servo;
   SchedulingLatency plain;
   std::uint64_t frames = 0;  // drawn meanwhile
 };
 
-// Runs touchafm-servo, which lies beside `program`, with the simulated hand for `seconds`. `draw` is called over and
-// over meanwhile and must return within 250 ms, or the servo takes the renderer for hung; without one the caller
-// sleeps.
+// Runs touchafm-servo, from the folder of `program`, with the simulated hand for `seconds`. Calls `draw` repeatedly
+// meanwhile; it must return within 250 ms, or the servo assumes that the renderer hangs; without one the caller sleeps.
 core::Result<ServoWake> measure_servo_wake(const std::string& program, double seconds,
                                            const std::function<void()>& draw = {});
 

@@ -122,10 +122,10 @@ core::Result<std::vector<double>> measure_reaction(const std::string& program, c
   for (int tried = 0; static_cast<int>(lasted_ms.size()) < rounds; ++tried) {
     if (tried >= rounds * kTriesPerRound) {
       return core::failure(core::ErrorCategory::Failed,
-                           "the servo does not hold the hand long enough to measure: close what else runs");
+                           "the servo does not hold the hand long enough for a measurement: close other programs");
     }
-    core::log_line(
-        fmt::format("a renderer {} while the hand is held ({} of {})", release.what, lasted_ms.size() + 1, rounds));
+    core::log_line(fmt::format("the renderer {} while the servo holds the hand ({} of {})", release.what,
+                               lasted_ms.size() + 1, rounds));
     if (const auto one = one_round(servo, release)) lasted_ms.push_back(*one);
   }
   return lasted_ms;

@@ -26,10 +26,10 @@ inline constexpr std::array kReleases{
     Release{"stopped", "is stopped", SIGSTOP, scene::FaultCode::RendererHung, 350.0},
     Release{"stop-key", "is told to stop the force", SIGUSR1, scene::FaultCode::StopPressed, 30.0}};
 
-// How long the hand still felt a force after the signal, milliseconds, once for each round: a renderer in a process of
-// its own starts touchafm-servo, which lies beside `program`, and holds the tip on the sample; then it is sent the
-// signal. A round in which the machine made the servo let go before is done again. The caller has one thread only. Two
-// seconds a round.
+// Time from the signal to zero force, milliseconds, one value per round. In each round a renderer in a separate process
+// starts touchafm-servo from the folder of `program` and holds the tip on the sample; then it is sent the signal.
+// Repeats a round in which the load on the machine made the servo release the hand early. The caller has one thread
+// only. Two seconds a round.
 core::Result<std::vector<double>> measure_reaction(const std::string& program, const Release& release, int rounds);
 
 }  // namespace afm::app

@@ -103,7 +103,7 @@ class Bench {
   bool force_is_on() { return side_.tip_state()->servo_state == scene::ServoState::Running; }
 
  private:
-  // The person: lifts, presses Turn-On, then goes down and up for ever, and to and fro.
+  // The person: lifts, presses Turn-On, then moves up and down without end, and to and fro.
   void direct() {
     if (tick_ == kWarmUpTicks / 2) aim(kTop_m, true);
     if (tick_ == kWarmUpTicks / 2 + 100) aim(kTop_m, false);
@@ -139,7 +139,7 @@ core::Result<WorkFigure> measure_case(const WorkCase& work, std::size_t ticks) {
   for (std::size_t i = 0; i < kWarmUpTicks; ++i) bench.tick_us();
   if (!bench.force_is_on()) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot measure {}: the force did not come on", work.name));
+                         fmt::format("cannot measure {}: the force was never enabled", work.name));
   }
   std::vector<double> us(ticks);
   for (double& each : us) each = bench.tick_us();
@@ -170,7 +170,7 @@ core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks) {
   std::vector<WorkFigure> figures;
   const std::vector<WorkCase> all = work_cases();
   for (const WorkCase& work : all) {
-    core::log_line(fmt::format("measuring a tick: {} ({} of {})", work.name, figures.size() + 1, all.size()));
+    core::log_line(fmt::format("measuring ticks: {} ({} of {})", work.name, figures.size() + 1, all.size()));
     auto figure = measure_case(work, ticks);
     if (!figure) return tl::unexpected(figure.error());
     figures.push_back(std::move(*figure));

@@ -11,11 +11,11 @@
 
 namespace afm::app {
 
-// Mica under a silicon nitride tip on a sample whose +z points up, as docs/physics.md has it: what the benchmarks of
-// the servo feel.
+// Mica under a silicon nitride tip on a sample whose +z points up, as in docs/physics.md: the sample of the servo
+// benchmarks.
 scene::SharedModel mica_alone();
 
-// What a tick of the servo takes with one law of force, microseconds.
+// Work of a servo tick with one law of force, microseconds.
 struct WorkFigure {
   std::string name;
   core::Percentiles us;

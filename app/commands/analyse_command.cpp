@@ -47,7 +47,7 @@ core::Result<double> parse_sensitivity(std::string_view text) {
   const auto parsed = physics::parse_quantity(text.substr(0, text.size() - std::min(text.size(), kPerVolt.size())),
                                               physics::kLengthUnits);
   if (!text.ends_with(kPerVolt) || !parsed.value || parsed.value->si <= 0.0) {
-    return wrong_usage(fmt::format("\"{}\" is no deflection per volt, as 70nm/V is", text));
+    return wrong_usage(fmt::format("\"{}\" is not a deflection per volt, such as 70nm/V", text));
   }
   return parsed.value->si;
 }
@@ -77,7 +77,7 @@ core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
 
 void add_analyse_command(OptionList& program, const CommandContext&) {
   OptionList command =
-      program.add_command("analyse", "what a measured or computed curve says, alone or beside another");
+      program.add_command("analyse", "analyse a measured or computed curve, alone or compared with another");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<AnalyseOptions>();
   command
@@ -85,12 +85,13 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
                   "TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw")
       .required()
       .type_name("FILE");
-  command.add_option("--beside", options->beside, "another curve, measured or of `touchafm curve`, to compare with")
+  command
+      .add_option("--beside", options->beside, "second curve to compare with, measured or computed by touchafm curve")
       .type_name("FILE");
   curves::CurveReading& reading = options->reading;
   quantity_option(
       command, "--spring-constant", [&reading](physics::Stiffness lever) { reading.spring_constant = lever; },
-      physics::kStiffnessUnits, "of the lever, in place of the file's; forces scale with it",
+      physics::kStiffnessUnits, "spring constant of the lever instead of the file's; forces scale with it",
       std::optional(kSpringConstants));
   const auto read_sensitivity = [&reading](const std::string& text) -> core::Result<void> {
     const auto sensitivity = parse_sensitivity(text);
@@ -98,26 +99,28 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
     reading.sensitivity_m_per_v = *sensitivity;
     return {};
   };
-  command.add_parsed_option("--sensitivity", read_sensitivity, "of the optical lever, in place of the file's")
+  command.add_parsed_option("--sensitivity", read_sensitivity, "sensitivity of the optical lever instead of the file's")
       .type_name("SENSITIVITY in um/V, nm/V, pm/V");
   const auto read_method = [options = options.get()](const std::string& text) -> core::Result<void> {
     const auto method = std::find_if(physics::kContactMethods.begin(), physics::kContactMethods.end(),
                                      [&](const auto& each) { return each.name == text; });
     if (method == physics::kContactMethods.end()) {
-      return wrong_usage(fmt::format("unknown method \"{}\"; known are {}", text, contact_method_names()));
+      return wrong_usage(fmt::format("unknown method \"{}\"; choose {}", text, contact_method_names()));
     }
     options->contact_method = method->method;
     return {};
   };
   command
       .add_parsed_option("--contact-point", read_method,
-                         "method: " + contact_method_names() +
-                             "; default: zero-force where the approach is pulled before contact or the curve is "
-                             "computed, else fit-polynomial")
+                         "method that finds the contact point: " + contact_method_names() +
+                             "; default: zero-force if the tip is attracted before contact or the curve is computed, "
+                             "otherwise fit-polynomial")
       .type_name("METHOD");
-  command.add_option("--curve", reading.index, "which curve of an .h5, from 0").show_default().type_name("INDEX");
-  command.add_flag("--json", options->json, "in SI, null for what was not found");
-  command.add_option("--out", options->out, "write a picture (SVG) of the curve here").type_name("FILE");
+  command.add_option("--curve", reading.index, "number of the curve in an .h5 file, from 0")
+      .show_default()
+      .type_name("INDEX");
+  command.add_flag("--json", options->json, "print JSON in SI units; null marks a figure that was not found");
+  command.add_option("--out", options->out, "write a plot of the curve (SVG) to FILE").type_name("FILE");
   command.footer(
       "docs/curves.md defines each figure.\n"
       "example: touchafm analyse gold.jpk-force --beside model.csv --out gold.svg");

@@ -9,7 +9,7 @@
 
 namespace afm::app {
 
-// What `touchafm analyse` was asked for; an empty text is an option that was not given.
+// Options of `touchafm analyse`; empty text: not given.
 struct AnalyseOptions {
   std::string file;
   curves::CurveReading reading;                          // in place of what the file says

@@ -24,18 +24,23 @@ core::Result<void> become_benchmarks(const std::string& program, bool as_json) {
   ::execv(path.c_str(), arguments.data());
   return core::failure(
       core::ErrorCategory::Failed,
-      fmt::format("cannot start {}: {}; it is built and installed with touchafm", path, core::system_error(errno)));
+      fmt::format("cannot start {}: {}; install touchafm completely, or build the target touchafm-bench", path,
+                  core::system_error(errno)));
 }
 
 }  // namespace
 
 void add_bench_command(OptionList& program, const CommandContext& context) {
-  OptionList bench = program.add_command("bench", "measure this machine against the bars of the design");
-  bench.footer("A bar that is not met changes no exit code.\nexample: touchafm bench physics");
-  OptionList physics = bench.add_command("physics", "a tick and the tables of each law, the dynamics, a whole curve");
+  OptionList bench =
+      program.add_command("bench", "measure the performance of physics, servo and renderer on this machine");
+  bench.footer(
+      "A missed target does not change the exit code.\n"
+      "example: touchafm bench physics");
+  OptionList physics = bench.add_command(
+      "physics", "measure a tick and the tables of each law, the lever's dynamics, and a whole curve");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto as_json = std::make_shared<bool>(false);
-  physics.add_flag("--json", *as_json, "print JSON, in seconds, instead of a table");
+  physics.add_flag("--json", *as_json, "print JSON with times in seconds instead of a table");
   physics.footer("example: touchafm bench physics --json");
   physics.when_chosen([as_json, &context] { return become_benchmarks(context.program_path, *as_json); });
   add_haptics_benchmarks(bench, context);

@@ -26,7 +26,7 @@ constexpr const char* kFormats = "csv, json, svg, tab, h5, afm-workshop";
 
 core::Result<std::string> output_format(const CurveOptions& options) {
   if (options.json && !options.format.empty() && options.format != "json") {
-    return wrong_usage(fmt::format("--json and --format {} contradict each other", options.format));
+    return wrong_usage(fmt::format("--json and --format {} exclude each other; remove one", options.format));
   }
   if (options.json) return "json";
   if (!options.format.empty()) return options.format;
@@ -49,7 +49,7 @@ core::Result<void> add_overlay(const std::string& file, const curves::CurveRun& 
   if (!measured) return tl::unexpected(measured.error());
   if (!measured->features.contact_point) {
     return core::failure(core::ErrorCategory::BadInputFile,
-                         fmt::format("--overlay {}: it has no contact point to lay over the model's", file));
+                         fmt::format("--overlay {}: the curve has no contact point to align with the model's", file));
   }
   const auto model = physics::analyse(physics::points_of(run.curve.samples), physics::ForceZero::True);
   const physics::Length model_contact = model.contact_point.value_or(physics::Length());
@@ -59,9 +59,8 @@ core::Result<void> add_overlay(const std::string& file, const curves::CurveRun& 
   }
   const physics::CurveFeatures& found = measured->features;
   core::log_line(
-      fmt::format("{} is moved by {} along Z, its contact point ({}{}) to the model's at {}, and by {} in force, its "
-                  "baseline ({} at "
-                  "the far end, tilt {}) to zero",
+      fmt::format("{} is shifted by {} in Z, which aligns its contact point ({}{}) with the model's at {}, and by {} "
+                  "in force, which brings its baseline ({} at the far end, tilt {}) to zero",
                   file, physics::format_quantity(model_contact - *found.contact_point, physics::kLengthUnits, 4),
                   physics::name_of(found.contact_method), found.contact_doubtful ? ", doubtful" : "",
                   physics::format_quantity(model_contact, physics::kLengthUnits, 4),
@@ -83,15 +82,15 @@ core::Result<std::string> curve_text(const CurveOptions& options, const curves::
     return curves::svg(plot);
   }
   const auto file_format = curves::writable_format(format);
-  if (!file_format) return wrong_usage(fmt::format("unknown format \"{}\"; known are {}", format, kFormats));
+  if (!file_format) return wrong_usage(fmt::format("unknown format \"{}\"; choose {}", format, kFormats));
   return curves::curve_bytes(*file_format,
                              curves::recorded_curve(run.curve, run.setup.material.contact.spring_constant));
 }
 
 core::Result<void> write_curve(const CurveOptions& options, const curves::ContactSetup& setup,
                                const std::string& format) {
-  if (!options.overlay.empty() && format != "svg") return wrong_usage("--overlay draws, so it needs --format svg");
-  if (format == "h5" && options.out.empty()) return wrong_usage("--format h5 is no text; give it a file with --out");
+  if (!options.overlay.empty() && format != "svg") return wrong_usage("--overlay needs a plot; add --format svg");
+  if (format == "h5" && options.out.empty()) return wrong_usage("--format h5 is binary; name a file with --out");
   curves::PathOptions path = options.path;
   path.events_only = format == "json";
   const auto run = curves::run_curve(setup, path);
@@ -109,16 +108,16 @@ core::Result<void> write_curve(const CurveOptions& options, const curves::Contac
 core::Result<void> write_sweep(const CurveOptions& options, const curves::ContactSetup& setup,
                                const std::string& format) {
   if (format != "csv" && format != "json") {
-    return wrong_usage(fmt::format("a sweep is a table: csv or json, not {}", format));
+    return wrong_usage(fmt::format("a sweep is written as csv or json, not {}", format));
   }
-  if (!options.overlay.empty()) return wrong_usage("--overlay is for one curve, not for a sweep");
-  if (options.sweeps.size() > 2) return wrong_usage("at most two numbers can be swept at once");
+  if (!options.overlay.empty()) return wrong_usage("--overlay needs a single curve; remove --sweep");
+  if (options.sweeps.size() > 2) return wrong_usage("a sweep varies at most two parameters");
   std::vector<curves::SweepAxis> axes;
   for (const std::string& text : options.sweeps) {
     const auto axis = curves::parse_sweep_axis(text, setup.model);
     if (!axis) return wrong_usage("--sweep " + axis.error().message);
     if (!axes.empty() && axes.front().parameter == axis->parameter) {
-      return wrong_usage(fmt::format("--sweep {}: it is swept twice", axis->parameter->option));
+      return wrong_usage(fmt::format("--sweep {}: this parameter is swept already", axis->parameter->option));
     }
     axes.push_back(*axis);
   }
@@ -153,60 +152,60 @@ core::Result<void> write_curve_command(const CurveOptions& options) {
 
 void add_curve_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
-      "curve", "one approach-retract cycle as CSV, as a file for other programs, or its events as JSON; or a sweep");
+      "curve", "compute an approach-retract cycle as CSV, JSON events or a file for other programs; or run a sweep");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<CurveOptions>();
   command
       .add_option("--material", options->contact.material,
-                  "mica, gold, si3n4, or another of \"touchafm material\"; without it every number that the model "
-                  "needs must be given")
+                  "mica, gold or any other of touchafm material; without it, give every parameter that the model needs")
       .type_name("MATERIAL");
   add_contact_options(command, options->contact, context);
   const Option from =
       command
           .add_option("--from", options->path.from,
-                      "where the cycle starts and ends, above Z_jtc: m, mm, um, nm, pm; default: a tenth above Z_joc")
+                      "start and end of the cycle, above Z_jtc, in m, mm, um, nm or pm; default: 10 % above Z_joc")
           .type_name("LENGTH");
   const Option to = command
                         .add_option("--to", options->path.to,
-                                    "where it turns, below --from: m, mm, um, nm, pm; default: -5nm, deeper where "
-                                    "the sample still pulls there")
+                                    "turning point, below --from, in m, mm, um, nm or pm; default: -5nm, or deeper if "
+                                    "the sample still attracts there")
                         .type_name("LENGTH");
   const Option step = command
                           .add_option("--step", options->path.step,
-                                      "between samples: m, mm, um, nm, pm; at most 10 million samples; default: "
-                                      "0.01nm, or a twenty-thousandth of a longer way")
+                                      "distance between samples in m, mm, um, nm or pm; at most 10 million samples; "
+                                      "default: 0.01nm, or 1/20000 of a longer path")
                           .type_name("LENGTH");
-  command.add_option("--speed", options->path.speed, "of the base, for dynamic models: m/s, mm/s, um/s; default: 1um/s")
+  command
+      .add_option("--speed", options->path.speed, "speed of the base (dynamic models): m/s, mm/s, um/s; default: 1um/s")
       .type_name("VELOCITY");
   command
-      .add_option("--seed", options->path.seed, "of the thermal noise of dynamic models; the same seed, the same curve")
+      .add_option("--seed", options->path.seed,
+                  "seed of the thermal noise of dynamic models; the same seed gives the same curve")
       .type_name("NUMBER");
   command
       .add_option("--sweep", options->sweeps,
-                  "key=from:to:count, the events of one cycle for every value of a number (its option without the "
-                  "dashes), :log behind it for equal ratios; twice for a grid; at most a million points")
+                  "key=from:to:count computes the events of one cycle for each value of a parameter (its option "
+                  "without the dashes); append :log for equal ratios; repeat for a grid; at most a million points")
       .excludes(from)
       .excludes(to)
       .excludes(step)
       .one_value_each()
       .type_name("KEY=FROM:TO:COUNT");
-  command.add_flag("--json", options->json, "the events instead of the samples, in SI");
+  command.add_flag("--json", options->json, "print the events in SI units as JSON instead of the samples");
   command
       .add_option("--format", options->format,
-                  std::string("csv, json, svg, tab and h5 (afmformats), afm-workshop; default: by the ending of "
-                              "--out, else csv"))
+                  std::string("csv, json, svg, tab or h5 (afmformats), or afm-workshop; default: from the ending of "
+                              "--out, otherwise csv"))
       .one_of({"csv", "json", "svg", "tab", "h5", "afm-workshop"})
       .type_name("FORMAT");
   command
       .add_option("--overlay", options->overlay,
-                  "a measured curve to draw over the model, with --format svg: its contact point on the model's, its "
-                  "baseline at "
-                  "zero; stderr has by how much it was moved")
+                  "measured curve to draw over the model, with --format svg; its contact point is aligned with the "
+                  "model's and its baseline with zero; stderr reports both shifts")
       .type_name("FILE");
-  command.add_option("--out", options->out, "write here instead of to stdout").type_name("FILE");
+  command.add_option("--out", options->out, "write to FILE instead of stdout").type_name("FILE");
   command.footer(
-      "Each number overrides the material's or the probe's.\n"
+      "Each parameter overrides that of the material or the probe.\n"
       "example: touchafm curve --material mica --spring-constant 0.2N/m --from 20nm --to -5nm --out mica.csv\n"
       "example: touchafm curve --material pdms-air --sweep spring-constant=0.01N/m:100N/m:50:log --out sweep.csv");
   command.when_chosen([options] { return write_curve_command(*options); });

@@ -10,7 +10,7 @@
 
 namespace afm::app {
 
-// What `touchafm curve` was asked for; an empty text is an option that was not given.
+// Options of `touchafm curve`; empty text: not given.
 struct CurveOptions {
   ContactOptions contact;
   curves::PathOptions path;

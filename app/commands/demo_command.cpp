@@ -96,8 +96,7 @@ core::Result<std::vector<curves::SampleModel>> variations_of(const curves::Sampl
     if (!axis) return core::failure(axis.error().category, "--vary " + axis.error().message);
     if (axis->count > kMostVariations) {
       return core::failure(core::ErrorCategory::WrongUsage,
-                           fmt::format("--vary: {} values are more than a hand has patience for; give 2 to {}",
-                                       axis->count, kMostVariations));
+                           fmt::format("--vary: {} values; give 2 to {}", axis->count, kMostVariations));
     }
     for (std::uint64_t i = 0; i < axis->count; ++i) {
       const std::string value = curves::format_parameter(*axis->parameter, axis->value(i));
@@ -230,7 +229,7 @@ core::Result<void> check_accuracy(const Measurement& m) {
   if (m.worst_error() <= m.error_bound()) return {};
   return core::failure(
       core::ErrorCategory::Failed,
-      fmt::format("{}: an event is off by {:.3g} % from the {}, more than {} %; see summary.json", m.title,
+      fmt::format("{}: an event differs by {:.3g} % from the {}; the limit is {} %; see summary.json", m.title,
                   100.0 * m.worst_error(), m.recorded ? "recorded curve" : "equations", 100.0 * m.error_bound()));
 }
 
@@ -305,8 +304,8 @@ core::Result<void> read_model(const std::string& text, DemoOptions& options) {
   const auto model = curves::ModelName::parse(text);
   if (!model || model->direction_rule) {
     return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("unknown model \"{}\" to feel; known are {} (paper-rule is for curves alone)",
-                                     text, curves::known_models(curves::ModelUse::Device)));
+                         fmt::format("cannot feel model \"{}\"; choose {} (paper-rule works only for curves)", text,
+                                     curves::known_models(curves::ModelUse::Device)));
   }
   options.model = *model;
   return {};
@@ -316,13 +315,13 @@ core::Result<void> read_model(const std::string& text, DemoOptions& options) {
 void add_sample_options(OptionList& command, DemoOptions& options, const CommandContext& context) {
   command
       .add_option("--material", options.files.shown,
-                  "a sample of the material files, by name; give it once for each; default: the paper's three")
+                  "name of a sample in the material files; repeatable; default: the paper's three")
       .type_name("MATERIAL");
   command
       .add_parsed_option(
           "--model", [&options](const std::string& text) { return read_model(text, options); },
-          "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- before "
-          "one that can move a mass")
+          "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- before a "
+          "contact law for a lever with inertia")
       .show_default("paper")
       .type_name("MODEL");
   command
@@ -332,19 +331,19 @@ void add_sample_options(OptionList& command, DemoOptions& options, const Command
             (exhibit::is_model_file(text) ? options.files.probe : options.probe) = text;
             return {};
           },
-          fmt::format("a lever and tip of {}/probes.toml instead of the materials' own; or a glTF model of your own "
-                      "cantilever, .glb or .gltf, which changes the picture alone",
+          fmt::format("lever and tip from {}/probes.toml instead of the materials' own; or a glTF model of your own "
+                      "cantilever, .glb or .gltf, which changes only the picture",
                       context.assets_dir))
       .type_name("PROBE|FILE");
   add_own_sample_option(command, options.files);
   command
       .add_option("--vary", options.vary,
-                  "feel every sample once more at each of n values of one parameter, changed while the servo runs: "
-                  "spring-constant=0.1N/m:0.4N/m:3")
+                  "repeat the cycle on every sample at each of n values of one parameter, changed while the servo "
+                  "runs: spring-constant=0.1N/m:0.4N/m:3")
       .type_name("KEY=FROM:TO:N");
   command
       .add_option("--measured", options.measured,
-                  "a recorded curve to be felt too (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
+                  "measured curve to feel as well (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
       .type_name("FILE");
   add_scale_option(command, options.scale);
 }
@@ -353,21 +352,22 @@ void add_sample_options(OptionList& command, DemoOptions& options, const Command
 
 void add_demo_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
-      "demo", "the main job: feel and draw one full cycle on every sample, with no hardware and no display");
+      "demo", "run the demonstration: feel and draw one full cycle on every sample, without hardware or display");
   command.footer(
-      "Leaves in DIR: report.html (open it), fig5a.png to fig5e.png (side-by-side stereo), summary.json, and for "
+      "Writes to DIR: report.html (open it), fig5a.png to fig5e.png (side-by-side stereo), summary.json, and, for "
       "every\n"
-      "material curve-NAME.csv and session-NAME.afms.\n\nexample: touchafm demo --out out\n"
+      "material, curve-NAME.csv and session-NAME.afms.\n\n"
+      "example: touchafm demo --out out\n"
       "         touchafm demo --out fast --hand-speed 200mm/s --eye-width 1440\n"
       "         touchafm demo --out lever --material mica --model dmt --vary spring-constant=0.1N/m:0.4N/m:3");
   auto options = std::make_shared<DemoOptions>();
-  command.add_option("--out", options->out, "folder for the results; made if it does not exist")
+  command.add_option("--out", options->out, "folder for the results; created if it does not exist")
       .required()
       .type_name("DIR");
   add_stage_options(command, options->files, context);
   command
       .add_option("--eye-width", options->eye_width,
-                  "width of each eye's live picture in pixels; the height follows the wall")
+                  "width of each eye image in pixels during the run; the height follows from the wall")
       .within(64, 8192)
       .show_default()
       .type_name("PIXELS");

@@ -41,7 +41,7 @@ void look_for_hid_wands(const std::vector<input::HidMapping>& mappings, std::vec
   for (const input::HidFinding& finding : *found) {
     rows.push_back({finding.is_wand ? "wand" : "hid", finding.name, finding.usable, finding.said});
   }
-  if (found->empty()) rows.push_back({"wand", "HID", false, "no HID device is plugged in, or this system shows none"});
+  if (found->empty()) rows.push_back({"wand", "HID", false, "no HID device is plugged in or visible"});
 }
 
 Row listen_for_tracker(const input::DtrackSettings& settings) {
@@ -53,12 +53,10 @@ Row listen_for_tracker(const input::DtrackSettings& settings) {
   while (clock.now_ns() < end_ns) (*source)->poll();
   const input::DtrackUpdate update = (*source)->newest();
   if (update.good_packets + update.bad_packets == 0) {
-    return {"tracker", name, false,
-            "nothing came in 0.3 s: start the measurement, and send its output to this address"};
+    return {"tracker", name, false, "no packet in 0.3 s: start the measurement, and send its output to this address"};
   }
-  const std::string damaged =
-      fmt::format("{} packets that are no frames, {} frames lost, {} late or sent again in 0.3 s", update.bad_packets,
-                  update.lost_frames, update.old_packets);
+  const std::string damaged = fmt::format("{} malformed packets, {} frames lost, {} late or repeated in 0.3 s",
+                                          update.bad_packets, update.lost_frames, update.old_packets);
   if (update.good_packets == 0) return {"tracker", name, false, damaged};
   return {"tracker", name, true,
           fmt::format("{} frames, {} bodies, {} Flysticks; {}", update.good_packets, update.frame.body_count,
@@ -79,7 +77,7 @@ void look_for_monitors(std::vector<Row>& rows) {
                                 rect.offset_px.x, rect.offset_px.y,
                                 monitor.rate_hz > 0 ? fmt::format("{:g} Hz", monitor.rate_hz) : "rate unknown")});
   }
-  if (monitors->empty()) rows.push_back({"monitor", "any", false, "the display has no monitor that is switched on"});
+  if (monitors->empty()) rows.push_back({"monitor", "any", false, "no monitor of this display is switched on"});
 }
 
 // Where wands and trackers are looked for.
@@ -148,15 +146,17 @@ core::Result<void> list(const std::string& assets_dir, const std::string& wand_f
 
 void add_devices_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
-      "devices", "list the Vulkan devices, monitors, haptic devices, wands and trackers: what was tried, and why not");
+      "devices",
+      "list the Vulkan devices, monitors, haptic devices, wands and trackers, and explain why any of them is unusable");
   const auto json = std::make_shared<bool>(false);
   command.add_flag("--json", *json, "print the list as JSON");
   const auto wand_file = std::make_shared<std::string>();
-  command.add_option("--wand-file", *wand_file, "a device, or a tracker's address, of your own").type_name("FILE");
-  command.footer(
-      fmt::format("example: touchafm devices\n{}=FILE names the library of a PHANTOM's or Touch's driver, "
-                  "{}=NAME the device in its set-up.",
-                  haptics::kHdLibraryVariable, haptics::kHdDeviceVariable));
+  command.add_option("--wand-file", *wand_file, "wand file that describes your own device or your tracker's address")
+      .type_name("FILE");
+  command.footer(fmt::format(
+      "example: touchafm devices\n"
+      "Set {}=FILE to the driver library of a PHANTOM or Touch, and {}=NAME to the name of the device in its set-up.",
+      haptics::kHdLibraryVariable, haptics::kHdDeviceVariable));
   command.when_chosen([&context, json, wand_file] { return list(context.assets_dir, *wand_file, *json); });
 }
 

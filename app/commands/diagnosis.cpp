@@ -27,7 +27,7 @@ Finding priority(const MachineFacts& facts) {
   if (granted > 0) return {"real-time priority", Verdict::Good, fmt::format("SCHED_FIFO {} granted", granted), {}};
   return {"real-time priority", Verdict::Limited,
           fmt::format("SCHED_FIFO {} refused: the limit is {}", haptics::kServoPriority, facts.priority_limit),
-          haptics::limit_mend("rtprio", "80")};
+          haptics::limit_fix("rtprio", "80")};
 }
 
 Finding locked_memory(const MachineFacts& facts) {
@@ -36,7 +36,7 @@ Finding locked_memory(const MachineFacts& facts) {
                                 : std::string("unlimited");
   if (facts.pages_can_be_locked) return {"locked memory", Verdict::Good, "pages can be locked, " + limit, {}};
   return {"locked memory", Verdict::Limited, "pages cannot be locked, " + limit,
-          haptics::limit_mend("memlock", "unlimited")};
+          haptics::limit_fix("memlock", "unlimited")};
 }
 
 Finding wake_up(const MachineFacts& facts) {
@@ -47,7 +47,7 @@ Finding wake_up(const MachineFacts& facts) {
           fmt::format("late by p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, max {:.0f} \u00b5s; {} of {} ticks missed",
                       late.p50, late.p99, late.p999, late.max, jitter.missed, jitter.ticks + jitter.missed),
           good ? std::string()
-               : "close what else runs; on Debian a real-time kernel: sudo apt install linux-image-rt-amd64"};
+               : "close other programs; on Debian, install a real-time kernel: sudo apt install linux-image-rt-amd64"};
 }
 
 Finding graphics(const MachineFacts& facts) {
@@ -59,21 +59,21 @@ Finding graphics(const MachineFacts& facts) {
   }
   const auto closed = std::find_if(facts.render_nodes.begin(), facts.render_nodes.end(),
                                    [](const DeviceNode& node) { return !node.accessible; });
-  const std::string mend =
+  const std::string fix =
       closed != facts.render_nodes.end()
           ? join_group("render,video")
-          : "install the GPU's Vulkan driver: sudo apt install mesa-vulkan-drivers for Intel and AMD";
+          : "install the Vulkan driver of the GPU; for Intel and AMD: sudo apt install mesa-vulkan-drivers";
   if (const auto cpu = std::find_if(all.begin(), all.end(), usable); cpu != all.end()) {
-    return {"graphics", Verdict::Limited, fmt::format("no GPU: {} draws on the processor", cpu->name), mend};
+    return {"graphics", Verdict::Limited, fmt::format("no GPU: {} renders on the processor", cpu->name), fix};
   }
   return {"graphics", Verdict::Missing,
-          all.empty() ? facts.graphics_refusal : fmt::format("{}: {}", all.front().name, all.front().reason), mend};
+          all.empty() ? facts.graphics_refusal : fmt::format("{}: {}", all.front().name, all.front().reason), fix};
 }
 
 Finding display(const MachineFacts& facts) {
   if (!facts.display.empty()) return {"display", Verdict::Good, facts.display, {}};
-  return {"display", Verdict::Missing, "none: demo and render work, a window does not",
-          "log in to a desktop, or export DISPLAY=:0"};
+  return {"display", Verdict::Missing, "none: demo and render work, but view cannot open a window",
+          "log in to a desktop, or run: export DISPLAY=:0"};
 }
 
 Finding hid(const MachineFacts& facts) {
@@ -112,17 +112,16 @@ Finding haptic_device(const MachineFacts& facts) {
     }
   }
   if (silent) return *silent;
-  return {
-      "haptic device", Verdict::Limited, "no driver is installed: the simulated hand stands in",
-      fmt::format("install the driver of the PHANTOM or Touch, or export {}=/path/to/libHD.so; touchafm devices says "
-                  "what was tried",
-                  haptics::kHdLibraryVariable)};
+  return {"haptic device", Verdict::Limited, "no driver is installed: a simulated hand is used instead",
+          fmt::format("install the driver of the PHANTOM or Touch, or run: export {}=/path/to/libHD.so; touchafm "
+                      "devices lists what was tried",
+                      haptics::kHdLibraryVariable)};
 }
 
 Finding servo_program(const MachineFacts& facts) {
   if (facts.servo_program_runs) return {"servo program", Verdict::Good, facts.servo_program, {}};
-  return {"servo program", Verdict::Missing, facts.servo_program + " is not there",
-          "build the target touchafm-servo and keep it beside touchafm"};
+  return {"servo program", Verdict::Missing, facts.servo_program + " does not exist",
+          "reinstall touchafm, or build the target touchafm-servo; both programs belong in one folder"};
 }
 
 }  // namespace

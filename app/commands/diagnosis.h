@@ -18,7 +18,7 @@ struct Finding {
   std::string check;
   Verdict verdict = Verdict::Good;
   std::string found;
-  std::string mend;  // a line to type, or what to do; empty if good
+  std::string fix;  // the fix: a command to type or an instruction; empty if good
 };
 
 // One finding a check, in a fixed order.

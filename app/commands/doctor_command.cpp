@@ -64,17 +64,17 @@ std::string plain(const MachineFacts& facts, const std::vector<Finding>& finding
   std::string text;
   for (const Finding& f : findings) text += fmt::format("{:<19} {:<8} {}\n", f.check, word(f.verdict), f.found);
   text += histogram("a plain loop", facts.jitter.late_us, facts.jitter.ticks);
-  std::string mend;
+  std::string fix;
   for (const Finding& f : findings) {
-    if (f.verdict != Verdict::Good) mend += fmt::format("  {}: {}\n", f.check, f.mend);
+    if (f.verdict != Verdict::Good) fix += fmt::format("  {}: {}\n", f.check, f.fix);
   }
-  return text + (mend.empty() ? "\nnothing to mend\n" : "\nto mend\n" + mend);
+  return text + (fix.empty() ? "\nno fixes needed\n" : "\nfixes\n" + fix);
 }
 
 std::string json(const MachineFacts& facts, const std::vector<Finding>& findings) {
   nlohmann::json checks = nlohmann::json::array();
   for (const Finding& f : findings) {
-    checks.push_back({{"check", f.check}, {"verdict", word(f.verdict)}, {"found", f.found}, {"mend", f.mend}});
+    checks.push_back({{"check", f.check}, {"verdict", word(f.verdict)}, {"found", f.found}, {"mend", f.fix}});
   }
   const SchedulingLatency& jitter = facts.jitter;
   const core::Percentiles late = core::percentiles(jitter.late_us, jitter.max_us);
@@ -92,7 +92,7 @@ std::string json(const MachineFacts& facts, const std::vector<Finding>& findings
 
 // The real servo, with the simulated hand.
 core::Result<void> examine_servo(const std::string& program, bool as_json) {
-  core::log_line(fmt::format("the servo runs for {} s", kLabSeconds));
+  core::log_line(fmt::format("running the servo for {} s", kLabSeconds));
   const auto wake = measure_servo_wake(program, kLabSeconds);
   if (!wake) return tl::unexpected(wake.error());
   const scene::ServoTiming& servo = wake->servo;
@@ -119,15 +119,16 @@ core::Result<void> examine_servo(const std::string& program, bool as_json) {
   }
   if (met) return {};
   return core::failure(core::ErrorCategory::Failed,
-                       fmt::format("this machine is not fit for a lab: p99.9 is {:.0f} us of at most {:.0f}, and {} "
-                                   "ticks were missed; docs/host-tuning.md says what helps",
+                       fmt::format("this machine does not meet the lab limits: p99.9 is {:.0f} us, the limit is {:.0f} "
+                                   "us; {} ticks were missed; see docs/host-tuning.md",
                                    late.p999, kLabLateness_us, servo.missed));
 }
 
 core::Result<void> examine(const std::string& program, const DoctorOptions& options) {
   if (!(options.seconds >= kShortest && options.seconds <= kLongest)) {
-    return core::failure(core::ErrorCategory::WrongUsage, fmt::format("cannot measure for {} s: --seconds is {} to {}",
-                                                                      options.seconds, kShortest, kLongest));
+    return core::failure(
+        core::ErrorCategory::WrongUsage,
+        fmt::format("cannot measure for {} s: give --seconds {} to {}", options.seconds, kShortest, kLongest));
   }
   if (options.lab) return examine_servo(program, options.json);
   const core::MonotonicClock clock;
@@ -137,7 +138,8 @@ core::Result<void> examine(const std::string& program, const DoctorOptions& opti
   if (!options.bundle.empty()) {
     auto written = core::write_file(options.bundle, fault_bundle(facts, plain(facts, findings)));
     if (!written) return written;
-    core::log_line("written: " + options.bundle + "; read it, add what happened, and send it with your report");
+    core::log_line("written: " + options.bundle +
+                   "; read it, describe the problem in it, and attach it to your report");
   }
   std::fputs((options.json ? json(facts, findings) : plain(facts, findings)).c_str(), stdout);
   return {};
@@ -146,26 +148,25 @@ core::Result<void> examine(const std::string& program, const DoctorOptions& opti
 }  // namespace
 
 void add_doctor_command(OptionList& program, const CommandContext& context) {
-  OptionList command = program.add_command(
-      "doctor", "say whether this machine can run TouchAFM well, and the line that mends what it cannot");
+  OptionList command = program.add_command("doctor", "check this machine and print a fix for each problem");
   const auto options = std::make_shared<DoctorOptions>();
-  command.add_option("--seconds", options->seconds, "how long to measure the jitter of a 1 kHz loop, s, 0.1 to 600")
+  command
+      .add_option("--seconds", options->seconds, "duration of the latency measurement in a 1 kHz loop, s, 0.1 to 600")
       .show_default()
       .type_name("SECONDS");
   command.add_flag("--lab", options->lab,
-                   "run the servo itself for 60 s; ends with 1 if it missed a tick or one in 1000 came 200 us late");
-  command.add_flag("--json", options->json,
-                   "print the findings and the histogram as JSON, SI with the unit in the key");
+                   "run the servo itself for 60 s instead; exit code 1 if it misses a tick or if p99.9 of its latency "
+                   "reaches 200 us");
+  command.add_flag("--json", options->json, "print the findings and the histogram as JSON, with the unit in each key");
   command
-      .add_option(
-          "--bundle", options->bundle,
-          "write what a fault report needs into FILE: versions, system, devices and the findings; without names "
-          "of people, of this computer and of home folders")
+      .add_option("--bundle", options->bundle,
+                  "write the details for a fault report to FILE: versions, system, devices and findings, without the "
+                  "names of people, of this computer or of home folders")
       .type_name("FILE");
   command.footer(
-      "example: touchafm doctor --seconds 10\n         touchafm doctor --bundle fault.txt\nIt needs no rights and "
-      "changes nothing; ends with 0 whatever it finds, "
-      "but for --lab.");
+      "example: touchafm doctor --seconds 10\n"
+      "         touchafm doctor --bundle fault.txt\n"
+      "Needs no special rights and changes nothing. The exit code is 0 whatever it finds, except with --lab.");
   command.when_chosen([&context, options] { return examine(context.program_path, *options); });
 }
 

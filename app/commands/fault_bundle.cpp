@@ -34,7 +34,7 @@ void replace_word(std::string& text, const std::string& word, std::string_view b
   }
 }
 
-// /home/NAME, whoever's it is.
+// /home/NAME of any user.
 void replace_homes(std::string& text) {
   constexpr std::string_view kHomes = "/home/";
   for (std::size_t at = text.find(kHomes); at != std::string::npos; at = text.find(kHomes, at)) {
@@ -59,7 +59,7 @@ std::string line_of(const char* path, std::string_view key) {
 std::string nodes_text(const char* what, const std::vector<DeviceNode>& nodes) {
   std::string text;
   for (const DeviceNode& node : nodes) {
-    text += fmt::format("{} {}: {}\n", what, node.path, node.accessible ? "may be used" : "may not be used");
+    text += fmt::format("{} {}: {}\n", what, node.path, node.accessible ? "accessible" : "not accessible");
   }
   return text;
 }
@@ -94,11 +94,11 @@ std::string fault_bundle(const MachineFacts& facts, const std::string& findings)
   utsname machine{};
   ::uname(&machine);
   std::string text = fmt::format(
-      "TouchAFM fault report\n=====================\n\nTo be added by you: what you did, what you saw, what you "
-      "expected, "
-      "and all lines that touchafm printed.\nNames of people, of this computer and of home folders are left out. Read "
-      "it "
-      "before you send it.\n\n");
+      "TouchAFM fault report\n"
+      "=====================\n\n"
+      "Please add: what you did, what you saw, what you expected, and everything that touchafm printed.\n"
+      "This report leaves out the names of people, of this computer and of home folders. Read it before you send "
+      "it.\n\n");
   text += fmt::format("touchafm {}\ncompiler: {}\nsystem: {}, {}\nkernel: {}\nprocessor: {}, {} in use\nmemory: {}\n",
                       core::kVersion, __VERSION__, line_of("/etc/os-release", "PRETTY_NAME"), machine.machine,
                       facts.kernel, line_of("/proc/cpuinfo", "model name"), ::sysconf(_SC_NPROCESSORS_ONLN),

@@ -7,7 +7,7 @@
 
 namespace afm::app {
 
-// What must not leave this machine. Empty: there is none.
+// Names that must not leave this machine. Empty: unknown.
 struct PrivateWords {
   std::string home{};  // folder
   std::string user{};
@@ -16,12 +16,12 @@ struct PrivateWords {
 
 PrivateWords private_words();
 
-// The text with ~, USER and HOST in their place, and no home folder of anyone else. Names count as whole words, so that
-// a user "an" leaves "an error" alone: names of fewer than three letters stay.
+// Replaces the names by ~, USER and HOST, and removes all other home folders. Names count as whole words, so that a
+// user "an" leaves "an error" alone: names of fewer than three letters stay.
 std::string without(const PrivateWords& secrets, std::string text);
 
-// What a report of a fault needs to say about this machine, as text to be read before it is sent. `findings` is what
-// touchafm doctor prints.
+// Text for a fault report: the facts about this machine, readable, for the user to check before sending. `findings` is
+// the output of touchafm doctor.
 std::string fault_bundle(const MachineFacts& facts, const std::string& findings);
 
 }  // namespace afm::app

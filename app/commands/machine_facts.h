@@ -11,13 +11,13 @@
 
 namespace afm::app {
 
-// A file of /dev that a device stands behind.
+// A device file in /dev.
 struct DeviceNode {
   std::string path;
   bool accessible = false;  // for reading and writing, by this user
 };
 
-// What is so on this machine, without a judgement.
+// Facts about this machine, without a verdict.
 struct MachineFacts {
   std::string kernel;  // release, and how far it can be preempted
   std::uint64_t priority_limit = 0;
@@ -35,7 +35,7 @@ struct MachineFacts {
   bool servo_program_runs = false;  // is there and may be executed
 };
 
-// Looks at everything; takes `jitter_seconds` and some more. `program` is the running touchafm.
+// Examines the machine; takes slightly longer than `jitter_seconds`. `program` is the running touchafm.
 MachineFacts look_at_machine(const core::Clock& clock, const std::string& program, double jitter_seconds);
 
 }  // namespace afm::app

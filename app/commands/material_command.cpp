@@ -46,7 +46,7 @@ std::string cycle_text(const physics::CycleFigures& figures) {
     text += fmt::format("  pull-off              at {}: {}\n", text_of(figures.z_joc, kLengthUnits),
                         text_of(figures.force_before_joc, kForceUnits));
   } else {
-    text += "  no jumps              the lever is so stiff that approach and retract are one curve\n";
+    text += "  no jumps              the lever is so stiff that approach and retract coincide\n";
   }
   text += fmt::format("  loop energy           {}\n", text_of(figures.loop_energy, kEnergyUnits));
   text += std::isinf(figures.critical_stiffness.si)
@@ -70,7 +70,7 @@ core::Result<std::string> material_list(const ContactOptions& options) {
   if (!materials) return tl::unexpected(materials.error());
   const auto probes = load_probes(options);
   if (!probes) return tl::unexpected(probes.error());
-  std::string text = "materials (touchafm material NAME tells each number with its source)\n";
+  std::string text = "materials (touchafm material NAME prints each value with its source)\n";
   for (const scene::MaterialEntry& m : materials->materials) {
     const auto place = physics::choose_law(m.contact);
     text += fmt::format("  {:<20}{:<18}{:<9}in {:<15}W {:<13}E* {:<12}Tabor {:<10.3g}{}\n", m.name, m.title, m.tip,
@@ -97,18 +97,24 @@ core::Result<std::string> material_text(const curves::ContactSetup& setup) {
   const scene::MaterialEntry& material = setup.material;
   std::string text = fmt::format("{}: {} tip, in {}\n", material.title, material.tip, material.medium);
   if (!material.note.empty()) text += material.note + "\n";
-  text += "\nnumbers and where they come from\n" + sources_text(material);
+  text += "\nvalues and their sources\n" + sources_text(material);
   if (material.tip_elasticity) {
-    text += fmt::format("  {:<22}{:<14}of tip and sample: 1/E* = (1 - nu_t^2)/E_t + (1 - nu_s^2)/E_s\n",
+    text += fmt::format("  {:<22}{:<14}from tip and sample: 1/E* = (1 - nu_t^2)/E_t + (1 - nu_s^2)/E_s\n",
                         "reduced modulus", text_of(material.contact.reduced_modulus, physics::kPressureUnits));
   }
   if (const auto place = setup.place()) {
-    text += fmt::format("\nplace on the adhesion map\n  Tabor parameter       {:.4g}\n  Maugis parameter      {:.4g}\n",
-                        place->tabor, place->maugis);
+    text += fmt::format(
+        "\nposition on the adhesion map\n"
+        "  Tabor parameter       {:.4g}\n"
+        "  Maugis parameter      {:.4g}\n",
+        place->tabor, place->maugis);
     text += fmt::format("  regime                {}\n  {}\n", physics::name_of(place->regime), place->reason);
   }
-  text += fmt::format("\none cycle by the model {}{}\n{}", setup.used_model(),
-                      setup.model.automatic ? ", chosen by the Tabor parameter" : "", cycle_text((*tables)->figures));
+  text += fmt::format(
+      "\none cycle with the model {}{}\n"
+      "{}",
+      setup.used_model(), setup.model.automatic ? ", chosen by the Tabor parameter" : "",
+      cycle_text((*tables)->figures));
   return text;
 }
 
@@ -119,7 +125,7 @@ core::Result<std::string> material_map(const curves::ContactSetup& setup) {
   const auto place = setup.place();
   if (!place) {
     return core::failure(core::ErrorCategory::WrongUsage,
-                         "without a work of adhesion the contact has no place on the map; give --work-of-adhesion");
+                         "cannot place a contact without work of adhesion on the map; give --work-of-adhesion");
   }
   const std::string title =
       fmt::format("Adhesion map: {}, {} tip, in {}", setup.material.title, setup.material.tip, setup.material.medium);
@@ -135,7 +141,7 @@ struct MaterialOptions {
 core::Result<void> print_material(const MaterialOptions& options) {
   if (options.contact.material.empty()) {
     if (!options.map.empty()) {
-      return core::failure(core::ErrorCategory::WrongUsage, "--map needs the name of a material");
+      return core::failure(core::ErrorCategory::WrongUsage, "--map needs a material; name one");
     }
     const auto list = material_list(options.contact);
     if (!list) return tl::unexpected(list.error());
@@ -157,15 +163,16 @@ core::Result<void> print_material(const MaterialOptions& options) {
 
 void add_material_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
-      "material", "what is known of a material, with its sources, the law that suits it and why; or a list of all");
+      "material", "print a material's properties with their sources and the law that suits it; or list all materials");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<MaterialOptions>();
-  command.add_option("name", options->contact.material, "a material; without it all materials and probes are listed")
+  command.add_option("name", options->contact.material, "name of a material; default: list all materials and probes")
       .type_name("MATERIAL");
   add_contact_options(command, options->contact, context);
-  command.add_option("--map", options->map, "write the adhesion map with this contact on it, as SVG").type_name("FILE");
+  command.add_option("--map", options->map, "write the adhesion map, with this contact marked, as SVG")
+      .type_name("FILE");
   command.footer(
-      "Each number overrides the material's or the probe's.\n"
+      "Each parameter overrides that of the material or the probe.\n"
       "example: touchafm material gold --tip-radius 20nm --map map.svg");
   command.when_chosen([options] { return print_material(*options); });
 }

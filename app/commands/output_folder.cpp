@@ -44,7 +44,7 @@ void remove_abandoned(const std::string& path) {
 core::Result<OutputFolder> OutputFolder::open(const std::string& path) {
   const auto failed = [&](const std::string& why) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot write the output folder {}: {}; choose another with --out", path, why));
+                         fmt::format("cannot write to the output folder {}: {}; choose another with --out", path, why));
   };
   std::error_code error;
   fs::create_directories(path, error);
@@ -57,7 +57,7 @@ core::Result<OutputFolder> OutputFolder::open(const std::string& path) {
   std::string staging = path + "/" + kUnfinished + "XXXXXX";
   if (::mkdtemp(staging.data()) == nullptr) return failed(core::system_error(errno));
   auto lock = locked(staging);
-  if (!lock) return failed("another program uses " + staging);
+  if (!lock) return failed("another program is using " + staging);
   return OutputFolder(path, staging, std::move(*lock));
 }
 

@@ -12,18 +12,18 @@
 
 namespace afm::app {
 
-// A folder of results that appears whole or not at all: files are written into a folder beside it, and moved into place
-// by commit(). Without a commit nothing is left, also after a signal. One thread.
+// A results folder that appears completely or not at all: files are written into a temporary folder next to it, and
+// commit() moves them into place. Without a commit nothing is left, even after a signal. One thread.
 class OutputFolder {
  public:
-  // Makes sure at once, before hours of work, that `path` can be written.
+  // Checks in advance, before hours of work, that `path` is writable.
   static core::Result<OutputFolder> open(const std::string& path);
 
   OutputFolder(OutputFolder&& other) noexcept;
   OutputFolder& operator=(OutputFolder&&) = delete;
   ~OutputFolder();
 
-  // Where a file of that name is to be written until commit().
+  // Path to write a file of this name to until commit().
   std::string staged(std::string_view name) const;
 
   core::Result<void> write(std::string_view name, std::string_view bytes);

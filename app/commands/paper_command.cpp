@@ -50,17 +50,17 @@ core::Result<void> write_paper(const PaperOptions& options) {
 
 void add_paper_command(OptionList& program, const CommandContext& context) {
   OptionList command =
-      program.add_command("paper", "the paper's Tables 1 and 2, Fig. 2 and Fig. 5(e), ours beside its own");
+      program.add_command("paper", "compare the paper's Tables 1 and 2, Fig. 2 and Fig. 5(e) with TouchAFM's values");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<PaperOptions>();
-  command.add_option("--out", options->out, "folder for paper.md, paper.json, the tables and the figures")
+  command
+      .add_option("--out", options->out,
+                  "folder for paper.md, paper.json, the tables and the figures; created if it does not exist")
       .required()
       .type_name("DIR");
-  command
-      .add_option("--summary", options->summary_file,
-                  "summary.json of a demo; the tables then include its measurements")
+  command.add_option("--summary", options->summary_file, "summary.json of a demo; adds its measurements to the tables")
       .type_name("FILE");
-  command.add_option("--materials", options->materials_file, "material file (TOML); default: the built-in one")
+  command.add_option("--materials", options->materials_file, "material file (TOML); default: the built-in file")
       .type_name("FILE");
   command.footer("example: touchafm paper --out paper --summary out/summary.json");
   command.when_chosen([options, &context] {

@@ -7,7 +7,7 @@
 
 namespace afm::app {
 
-// What `touchafm paper` was asked for.
+// Options of `touchafm paper`.
 struct PaperOptions {
   std::string materials_file;
   std::string summary_file;  // of a demo, or empty

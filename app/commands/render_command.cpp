@@ -43,7 +43,7 @@ struct RenderOptions {
   exhibit::ExhibitFiles files;
 };
 
-// The wall as it was, as far as the session tells: the paper's three stand together, another material alone.
+// The wall as it was, as far as the session records it: the paper's three materials together, any other one alone.
 exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::ExhibitFiles files) {
   const auto& paper = scene::kPaperMaterials;
   if (!session.wall.empty() && files.shown.empty()) files.shown = session.shown;
@@ -90,8 +90,8 @@ core::Result<void> run_journey(const RenderOptions& options) {
   // the option's range lets what is no number pass
   if (!std::isfinite(*options.journey_orders)) {
     return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("--journey: {:g} is no place of the journey; give 0 to {:g}",
-                                     *options.journey_orders, exhibit::kJourneyOrders));
+                         fmt::format("--journey: {:g} is outside the journey; give 0 to {:g}", *options.journey_orders,
+                                     exhibit::kJourneyOrders));
   }
   exhibit::ExhibitFiles files = options.files;
   files.shown = {options.material};
@@ -196,8 +196,9 @@ core::Result<void> run_render(const RenderOptions& options) {
   if (found == materials.end()) {
     return core::failure(
         core::ErrorCategory::BadInputFile,
-        fmt::format("session file {}: its material \"{}\" is not in the material file; give that file with --materials",
-                    options.session, session->material));
+        fmt::format(
+            "session file {}: its material \"{}\" is not in the material file; name the right file with --materials",
+            options.session, session->material));
   }
   std::vector<scene::SharedMeasuredCurve> recorded;
   if (session->curve) recorded.push_back(*session->curve);
@@ -231,18 +232,18 @@ core::Result<void> run_render(const RenderOptions& options) {
 // What is said of a model.
 void add_model_options(OptionList& command, const Option& gltf, RenderOptions& options) {
   exhibit::ModelChoice& model = options.model;
-  command.add_option("--camera", model.camera, "a camera of the model by its name, or auto, which sees all of it")
+  command.add_option("--camera", model.camera, "name of a camera in the model, or auto for a view of the whole model")
       .needs(gltf)
       .show_default()
       .type_name("NAME");
-  command.add_option("--variant", model.variant, "a variant of the model's materials (KHR_materials_variants)")
+  command.add_option("--variant", model.variant, "variant of the model's materials (KHR_materials_variants)")
       .needs(gltf)
       .type_name("NAME");
   Option describe = command
                         .add_flag("--describe", options.describe,
-                                  "list what the model holds, what is ignored and why, and draw nothing")
+                                  "list the model's contents and which parts are ignored, and why; draws nothing")
                         .needs(gltf);
-  command.add_flag("--json", options.json, "the list as JSON").needs(describe);
+  command.add_flag("--json", options.json, "print the list as JSON").needs(describe);
 }
 
 }  // namespace
@@ -250,44 +251,44 @@ void add_model_options(OptionList& command, const Option& gltf, RenderOptions& o
 void add_render_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
       "render",
-      "draw a moment of a recorded session, a place of the journey of scale, or a glTF model, without a window");
+      "draw a moment of a recorded session, a stage of the journey of scale, or a glTF model, without a window");
   command.footer(
       "example: touchafm render --session out/session-gold.afms --at 5.2 --out gold.png\n"
       "         touchafm render --journey 4.5 --material mica --out lever.png\n"
       "         touchafm render --gltf my_probe.glb --stereo anaglyph-red-cyan --out probe.png");
   auto options = std::make_shared<RenderOptions>();
-  OptionList what = command.add_alternatives("what is drawn");
+  OptionList what = command.add_alternatives("subject of the picture");
   const Option session =
-      what.add_option("--session", options->session, "session file that demo or view --record has written")
-          .type_name("FILE");
-  const Option journey =
-      what.add_option("--journey", options->journey_orders,
-                      "a place of the journey of scale, without a session: a metre of the paper's wall "
-                      "shows 10^-S metres, from the bench (0) to the atoms (9)")
-          .within(0.0, exhibit::kJourneyOrders)
-          .type_name("S");
-  const Option gltf =
-      what.add_option("--gltf", options->model.file, "glTF 2.0 model, .glb or .gltf, drawn alone").type_name("FILE");
+      what.add_option("--session", options->session, "session file written by demo or view --record").type_name("FILE");
+  const Option journey = what.add_option("--journey", options->journey_orders,
+                                         "stage of the journey of scale, without a session: 1 m of the paper's wall "
+                                         "shows 10^-S m, from the bench (0) to the atoms (9)")
+                             .within(0.0, exhibit::kJourneyOrders)
+                             .type_name("S");
+  const Option gltf = what.add_option("--gltf", options->model.file, "glTF 2.0 model, .glb or .gltf, drawn on its own")
+                          .type_name("FILE");
   add_model_options(command, gltf, *options);
-  command.add_option("--material", options->material, "sample of the journey")
+  command.add_option("--material", options->material, "sample for the journey")
       .needs(journey)
       .show_default()
       .type_name("MATERIAL");
-  command.add_flag("--analogy", options->analogy, "draw Millet's magnet on a spring instead of the instrument")
+  command
+      .add_flag("--analogy", options->analogy, "draw Millet's analogy, a magnet on a spring, instead of the instrument")
       .needs(session);
-  command.add_option("--out", options->out, "picture to write").type_name("FILE.png");
+  command.add_option("--out", options->out, "PNG file to write").type_name("FILE.png");
   const Option at = command
                         .add_option("--at", options->at_s,
-                                    "time from the start of the session, or of the model's animations, in seconds; "
-                                    "default: the session's start, the model at rest")
+                                    "time since the start of the session or of the model's animations, in seconds; "
+                                    "default: start of the session, or model at rest")
                         .type_name("SECONDS");
-  add_stereo_options(command, options->picture, "the outputs of the wall file, else side-by-side; of a model mono");
+  add_stereo_options(command, options->picture,
+                     "the outputs of the wall file, otherwise side-by-side; mono for a model");
   const Option size = pixel_size_option(command, "--size", options->picture.size_px,
-                                        "size of the whole picture in pixels; default: as the wall's outputs say, or "
-                                        "from --eye-width; of a model 960x720 an eye");
+                                        "size of the whole picture in pixels; default: from the wall's outputs or from "
+                                        "--eye-width; for a model, 960x720 per eye");
   command
       .add_option("--eye-width", options->picture.eye_width,
-                  "width of each eye's picture in pixels; the height follows the wall")
+                  "width of each eye image in pixels; the height follows from the wall")
       .within(64, 8192)
       .excludes(size)
       .show_default()

@@ -73,9 +73,10 @@ std::string plain(const servo::RecordedSession& session, const servo::Replay& re
   const auto with_force = std::count_if(session.samples.begin(), session.samples.end(), [](const scene::TipSample& s) {
     return s.servo_state == scene::ServoState::Running;
   });
-  std::string text = fmt::format("{}, felt with {} at {:g} Hz: {:.3f} s, {} ticks, force on in {} of them, {} events\n",
-                                 session.material, session.device.name.data(), session.rate_hz, seconds(session),
-                                 session.samples.size(), with_force, session.events.size());
+  std::string text =
+      fmt::format("{}, recorded with {} at {:g} Hz: {:.3f} s, {} ticks, force on in {} of them, {} events\n",
+                  session.material, session.device.name.data(), session.rate_hz, seconds(session),
+                  session.samples.size(), with_force, session.events.size());
   if (range.from_s > 0 || range.to_s < seconds(session)) {
     text += fmt::format("compared from {:.3f} s to {:.3f} s: {} ticks\n", range.from_s,
                         std::min(range.to_s, seconds(session)), replayed.ticks);
@@ -88,21 +89,21 @@ std::string plain(const servo::RecordedSession& session, const servo::Replay& re
   }
   text += fmt::format("largest difference: {:.3g} nN on the tip, {:.3g} N on the hand\n", replayed.largest_tip_n * 1e9,
                       replayed.largest_hand_n);
-  if (replayed.identical()) text += "every force of the tip and of the hand is the same, bit for bit\n";
+  if (replayed.identical()) text += "every force on the tip and on the hand is identical, bit for bit\n";
   return text;
 }
 
 std::string difference_text(const servo::RecordedSession& session, const servo::Replay& replayed) {
   if (replayed.first) {
     const servo::Difference& first = *replayed.first;
-    return fmt::format("{} of {} ticks differ, first that at {:.3f} s: {} was {:g}, and is {:g} now",
+    return fmt::format("{} of {} ticks differ, the first at {:.3f} s: {} was {:g} and is now {:g}",
                        replayed.different_ticks, replayed.ticks,
                        session.seconds_since_start(session.samples[first.index].time_ns), first.quantity,
                        first.recorded, first.replayed);
   }
   const servo::Difference& first = *replayed.first_event;
-  return fmt::format("the events differ, first in number {}: {} was {:g}, and is {:g} now", first.index, first.quantity,
-                     first.recorded, first.replayed);
+  return fmt::format("the events differ, the first in event {}: {} was {:g} and is now {:g}", first.index,
+                     first.quantity, first.recorded, first.replayed);
 }
 
 core::Result<void> run_replay(const ReplayOptions& options) {
@@ -111,7 +112,7 @@ core::Result<void> run_replay(const ReplayOptions& options) {
   const servo::ReplayRange& range = options.range;
   if (!(range.from_s >= 0.0 && range.from_s <= seconds(*session) && range.to_s >= range.from_s)) {
     return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("--from {:g}, --to {:g}: that is no part of the session, which lasts {:.3f} s",
+                         fmt::format("--from {:g}, --to {:g}: the session has no such part; it lasts {:.3f} s",
                                      range.from_s, range.to_s, seconds(*session)));
   }
   if (!session->complete) core::log_line(servo::cut_text(*session, options.session));
@@ -123,7 +124,7 @@ core::Result<void> run_replay(const ReplayOptions& options) {
   std::fputs((options.json ? json(*session, *replayed, range) : plain(*session, *replayed, range)).c_str(), stdout);
   if (replayed->identical()) return {};
   return core::failure(core::ErrorCategory::Failed,
-                       fmt::format("the replay of {} is not the same: {}; it may come from another build of TouchAFM",
+                       fmt::format("the replay of {} differs: {}; another build of TouchAFM may have recorded it",
                                    options.session, difference_text(*session, *replayed)));
 }
 
@@ -131,21 +132,23 @@ core::Result<void> run_replay(const ReplayOptions& options) {
 
 void add_replay_command(OptionList& program, const CommandContext&) {
   OptionList command = program.add_command(
-      "replay",
-      "run a recorded hand through the servo again and compare every force with the recorded one, bit for bit");
+      "replay", "replay a recorded hand through the servo and compare every force with the recording, bit for bit");
   const auto options = std::make_shared<ReplayOptions>();
-  command.add_option("session", options->session, "session file that demo or view --record has written")
+  command.add_option("session", options->session, "session file written by demo or view --record")
       .required()
       .type_name("SESSION");
-  command.add_option("--from", options->range.from_s, "compare from here on, in seconds from the session's first tick")
+  command
+      .add_option("--from", options->range.from_s,
+                  "start of the comparison in seconds after the session's first tick; default: the first tick")
       .type_name("SECONDS");
-  command.add_option("--to", options->range.to_s, "compare up to here; default: to the end").type_name("SECONDS");
-  command.add_flag("--json", options->json, "print the comparison as JSON, SI with the unit in the key");
+  command.add_option("--to", options->range.to_s, "end of the comparison in seconds; default: the end of the session")
+      .type_name("SECONDS");
+  command.add_flag("--json", options->json, "print the comparison as JSON, with the unit in each key");
   command.footer(
       "example: touchafm replay out/session-gold.afms\n"
       "         touchafm replay out/session-gold.afms --from 2 --to 3.5\n"
-      "Ends with 0 if all is the same, with 1 if not. Of a file that was cut, what is there counts. touchafm view "
-      "--haptics replay:FILE shows it on the wall.");
+      "The exit code is 0 if every force is identical, otherwise 1. A truncated file is compared as far as it goes. "
+      "touchafm view --haptics replay:FILE shows the session on the wall.");
   command.when_chosen([options] { return run_replay(*options); });
 }
 

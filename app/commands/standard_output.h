@@ -7,7 +7,7 @@
 
 namespace afm::app {
 
-// Writes a result to stdout, all of it; the error says why it could not, as when the reader of a pipe has gone.
+// Writes a result to stdout completely; the error gives the reason for a failure, such as a closed pipe.
 core::Result<void> write_stdout(std::string_view text);
 
 }  // namespace afm::app

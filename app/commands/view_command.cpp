@@ -56,10 +56,10 @@ core::Result<void> check_validation(render::Context& context) {
   for (const std::string& message : messages) core::log_line(message);
   if (messages.empty()) return {};
   return core::failure(core::ErrorCategory::Failed,
-                       fmt::format("the Vulkan validation layer gave {} messages; they stand above", messages.size()));
+                       fmt::format("the Vulkan validation layer reported {} messages; see above", messages.size()));
 }
 
-// What the wall calls the controls of a device that has a hand of its own.
+// Name of the controls of a device that a real hand moves.
 exhibit::HandControls controls_of(const servo::HapticChoice& choice) {
   using exhibit::HandControls;
   static constexpr std::array<std::pair<std::string_view, HandControls>, 3> kControls{
@@ -85,7 +85,7 @@ core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& devi
       std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == session->material; });
   if (found == materials.end()) {
     return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("the session {} was felt on {}, which is not shown: add --material {}",
+                         fmt::format("the session {} was recorded on {}, which is not on the wall: add --material {}",
                                      choice->replay_file, session->material, session->material));
   }
   settings.scale = session->samples.front().scale_mode;
@@ -142,103 +142,108 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
 }
 
 void add_picture_options(OptionList& command, ViewOptions& options) {
-  add_stereo_options(command, options.display.picture, "the outputs of the wall file, else mono");
+  add_stereo_options(command, options.display.picture, "the outputs of the wall file, otherwise mono");
   command.add_flag("--fullscreen", options.display.window.full_screen,
-                   "one window that fills the monitor it opens on; F11 does it while it runs");
+                   "open one window that fills its monitor; F11 toggles this at run time");
   command
       .add_option("--monitor", options.display.window.monitor,
-                  "one window that fills this monitor, by its name or number in touchafm devices")
+                  "open one window that fills this monitor, given by its name or number from touchafm devices")
       .type_name("NAME");
   command
       .add_option("--eye-width", options.display.eye_width,
-                  "width of each eye's picture in pixels, then scaled to the window; default: the window's pixels")
+                  "width of each eye image in pixels, scaled to the window; default: the window's resolution")
       .within(64, 8192)
       .type_name("PIXELS");
   add_frame_budget(command, options.display.frame_budget_ms);
   command
       .add_option("--comfort", options.display.comfort_deg,
-                  "draw for eyes less far apart wherever they would have to turn in more than this, or less, than for "
-                  "the wall; in degrees, 0.1 to 3; many see double beyond 1")
+                  "largest disparity in degrees, 0.1 to 3; where the scene exceeds it, the picture uses a smaller eye "
+                  "distance; many people see double above 1")
       .within(0.1, 3.0)
       .show_default()
       .type_name("DEGREES");
   command
       .add_option("--pictures", options.display.saved_folder,
-                  "an existing folder for the pictures that F12 saves, touchafm-001.png and on; default: this one")
+                  "existing folder for screenshots taken with F12, named touchafm-001.png and so on; default: the "
+                  "current folder")
       .existing_folder()
       .type_name("DIR");
   command
-      .add_option("--frame-rate", options.frame_rate, "most frames a second, 10 to 1000; default: the display's rate")
+      .add_option("--frame-rate", options.frame_rate,
+                  "highest frame rate in frames per second, 10 to 1000; default: the display's refresh rate")
       .within(kSlowestFrames, kFastestFrames)
       .type_name("RATE");
 }
 
 void add_wand_options(OptionList& command, ViewOptions& options) {
   command
-      .add_option("--wand", options.wand.source,
-                  "who points beside the mouse: auto or hid for whatever wand is plugged in, now or later, dtrack or "
-                  "dtrack:ADDRESS:PORT for a tracker's Flystick, sim for a simulated one, or mouse for none; default: "
-                  "auto")
+      .add_option(
+          "--wand", options.wand.source,
+          "pointing device in addition to the mouse: auto or hid for any connected wand (hot-plug), dtrack or "
+          "dtrack:ADDRESS:PORT for a tracker's Flystick, sim for a simulated wand, or mouse for none; default: auto")
       .type_name("SOURCE");
   command
       .add_option("--wand-file", options.wand.file,
-                  "where the hand and the tracker are, or how an HID device is read; see docs/adding-a-wand.md")
+                  "wand file (TOML): position of the hand, address of the tracker, or mapping of an HID device; see "
+                  "docs/adding-a-wand.md")
       .type_name("FILE");
   command
-      .add_option(
-          "--head", options.wand.head,
-          "whose head the picture is drawn for: dtrack:BODY or dtrack:BODY@ADDRESS:PORT of a tracker, or sim:FILE, "
-          "a script of lines \"seconds, x, y, z\" in metres; default: the wand file's, else the wall's sweet spot, "
-          "which the arrow keys move")
+      .add_option("--head", options.wand.head,
+                  "head tracking: dtrack:BODY or dtrack:BODY@ADDRESS:PORT for a body of a tracker, or sim:FILE for a "
+                  "script of lines \"seconds, x, y, z\" in metres; default: the wand file's, otherwise the wall's "
+                  "sweet spot, which the arrow keys move")
       .type_name("SOURCE");
 }
 
 void add_servo_options(OptionList& command, ViewOptions& options) {
   std::string hands;
-  for (const servo::HapticWord& word : servo::haptic_words()) hands += fmt::format("{}, {}; ", word.word, word.meaning);
+  for (const servo::HapticWord& word : servo::haptic_words()) {
+    hands += fmt::format("{}{} ({})", hands.empty() ? "" : ", ", word.word, word.meaning);
+  }
   command
       .add_option("--haptics", options.servo.haptic_device,
-                  fmt::format("whose hand feels: {}default: {}", hands, options.servo.haptic_device))
+                  fmt::format("haptic device: {}; default: {}", hands, options.servo.haptic_device))
       .type_name("DEVICE");
-  command.add_option("--record", options.settings.record_folder, "keep what is felt in DIR, a session for each sample")
+  command.add_option("--record", options.settings.record_folder, "record into DIR, one session per sample")
       .type_name("DIR");
   command
       .add_option("--frame-log", options.settings.frame_log,
-                  "a line of CSV for each frame: times, latency of the tracked head, disparity, lateness of the servo")
+                  "write one line of CSV per frame to FILE: times, head-tracking latency, disparity, scheduling "
+                  "latency of the servo")
       .type_name("FILE");
   command.add_flag("--kiosk", options.kiosk,
-                   "run unattended, and open the window again whenever it fails: SIGTERM or Ctrl-C ends it");
-  command.add_flag(
-      "--unattended", options.settings.unattended,
-      "lock the keys of staff; without a visitor begin again and demonstrate the samples in turn; SIGTERM or "
-      "Ctrl-C ends it");
+                   "run unattended and reopen the window whenever it fails; SIGTERM or Ctrl-C ends the program");
+  command.add_flag("--unattended", options.settings.unattended,
+                   "lock the operators' keys; when no visitor is present, reset the wall and demonstrate the samples "
+                   "in turn; SIGTERM or Ctrl-C ends the program");
   command
       .add_option("--idle", options.settings.idle_s,
-                  "with --unattended or --kiosk: without a visitor until then, 5 to 3600")
+                  "with --unattended or --kiosk, time without input after which the wall assumes that the visitor has "
+                  "left, 5 to 3600")
       .within(5.0, 3600.0)
       .show_default()
       .type_name("SECONDS");
   add_scale_option(command, options.settings.scale);
-  command.add_flag("--dead-man", options.servo.settings.dead_man, "force only as long as Turn-On is held");
+  command.add_flag("--dead-man", options.servo.settings.dead_man, "apply force only while Turn-On is held down");
   quantity_option(
       command, "--max-force", [&options](physics::Force most) { options.servo.settings.max_force_n = most.si; },
-      physics::kForceUnits, "the most that the hand is pushed or pulled with; default: 2 N, or 0.9 of the device's",
+      physics::kForceUnits, "largest force on the hand; default: 2 N, or 0.9 of the device's nominal force",
       std::optional(kForceLimits));
   command
       .add_option("--servo-rate", options.servo.settings.rate_hz,
-                  "of the servo, 100 Hz to 10 kHz; a force-feedback device needs 400 Hz or more")
+                  "rate of the servo, 100 Hz to 10 kHz; a force-feedback device needs 400 Hz or more")
       .within(100.0, 10'000.0)
       .show_default()
       .type_name("HZ");
   command
       .add_option(
           "--spin", options.spin_us,
-          "how long the servo stays awake before each tick to be more punctual, at most half a period; default: 0")
+          "busy-wait of the servo before each tick for lower scheduling latency, at most half a period; default: 0")
       .within(0, 5000)
       .type_name("MICROSECONDS");
   command
       .add_option("--linger", options.servo.settings.linger_s,
-                  "how long the servo keeps its device for another touchafm view if this one dies, 0 to 600")
+                  "time for which the servo keeps its device for another touchafm view after this one dies, 0 to 600")
       .within(0.0, 600.0)
       .show_default()
       .type_name("SECONDS");
@@ -247,28 +252,30 @@ void add_servo_options(OptionList& command, ViewOptions& options) {
 }  // namespace
 
 void add_view_command(OptionList& program, const CommandContext& context) {
-  OptionList command = program.add_command("view", "the live window: choose a sample and feel it, with a mouse alone");
+  OptionList command =
+      program.add_command("view", "open the live window: choose a sample and feel it; a mouse is enough");
   command.footer(
-      "F1 in the window shows its keys and buttons.\n\nexample: touchafm view\n"
+      "Press F1 in the window for its keys and buttons.\n\n"
+      "example: touchafm view\n"
       "         touchafm view --stereo side-by-side --fullscreen --material mica --material pdms-air");
   auto options = std::make_shared<ViewOptions>();
   add_stage_options(command, options->files, context);
   add_own_model_options(command, options->files);
   command
       .add_option("--material", options->files.shown,
-                  "a material to show, up to nine; default: mica, gold and silicon nitride of the paper")
+                  "material to show; repeatable, up to nine; default: the paper's mica, gold and silicon nitride")
       .one_value_each()
       .type_name("MATERIAL");
   add_picture_options(command, *options);
-  pixel_size_option(
-      command, "--size", options->display.window.size_px,
-      "one window of that size in pixels; default: a window for each output of the wall file in its place, else one "
-      "of 1280x720; without a wall file the picture fills it",
-      PixelRange{kSmallestWindow, kLargestWindow});
+  pixel_size_option(command, "--size", options->display.window.size_px,
+                    "open one window of this size in pixels; default: one window per output of the wall file, each in "
+                    "its place, otherwise one of 1280x720; without a wall file, the picture fills the window",
+                    PixelRange{kSmallestWindow, kLargestWindow});
   add_servo_mode_option(command, options->servo.mode);
   add_wand_options(command, *options);
   add_servo_options(command, *options);
-  command.add_flag("--validate", options->display.validate, "check every Vulkan call; any message ends in exit code 1");
+  command.add_flag("--validate", options->display.validate,
+                   "check every Vulkan call; any validation message leads to exit code 1");
   command.when_chosen([options, &context]() -> core::Result<void> {
     if (!options->kiosk) return run_view(*options, context.program_path);
     const core::CodeOfInterruption released(core::ExitCode::Done);

@@ -98,7 +98,7 @@ void explain_screen(const scene::Screen& screen, const scene::HeadPose& head, do
   const scene::ComfortZone zone = scene::comfort_zone(distance, ipd_m, scene::kComfortableDisparityRad);
   const std::string farthest =
       std::isfinite(zone.farthest_m) ? fmt::format("{:.2f} m", zone.farthest_m) : std::string("any distance");
-  std::printf("  comfortable to look at from %.2f m to %s before the eyes\n", zone.nearest_m, farthest.c_str());
+  std::printf("  comfortable depth: %.2f m to %s in front of the eyes\n", zone.nearest_m, farthest.c_str());
 }
 
 // Pixels that are not square on the screen make circles oval, but for the modes whose display stretches them back.
@@ -119,7 +119,8 @@ void explain_output(const scene::Wall& wall, const scene::Output& output) {
   const glm::dvec2 eye(scene::eye_size(output.mode, size));
   const double oval = (screen.width_m() / eye.x) / (screen.height_m() / eye.y);
   if (std::abs(oval - 1.0) > 0.01) {
-    std::printf("  note: its pixels are %.3f times as wide as high; check the corners or the rectangle\n", oval);
+    std::printf("  note: its pixels are %.3f times as wide as they are high; check the corners or the rectangle\n",
+                oval);
   }
 }
 
@@ -127,23 +128,23 @@ void explain_output(const scene::Wall& wall, const scene::Output& output) {
 void explain_composition(const scene::Wall& wall, const scene::HeadPose& head) {
   const exhibit::StagePlace stage = exhibit::stage_place(wall);
   const exhibit::WallShape shape = exhibit::wall_shape(stage);
-  constexpr auto kPanels = std::to_array({"beside the instrument", "below the shelf", "on the side screens"});
-  std::printf("composition: the scene stands on screen %s, its panels %s\n", stage.main.name.c_str(),
+  constexpr auto kPanels = std::to_array({"next to the instrument", "below the shelf", "on the side screens"});
+  std::printf("composition: scene on screen %s, panels %s\n", stage.main.name.c_str(),
               kPanels[static_cast<std::size_t>(shape.arrangement)]);
   constexpr double kSmallestLetterM = 0.030;   // the em square of what is smallest, on the paper's wall
   constexpr double kReadableArcMinutes = 9.0;  // of an em square: a small letter has half of it
   constexpr double kArcMinutesPerRad = 3437.75;
   const double distance_m = glm::distance(head.position_m, stage.main.center());
   const double letters = kSmallestLetterM * shape.unit_m / distance_m * kArcMinutesPerRad;
-  std::printf("  its smallest letters are %.1f mm high, %.0f arc minutes from the head\n",
+  std::printf("  the smallest letters are %.1f mm high, %.0f arc minutes as seen from the head\n",
               kSmallestLetterM * shape.unit_m * 1e3, letters);
   if (letters < kReadableArcMinutes) {
-    std::printf("  note: below %.0f arc minutes many cannot read them; stand nearer or use a larger screen\n",
+    std::printf("  note: many people cannot read letters below %.0f arc minutes; move closer or use a larger screen\n",
                 kReadableArcMinutes);
   }
 }
 
-// A scene of one point that is never shown: the pattern stands alone.
+// A scene of one point that is never shown: only the pattern is drawn.
 scene::Scene nothing() {
   scene::Scene scene;
   scene.materials.push_back({});
@@ -175,7 +176,8 @@ core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions&
 
 core::Result<void> run_wall(const WallOptions& options) {
   if (options.test_pattern == options.out.empty()) {
-    return core::failure(core::ErrorCategory::WrongUsage, "--test-pattern and --out FILE.png belong together");
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         "--test-pattern needs --out FILE.png, and --out needs --test-pattern");
   }
   const auto wall = scene::load_wall(options.file);
   if (!wall) return tl::unexpected(wall.error());
@@ -195,15 +197,17 @@ core::Result<void> run_wall(const WallOptions& options) {
   if (const std::string doubt = scene::doubt_of_head(*wall, head.position_m); !doubt.empty()) {
     std::printf("note: the head is %s\n", doubt.c_str());
   }
-  std::printf("viewer %s: %.1f mm between the eyes, head %s\nthe wall file is in order\n", viewer.name.c_str(),
-              ipd_m * 1e3, viewer.head == "none" ? "not tracked" : viewer.head.c_str());
+  std::printf(
+      "viewer %s: %.1f mm between the eyes, head %s\n"
+      "the wall file is valid\n",
+      viewer.name.c_str(), ipd_m * 1e3, viewer.head == "none" ? "not tracked" : viewer.head.c_str());
   return {};
 }
 
 }  // namespace
 
 void add_wall_command(OptionList& program, const CommandContext& context) {
-  OptionList command = program.add_command("wall", "check a wall file and print what each eye sees of it");
+  OptionList command = program.add_command("wall", "check a wall file and print the view of each eye");
   command.footer(
       fmt::format("example: touchafm wall {}/walls/powerwall.toml --json --head 0.2,1.7,2.1", context.assets_dir));
   auto options = std::make_shared<WallOptions>();
@@ -218,16 +222,16 @@ void add_wall_command(OptionList& program, const CommandContext& context) {
   };
   command
       .add_parsed_option("--head", read_head,
-                         "head position in metres, and orientation as a unit quaternion; default: the sweet spot")
+                         "head position in metres and orientation as a unit quaternion; default: the sweet spot")
       .type_name("X,Y,Z[,QX,QY,QZ,QW]");
-  command.add_flag(
-      "--json", options->json,
-      "print each eye's projection and view, row-major, reversed infinite depth, y down, near plane 0.1 m");
+  command.add_flag("--json", options->json,
+                   "print the projection and view matrices of each eye as JSON: row-major, reversed infinite depth, y "
+                   "down, near plane 0.1 m");
   command.add_flag("--test-pattern", options->test_pattern,
-                   "draw the picture for setting up: grid, cross, circle, ruler, L and R; with --out");
-  command.add_option("--out", options->out, "where the test pattern is written").type_name("FILE.png");
+                   "draw the calibration picture: grid, cross, circle, ruler, L and R; needs --out");
+  command.add_option("--out", options->out, "PNG file for the test pattern").type_name("FILE.png");
   pixel_size_option(command, "--size", options->picture.size_px, "size of the whole test pattern in pixels");
-  add_stereo_options(command, options->picture, "the outputs of the wall file, else side-by-side");
+  add_stereo_options(command, options->picture, "the outputs of the wall file, otherwise side-by-side");
   add_phrase_options(command, options->files, context);
   command.when_chosen([options] { return run_wall(*options); });
 }

@@ -73,7 +73,7 @@ core::Result<servo::RecordedSession> Demonstration::feel_variation(std::size_t m
     const double waited_s = static_cast<double>(clock_.now_ns() - start_ns) * 1e-9;
     if (servo_.tip().acknowledged.refused_edit == revision || waited_s > kPatienceSeconds) {
       return core::failure(core::ErrorCategory::Failed,
-                           fmt::format("{}: the servo did not take these parameters", variation.setup.material.title));
+                           fmt::format("{}: the servo refused these parameters", variation.setup.material.title));
     }
   }
   materials_[material] = variation;
@@ -95,7 +95,7 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, D
       if (restarts > kMostServosLost) {
         return core::failure(
             core::ErrorCategory::Failed,
-            fmt::format("{}: the servo released the hand {} times ({}); run again, with less load on the machine",
+            fmt::format("{}: the servo released the hand {} times ({}); reduce the load on this machine and run again",
                         title, restarts, scene::reason(servo_.tip().fault)));
       }
       progress(fmt::format("  the servo released the hand: {}; lifting again", scene::reason(servo_.tip().fault)));
@@ -122,8 +122,8 @@ core::Result<void> Demonstration::keep_patience(const std::string& title, double
                                                 const DemoResult& result) const {
   if (person_.seconds_in_step(clock_.now_ns()) <= kPatienceSeconds + step_seconds) return {};
   return core::failure(core::ErrorCategory::Failed,
-                       fmt::format("{}: waited {:.0f} s for {}, in vain ({}; a frame took {:.0f} ms); run again, with "
-                                   "less load on the machine or a smaller --eye-width",
+                       fmt::format("{}: waited {:.0f} s for {} without success ({}; a frame took {:.0f} ms); reduce "
+                                   "the load on this machine or --eye-width and run again",
                                    title, kPatienceSeconds + step_seconds, person_.waiting_for(),
                                    scene::reason(servo_.tip().fault), core::percentiles(result.frame_ms).p50));
 }

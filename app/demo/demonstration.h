@@ -22,8 +22,7 @@
 
 namespace afm::app {
 
-// What is felt, in order: every material, and each once more for every one of its variations, which are other
-// parameters of the same sample.
+// Cycles of the demonstration, in order: every material, then the same material with the parameters of each variation.
 struct DemoPlan {
   std::vector<curves::SampleModel> materials;
   std::vector<std::vector<curves::SampleModel>> variations;  // one list per material
@@ -39,13 +38,13 @@ class Demonstration {
  public:
   using Progress = std::function<void(const std::string&)>;
 
-  // `chosen` is called once a frame is drawn in which the ray chooses for the first time. Everything must outlive it.
+  // Calls `chosen` after the first frame in which the ray selects a sample. All arguments must outlive it.
   Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, render::Renderer& renderer,
                 servo::ServoClient& servo, const core::Clock& clock, const input::HandPath& path,
                 std::function<void()> chosen);
 
-  // Until every cycle is done. Fails when the servo dies, or when something that must happen does not.
-  // Fills sessions, variations, frame times and the servo's timing of the result.
+  // Runs until every cycle is done. Fails if the servo dies or an expected event does not occur. Fills the sessions,
+  // variations, frame times and servo timing of the result.
   core::Result<void> run(DemoResult& result, const Progress& progress);
 
  private:

@@ -23,7 +23,7 @@ struct CycleEvents {
   double z_joc_m = 0;
 };
 
-// What a recorded cycle gave, beside what the law and the experiments say.
+// Results of a recorded cycle, with the values of the law and of the experiments.
 struct Measurement {
   std::string material;
   std::string title;
@@ -51,7 +51,7 @@ struct Measurement {
   double error_bound() const;
 };
 
-// The accuracy that a run must reach (design, section 6); of a recorded curve, whose noise is smoothed to be felt.
+// Required accuracy of a run; the second value is for a measured curve, whose noise is smoothed.
 inline constexpr double kEventErrorBound = 1e-3;
 inline constexpr double kRecordingErrorBound = 1e-2;
 

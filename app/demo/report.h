@@ -23,7 +23,7 @@ struct Variation {
   Measurement measurement;
 };
 
-// All that a run of the demo has found out.
+// Results of a run of the demo.
 struct DemoResult {
   std::vector<servo::RecordedSession> sessions;  // one per material, in the file's order
   std::vector<Measurement> measurements;
@@ -38,7 +38,7 @@ struct DemoResult {
   double hand_speed_m_per_s = 0;
 };
 
-// summary.json of the design, section 5: SI, magnitudes, relative errors.
+// Contents of summary.json: SI units, magnitudes, relative errors.
 nlohmann::json summary_json(const DemoResult& result);
 
 struct ReportPicture {

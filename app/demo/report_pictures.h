@@ -11,14 +11,14 @@
 
 namespace afm::app {
 
-// Pictures of frames for a report, as PNG files of its folder too; written while the next frames are drawn. The thread
-// of the renderer.
+// Pictures of frames for a report, also saved as PNG files in its folder while the next frames are drawn. Renderer's
+// thread.
 class ReportPictures {
  public:
   // All must outlive it.
   ReportPictures(render::Context& context, render::Renderer& renderer, const OutputFolder& out);
 
-  // Keeps the renderer's newest frame, side by side. Waits only where ScreenshotQueue::kMostPictures are on their way.
+  // Saves the renderer's newest frame, side by side. Waits only if ScreenshotQueue::kMostPictures are pending.
   void add(const std::string& file, const std::string& caption);
 
   // All of them, in order; Failed if one could not be written.

@@ -29,9 +29,9 @@ std::string FrameTimes::text() const {
   const auto ms = [&](double bins) { return std::min(bins * static_cast<double>(kBinNs) * 1e-6, longest_ms); };
   const core::Percentiles bins = core::percentiles(bins_, static_cast<std::uint32_t>(longest_ns_ / kBinNs + 1));
   return fmt::format(
-      "picture: {} frames, {:.1f} a second; from one to the next p50 {:.1f}, p99 {:.1f}, p99.9 {:.1f}, most {:.1f} ms",
-      frames_, 1e9 * static_cast<double>(times_) / static_cast<double>(total_ns_), ms(bins.p50), ms(bins.p99),
-      ms(bins.p999), longest_ms);
+      "picture: {} frames, {:.1f} per second; interval p50 {:.1f}, p99 {:.1f}, p99.9 {:.1f}, max {:.1f} ms", frames_,
+      1e9 * static_cast<double>(times_) / static_cast<double>(total_ns_), ms(bins.p50), ms(bins.p99), ms(bins.p999),
+      longest_ms);
 }
 
 }  // namespace afm::app

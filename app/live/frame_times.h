@@ -7,17 +7,17 @@
 
 namespace afm::app {
 
-// How long each picture stood until the next one was shown, over a run of any length.
+// Intervals between successive frames, over a run of any length.
 class FrameTimes {
  public:
-  // A frame was shown, at a time of a clock that never goes back.
+  // Records that a frame was shown at `now_ns` of a monotonic clock.
   void shown(std::int64_t now_ns);
 
-  // Nobody sees the window: the time until the next frame says nothing.
+  // Records that the window is invisible: the interval until the next frame does not count.
   void hidden();
 
-  // "picture: 214 frames, 10.8 a second; from one to the next p50 92.3, p99 110.2, p99.9 317.7, most 317.7 ms"; empty
-  // before the second frame.
+  // "picture: 214 frames, 10.8 per second; interval p50 92.3, p99 110.2, p99.9 317.7, max 317.7 ms"; empty before the
+  // second frame.
   std::string text() const;
 
  private:

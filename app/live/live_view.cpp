@@ -84,7 +84,7 @@ core::Result<void> LiveView::run() {
   }
   head_.log_latency();
   view_wand_.log_losses();
-  servo_.finish();  // the hand is released, and what was felt is kept, while the last picture still stands
+  servo_.finish();  // releases the hand and saves the session while the last picture is still visible
   if (lost) return tl::unexpected(*lost);
   picture_.finish();
   if (servo_.error()) return tl::unexpected(*servo_.error());
@@ -128,13 +128,13 @@ void LiveView::handle(const ViewEvent& input, std::int64_t now_ns) {
 
 void LiveView::turn_journey_round() {
   travel_.turn_round(clock_.now_ns());
-  core::log_line("the journey of scale was turned round");
+  core::log_line("the journey of scale was reversed");
   take_force_away(clock_.now_ns());
 }
 
 void LiveView::toggle_analogy() {
   analogy_ = !analogy_;
-  core::log_line(analogy_ ? "shown: Millet's analogy" : "shown: the instrument");
+  core::log_line(analogy_ ? "showing Millet's analogy" : "showing the instrument");
 }
 
 void LiveView::bring_home() {
@@ -146,12 +146,12 @@ void LiveView::bring_home() {
 // The contact comes into the wall's plane, where both eyes see it in one place.
 void LiveView::bring_to_wall() {
   if (servo_.link().tip().phase == physics::Phase::Attached) {
-    core::log_line("the scene stays while the tip touches it");
+    core::log_line("the scene is locked while the tip is in contact");
     return;
   }
   const double before_m = before_wall_m();
   to_wall_ = glm::translate(glm::dmat4(1.0), -before_m * stage_.screen.normal()) * to_wall_;
-  core::log_line(fmt::format("brought to the wall by {:.3f} m", -before_m));
+  core::log_line(fmt::format("moved the contact to the wall's plane by {:.3f} m", -before_m));
 }
 
 double LiveView::before_wall_m() const {
@@ -167,7 +167,7 @@ Pointed LiveView::pointed_at(std::size_t window, const glm::dvec2& cursor_px) {
 // Whichever of wand and mouse was used last.
 bool LiveView::wand_points() const { return view_wand_.points() && view_wand_.used_ns() >= cursor_moved_ns_; }
 
-// With the wand's ray; what it has snapped to stands for what it would hit.
+// Like pointed_at(), but uses the target that the wand's ray has snapped to, if there is one.
 Pointed LiveView::wand_pointed_at() {
   const input::Ray ray = input::ray_of(view_wand_.state());
   Pointed pointed = panels_.pointed_at(ray, wand_.wall_point(ray), servo_.material());
@@ -339,7 +339,7 @@ void LiveView::follow_edits() {
   const bool taken = state == exhibit::ChangeState::Applied || state == exhibit::ChangeState::AsLoaded;
   if (!taken || felt_[*current].tables == edited.tables) return;
   felt_[*current] = edited;
-  core::log_line("the changed parameters are felt from now on");
+  core::log_line("the changed parameters are now in effect");
 }
 
 // So that the wall can be drawn again as it is now.

@@ -42,7 +42,7 @@ struct ViewSettings {
 };
 
 // The live window: a person's mouse points, chooses and moves the hand of the servo; every frame shows the newest state
-// of the tip. The main thread alone.
+// of the tip. Main thread only.
 class LiveView {
  public:
   // All but the settings must outlive it.
@@ -50,9 +50,9 @@ class LiveView {
            ViewPicture& picture, ServoSupervisor::Starter start_servo, ViewWand& view_wand, const core::Clock& clock,
            const ViewSettings& settings);
 
-  // Until a window is closed, Escape, SIGINT or SIGTERM. Fails when the servo cannot be started, at the end if it has
-  // died and was not started again, and at once, with the servo ended in order, if the graphics device or the display
-  // is lost.
+  // Runs until a window is closed, Escape, SIGINT or SIGTERM. Fails when the servo cannot be started, at the end if it
+  // has died and was not started again, and at once, with the servo ended in order, if the graphics device or the
+  // display is lost.
   core::Result<void> run();
 
  private:
@@ -127,7 +127,7 @@ class LiveView {
   std::unique_ptr<servo::FrameLog> frame_log_;
   servo::ServoLateness servo_lateness_;
   input::IdleWatch visitor_;
-  glm::dvec3 hand_seen_m_{0.0};  // of a device with a hand of its own, when it was last moved
+  glm::dvec3 hand_seen_m_{0.0};  // of a device that a hand moves, at its last motion
   std::int64_t wand_seen_ns_ = 0;
   glm::dvec2 cursor_seen_px_{0.0};
   bool leaving_ = false;

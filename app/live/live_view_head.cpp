@@ -20,7 +20,7 @@ void LiveView::follow_head(std::int64_t now_ns) {
 
 void LiveView::move_head(double right_m, double up_m, double nearer_m) {
   if (view_wand_.tracks_head()) {
-    core::log_line("the head is where the tracker sees it; its keys do nothing");
+    core::log_line("the tracker controls the head; the arrow keys have no effect");
     return;
   }
   const scene::Screen& screen = stage_.screen;

@@ -19,7 +19,7 @@ void LiveView::follow_visitor(const ViewInput& input, std::int64_t now_ns) {
     if (visitor_.away() && !has_own_hand() && person_.step() == input::SimulatedPerson::Step::Done) demonstrate_next();
     return;
   }
-  core::log_line(visitor_.away() ? "nobody is there: the wall shows itself" : "someone is there");
+  core::log_line(visitor_.away() ? "no visitor: the wall demonstrates itself" : "a visitor has arrived");
   begin_for_visitors();
   take_force_away(now_ns);
   if (visitor_.away() && !has_own_hand()) demonstrate_next();

@@ -37,10 +37,10 @@ class MouseHand {
   // lasts until the next frame: `frame_s`.
   void update(const glm::dvec2& cursor_px, double m_per_px, double frame_s, std::int64_t now_ns);
 
-  // Off the sample, and back over the contact point.
+  // Lifts the aim off the sample and returns it above the contact point.
   void lift() { wanted_m_ = {0.0, kHighestM}; }
 
-  // As in the constructor, after the sample has been turned.
+  // Sets new axes, as in the constructor, after a rotation of the sample.
   void set_axes(const glm::dvec3& normal, const glm::dvec3& right);
 
   bool dragging() const { return grips_ > 0; }

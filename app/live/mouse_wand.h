@@ -12,7 +12,7 @@
 
 namespace afm::app {
 
-// How a window shows the wall.
+// Projection of the wall into a window.
 struct WallPicture {
   render::PicturePlace place;  // of the composed picture in the window
   render::Composition composition;
@@ -28,13 +28,13 @@ class MouseWand {
   // `stage` is the plane of wall_point().
   MouseWand(const scene::Screen& stage, const glm::dvec3& grip_m) : stage_(stage), grip_m_(grip_m) {}
 
-  // From the eye through the cursor, which counts in pixels of the window; beyond the picture's border it is continued.
+  // Ray from the eye through the cursor, in pixels of the window; extrapolated beyond the picture's border.
   input::Ray ray(const WallPicture& picture, const glm::dvec2& cursor_px) const;
 
   // The wand as it is drawn, turned towards `target_m`.
   input::WandState towards(const glm::dvec3& target_m, std::int64_t now_ns) const;
 
-  // Where the ray meets the wall's plane.
+  // Intersection of the ray with the wall's plane.
   glm::dvec3 wall_point(const input::Ray& ray) const;
 
  private:

@@ -12,7 +12,7 @@
 
 namespace afm::app {
 
-// The parameters of every material as a person has changed them, and what the servo has made of the changes.
+// The user's parameters for every material, and the servo's response to each change.
 class ParameterEdits {
  public:
   // As the servo was started with.
@@ -22,10 +22,10 @@ class ParameterEdits {
   // Applies the button of the panel, except Close, to the parameters and to the servo.
   void apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo);
 
-  // Back to what was loaded, of every material.
+  // Restores the loaded parameters of every material.
   void reset(servo::ServoClient& servo);
 
-  // Sends what has been changed to a servo that has been started again.
+  // Sends all changes to a restarted servo.
   void resend(servo::ServoClient& servo);
 
   // Of a material that has been asked for before; made from what was loaded if it has not.

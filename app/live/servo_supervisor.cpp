@@ -36,7 +36,7 @@ core::Result<void> ServoSupervisor::start() {
     if (!folder) return tl::unexpected(folder.error());
     folder_ = std::move(*folder);
   }
-  return launch(link_ ? "the servo was started again" : nullptr);
+  return launch(link_ ? "the servo was restarted" : nullptr);
 }
 
 core::Result<void> ServoSupervisor::launch(const char* message) {
@@ -103,11 +103,11 @@ void ServoSupervisor::replace(const core::Error& error, std::int64_t now_ns) {
   core::log_line(error.message);
   while (!restarts_ns_.empty() && now_ns - restarts_ns_.front() > kMinuteNs) restarts_ns_.pop_front();
   if (error.category != core::ErrorCategory::Failed || restarts_ns_.size() >= kMostRestarts) {
-    core::log_line("the servo stays ended: press R to start it again");
+    core::log_line("the servo has stopped: press R to restart it");
     return;
   }
   restarts_ns_.push_back(now_ns);
-  if (auto started = launch("the servo was started again by itself: lift, then press Turn-On"); !started) {
+  if (auto started = launch("the servo was restarted automatically: lift, then press Turn-On"); !started) {
     core::log_line(started.error().message);
   }
 }
@@ -129,7 +129,7 @@ void ServoSupervisor::keep_part(std::int64_t now_ns) {
 
 // A folder that has become full or read-only ends the recording, not the view.
 void ServoSupervisor::stop_recording(const core::Error& error) {
-  core::log_line(error.message + "; nothing more is recorded");
+  core::log_line(error.message + "; recording has stopped");
   folder_.reset();
 }
 
@@ -143,13 +143,13 @@ std::vector<servo::EarlierCurve> ServoSupervisor::curves_on_wall() const {
   return earlier;
 }
 
-// How punctual the servo was, for whoever looks at the log afterwards.
+// Scheduling latency of the servo, for readers of the log.
 void ServoSupervisor::log_timing() const {
   const scene::ServoTiming timing = link_->timing();
   if (timing.ticks == 0) return;
   const core::Percentiles wake = core::percentiles(timing.wake_us, timing.wake_max_us);
   core::log_line(
-      fmt::format("servo: {} ticks, {} missed; wakes late by p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, most {:.0f} "
+      fmt::format("servo: {} ticks, {} missed; scheduling latency p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, max {:.0f} "
                   "\u00b5s; {} samples lost on the way to the wall",
                   timing.ticks, timing.missed, wake.p50, wake.p99, wake.p999, wake.max, link_->lost_samples()));
 }

@@ -18,8 +18,8 @@
 
 namespace afm::app {
 
-// The servo behind a live window: starts it, follows its state, keeps what is felt, and replaces one that has died.
-// The main thread alone.
+// Manages the servo of a live window: starts it, follows its state, records sessions, and replaces it if it dies. The
+// main thread alone.
 class ServoSupervisor {
  public:
   using Starter = std::function<core::Result<std::unique_ptr<servo::ServoClient>>()>;
@@ -38,11 +38,11 @@ class ServoSupervisor {
   // pressed; one that dies again and again, or that cannot have its device, needs a person: then it has an error().
   void update(std::int64_t now_ns);
 
-  // What the wall shows in this frame, for the session under way.
+  // Adds a frame of the wall to the current session.
   void record(const servo::WallFrame& frame) { recorder_.add(frame); }
   bool recording() const { return folder_.has_value(); }
 
-  // The session under way is kept, the servo's timing is logged, and the hand is released.
+  // Saves the current session, logs the servo's timing, and releases the hand.
   void finish();
 
   // The link to one that has ended still has its last state.

@@ -15,7 +15,7 @@
 
 namespace afm::app {
 
-// What a user asks of the live view's windows and of what is drawn into them.
+// Options of the live view's windows and of the picture in them.
 struct DisplayOptions {
   exhibit::PictureOptions picture;
   WindowOptions window;
@@ -26,7 +26,7 @@ struct DisplayOptions {
   bool validate = false;           // every Vulkan call
 };
 
-// The windows of the live view with all that draws into them. The main thread alone.
+// The windows of the live view with all that draws into them. Main thread only.
 class ViewDisplay {
  public:
   // `stage` must outlive it. Fails as plan_view, ViewWindows and Context do, or where the display has not what the

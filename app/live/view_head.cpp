@@ -23,10 +23,10 @@ bool ViewHead::believed(const scene::HeadPose& pose) {
   const std::string doubt = scene::doubt_of_head(wall_, pose.position_m);
   if (doubt.empty() == doubted_) {
     doubted_ = !doubted_;
-    core::log_line(doubted_ ? fmt::format("head: the tracker puts it {}, where no head can be; the picture is drawn "
-                                          "for the sweet spot; check room_from_tracker in the wand file",
+    core::log_line(doubted_ ? fmt::format("head: the tracker reports an impossible position, {}; drawing for the sweet "
+                                          "spot; check room_from_tracker in the wand file",
                                           doubt)
-                            : "head: it is back where a head can be");
+                            : "head: the tracked position is plausible again");
   }
   return doubt.empty();
 }
@@ -58,8 +58,9 @@ void ViewHead::log_latency() {
   const auto share = [&](double p) {
     return latencies_ms_[static_cast<std::size_t>(p * static_cast<double>(latencies_ms_.size() - 1))];
   };
-  core::log_line(fmt::format("head: from packet to present p50 {:.1f} ms, p99 {:.1f} ms, most {:.1f} ms in {} frames",
-                             share(0.5), share(0.99), latencies_ms_.back(), latencies_ms_.size()));
+  core::log_line(fmt::format(
+      "head: latency from packet to presented frame p50 {:.1f} ms, p99 {:.1f} ms, max {:.1f} ms in {} frames",
+      share(0.5), share(0.99), latencies_ms_.back(), latencies_ms_.size()));
   latencies_ms_.clear();
 }
 

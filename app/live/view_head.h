@@ -10,8 +10,8 @@
 
 namespace afm::app {
 
-// The viewer's head in the live window: where the tracker says, predicted over the latency that was measured from a
-// packet to the picture that it moved. The main thread alone.
+// The viewer's head in the live window: the tracked position, predicted over the measured latency from a packet to its
+// picture. Main thread only.
 class ViewHead {
  public:
   // The wall must outlive it.

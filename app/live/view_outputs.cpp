@@ -31,8 +31,8 @@ std::string list_of(const std::vector<render::Monitor>& monitors) {
 core::Result<std::string> monitor_name(const std::string& who, const std::string& wanted,
                                        const std::vector<render::Monitor>& monitors) {
   if (const render::Monitor* found = render::find_monitor(monitors, wanted)) return found->name;
-  return core::failure(ErrorCategory::DeviceMissing, fmt::format("{}: there is no monitor \"{}\" here; there are: {}",
-                                                                 who, wanted, list_of(monitors)));
+  return core::failure(ErrorCategory::DeviceMissing,
+                       fmt::format("{}: there is no monitor \"{}\"; choose from: {}", who, wanted, list_of(monitors)));
 }
 
 core::Result<render::WindowOptions> placed(const scene::Output& output, const std::vector<render::Monitor>& monitors) {
@@ -46,8 +46,8 @@ core::Result<render::WindowOptions> placed(const scene::Output& output, const st
   }
   if (!render::is_shown(output.rect, monitors)) {
     return core::failure(ErrorCategory::DeviceMissing,
-                         fmt::format("{}: no monitor shows all of its {} x {} pixels at {}, {}; there are: {}; --size "
-                                     "shows the wall in one window",
+                         fmt::format("{}: no monitor contains its {} x {} pixels at {}, {}; the monitors are: {}; use "
+                                     "--size to show the wall in one window",
                                      who, output.rect.size_px.x, output.rect.size_px.y, output.rect.offset_px.x,
                                      output.rect.offset_px.y, list_of(monitors)));
   }
@@ -113,18 +113,17 @@ core::Result<std::vector<ViewOutput>> plan_view(const scene::Wall& wall, const s
   if (one || outputs.empty()) return one_window(wall, stage, options, window, monitors);
   if (outputs.size() > render::kMostWindows) {
     return core::failure(ErrorCategory::WrongUsage,
-                         fmt::format("the wall has {} outputs, and one computer shows {}: leave some out, or --size "
-                                     "shows the wall in one window",
+                         fmt::format("the wall has {} outputs; one computer can show {}: remove some, or use --size to "
+                                     "show the wall in one window",
                                      outputs.size(), render::kMostWindows));
   }
   std::vector<ViewOutput> plan;
   for (const scene::Output& output : outputs) {
     if (options.mode == StereoMode::Dual && !output.eye) {
-      return core::failure(
-          ErrorCategory::WrongUsage,
-          fmt::format("--stereo dual: output \"{}\" of the wall file shows no eye of its own; give its "
-                      "wall a pair of outputs with eye = \"left\" and \"right\"",
-                      output.name));
+      return core::failure(ErrorCategory::WrongUsage,
+                           fmt::format("--stereo dual: output \"{}\" of the wall file is not assigned to an eye; "
+                                       "define two outputs, with eye = \"left\" and eye = \"right\"",
+                                       output.name));
     }
     auto place = placed(output, monitors);
     if (!place) return tl::unexpected(place.error());

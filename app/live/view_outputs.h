@@ -13,7 +13,7 @@
 
 namespace afm::app {
 
-// One window of the live view: what of the wall it shows, and where it opens.
+// One window of the live view: its part of the wall and its place on the desktop.
 struct ViewOutput {
   std::string name;  // as the wall file says; empty: a window that no wall file places
   scene::Screen screen;
@@ -35,7 +35,7 @@ struct WindowOptions {
   bool full_screen = false;
 };
 
-// How large that window will be, as far as it can be known before it opens.
+// Expected size of the window, as far as it is known before the window opens.
 glm::uvec2 expected_size(const WindowOptions& window, const std::vector<render::Monitor>& monitors);
 
 // The wall file's outputs, each in its place; or one window of the whole stage, in mode dual one for each eye.

@@ -14,7 +14,7 @@
 
 namespace afm::app {
 
-// What a ray points at: a target of the open parameter panel, the tab that opens it, or a swatch.
+// Target of a ray: a control of the open parameter panel, the tab that opens it, or a swatch.
 struct Pointed {
   std::optional<render::ControlTarget> control;
   bool tab = false;
@@ -22,7 +22,7 @@ struct Pointed {
   glm::dvec3 point_m{0.0};  // in the room
 };
 
-// Which of the live window's panels are shown, and the parameters that are changed on one of them. One thread.
+// Visible panels of the live window, and the parameters that one of them edits. One thread.
 class ViewPanels {
  public:
   // `wall_scene` must outlive it; `materials` as the servo was started with.
@@ -54,7 +54,7 @@ class ViewPanels {
   void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece) const;
 
   // Adds the panels of this moment to a frame: the parameters or the tab that opens them, the curve that follows from
-  // what was changed, the keys; takes away what is hidden.
+  // what was changed, the keys; removes hidden panels.
   void add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
               const std::string& material_title, const scene::TipState& tip, HandSource hand);
 

@@ -99,7 +99,7 @@ void ViewPicture::swap_eyes() {
   const bool straight = other_order_ == scene::EyeOrder::Straight;
   other_order_ = straight ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight;
   share_out();
-  core::log_line(straight ? "eyes swapped" : "eyes as they were");
+  core::log_line(straight ? "eyes swapped" : "eyes not swapped");
 }
 
 // Dual needs a window for each eye.
@@ -184,7 +184,7 @@ void ViewPicture::save_newest() {
 void ViewPicture::finish() {
   if (const std::string text = times_.text(); !text.empty()) core::log_line(text);
   log_update(saver_.finish());
-  if (to_save_ > 0) core::log_line(fmt::format("{} pictures were asked for too late to be saved", to_save_));
+  if (to_save_ > 0) core::log_line(fmt::format("{} screenshots were not saved: the program ended too soon", to_save_));
 }
 
 void ViewPicture::log_update(const std::vector<render::SavedPicture>& saved) {

@@ -32,7 +32,7 @@ struct PictureSettings {
   std::string saved_folder = ".";                        // for the pictures that are saved
 };
 
-// How the live windows show the wall: for which eyes, in which layout, how large. The main thread alone.
+// Picture of the wall in the live windows: eyes, layout and size. Main thread only.
 class ViewPicture {
  public:
   // All but the settings must outlive it. `outputs` has one entry a window.
@@ -53,22 +53,22 @@ class ViewPicture {
   enum class Step { Next, Previous };
   void change_mode(Step step);
 
-  // Of the viewer's eyes, within what people have.
+  // Changes the viewer's eye distance, within the human range.
   void widen_eyes(double by_m);
 
-  // The picture for setting up the screens, instead of the scene.
+  // Shows the calibration picture instead of the scene, or the scene again.
   void toggle_calibration();
 
-  // Saves the next frame of the first window as a PNG file of its own, beside the drawing.
+  // Saves the next frame of the first window as a new PNG file without delaying the drawing.
   void save();
 
-  // Nobody sees the windows; to be said instead of show().
+  // To be called instead of show() while the windows are invisible.
   void rest() { times_.hidden(); }
 
-  // Waits for the last saved pictures, and logs them and how long frames took.
+  // Waits for the last screenshots; logs them and the frame times.
   void finish();
 
-  // What the next frame is drawn for in a window, and where it will lie there.
+  // Projection and area of the next frame in a window.
   WallPicture picture(std::size_t window) const;
 
   // For whom and how it is drawn now, with the keys' changes.
@@ -83,7 +83,7 @@ class ViewPicture {
   // As measured last; without text before the first measurement, and where both eyes see the same.
   const exhibit::DepthReport& depth() const { return depth_; }
 
-  // How finely frames are drawn to stay within the budget; nothing without one.
+  // Current resolution under the frame budget; empty without a budget.
   std::optional<render::DataRow> quality_row() const;
 
   // Draws and shows a frame in all windows, with the depth meter in it, which advises `relief`; calls `while_waiting`
@@ -92,7 +92,8 @@ class ViewPicture {
             const std::function<void()>& while_waiting);
 
  private:
-  // What is drawn once, and shown in one window or more: a screen for two eyes, or for the middle of both.
+  // A picture that is drawn once and shown in one or more windows: a screen for two eyes or for the midpoint between
+  // them.
   struct Share {
     scene::Screen screen;
     bool flat = false;

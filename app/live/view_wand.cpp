@@ -54,7 +54,8 @@ core::Result<void> parse_source(const std::string& text, WandChoice& choice) {
   } else {
     return core::failure(
         core::ErrorCategory::WrongUsage,
-        fmt::format("--wand: \"{}\" is none of auto, hid, dtrack, dtrack:ADDRESS:PORT, sim and mouse", text));
+        fmt::format("--wand: unknown source \"{}\"; choose auto, hid, dtrack, dtrack:ADDRESS:PORT, sim or mouse",
+                    text));
   }
   return {};
 }
@@ -78,8 +79,8 @@ core::Result<void> parse_head(const std::string& text, WandChoice& choice) {
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), body);
   if (number.empty() || error != std::errc() || end != number.data() + number.size() || body > 63) {
     return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("--head: \"{}\" is not dtrack:BODY or dtrack:BODY@ADDRESS:PORT with a body from 0 "
-                                     "to 63, such as dtrack:0@127.0.0.1:5000, nor sim:FILE",
+                         fmt::format("--head: unknown source \"{}\"; give dtrack:BODY or dtrack:BODY@ADDRESS:PORT with "
+                                     "a body from 0 to 63, such as dtrack:0@127.0.0.1:5000, or sim:FILE",
                                      text));
   }
   choice.head_body = body;
@@ -126,7 +127,7 @@ core::Result<std::unique_ptr<ViewWand>> ViewWand::open(const WandChoice& choice,
     auto opened = wand->open_hid(choice, assets_dir, place, clock);
     const bool bad_file = !opened && opened.error().category == core::ErrorCategory::BadInputFile;
     if (!opened && (choice.source == Source::Hid || bad_file)) return tl::unexpected(opened.error());
-    if (!opened) core::log_line(opened.error().message + "; the mouse points");
+    if (!opened) core::log_line(opened.error().message + "; using the mouse as the pointer");
   }
   if (choice.source == Source::Simulated) wand->simulated_.emplace(hand);
   return wand;
@@ -153,8 +154,8 @@ core::Result<void> ViewWand::open_dtrack(const WandChoice& choice, const core::C
   core::log_line("listening for a tracker at " + place);
   if (!choice.has_tracker_file) {
     core::log_line(
-        "tracker: z is taken as up and y as towards the wall, from the room's origin; room_from_tracker of a wand file "
-        "says otherwise");
+        "tracker: assuming that z points up and y towards the wall, from the room's origin; to change this, set "
+        "room_from_tracker in a wand file");
   }
   tracker_report_.emplace(place, clock.now_ns());
   auto& thread = choice.source == WandChoice::Source::Dtrack ? wand_thread_ : head_thread_;
@@ -196,11 +197,11 @@ void ViewWand::update(std::int64_t now_ns, const scene::TipState& tip, const glm
   const bool locked = input::navigation_locked(tip);
   navigation_.update(wand_, frame_s, locked);
   const bool moved = navigation_.room_from_scene() != glm::dmat4(1.0);
-  if (moved != was_moved_) core::log_line(moved ? "wand: the scene is moved" : "wand: the scene is home");
+  if (moved != was_moved_) core::log_line(moved ? "wand: the scene was moved" : "wand: the scene is back in its place");
   was_moved_ = moved;
   const bool moves = wand_.pressed(input::WandButton::Grab) || wand_.pressed(input::WandButton::Scale);
   const bool refused = locked && moves;
-  if (refused && !was_locked_) core::log_line("wand: the scene stays where it is while the tip is in contact");
+  if (refused && !was_locked_) core::log_line("wand: the scene is locked while the tip is in contact");
   was_locked_ = refused;
 }
 

@@ -21,14 +21,14 @@
 
 namespace afm::app {
 
-// What --wand, --wand-file and --head say.
+// Values of --wand, --wand-file and --head.
 struct WandOptions {
   std::string source = "auto";  // auto, hid, dtrack[:ADDRESS:PORT], sim or mouse
   std::string file{};           // empty: none
   std::string head{};           // dtrack:BODY[@ADDRESS:PORT], sim:FILE, or empty: the wand file's, if it names one
 };
 
-// A choice of words that was checked.
+// Validated values of the options.
 struct WandChoice {
   enum class Source { Auto, Hid, Dtrack, Simulated, Mouse };
   Source source = Source::Auto;
@@ -40,8 +40,8 @@ struct WandChoice {
 
 core::Result<WandChoice> parse_wand_choice(const WandOptions& options);
 
-// The wand in a person's hand in the live window: which it is, what it points at, and where it has moved the scene. The
-// main thread alone; the devices are read on a thread of their own.
+// The wand of the live window: its source, its target, and the transform of the scene. Main thread only; a separate
+// thread reads the devices.
 class ViewWand {
  public:
   // The stage and the clock must outlive it. `assets_dir` holds the folder wands. Without a usable HID library, with
@@ -52,12 +52,12 @@ class ViewWand {
   // Once a frame. `eye_m` is between the eyes.
   void update(std::int64_t now_ns, const scene::TipState& tip, const glm::dvec3& eye_m);
 
-  // Whether there is a wand that points, and when it was last turned or pressed: it takes turns with the mouse.
+  // True if a wand points; used_ns() is the time of its last motion or press. Wand and mouse take turns.
   bool points() const { return wand_.connected && wand_.orientation_valid; }
   std::int64_t used_ns() const { return used_ns_; }
   const input::WandState& state() const { return wand_; }
 
-  // What the ray has snapped to, and whether the select button went down in this frame.
+  // Target that the ray has snapped to, and the buttons pressed since the previous frame.
   std::optional<std::size_t> hovered() const { return pointing_.hovered; }
   bool select_pressed() const { return select_pressed_; }
   bool stop_pressed() const { return stop_pressed_; }  // since the frame before
@@ -65,7 +65,7 @@ class ViewWand {
   glm::dmat4 navigation() const { return navigation_.room_from_scene(); }
   void home() { navigation_.home(); }
 
-  // The tracked head in the room and when that came in; empty without a tracker, or as long as it has not said a word.
+  // The tracked head in the room and the time of its data; empty without a tracker or before its first data.
   struct Head {
     scene::HeadPose pose;
     std::int64_t time_ns = 0;
@@ -74,7 +74,7 @@ class ViewWand {
 
   bool tracks_head() const { return dtrack_ != nullptr && head_body_.has_value(); }
 
-  // Logs what a tracker has lost in the whole run, if there is one.
+  // Logs the tracker's losses over the whole run, if there is a tracker.
   void log_losses() const;
 
  private:

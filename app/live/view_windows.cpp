@@ -48,9 +48,9 @@ void ViewWindows::log_monitor_change(std::size_t window, const render::WindowInp
                         rect->offset_px.y);
   }
   const bool lost = input.monitor_change == render::WindowInput::MonitorChange::Lost;
-  core::log_line(
-      fmt::format("monitor {} is {}", which,
-                  lost ? "lost; its window goes on as a small one until it is back" : "back, and filled again"));
+  core::log_line(fmt::format("monitor {} is {}", which,
+                             lost ? "lost; its window continues at a small size until the monitor returns"
+                                  : "back; its window fills it again"));
 }
 
 std::vector<render::Window*> ViewWindows::all() const {
@@ -69,7 +69,7 @@ void ViewWindows::toggle_full_screen() {
     if (!rects_[i]) windows_[i]->set_full_screen(!windows_[i]->full_screen());
   }
   if (std::all_of(rects_.begin(), rects_.end(), [](const auto& rect) { return rect.has_value(); })) {
-    core::log_line("the windows stay where the wall file places them");
+    core::log_line("the wall file fixes the positions of the windows");
   }
 }
 

@@ -16,7 +16,7 @@ struct ViewEvent {
   render::WindowEvent event;
 };
 
-// What a person has done in all windows since the last time.
+// Input from all windows since the last call.
 struct ViewInput {
   std::vector<ViewEvent> events;
   std::size_t window = 0;  // that the cursor was in last
@@ -24,7 +24,7 @@ struct ViewInput {
   bool close_requested = false;
 };
 
-// The windows of the live view, which share a person's input. The main thread alone.
+// The windows of the live view, which share a person's input. Main thread only.
 class ViewWindows {
  public:
   // Fails as render::Window::open does, naming the output.
@@ -41,7 +41,7 @@ class ViewWindows {
   // Of all that the wall file does not place by a rectangle.
   void toggle_full_screen();
 
-  // Where a place in a window lies on the desktop, so that a drag may lead from one window into another.
+  // Converts a point in a window to desktop coordinates, for a drag from one window into another.
   glm::dvec2 on_desktop(std::size_t window, const glm::dvec2& cursor_px) const;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace afm::app {
 
-// Processor time leaves out what other programs take; wall time is what a person waits for.
+// Processor time excludes other programs; wall time is the time that a person waits.
 enum class BenchmarkClock { Processor, Wall };
 
 // One thing to measure. `run` is a Google Benchmark: set up, loop over the state, and the loop alone is timed.
@@ -23,8 +23,8 @@ struct BenchmarkCase {
   std::function<void(benchmark::State&)> run;
 };
 
-// What one operation took: the median over repetitions, each of which is the mean of as many turns as fill some
-// hundredths of a second, and the two extremes.
+// Time of one operation: median, minimum and maximum over repetitions. Each repetition is the mean of as many turns as
+// fill a few hundredths of a second.
 struct BenchmarkFigure {
   std::string name;
   double bar_s = 0.0;
@@ -41,7 +41,7 @@ inline constexpr int kBenchmarkRepetitions = 15;
 // Runs one after the other, with a line of progress each. Fails if one of them fails or the run is interrupted.
 core::Result<std::vector<BenchmarkFigure>> run_benchmarks(const std::vector<BenchmarkCase>& cases);
 
-// For people, and as JSON; durations of the JSON are seconds.
+// Results as a table and as JSON; durations in JSON are seconds.
 std::string benchmark_table(const std::vector<BenchmarkFigure>& figures);
 std::string benchmark_json(const std::vector<BenchmarkFigure>& figures);
 

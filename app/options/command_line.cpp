@@ -102,7 +102,7 @@ Option& Option::within(double least, double most) {
   // CLI11's own check lets through what is not a number
   option_->check(CLI::Range(least, most))->check([](const std::string& text) {
     double value = 0.0;
-    return CLI::detail::lexical_cast(text, value) && std::isnan(value) ? text + " is no number" : std::string();
+    return CLI::detail::lexical_cast(text, value) && std::isnan(value) ? text + " is not a number" : std::string();
   });
   return *this;
 }

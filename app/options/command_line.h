@@ -9,7 +9,7 @@
 
 #include "core/result.h"
 
-// CLI11 reads the command line. Only command_line.cpp includes it: it takes the compiler longer than all the rest of a
+// CLI11 parses the command line. Only command_line.cpp includes it: it takes longer to compile than the rest of a
 // command.
 namespace CLI {
 class App;
@@ -23,13 +23,13 @@ class Option {
  public:
   explicit Option(CLI::Option& option) : option_(&option) {}
 
-  // What the help calls the value.
+  // Placeholder for the value in the help.
   Option& type_name(const std::string& name);
-  // The help shows what the target holds now, or the text, as the value that holds without the option.
+  // Shows the target's current value, or the text, as the default in the help.
   Option& show_default();
   Option& show_default(const std::string& text);
 
-  // What is wrong usage: to leave the option out; to give it without, or together with, another.
+  // Rules whose violation is WrongUsage: the option is required, needs another, or excludes another.
   Option& required();
   Option& needs(const Option& other);
   Option& excludes(const Option& other);
@@ -51,8 +51,8 @@ class Option {
   CLI::Option* option_;
 };
 
-// What may be typed behind the name of a command, or of the program: options, arguments and commands. A handle: a copy
-// is the same list. Whatever is added writes to targets that must live as long as the CommandLine.
+// Options, arguments and subcommands of a command or of the program. A handle: copies share one list. Every target must
+// outlive the CommandLine.
 class OptionList {
  public:
   using Action = std::function<core::Result<void>()>;
@@ -62,7 +62,7 @@ class OptionList {
   template <class Value>
   Option add_option(const std::string& name, Value& target, const std::string& help);
 
-  // The text goes to `read` while the command line is parsed: what it refuses is wrong usage of that option.
+  // Passes the text to `read` while parsing; a refusal is WrongUsage of this option.
   Option add_parsed_option(const std::string& name, std::function<core::Result<void>(const std::string& text)> read,
                            const std::string& help);
 
@@ -78,7 +78,7 @@ class OptionList {
   // The last lines of the help.
   void footer(const std::string& text);
 
-  // What CommandLine::run does if this command is typed.
+  // Action of CommandLine::run if this command is given.
   void when_chosen(Action action);
 
  protected:
@@ -89,7 +89,7 @@ class OptionList {
   Action* chosen_;
 };
 
-// What the help says of one option, or of one argument without dashes.
+// Help of one option or positional argument.
 struct OptionDescription {
   std::string name;   // "--model"; of an argument "file"
   std::string value;  // what may be given, as the help has it; of a flag empty
@@ -105,7 +105,7 @@ struct AlternativesDescription {
   std::vector<OptionDescription> options;
 };
 
-// What the help says of one command, or of the program, whose commands are those below it.
+// Help of a command, or of the program with its subcommands.
 struct CommandDescription {
   std::string name;
   std::string help;
@@ -123,7 +123,7 @@ class CommandLine : public OptionList {
   CommandLine& operator=(const CommandLine&) = delete;
   ~CommandLine();
 
-  // The text that --help or --version asks for; an empty one if a command was chosen. WrongUsage: what is wrong first.
+  // The text for --help or --version; empty if a command was chosen. WrongUsage names the first error.
   core::Result<std::string> parse(int count, const char* const* arguments);
 
   // For the man page and the shell's completion.

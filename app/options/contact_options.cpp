@@ -78,8 +78,7 @@ core::Result<void> apply_values(const ContactOptions& options, curves::ContactSe
     const auto given = options.values.find(parameter.option);
     if (given == options.values.end() || given->second.empty()) continue;
     if (!curves::changes_force(parameter, setup.model)) {
-      return wrong_usage(
-          fmt::format("--{} does not act on the model {}; leave it out", parameter.option, setup.model.text));
+      return wrong_usage(fmt::format("--{} has no effect on model {}; remove it", parameter.option, setup.model.text));
     }
     const auto value = curves::parse_parameter(parameter, given->second);
     if (!value) return tl::unexpected(value.error());
@@ -88,7 +87,7 @@ core::Result<void> apply_values(const ContactOptions& options, curves::ContactSe
   }
   if (options.exact_sphere) {
     if (!curves::acts(*curves::find_contact_parameter("retardation"), setup.model)) {
-      return wrong_usage(fmt::format("--exact-sphere does not act on the model {}; leave it out", setup.model.text));
+      return wrong_usage(fmt::format("--exact-sphere has no effect on model {}; remove it", setup.model.text));
     }
     setup.law_options.exact_hamaker_sphere = true;
   }
@@ -101,22 +100,22 @@ void add_contact_options(OptionList& command, ContactOptions& options, const Com
   options.assets_dir = context.assets_dir;
   command
       .add_option("--materials", options.material_files,
-                  "material file (TOML) of your own, may be repeated: adds to the built-in materials, a known name "
-                  "replaces the built-in one")
+                  "your own material file (TOML); repeatable; adds to the built-in materials; a material with the same "
+                  "name replaces the built-in one")
       .type_name("FILE")
       .one_value_each();
   command
       .add_option("--probe", options.probe,
-                  "a lever and tip of the probe file, in place of the material's; \"touchafm material\" lists them")
+                  "lever and tip from the probe file instead of the material's; touchafm material lists them")
       .type_name("PROBE");
   command
       .add_option("--probes", options.probe_files,
-                  "probe file (TOML) of your own, may be repeated: adds to the built-in probes")
+                  "your own probe file (TOML); repeatable; adds to the built-in probes")
       .type_name("FILE")
       .one_value_each();
   command
       .add_option("--model", options.model,
-                  "auto (the law that suits the contact, by its Tabor parameter), or one of " +
+                  "law of force; auto chooses it by the contact's Tabor parameter; one of " +
                       curves::known_models(curves::ModelUse::Curve))
       .type_name("MODEL")
       .show_default();
@@ -127,7 +126,7 @@ void add_contact_options(OptionList& command, ContactOptions& options, const Com
         .type_name(type_word(parameter.sort));
   }
   command.add_flag("--exact-sphere", options.exact_sphere,
-                   "Hamaker's sphere instead of Derjaguin's approximation of it");
+                   "use Hamaker's exact sphere instead of Derjaguin's approximation");
 }
 
 core::Result<scene::MaterialLibrary> load_materials(const ContactOptions& options) {
@@ -141,8 +140,8 @@ core::Result<scene::ProbeLibrary> load_probes(const ContactOptions& options) {
 core::Result<curves::ContactSetup> contact_setup(const ContactOptions& options) {
   const auto model = curves::ModelName::parse(options.model);
   if (!model) {
-    return wrong_usage(fmt::format("unknown model \"{}\"; known are {}", options.model,
-                                   curves::known_models(curves::ModelUse::Curve)));
+    return wrong_usage(
+        fmt::format("unknown model \"{}\"; choose {}", options.model, curves::known_models(curves::ModelUse::Curve)));
   }
   const auto material = base_material(options, *model);
   if (!material) return tl::unexpected(material.error());

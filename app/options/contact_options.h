@@ -12,7 +12,7 @@
 
 namespace afm::app {
 
-// What the command line says of a contact, as it was written; an empty text is an option that was not given.
+// Contact options of the command line, as typed; empty text: not given.
 struct ContactOptions {
   std::string assets_dir;                   // holds materials.toml and probes.toml
   std::vector<std::string> material_files;  // of the user; they add to the built-in ones

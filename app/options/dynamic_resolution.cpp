@@ -79,7 +79,7 @@ void DynamicResolution::follow(render::Renderer& renderer) {
   const auto times = renderer.pass_times();
   if (!times || !add(times->total_ms())) return;
   renderer.set_quality(quality());
-  core::log_line("to stay within the frame's budget: " + text());
+  core::log_line("frame budget: now drawing " + text());
 }
 
 render::DataRow DynamicResolution::row(const exhibit::Phrases& phrases) const {
@@ -94,10 +94,9 @@ render::DataRow DynamicResolution::row(const exhibit::Phrases& phrases) const {
 
 void add_frame_budget(OptionList& command, double& budget_ms) {
   command
-      .add_option(
-          "--frame-budget", budget_ms,
-          "what drawing a frame may take, 1 to 1000 ms: frames that take longer are drawn with fewer pixels, down "
-          "to half each way, then with one sample; default: as they are")
+      .add_option("--frame-budget", budget_ms,
+                  "time budget for drawing a frame, 1 to 1000 ms; slower frames are drawn with fewer pixels, down to "
+                  "half in each direction, then with one sample per pixel; default: no limit")
       .within(1.0, 1000.0)
       .type_name("MS");
 }

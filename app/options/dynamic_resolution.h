@@ -22,7 +22,7 @@ class DynamicResolution {
   // `budget_ms` > 0; `samples` as the renderer was made with.
   DynamicResolution(double budget_ms, std::uint32_t samples);
 
-  // Takes what the newest frame took. True if the quality of the next one differs.
+  // Adds the time of the newest frame. True if the next frame has a different quality.
   bool add(double frame_ms);
 
   // Takes the time of the renderer's newest finished frame, sets its quality and logs a change.

@@ -16,7 +16,7 @@ Option choice_option(OptionList& command, const std::string& name, std::function
     const auto found = std::find(names.begin(), names.end(), text);
     if (found == names.end()) {
       return core::failure(core::ErrorCategory::WrongUsage,
-                           fmt::format("\"{}\" is not {}; there are {}", text, sort, fmt::join(names, ", ")));
+                           fmt::format("\"{}\" is not {}; choose {}", text, sort, fmt::join(names, ", ")));
     }
     store(static_cast<std::size_t>(found - names.begin()));
     return {};

@@ -20,17 +20,18 @@ constexpr QuantityRange<physics::Length> kEyeDistances{physics::Length(scene::kS
 
 void add_stereo_options(OptionList& command, exhibit::PictureOptions& options, const std::string& default_mode) {
   enum_option(command, "--stereo", options.mode, "a stereo mode", scene::kStereoModes, &scene::StereoModeTraits::name,
-              &scene::StereoModeTraits::mode, "how both eyes are shown; default: " + default_mode);
-  command.add_flag("--swap-eyes", [&options] { options.order = scene::EyeOrder::Swapped; }, "left and right exchanged");
+              &scene::StereoModeTraits::mode, "stereo mode; default: " + default_mode);
+  command.add_flag(
+      "--swap-eyes", [&options] { options.order = scene::EyeOrder::Swapped; }, "exchange the left and right eye");
   quantity_option(
       command, "--ipd", [&options](physics::Length distance) { options.ipd_m = distance.si; }, physics::kLengthUnits,
-      "distance between the eyes; default: the viewer's in the wall file", std::optional(kEyeDistances));
+      "distance between the eyes; default: that of the viewer in the wall file", std::optional(kEyeDistances));
 }
 
 void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files) {
   command
       .add_option("--probe", files.probe,
-                  "glTF model of your own cantilever, with nodes for the roles base and tip (docs/gltf.md)")
+                  "glTF model of your own cantilever, with nodes for the roles base and tip (see docs/gltf.md)")
       .type_name("FILE");
   add_own_sample_option(command, files);
 }
@@ -38,17 +39,19 @@ void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files) {
 void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files) {
   command
       .add_option("--sample", files.sample,
-                  "glTF model of your own sample, with a node for the role surface; it is felt as it is drawn")
+                  "glTF model of your own sample, with a node for the role surface; the drawn surface is also felt")
       .type_name("FILE");
 }
 
 void add_scale_option(OptionList& command, scene::ScaleMode& mode) {
   std::string meanings;
-  for (const scene::ScaleModeText& row : scene::kScaleModes) meanings += fmt::format("{}, {}; ", row.word, row.meaning);
-  enum_option(
-      command, "--scale", mode, "a scale of the hand", scene::kScaleModes, &scene::ScaleModeText::word,
-      &scene::ScaleModeText::mode,
-      fmt::format("how nm and nN become mm and N in the hand: {}default: {}", meanings, scene::text_of(mode).word));
+  for (const scene::ScaleModeText& row : scene::kScaleModes) {
+    meanings += fmt::format("{}{} ({})", meanings.empty() ? "" : ", ", row.word, row.meaning);
+  }
+  enum_option(command, "--scale", mode, "a scale of the hand", scene::kScaleModes, &scene::ScaleModeText::word,
+              &scene::ScaleModeText::mode,
+              fmt::format("scaling of nm and nN to mm and N in the hand: {}; default: {}", meanings,
+                          scene::text_of(mode).word));
 }
 
 void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
@@ -60,23 +63,23 @@ void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const
   command
       .add_option(
           "--guidance", files.guidance,
-          fmt::format("phrase file (TOML) of your own, such as a part of {}/guidance/en.toml in your words; what "
-                      "it lacks is as in --language",
+          fmt::format("your own phrase file (TOML), such as a part of {}/guidance/en.toml in your words; --language "
+                      "supplies the phrases that it lacks",
                       context.assets_dir))
       .type_name("FILE");
-  command.add_option("--assets", files.assets_dir, "folder of the models, walls, materials and languages")
-      .type_name("DIR");
+  command.add_option("--assets", files.assets_dir, "folder of models, walls, materials and languages").type_name("DIR");
 }
 
 void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
   add_phrase_options(command, files, context);
   command
-      .add_option("--wall", files.wall,
-                  "wall file (TOML): the screen's corners and the viewer; default: the paper's 10 ft x 7.5 ft wall")
+      .add_option(
+          "--wall", files.wall,
+          "wall file (TOML) with the screens' corners and the viewer; default: the paper's wall, 10 ft x 7.5 ft")
       .type_name("FILE");
   command
       .add_option("--materials", files.materials,
-                  "material file (TOML) of your own, shown instead of mica, gold and silicon nitride of the paper")
+                  "your own material file (TOML), shown instead of the paper's mica, gold and silicon nitride")
       .type_name("FILE");
 }
 

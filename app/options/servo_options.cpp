@@ -22,7 +22,7 @@ constexpr std::array kServoModes{NamedServoMode{servo::ServoMode::Process, "proc
 void add_servo_mode_option(OptionList& command, servo::ServoMode& mode) {
   enum_option(command, "--servo", mode, "a way to run the servo", kServoModes, &NamedServoMode::name,
               &NamedServoMode::mode,
-              "how the servo runs: process, or thread for debuggers and sanitizers; default: process");
+              "run the servo as a process, or as a thread for debuggers and sanitizers; default: process");
 }
 
 }  // namespace afm::app

@@ -7,7 +7,7 @@
 namespace afm::core {
 
 void check_failed(const char* expression, const char* file, int line) {
-  std::fprintf(stderr, "touchafm: internal error: %s is false (%s:%d)\n", expression, file, line);
+  std::fprintf(stderr, "touchafm: internal error: the check %s failed (%s:%d)\n", expression, file, line);
   std::abort();
 }
 

@@ -19,11 +19,12 @@ int report_exceptions(const std::function<int()>& run) noexcept {
   try {
     return run();
   } catch (const std::bad_alloc&) {
-    return fail(ExitCode::RunFailed, "no memory is left: ask for less, or raise the limit (ulimit -v)");
+    return fail(ExitCode::RunFailed,
+                "out of memory: use fewer samples or a smaller picture, or raise the limit (ulimit -v)");
   } catch (const std::system_error& error) {
     const bool limited = error.code() == std::errc::resource_unavailable_try_again;  // as pthread_create says
     return fail(ExitCode::RunFailed,
-                limited ? "cannot start another thread: raise the limits of processes and memory (ulimit -u, ulimit -v)"
+                limited ? "cannot start another thread: raise the limits on processes and memory (ulimit -u, ulimit -v)"
                         : error.what());
   } catch (const std::exception& error) {
     return fail(ExitCode::RunFailed, error.what());
@@ -36,7 +37,7 @@ namespace {
 // that.
 [[noreturn]] void end_in_good_order() {
   end_at_once(ExitCode::RunFailed,
-              "error: no memory is left, or the program has a fault (std::terminate): ask for less, or "
+              "error: out of memory or an internal fault (std::terminate): use fewer samples or a smaller picture, or "
               "raise the limit (ulimit -v)");
 }
 

@@ -37,7 +37,7 @@ constexpr auto kReaderPause = std::chrono::milliseconds(20);
 int write_into(const std::string& path, std::string_view bytes) {
   const auto end = std::chrono::steady_clock::now() + kReaderPatience;
   FileDescriptor file;
-  // a pipe that nobody reads yet refuses, instead of waiting for ever
+  // a pipe without a reader refuses instead of waiting
   while (!(file = FileDescriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK))).is_open()) {
     if (errno != ENXIO || std::chrono::steady_clock::now() > end) return errno;
     std::this_thread::sleep_for(kReaderPause);
@@ -97,7 +97,7 @@ Result<std::string> read_file(const std::string& path) {
   if (!file.is_open()) return bad(errno == ENOENT ? "there is no such file" : system_error(errno));
   struct stat now{};
   if (::fstat(file.get(), &now) != 0) return bad(system_error(errno));
-  if (!S_ISREG(now.st_mode)) return bad(S_ISDIR(now.st_mode) ? "it is a folder" : "it is no regular file");
+  if (!S_ISREG(now.st_mode)) return bad(S_ISDIR(now.st_mode) ? "it is a folder" : "it is not a regular file");
   std::string bytes;
   for (;;) {
     const std::size_t before = bytes.size();
@@ -113,8 +113,9 @@ Result<std::string> read_file(const std::string& path) {
 Result<void> write_file(const std::string& path, std::string_view bytes) {
   const int error = write_file_or_errno(path, bytes);
   if (error == 0) return {};
-  return core::failure(core::ErrorCategory::Failed,
-                       "cannot write " + path + ": " + (error == ENXIO ? "nobody reads from it" : system_error(error)));
+  return core::failure(
+      core::ErrorCategory::Failed,
+      "cannot write " + path + ": " + (error == ENXIO ? "no program reads from it" : system_error(error)));
 }
 
 }  // namespace afm::core

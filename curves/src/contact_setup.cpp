@@ -44,7 +44,15 @@ ContactParameter row(std::string_view option, std::string_view json_key, std::sp
 }
 
 std::string help_of(std::string_view meaning, const std::string& range, const physics::Units& units) {
-  return fmt::format("{}, {}: {}", meaning, range, physics::list_units(units.units));
+  return fmt::format("{}, {}; units: {}", meaning, range, physics::list_units(units.units));
+}
+
+// "tip radius"
+std::string title_of(std::string_view option) {
+  if (option == "hamaker") return "Hamaker constant";
+  std::string title(option);
+  std::replace(title.begin(), title.end(), '-', ' ');
+  return title;
 }
 
 using physics::ContactParameters;
@@ -54,7 +62,8 @@ template <auto Member>
 ContactParameter row(std::string_view option, std::span<const std::string_view> keys,
                      const physics::ContactField& field) {
   return row(
-      option, field.json_key, keys, help_of(field.meaning, field.range(), *field.units), *field.units,
+      option, field.json_key, keys,
+      help_of(fmt::format("{} {}", title_of(option), field.meaning), field.range(), *field.units), *field.units,
       [](const ContactSetup& s) { return Number((s.material.contact.*Member).si); },
       [](ContactSetup& s, double si) { (s.material.contact.*Member).si = si; },
       field.largest < std::numeric_limits<double>::infinity() ? physics::Infinity::Refused
@@ -66,7 +75,7 @@ ContactParameter work_of_adhesion() {
   constexpr const physics::ContactField& kMean = physics::contact_field("mean_surface_energy");
   return row(
       "work-of-adhesion", "work_of_adhesion_J_per_m2", kWorkOfAdhesion,
-      help_of("W = 2 sqrt(gamma_s gamma_t)",
+      help_of("work of adhesion W = 2 sqrt(gamma_s gamma_t)",
               physics::range_text(2.0 * kMean.smallest, 2.0 * kMean.largest, *kMean.units), *kMean.units),
       *kMean.units,
       [](const ContactSetup& s) {
@@ -101,14 +110,14 @@ std::array<ContactParameter, 12> make_parameters() {
       row<&ContactParameters::atomic_distance>("atomic-distance", kAtomicDistance, contact_field("atomic_distance")),
       row(
           "retardation", "retardation_wavelength_m", kRetardation,
-          "wavelength of retardation of the van der Waals force, about 100nm; default: not retarded", kLengthUnits,
+          "retardation wavelength of the van der Waals force, about 100nm; default: no retardation", kLengthUnits,
           [](const Setup& s) {
             const auto& wavelength = s.law_options.retardation_wavelength;
             return wavelength ? Number(wavelength->si) : Number();
           },
           [](Setup& s, double si) { s.law_options.retardation_wavelength = Length(si); }),
       {"humidity", "relative_humidity", kHumidity,
-       "relative humidity of the air, which condenses a bridge of water: 1% to 99%; default: none", "a humidity",
+       "relative humidity of the air, which forms a water meniscus, 1% to 99%; default: no meniscus", "a humidity",
        kPercent, Infinity::Refused,
        [](const Setup& s) {
          const auto& meniscus = s.law_options.meniscus;
@@ -119,21 +128,22 @@ std::array<ContactParameter, 12> make_parameters() {
          s.law_options.meniscus->relative_humidity = si;
        }},
       row(
-          "resonance", "resonance_Hz", kResonance, "f0 of the lever in the medium, 1Hz to 100MHz: MHz, kHz, Hz",
-          kFrequencyUnits, [](const Setup& s) { return Number(s.material.lever.resonance.si); },
+          "resonance", "resonance_Hz", kResonance,
+          "resonance frequency f0 of the lever in the medium, 1Hz to 100MHz; units: MHz, kHz, Hz", kFrequencyUnits,
+          [](const Setup& s) { return Number(s.material.lever.resonance.si); },
           [](Setup& s, double si) { s.material.lever.resonance = Frequency(si); }),
       {"quality-factor",
        "quality_factor",
        kQualityFactor,
-       "Q of the lever in the medium, 0.01 to 1e7: a plain number",
+       "quality factor Q of the lever in the medium, a plain number from 0.01 to 1e7",
        "a quality factor",
        {},
        Infinity::Refused,
        [](const Setup& s) { return Number(s.material.lever.quality_factor); },
        [](Setup& s, double si) { s.material.lever.quality_factor = si; }},
       row(
-          "temperature", "temperature_K", kTemperature, "0K (no thermal noise) to 2000K: K", kTemperatureUnits,
-          [](const Setup& s) { return Number(s.material.lever.temperature.si); },
+          "temperature", "temperature_K", kTemperature, "temperature of the thermal noise, 0K (no noise) to 2000K",
+          kTemperatureUnits, [](const Setup& s) { return Number(s.material.lever.temperature.si); },
           [](Setup& s, double si) { s.material.lever.temperature = Temperature(si); })};
 }
 

@@ -76,10 +76,10 @@ core::Result<physics::Velocity> ramp_speed(const PathOptions& path) {
 
 core::Result<void> sweep_static(const PathOptions& path, CurveRun& run) {
   if (!path.speed.empty()) {
-    return wrong_usage(fmt::format("--speed does not act on the model {}; leave it out", run.setup.model.text));
+    return wrong_usage(fmt::format("--speed has no effect on model {}; remove it", run.setup.model.text));
   }
   if (!path.seed.empty()) {
-    return wrong_usage(fmt::format("--seed does not act on the model {}; leave it out", run.setup.model.text));
+    return wrong_usage(fmt::format("--seed has no effect on model {}; remove it", run.setup.model.text));
   }
   const physics::ApproachRetractModel model(
       physics::build_law_tables(run.setup.law(), run.setup.material.contact, run.setup.law_options));

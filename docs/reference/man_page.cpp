@@ -82,7 +82,7 @@ std::string usage(const std::string& name, const app::CommandDescription& comman
 void print_command(std::string& page, const std::string& name, const app::CommandDescription& command) {
   page += fmt::format(".SS {}\n{}\n.P\n{}\n", roff(name), usage(name, command), roff(command.help));
   for (const app::AlternativesDescription& group : command.alternatives) {
-    page += fmt::format(".P\nExactly one of these, {}:\n", roff(group.title));
+    page += fmt::format(".P\nExactly one of these options is required ({}):\n", roff(group.title));
     for (const app::OptionDescription& option : group.options) print_option(page, option);
   }
   if (!command.alternatives.empty()) page += ".P\nOther options:\n";
@@ -117,10 +117,12 @@ std::string man_page(const app::CommandDescription& program, const Release& rele
   page += fmt::format(".SH EXIT STATUS\n{}\n", roff(program.help.substr(codes)));
   page +=
       ".SH FILES\n"
-      "Installed by the Debian package; with another prefix, below that instead of /usr.\n"
-      ".TP\n\\fI/usr/share/touchafm\\fR\nmaterials, probes, models, walls, wands and the languages of wall and report\n"
-      ".TP\n\\fI/usr/share/doc/touchafm\\fR\nthe manual, the documents that the help names\n"
-      "below docs/, and in\n\\fIexamples\\fR\nfiles to copy and change\n";
+      "Paths of the Debian package; with another prefix, they are below that prefix instead of /usr.\n"
+      ".TP\n\\fI/usr/share/touchafm\\fR\n"
+      "materials, probes, models, walls, wands and the languages of wall and report\n"
+      ".TP\n\\fI/usr/share/doc/touchafm\\fR\n"
+      "the manual, the documents that the help refers to as docs/NAME, and, in\n\\fIexamples\\fR,\n"
+      "files to copy and edit\n";
   return page;
 }
 

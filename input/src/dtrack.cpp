@@ -18,7 +18,7 @@ constexpr std::uint32_t kLargestId = 63;
 constexpr std::uint32_t kMostButtons = 32;
 constexpr double kRotationTolerance = 1e-2;  // the wire has six digits
 
-// What is left of a line. Every take fails without harm at whatever stands there.
+// The rest of a line. Every take() fails harmlessly on unexpected text.
 class Line {
  public:
   explicit Line(std::string_view text) : rest_(text) {}

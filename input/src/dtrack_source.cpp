@@ -28,15 +28,14 @@ core::Result<void> bind_to(int socket, const DtrackSettings& settings) {
   if (::inet_pton(AF_INET, settings.address.c_str(), &place.sin_addr) != 1) {
     return core::failure(
         core::ErrorCategory::WrongUsage,
-        fmt::format("the tracker's address \"{}\" is no IPv4 address of this machine, such as 127.0.0.1",
+        fmt::format("the tracker's address \"{}\" is not an IPv4 address of this machine, such as 127.0.0.1",
                     settings.address));
   }
   if (::bind(socket, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0) return {};
-  return core::failure(
-      core::ErrorCategory::DeviceMissing,
-      fmt::format("cannot listen for a tracker at {}:{} ({}): name an address of this machine, and end what else "
-                  "listens there",
-                  settings.address, settings.port, core::system_error(errno)));
+  return core::failure(core::ErrorCategory::DeviceMissing,
+                       fmt::format("cannot listen for a tracker at {}:{} ({}): give an address of this machine, and "
+                                   "close other programs that listen there",
+                                   settings.address, settings.port, core::system_error(errno)));
 }
 
 std::uint32_t wand_buttons(std::uint32_t flystick) {
@@ -62,14 +61,14 @@ core::Result<std::unique_ptr<DtrackSource>> DtrackSource::open(const DtrackSetti
   core::FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket.is_open()) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("no socket for a tracker could be made ({})", core::system_error(errno)));
+                         fmt::format("cannot create a socket for the tracker ({})", core::system_error(errno)));
   }
   if (auto bound = bind_to(socket.get(), settings); !bound) return tl::unexpected(bound.error());
   sockaddr_in place{};
   socklen_t size = sizeof place;
   if (::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&place), &size) != 0) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("the tracker's port cannot be asked for ({})", core::system_error(errno)));
+                         fmt::format("cannot query the tracker's port ({})", core::system_error(errno)));
   }
   return std::unique_ptr<DtrackSource>(new DtrackSource(settings, clock, std::move(socket), ntohs(place.sin_port)));
 }

@@ -69,14 +69,14 @@ std::vector<Seen> enumerate(const std::vector<HidMapping>& mappings) {
 
 std::string why_not_open(const std::string& path) {
   if (::access(path.c_str(), F_OK) == 0 && ::access(path.c_str(), R_OK | W_OK) != 0) {
-    return fmt::format("no right to open {}: {}", path, kRule);
+    return fmt::format("permission denied for {}: {}", path, kRule);
   }
-  return fmt::format("{} cannot be opened ({}): unplug it and plug it in again", path, plain(hid_error(nullptr)));
+  return fmt::format("cannot open {} ({}): unplug it and plug it in again", path, plain(hid_error(nullptr)));
 }
 
 core::Result<void> start_library() {
   if (hid_init() == 0) return {};
-  return core::failure(core::ErrorCategory::Failed, "the hid library could not be started: is /sys mounted?");
+  return core::failure(core::ErrorCategory::Failed, "cannot start the HID library: check that /sys is mounted");
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ core::Result<std::vector<HidFinding>> find_hid_wands(const std::vector<HidMappin
   for (const Seen& seen : enumerate(mappings)) {
     HidFinding finding{.path = seen.path, .name = seen.name, .is_wand = false, .usable = false, .said = ""};
     if (!seen.known) {
-      finding.said = "not known as a wand; a wand file can describe it";
+      finding.said = "not a known wand; a wand file can describe it";
     } else if (!seen.known->make) {
       finding.said = seen.known->name + ": not a wand";
     } else {
@@ -175,7 +175,7 @@ void HidSource::try_to_open(std::int64_t now_ns) {
     auto device = std::make_unique<Device>(handle);
     auto driver = known_[i].make();
     if (!device->set_up(*driver)) {
-      complain(fmt::format("wand: {} does not take its set-up ({})", known_[i].name, plain(hid_error(handle))));
+      complain(fmt::format("wand: {} rejected its set-up ({})", known_[i].name, plain(hid_error(handle))));
       continue;
     }
     device_ = std::move(device);
@@ -193,7 +193,7 @@ void HidSource::complain(const std::string& complaint) {
 }
 
 void HidSource::lose() {
-  core::log_line("wand: unplugged; it is taken up again when it comes back");
+  core::log_line("wand: unplugged; plug it in again to continue");
   wand_.reset();
   device_.reset();
   paths_.clear();

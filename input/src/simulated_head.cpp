@@ -21,7 +21,7 @@ constexpr double kUnitLengthTolerance = 1e-3;
 constexpr double kFarthestM = 100.0;  // from the room's origin: beyond it millimetres were written
 constexpr double kLongestScriptS = 86'400.0;
 
-// The numbers of a line, separated by commas or spaces; empty: something else stands there.
+// The numbers of a line, separated by commas or spaces; empty: there is something else.
 std::optional<std::vector<double>> numbers_of(std::string_view line) {
   std::vector<double> numbers;
   for (;;) {
@@ -42,9 +42,9 @@ std::string take_key(const std::vector<double>& v, std::vector<HeadKey>& keys) {
   if (v.size() != 4 && v.size() != 8) return "must be seconds, x, y, z or seconds, x, y, z, qx, qy, qz, qw";
   HeadKey key{.time_s = v[0], .pose = {.position_m = {v[1], v[2], v[3]}}};
   if (keys.empty() ? key.time_s != 0.0 : !(key.time_s > keys.back().time_s)) return "times must rise from 0";
-  if (key.time_s > kLongestScriptS) return fmt::format("a script lasts {:g} s at most", kLongestScriptS);
+  if (key.time_s > kLongestScriptS) return fmt::format("a script may last {:g} s at most", kLongestScriptS);
   if (glm::length(key.pose.position_m) > kFarthestM) {
-    return fmt::format("a head is within {:g} m of the room's origin; places are in metres", kFarthestM);
+    return fmt::format("the head must be within {:g} m of the room's origin; positions are in metres", kFarthestM);
   }
   if (v.size() == 8) {
     const glm::dquat turn(v[7], v[4], v[5], v[6]);
@@ -70,11 +70,11 @@ core::Result<std::vector<HeadKey>> load_head_script(const std::string& path) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
     const auto numbers = numbers_of(line.substr(0, line.find('#')));
-    if (!numbers) return refuse(number, "has something that is no number");
+    if (!numbers) return refuse(number, "contains a value that is not a number");
     if (numbers->empty()) continue;
     if (const std::string wrong = take_key(*numbers, keys); !wrong.empty()) return refuse(number, wrong);
   }
-  if (keys.size() < 2) return refuse(1, "a script needs two places or more, a line each");
+  if (keys.size() < 2) return refuse(1, "a script needs at least two positions, one per line");
   return keys;
 }
 

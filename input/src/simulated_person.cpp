@@ -115,7 +115,7 @@ std::string SimulatedPerson::waiting_for() const {
     case Step::PointAtSwatch:
       return "the wand to reach the swatch";
     case Step::PressSelect:
-      return "the servo to take the chosen material";
+      return "the servo to apply the chosen material";
     case Step::Lift:
       return "the hand to lift the tip";
     case Step::PressTurnOn:

@@ -8,8 +8,7 @@ namespace afm::input {
 namespace {
 
 std::string losses(std::uint64_t good, std::uint64_t lost, std::uint64_t old, std::uint64_t bad) {
-  return fmt::format("{} frames came, {} were lost, {} came late or twice, {} packets were no frames", good, lost, old,
-                     bad);
+  return fmt::format("{} frames received, {} lost, {} late or repeated, {} malformed packets", good, lost, old, bad);
 }
 
 }  // namespace
@@ -20,18 +19,17 @@ std::optional<std::string> TrackerReport::change_of_state(std::int64_t now_ns) {
   if (heard && !silent && state_ != State::Heard) {
     const bool again = state_ == State::Silent;
     state_ = State::Heard;
-    return fmt::format("tracker: its frames come in{}", again ? " again" : "");
+    return fmt::format("tracker: receiving frames{}", again ? " again" : "");
   }
   if (silent && state_ == State::Heard) {
     state_ = State::Silent;
-    return fmt::format("tracker: no frame for {} s: check its measurement and its cable", kSilenceNs / 1'000'000'000);
+    return fmt::format("tracker: no frame for {} s: check the measurement and the cable", kSilenceNs / 1'000'000'000);
   }
   if (!heard && state_ == State::Waiting && now_ns - began_ns_ > kPatienceNs) {
     state_ = State::Missing;
-    return fmt::format("tracker: no frame has come in {} s{}: start its measurement, and send its output to {}",
+    return fmt::format("tracker: no frame in {} s{}: start the measurement, and send its output to {}",
                        kPatienceNs / 1'000'000'000,
-                       now_.bad_packets > 0 ? fmt::format(", but {} packets that are none", now_.bad_packets) : "",
-                       place_);
+                       now_.bad_packets > 0 ? fmt::format(", but {} malformed packets", now_.bad_packets) : "", place_);
   }
   return std::nullopt;
 }
@@ -46,7 +44,7 @@ std::optional<std::string> TrackerReport::follow(const DtrackUpdate& update, std
   const std::uint64_t bad = now_.bad_packets - reported_.bad_packets;
   std::optional<std::string> line;
   if (lost + old + bad > 0) {
-    line = fmt::format("tracker: in {:.0f} s {}", 1e-9 * static_cast<double>(now_ns - reported_ns_),
+    line = fmt::format("tracker: in {:.0f} s: {}", 1e-9 * static_cast<double>(now_ns - reported_ns_),
                        losses(now_.good_packets - reported_.good_packets, lost, old, bad));
   }
   reported_ = now_;
@@ -55,7 +53,7 @@ std::optional<std::string> TrackerReport::follow(const DtrackUpdate& update, std
 }
 
 std::string TrackerReport::total() const {
-  return fmt::format("tracker: in the whole run {}",
+  return fmt::format("tracker: in the whole run: {}",
                      losses(now_.good_packets, now_.lost_frames, now_.old_packets, now_.bad_packets));
 }
 

@@ -50,7 +50,7 @@ class Table {
 
   std::string text(std::string_view key) const {
     const auto value = node(key).value_exact<std::string>();
-    if (!value || value->empty()) refuse(key, "must be a text that is not empty");
+    if (!value || value->empty()) refuse(key, "must be text and not empty");
     return *value;
   }
 
@@ -102,7 +102,7 @@ class Table {
     std::uint16_t value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
     if (error != std::errc() || end != digits.data() + digits.size()) {
-      refuse(key, "must be a text of up to four hexadecimal digits, such as \"256f\"");
+      refuse(key, "must be up to four hexadecimal digits in quotes, such as \"256f\"");
     }
     return value;
   }
@@ -134,7 +134,7 @@ class Table {
   std::string name_;
 };
 
-// Where in a report something stands; byte 0 of a numbered report is its number.
+// Position in a report; byte 0 of a numbered report is its number.
 void read_place(const Table& table, std::uint8_t& report, std::size_t& byte, unsigned& bit) {
   report = static_cast<std::uint8_t>(table.integer("report", 0, 255));
   byte = static_cast<std::size_t>(table.integer("byte", report == 0 ? 0 : 1, kLargestByte));

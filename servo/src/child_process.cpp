@@ -22,9 +22,9 @@ namespace {
 constexpr int kFirstClosed = kInherited.back() + 1;
 
 core::Error spawn_error(const std::string& program, int error) {
-  return {core::ErrorCategory::Failed,
-          fmt::format("cannot start the servo {}: {}; build the target touchafm-servo and keep it beside touchafm",
-                      program, core::system_error(error))};
+  return {core::ErrorCategory::Failed, fmt::format("cannot start the servo {}: {}; reinstall touchafm, or build the "
+                                                   "target touchafm-servo; both programs belong in one folder",
+                                                   program, core::system_error(error))};
 }
 
 // What posix_spawn needs, freed in any case.

@@ -20,7 +20,7 @@ inline constexpr std::array<int, 2> kInherited{3, 4};
 core::Result<pid_t> start_child(const std::string& program, std::vector<std::string> arguments,
                                 const std::array<int, 2>& descriptors);
 
-// Whether it ends within so long; then it is reaped and `status` is what waitpid() says.
+// True if the child ends within this time; it is then reaped and `status` is that of waitpid().
 bool child_ended_within(pid_t child, int milliseconds, int& status) noexcept;
 
 }  // namespace afm::servo

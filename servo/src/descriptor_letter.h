@@ -29,7 +29,7 @@ class Letter {
   // False: too long, the other side is gone, or does not read and the socket is full. Waits for nobody.
   bool send(int socket, std::string_view text, std::span<const int> descriptors = {});
 
-  // What lies there, waiting for nobody; the text is valid until the next call. Empty, with errno EAGAIN: nothing yet;
+  // The next letter, without waiting; the text is valid until the next call. Empty, with errno EAGAIN: nothing yet;
   // EPIPE: the other side is gone; EBADMSG: more or fewer descriptors than `descriptors` has room for, and not none.
   std::optional<std::string_view> read(int socket, std::span<core::FileDescriptor> descriptors);
 

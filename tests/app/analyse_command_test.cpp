@@ -130,7 +130,7 @@ TEST(AnalyseCommand, ReadsASensitivityThatIsADeflectionPerVolt) {
     const auto sensitivity = parse_sensitivity(wrong);
     ASSERT_FALSE(sensitivity.has_value()) << wrong;
     EXPECT_EQ(sensitivity.error().category, core::ErrorCategory::WrongUsage);
-    EXPECT_THAT(sensitivity.error().message, HasSubstr("no deflection per volt"));
+    EXPECT_THAT(sensitivity.error().message, HasSubstr("not a deflection per volt"));
   }
 }
 

@@ -199,7 +199,7 @@ TEST(CurveCommand, PutsAProbeUnderTheMaterialAndOverridesOnTop) {
   json = json_of(contact);
   EXPECT_EQ(json["parameters"]["spring_constant_N_per_m"], 0.3);
   contact.probe = "tweezers";
-  EXPECT_THAT(refusal(contact), HasSubstr("unknown probe \"tweezers\"; known are mlct-c"));
+  EXPECT_THAT(refusal(contact), HasSubstr("unknown probe \"tweezers\"; choose mlct-c"));
 }
 
 TEST(CurveCommand, NeedsNoMaterialWhereEveryNumberIsGiven) {
@@ -222,9 +222,9 @@ TEST(CurveCommand, KnowsEveryModel) {
     EXPECT_EQ(json["model"], model);
     EXPECT_EQ(json["model_requested"], model);
   }
-  EXPECT_THAT(refusal(contact_of("mica", "magic")), HasSubstr("unknown model \"magic\"; known are auto, paper"));
-  EXPECT_THAT(refusal(contact_of("mica", "dynamic-paper")), HasSubstr("known are"));
-  EXPECT_THAT(refusal(contact_of("mica", "measured")), HasSubstr("known are"));
+  EXPECT_THAT(refusal(contact_of("mica", "magic")), HasSubstr("unknown model \"magic\"; choose auto, paper"));
+  EXPECT_THAT(refusal(contact_of("mica", "dynamic-paper")), HasSubstr("choose auto"));
+  EXPECT_THAT(refusal(contact_of("mica", "measured")), HasSubstr("choose auto"));
 }
 
 TEST(CurveCommand, MovesAMassWithTheDynamicModels) {
@@ -247,17 +247,17 @@ TEST(CurveCommand, RefusesANumberThatDoesNotAct) {
     contact.values[option] = value;
     return contact;
   };
-  EXPECT_EQ(refusal(with("jkr", "hamaker", "10zJ")), "--hamaker does not act on the model jkr; leave it out");
-  EXPECT_THAT(refusal(with("dmt", "quality-factor", "3")), HasSubstr("--quality-factor does not act"));
-  EXPECT_THAT(refusal(with("paper", "humidity", "40%")), HasSubstr("--humidity does not act"));
-  EXPECT_THAT(refusal(contact_of("mica", "dmt"), {.speed = "1um/s"}), HasSubstr("--speed does not act"));
+  EXPECT_EQ(refusal(with("jkr", "hamaker", "10zJ")), "--hamaker has no effect on model jkr; remove it");
+  EXPECT_THAT(refusal(with("dmt", "quality-factor", "3")), HasSubstr("--quality-factor has no effect"));
+  EXPECT_THAT(refusal(with("paper", "humidity", "40%")), HasSubstr("--humidity has no effect"));
+  EXPECT_THAT(refusal(contact_of("mica", "dmt"), {.speed = "1um/s"}), HasSubstr("--speed has no effect"));
   ContactOptions exact = contact_of("mica", "jkr");
   exact.exact_sphere = true;
-  EXPECT_THAT(refusal(exact), HasSubstr("--exact-sphere does not act"));
+  EXPECT_THAT(refusal(exact), HasSubstr("--exact-sphere has no effect"));
 }
 
 TEST(CurveCommand, RefusesWhatCannotBe) {
-  EXPECT_THAT(refusal(contact_of("butter", "auto")), HasSubstr("known are mica, gold, si3n4"));
+  EXPECT_THAT(refusal(contact_of("butter", "auto")), HasSubstr("choose mica, gold, si3n4"));
   const auto with = [](const char* option, const char* value) {
     ContactOptions contact = contact_of("mica", "dmt");
     contact.values[option] = value;

@@ -66,16 +66,17 @@ TEST(CurveProgram, RefusesASweepOfABillionPointsAtOnce) {
 
 TEST(CurveProgram, RefusesModelsAndOptionsThatDoNotFit) {
   expect_refusal("curve --material mica --model magic", 2, "unknown model");
-  expect_refusal("curve --material mica --model jkr --hamaker 10zJ", 2, "--hamaker does not act on the model jkr");
+  expect_refusal("curve --material mica --model jkr --hamaker 10zJ", 2, "--hamaker has no effect on model jkr");
   for (const char* model : {"paper", "paper-rule", "hao", "lj", "dynamic-lj"}) {
     expect_refusal(std::string("curve --material mica --reduced-modulus 5GPa --model ") + model, 2,
-                   "--reduced-modulus does not act on the model");
+                   "--reduced-modulus has no effect on model");
   }
   for (const char* model : {"paper", "paper-rule", "hao", "hertz", "dmt", "jkr", "dynamic-dmt", "dynamic-jkr"}) {
     expect_refusal(std::string("curve --material mica --atomic-distance 0.2nm --model ") + model, 2,
-                   "--atomic-distance does not act on the model");
+                   "--atomic-distance has no effect on model");
   }
-  expect_refusal("curve --material mica --work-of-adhesion 1mJ/m2 --model hertz", 2, "--work-of-adhesion does not act");
+  expect_refusal("curve --material mica --work-of-adhesion 1mJ/m2 --model hertz", 2,
+                 "--work-of-adhesion has no effect");
   expect_refusal("curve --material mica --sweep reduced-modulus=1GPa:2GPa:2 --model lj", 2,
                  "is no number of the model lj");
   expect_refusal("curve --material mica --tip-radius ''", 2, "--tip-radius: its value is empty");
@@ -84,7 +85,7 @@ TEST(CurveProgram, RefusesModelsAndOptionsThatDoNotFit) {
   }
   expect_refusal("curve --model jkr --tip-radius 50nm", 2, "also needs --spring-constant");
   expect_refusal("curve --material mica --format svg --sweep tip-radius=1nm:9nm:3", 2, "csv or json");
-  expect_refusal("curve --material mica --overlay x.tab", 2, "--overlay draws");
+  expect_refusal("curve --material mica --overlay x.tab", 2, "--overlay needs a plot");
 }
 
 TEST(CurveProgram, RefusesBadMaterialFiles) {
@@ -131,7 +132,7 @@ TEST(CurveProgram, DrawsAMeasuredCurveOverTheModel) {
   const ProgramResult result = touchafm("curve --material mica --format svg --overlay " + folder.file("measured.tab"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("measured, retract"));
-  EXPECT_THAT(result.err, HasSubstr("measured.tab is moved by "));
+  EXPECT_THAT(result.err, HasSubstr("measured.tab is shifted by "));
   const std::string cut = folder.write("cut.tab", text_of(folder.file("measured.tab")).substr(0, 500));
   expect_refusal("curve --material mica --format svg --overlay " + cut, 3, "cut.tab");
 }

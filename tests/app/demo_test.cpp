@@ -34,7 +34,7 @@ class Demo : public ::testing::Test {
     for (int more = 0; more < 2 && gave_up_for_load(*result_); ++more) *result_ = support::run_program(command);
   }
   static bool gave_up_for_load(const support::ProgramResult& result) {
-    return result.exit_code == 1 && result.err.find("with less load on the machine") != std::string::npos;
+    return result.exit_code == 1 && result.err.find("reduce the load on this machine") != std::string::npos;
   }
   static void TearDownTestSuite() {
     delete result_;

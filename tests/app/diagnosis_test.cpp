@@ -42,7 +42,7 @@ TEST(Diagnosis, FindsNothingToMendOnAGoodMachine) {
   EXPECT_GE(findings.size(), 10U);
   for (const Finding& f : findings) {
     EXPECT_EQ(f.verdict, Verdict::Good) << f.check;
-    EXPECT_EQ(f.mend, "") << f.check;
+    EXPECT_EQ(f.fix, "") << f.check;
     EXPECT_NE(f.found, "") << f.check;
   }
 }
@@ -51,7 +51,7 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
   struct Case {
     const char* check;
     Verdict verdict;
-    const char* mend;
+    const char* fix;
     void (*spoil)(MachineFacts&);
   };
   const Case cases[] = {
@@ -86,7 +86,7 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
     c.spoil(facts);
     const Finding f = finding(facts, c.check);
     EXPECT_EQ(f.verdict, c.verdict) << c.check;
-    EXPECT_THAT(f.mend, HasSubstr(c.mend)) << c.check;
+    EXPECT_THAT(f.fix, HasSubstr(c.fix)) << c.check;
     const auto all = diagnose(facts);
     EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const Finding& any) { return any.verdict != Verdict::Good; }), 1)
         << c.check;

@@ -31,7 +31,7 @@ TEST(FaultBundle, HasWhatAReportNeeds) {
   facts.haptics.push_back({"OpenHaptics", false, "/home/someone/libHD.so cannot be opened"});
   const std::string text = fault_bundle(facts, "graphics good\n");
   EXPECT_THAT(text, AllOf(HasSubstr("touchafm "), HasSubstr("6.1.0, PREEMPT_RT"), HasSubstr("llvmpipe"),
-                          HasSubstr("DISPLAY=:0"), HasSubstr("HID /dev/hidraw3: may not be used"),
+                          HasSubstr("DISPLAY=:0"), HasSubstr("HID /dev/hidraw3: not accessible"),
                           HasSubstr("haptic OpenHaptics: not usable; ~/libHD.so cannot be opened"),
                           HasSubstr("graphics good"), HasSubstr("what you did")));
   EXPECT_THAT(text, Not(HasSubstr("someone")));

@@ -52,7 +52,7 @@ TEST_F(Limits, OfThreadsAreSaidBeforeAnythingIsDrawn) {
 
 TEST_F(Limits, OfMemoryAreSaidInOneLine) {
   const auto done = under("-v 100000", "curve --material mica --step 0.0001nm --out " + folder_.file("curve.csv"));
-  expect_one_line(done, "no memory is left");
+  expect_one_line(done, "out of memory");
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 

@@ -23,7 +23,7 @@ support::ProgramResult touchafm(const std::string& arguments) {
 TEST(OldFormats, OfASessionReplaysBitForBit) {
   const auto done = touchafm("replay " + kFiles + "session-gold.afms");
   EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, HasSubstr("is the same, bit for bit"));
+  EXPECT_THAT(done.out, HasSubstr("is identical, bit for bit"));
 }
 
 TEST(OldFormats, OfASessionIsDrawn) {

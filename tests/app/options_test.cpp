@@ -93,7 +93,7 @@ TEST_F(OptionsTest, ANumberStaysWithinItsRange) {
   command_.add_option("--option", seconds, "how long").within(0.5, 600.0).show_default();
   for (const char* end : {"0.5", "600"}) EXPECT_EQ(refusal(end), "");
   for (const char* wrong : {"0.4", "601", "soon"}) EXPECT_THAT(refusal(wrong), HasSubstr("not in range")) << wrong;
-  for (const char* wrong : {"nan", "-NaN"}) EXPECT_THAT(refusal(wrong), HasSubstr("is no number")) << wrong;
+  for (const char* wrong : {"nan", "-NaN"}) EXPECT_THAT(refusal(wrong), HasSubstr("is not a number")) << wrong;
   EXPECT_EQ(seconds, 600.0);
   // CLI11 2.1 (Debian 12) and 2.4 (Debian 13)
   EXPECT_THAT(help(), testing::AnyOf(HasSubstr("[0.5 - 600]=2.5"), HasSubstr("[0.5 - 600] [2.5]")));
@@ -134,7 +134,7 @@ TEST_F(OptionsTest, AChoiceIsARowOfItsTable) {
   enum_option(command_, "--option", chosen, "a lucky number", kRows, &Row::name, &Row::value, "luck");
   EXPECT_EQ(refusal("nine"), "");
   EXPECT_EQ(chosen, 9);
-  EXPECT_THAT(refusal("Nine"), HasSubstr("\"Nine\" is not a lucky number; there are seven, nine"));
+  EXPECT_THAT(refusal("Nine"), HasSubstr("\"Nine\" is not a lucky number; choose seven, nine"));
   EXPECT_THAT(help(), HasSubstr("--option {seven,nine}"));
 }
 

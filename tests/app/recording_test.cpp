@@ -59,9 +59,9 @@ TEST_F(RecordingTest, OfAKilledProgramLacksTheLastSecondAtMostAndReplays) {
   EXPECT_LT(static_cast<double>(killed_ns - session->samples.back().time_ns) * 1e-9, 2.0);
   const auto replayed = support::run_program(AFM_PROGRAM " replay " + kept());
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
-  EXPECT_THAT(replayed.err, HasSubstr("was cut after"));
+  EXPECT_THAT(replayed.err, HasSubstr("truncated after"));
   EXPECT_THAT(replayed.out, HasSubstr("jump-to-contact"));
-  EXPECT_THAT(replayed.out, HasSubstr("is the same, bit for bit"));
+  EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
 }
 
 TEST_F(RecordingTest, DrawsTheFrameThatWasOnTheWall) {
@@ -72,7 +72,7 @@ TEST_F(RecordingTest, DrawsTheFrameThatWasOnTheWall) {
   xdotool("mousemove 160 120 mousedown 3 mousemove 160 90 mouseup 3");
   for (int presses = 0; presses < 40 && !program.says("force on", 2s); ++presses) xdotool("key t");
   xdotool("key a");
-  ASSERT_TRUE(program.says("shown: Millet's analogy")) << program.said();
+  ASSERT_TRUE(program.says("showing Millet's analogy")) << program.said();
   xdotool("key F2");
   std::this_thread::sleep_for(1s);
   xdotool("key F12");

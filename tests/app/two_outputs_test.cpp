@@ -166,7 +166,7 @@ TEST_F(TwoOutputsTest, MonitorsAreListedAndOneThatIsNotThereIsNamed) {
   EXPECT_THAT(devices.out, AllOf(HasSubstr("DUMMY0"), HasSubstr("number 2, 320 x 240 pixels at 320, 0")));
   const auto missing = on_display(AFM_PROGRAM " view --wall " + folder_.file("missing.toml"));
   EXPECT_EQ(missing.exit_code, 4);
-  EXPECT_THAT(missing.err, AllOf(HasSubstr("output \"left projector\": there is no monitor \"HDMI-7\" here"),
+  EXPECT_THAT(missing.err, AllOf(HasSubstr("output \"left projector\": there is no monitor \"HDMI-7\""),
                                  HasSubstr("1 DUMMY0 (320 x 240 at 0, 0), 2 DUMMY1 (320 x 240 at 320, 0)")));
   const auto named = on_display(AFM_PROGRAM " view --monitor TV");
   EXPECT_EQ(named.exit_code, 4);

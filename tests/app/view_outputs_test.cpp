@@ -104,7 +104,7 @@ TEST_F(ViewOutputsTest, ARectangleThatNoMonitorShowsIsRefusedAndOneAcrossTwoIsNo
     const auto beyond = plan();
     ASSERT_FALSE(beyond.has_value());
     EXPECT_EQ(beyond.error().category, core::ErrorCategory::DeviceMissing);
-    EXPECT_THAT(beyond.error().message, AllOf(HasSubstr("right projector"), HasSubstr("--size shows")));
+    EXPECT_THAT(beyond.error().message, AllOf(HasSubstr("right projector"), HasSubstr("use --size to show")));
   }
 }
 

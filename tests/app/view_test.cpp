@@ -171,7 +171,7 @@ TEST_F(ViewTest, AHandGoesThroughTheWholeProcedureWithAMouse) {
   xdotool("key F2");
   click(pixel_of(render::ControlTarget{render::ControlTarget::Kind::More, 1}));
   ASSERT_TRUE(view.says("119 mN/m")) << view.said();
-  ASSERT_TRUE(view.says("the changed parameters are felt")) << view.said();
+  ASSERT_TRUE(view.says("the changed parameters are now in effect")) << view.said();
   EXPECT_GT(share_that_differs(cycle->whole, picture("stiffer")), 0.02);
 
   xdotool("key Escape");
@@ -199,7 +199,7 @@ TEST_F(ViewTest, GoesThroughEveryStereoModeOfThisDisplayWhileItRuns) {
   ASSERT_TRUE(view.says("between the eyes: 63 mm")) << view.said();
   ASSERT_TRUE(view.says("from the eyes: ")) << "the depth meter: " << view.said();
   xdotool("key b");
-  ASSERT_TRUE(view.says("brought to the wall")) << view.said();
+  ASSERT_TRUE(view.says("moved the contact to the wall's plane")) << view.said();
   const render::Image scene = picture("stereo");
   xdotool("key g");
   double differs = 0.0;
@@ -242,15 +242,15 @@ TEST_F(ViewTest, OutlivesAStormOfSizesAndTheDeathOfItsServo) {
   EXPECT_TRUE(view.says("chosen: Gold")) << view.said();
   xdotool("key F11");
   xdotool("key a key j");
-  EXPECT_TRUE(view.says("shown: Millet's analogy")) << view.said();
-  EXPECT_TRUE(view.says("the journey of scale was turned round")) << view.said();
+  EXPECT_TRUE(view.says("showing Millet's analogy")) << view.said();
+  EXPECT_TRUE(view.says("the journey of scale was reversed")) << view.said();
   xdotool("key j key a");
-  EXPECT_TRUE(view.says("shown: the instrument")) << view.said();
+  EXPECT_TRUE(view.says("showing the instrument")) << view.said();
   if (std::string(AFM_SERVO_MODE) == "process") {
     EXPECT_EQ(support::run_program("pkill -KILL -P " + std::to_string(view.pid())).exit_code, 0);
     EXPECT_TRUE(view.says("the servo ended unexpectedly")) << view.said();
     EXPECT_THAT(view.said(), Not(HasSubstr("; start again"))) << "it is started again by itself";
-    EXPECT_TRUE(view.says("the servo was started again by itself")) << view.said();
+    EXPECT_TRUE(view.says("the servo was restarted automatically")) << view.said();
     EXPECT_TRUE(view.says("chosen: Gold")) << view.said();
   }
   picture("side-by-side");
@@ -299,7 +299,7 @@ TEST_F(ViewTest, StartsAServoThatDiesThreeTimesAMinuteAndThenAsksForKeyR) {
   support::LiveProgram view(command(), display_.name());
   // said from within the loop, when the servo has been started
   ASSERT_TRUE(view.says("Choose a sample")) << view.said();
-  const std::string by_itself = "the servo was started again by itself", by_hand = "R starts it again";
+  const std::string by_itself = "the servo was restarted automatically", by_hand = "R starts it again";
   const auto kill_servos = [&] {
     std::string said = by_itself;
     int killed = 0;
@@ -313,7 +313,7 @@ TEST_F(ViewTest, StartsAServoThatDiesThreeTimesAMinuteAndThenAsksForKeyR) {
   };
   EXPECT_GE(kill_servos(), 4);
   xdotool("search --sync --name TouchAFM windowfocus key r");
-  EXPECT_TRUE(view.says("the servo was started again")) << view.said();
+  EXPECT_TRUE(view.says("the servo was restarted")) << view.said();
   kill_servos();
   xdotool("key Escape");
   EXPECT_EQ(view.ends(), 1) << view.said();
@@ -332,7 +332,7 @@ TEST_F(ViewTest, RecordsASessionThatReplaysBitForBit) {
   EXPECT_THAT(view.said(), HasSubstr("recorded: "));
   const auto replayed = support::run_program(AFM_PROGRAM " replay " + folder.file("kept/session-mica.afms"));
   EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
-  EXPECT_THAT(replayed.out, HasSubstr("is the same, bit for bit"));
+  EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
 }
 
 TEST(View, SaysWhatIsWrongInOneLine) {

@@ -44,21 +44,21 @@ TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
   // held fast wherever the first frame with the button finds it, then moved
   for (int step = 0; step < 60; ++step) {
     tracker.show(hand + (step % 2 == 0 ? glm::dvec3(0.0) : glm::dvec3(0.2, 0.3, 0.0)), gold, 2);
-    if (view.says("wand: the scene is moved", std::chrono::seconds(1))) break;
+    if (view.says("wand: the scene was moved", std::chrono::seconds(1))) break;
   }
-  ASSERT_THAT(view.said(), HasSubstr("wand: the scene is moved"));
+  ASSERT_THAT(view.said(), HasSubstr("wand: the scene was moved"));
   tracker.show(hand, gold, 8);
-  ASSERT_TRUE(view.says("wand: the scene is home")) << view.said();
+  ASSERT_TRUE(view.says("wand: the scene is back in its place")) << view.said();
   tracker.show(hand, gold, 0, {0.0, -0.85, 2.0});
-  ASSERT_TRUE(view.says("head: the tracker puts it 0.85 m below the floor")) << view.said();
+  ASSERT_TRUE(view.says("head: the tracker reports an impossible position, 0.85 m below the floor")) << view.said();
   tracker.show(hand, gold, 0);
-  ASSERT_TRUE(view.says("head: it is back where a head can be")) << view.said();
+  ASSERT_TRUE(view.says("head: the tracked position is plausible again")) << view.said();
   tracker.fall_silent();
   ASSERT_TRUE(view.says("tracker: no frame for 1 s")) << view.said();
   view.signal(SIGINT);
   EXPECT_EQ(view.ends(), 0) << view.said();
-  EXPECT_TRUE(view.says("head: from packet to present")) << view.said();
-  EXPECT_TRUE(view.says("tracker: in the whole run ")) << view.said();
+  EXPECT_TRUE(view.says("head: latency from packet to presented frame")) << view.said();
+  EXPECT_TRUE(view.says("tracker: in the whole run: ")) << view.said();
 }
 
 // Whoever has a hand on the sample would be thrown by a scene that moves.
@@ -76,15 +76,16 @@ TEST(ViewWand, MovesNothingWhileTheTipIsInContact) {
   ASSERT_TRUE(view.says("jump to contact")) << view.said();
   for (int step = 0; step < 60; ++step) {
     tracker.show(hand + (step % 2 == 0 ? glm::dvec3(0.0) : glm::dvec3(0.2, 0.3, 0.0)), aim, 2);
-    if (view.says("wand: the scene stays where it is while the tip is in contact", std::chrono::seconds(1))) break;
+    if (view.says("wand: the scene is locked while the tip is in contact", std::chrono::seconds(1))) break;
   }
   const std::string said = view.said();
-  const std::size_t refused = said.rfind("wand: the scene stays"), attached = said.rfind("jump to contact", refused);
+  const std::size_t refused = said.rfind("wand: the scene is locked"),
+                    attached = said.rfind("jump to contact", refused);
   ASSERT_NE(refused, std::string::npos) << said;
-  EXPECT_EQ(said.substr(attached, refused - attached).find("the scene is moved"), std::string::npos) << said;
+  EXPECT_EQ(said.substr(attached, refused - attached).find("the scene was moved"), std::string::npos) << said;
   ASSERT_TRUE(view.says("jump off contact")) << view.said();
   const std::string until_free = view.said().substr(refused);
-  EXPECT_EQ(until_free.substr(0, until_free.find("jump off contact")).find("the scene is moved"), std::string::npos)
+  EXPECT_EQ(until_free.substr(0, until_free.find("jump off contact")).find("the scene was moved"), std::string::npos)
       << view.said();
 }
 

@@ -93,11 +93,11 @@ TEST_F(WholeFile, APipeWithoutAReaderIsNotWaitedForForEver) {
   const auto begin = std::chrono::steady_clock::now();
   const auto written = write_file(path("pipe"), "x");
   ASSERT_FALSE(written);
-  EXPECT_THAT(written.error().message, EndsWith("pipe: nobody reads from it"));
+  EXPECT_THAT(written.error().message, EndsWith("pipe: no program reads from it"));
   const auto read = read_file(path("pipe"));
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().category, ErrorCategory::BadInputFile);
-  EXPECT_THAT(read.error().message, EndsWith("it is no regular file"));
+  EXPECT_THAT(read.error().message, EndsWith("it is not a regular file"));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 

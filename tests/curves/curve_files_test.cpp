@@ -172,7 +172,7 @@ TEST(TouchAfmCsv, IsReadBack) {
   const std::string counted = text.substr(0, text.find("z_m,")) + "# samples: 100\n" + text.substr(text.find("z_m,"));
   EXPECT_THAT(error_of(counted), HasSubstr("samples are there"));
   EXPECT_THAT(error_of(text + "1e-9\n"), HasSubstr("line 29 has 1 fields, the heading 3"));
-  EXPECT_THAT(error_of(text + "20,1e-9,retract\n"), HasSubstr("no force microscope's; is it in SI?"));
+  EXPECT_THAT(error_of(text + "20,1e-9,retract\n"), HasSubstr("range of a force microscope; is it in SI?"));
   EXPECT_THAT(error_of(text + "1e-9,1e-9,approach\n1e-9,1e-9,retract\n"),
               HasSubstr("does not approach once and retract once"));
 }

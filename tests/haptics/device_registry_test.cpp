@@ -109,7 +109,7 @@ TEST_F(DeviceRegistry, OpensTheSimulatedHandWithoutLookingFurther) {
 TEST_F(DeviceRegistry, ListsWhatIsThereWithoutStartingIt) {
   EXPECT_THAT(probe_devices(mock),
               ElementsAre(line("libmock_hd.so", true, "loaded"),
-                          line("hdapi device", true, "3.3 N at most, 0.88 N for ever, 160 x 120 x 70 mm"),
+                          line("hdapi device", true, "3.3 N peak, 0.88 N continuous, 160 x 120 x 70 mm"),
                           line("haply device", false, "port 1"), line("gamepad", false, "none is plugged in"),
                           line("simulated hand", true, "")));
   EXPECT_STREQ(mock_hd_call(0), "init");

@@ -200,8 +200,8 @@ const FaultCase kFaultCases[] = {
     {kVelocity, HdapiHealth::VelocityExceeded, 200, "faster than the driver allows"},
     {kForceError, HdapiHealth::DeviceFault, 0, "it failed"},
     {kFault, HdapiHealth::DeviceFault, 0, "it failed"},
-    {kComm, HdapiHealth::ConnectionLost, 0, "connection is lost"},
-    {kCommSetup, HdapiHealth::ConnectionLost, 0, "connection is lost"},
+    {kComm, HdapiHealth::ConnectionLost, 0, "connection was lost"},
+    {kCommSetup, HdapiHealth::ConnectionLost, 0, "connection was lost"},
     {kTimer, HdapiHealth::DeviceFault, 0, "it failed"},
     {0x0BAD, HdapiHealth::DeviceFault, 0, "(0x0bad)"},
 };
@@ -256,7 +256,7 @@ TEST(HdapiDevice, IsNotHealthyWhileTheSchedulerStallsAndItsOutputIsSwitchedOff) 
   EXPECT_EQ(bench.felt(), 0.0);
   EXPECT_EQ(bench.health(), HdapiHealth::SchedulerStalled);
   EXPECT_EQ(bench.state().fault, FaultCode::DeviceError);
-  EXPECT_THAT(bench.log, Contains(HasSubstr("does not call any more")));
+  EXPECT_THAT(bench.log, Contains(HasSubstr("stopped calling")));
 
   mock_hd_stall(0);
   bench.run(100);
@@ -274,7 +274,7 @@ TEST(HdapiDevice, DoesNotFloodTheLogWhenTheDriverCallsAHundredTimesASecond) {
     bench.tick();
   }
   EXPECT_LE(bench.log.size(), 2U);
-  EXPECT_THAT(bench.log, Contains(HasSubstr("does not call any more")));
+  EXPECT_THAT(bench.log, Contains(HasSubstr("stopped calling")));
 }
 
 TEST(HdapiDevice, ComparesNotANumberAndLeapsWithNothing) {
@@ -309,7 +309,7 @@ TEST(HdapiDevice, CalibratesWithTheForceOff) {
   EXPECT_EQ(bench.felt(), 0.0);
   bench.run(200);
   EXPECT_EQ(bench.health(), HdapiHealth::Ready);
-  EXPECT_THAT(bench.log, Contains(HasSubstr("calibrates itself")));
+  EXPECT_THAT(bench.log, Contains(HasSubstr("is calibrating")));
   EXPECT_THAT(calls(), Contains("update_calibration"));
   EXPECT_EQ(bench.state().servo_state, ServoState::Fault);
 }
@@ -389,7 +389,7 @@ TEST(HdapiDevice, RefusesLimitsThatCannotBe) {
       mock_hd_set_limit(property, value);
       const auto device = open_mock(clock);
       ASSERT_FALSE(device);
-      EXPECT_THAT(device.error().message, HasSubstr("which cannot be"));
+      EXPECT_THAT(device.error().message, HasSubstr("reports an impossible"));
       EXPECT_THAT(calls(), Contains("disable_device"));
     }
   }

@@ -104,7 +104,7 @@ TEST(RecordedDevice, RefusesNothingAndWhatCannotBe) {
   const auto empty = RecordedDevice::create("x.afms", {});
   ASSERT_FALSE(empty);
   EXPECT_EQ(empty.error().category, afm::core::ErrorCategory::BadInputFile);
-  EXPECT_THAT(empty.error().message, HasSubstr("cannot replay x.afms: it holds no tick"));
+  EXPECT_THAT(empty.error().message, HasSubstr("cannot replay x.afms: it contains no ticks"));
   for (const double y : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e4}) {
     const auto bad = RecordedDevice::create("x.afms", {{glm::dvec3(0), false}, {glm::dvec3(0, y, 0), false}});
     ASSERT_FALSE(bad);

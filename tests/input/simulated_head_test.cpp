@@ -62,14 +62,14 @@ TEST(SimulatedHead, TurnsAsItsScriptSays) {
 
 TEST(HeadScript, IsRefusedWithFileAndLine) {
   const std::pair<const char*, const char*> wrong[] = {
-      {"0, 0, 1.6, 2\n1, x, 1.6, 2\n", "line 2: has something that is no number"},
+      {"0, 0, 1.6, 2\n1, x, 1.6, 2\n", "line 2: contains a value that is not a number"},
       {"0, 0, 1.6\n", "line 1: must be seconds, x, y, z"},
       {"1, 0, 1.6, 2\n", "line 1: times must rise from 0"},
       {"0, 0, 1.6, 2\n0, 0, 1.6, 2\n", "line 2: times must rise"},
-      {"0, 0, 1600, 2000\n", "line 1: a head is within 100 m"},
+      {"0, 0, 1600, 2000\n", "line 1: the head must be within 100 m"},
       {"0 0 1 2 0 0 0 2\n", "unit quaternion"},
-      {"0, nan, 1, 2\n", "no number"},
-      {"# nothing\n", "two places or more"},
+      {"0, nan, 1, 2\n", "not a number"},
+      {"# nothing\n", "at least two positions"},
   };
   for (const auto& [text, message] : wrong) {
     const auto script = load(text);

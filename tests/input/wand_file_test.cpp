@@ -82,9 +82,9 @@ struct Mistake {
 
 TEST(WandFile, NamesLineAndKeyOfEveryMistake) {
   const std::vector<Mistake> mistakes{
-      {"name = \"stick\"", "name = \"\"", "line 2: device.name: must be a text that is not empty"},
-      {"vendor = \"1234\"", "vendor = 1234", "line 3: device.vendor: must be a text that is not empty"},
-      {"vendor = \"1234\"", "vendor = \"12345\"", "line 3: device.vendor: must be a text of up to four hexadecimal"},
+      {"name = \"stick\"", "name = \"\"", "line 2: device.name: must be text and not empty"},
+      {"vendor = \"1234\"", "vendor = 1234", "line 3: device.vendor: must be text and not empty"},
+      {"vendor = \"1234\"", "vendor = \"12345\"", "line 3: device.vendor: must be up to four hexadecimal"},
       {"product = \"ab\"\n", "", "device.product: is missing"},
       {"product = \"ab\"", "product = \"ab\"\ncolour = 1", "line 5: device.colour: unknown key; known are name"},
       {"push-x", "push-w", "line 6: axis.axis: must be push, turn, gyro or acceleration"},

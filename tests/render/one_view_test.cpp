@@ -70,7 +70,7 @@ TEST_F(OneView, RefusesToDrawBothEyesInOnePass) {
   auto unable = open();
   const auto renderer = render::Renderer::create(unable, test_.scene, small(1, render::PassMode::Multiview));
   ASSERT_FALSE(renderer);
-  EXPECT_THAT(renderer.error().message, testing::HasSubstr("has no multiview; draw them in two"));
+  EXPECT_THAT(renderer.error().message, testing::HasSubstr("does not support multiview; draw them in two passes"));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ const std::vector<HostileCase>& hostile_cases() {
          d["accessors"][0].erase("bufferView");
          d["accessors"][0]["count"] = 20'000'000;
        }},
-      {"AccessorOffAlignment", "multiple of its components' size",
+      {"AccessorOffAlignment", "multiple of its component size",
        [](json& d) {
          d["accessors"][0]["byteOffset"] = 2;
          d["accessors"][0]["count"] = 3;
@@ -83,8 +83,8 @@ const std::vector<HostileCase>& hostile_cases() {
       {"ViewThatOverflows", "/bufferViews/0/byteOffset is",
        [](json& d) { d["bufferViews"][0]["byteOffset"] = ~0ULL - 3; }},
       {"ViewWithoutBuffer", "/bufferViews/0/buffer is 3", [](json& d) { d["bufferViews"][0]["buffer"] = 3; }},
-      {"BufferLongerThanTheFile", "says 4096 bytes", [](json& d) { d["buffers"][0]["byteLength"] = 4096; }},
-      {"BuffersThatFillTheMemory", "says 104857600 bytes",
+      {"BufferLongerThanTheFile", "announces 4096 bytes", [](json& d) { d["buffers"][0]["byteLength"] = 4096; }},
+      {"BuffersThatFillTheMemory", "announces 104857600 bytes",
        [](json& d) { d["buffers"] = json(20, {{"byteLength", 100U << 20U}}); }},
       {"SparseCountTooLarge", "more sparse elements than elements",
        [](json& d) {
@@ -96,23 +96,24 @@ const std::vector<HostileCase>& hostile_cases() {
        [](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 9; }},
       {"NegativeAttribute", "POSITION is -2",
        [](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = -2; }},
-      {"PositionOfIndices", "POSITION of a type",
+      {"PositionOfIndices", "POSITION of a forbidden type",
        [](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 1; }},
-      {"IndicesOfFloats", "indices of a type", [](json& d) { d["meshes"][0]["primitives"][0]["indices"] = 0; }},
+      {"IndicesOfFloats", "indices of a forbidden type",
+       [](json& d) { d["meshes"][0]["primitives"][0]["indices"] = 0; }},
       {"SparseWithoutView", "/accessors/0/sparse/values/bufferView is 9",
        [](json& d) {
          d["accessors"][0]["sparse"] = json::parse(R"({"count": 1, "indices": {"bufferView": 1, "componentType": 5123},
                                                 "values": {"bufferView": 9}})");
        }},
-      {"NameThatIsNoText", "/nodes/0/name is 5, not a text", [](json& d) { d["nodes"][0]["name"] = 5; }},
-      {"MatrixBesideAScale", "has a matrix beside a scale",
+      {"NameThatIsNoText", "/nodes/0/name is 5, not a string", [](json& d) { d["nodes"][0]["name"] = 5; }},
+      {"MatrixBesideAScale", "has both matrix and scale",
        [](json& d) {
          d["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
          d["nodes"][0]["scale"] = {1, 1, 1};
        }},
       {"IndicesWithoutAccessor", "indices is 9", [](json& d) { d["meshes"][0]["primitives"][0]["indices"] = 9; }},
       {"IndexPastTheVertices", "index 3 but only 3", [](json& d) { d["accessors"][0]["count"] = 3; }},
-      {"HalfATriangle", "no whole number", [](json& d) { d["accessors"][1]["count"] = 5; }},
+      {"HalfATriangle", "not a whole number", [](json& d) { d["accessors"][1]["count"] = 5; }},
       {"UnknownMode", "mode is 7", [](json& d) { d["meshes"][0]["primitives"][0]["mode"] = 7; }},
       {"MaterialMissing", "material is 4", [](json& d) { d["meshes"][0]["primitives"][0]["material"] = 4; }},
       {"PrimitiveThatIsNoObject", "not an object", [](json& d) { d["meshes"][0]["primitives"] = json::array({1, 2}); }},
@@ -158,7 +159,7 @@ TEST_F(HostileGltf, IsRefusedForPositionsThatAreNotFinite) {
   for (const std::uint32_t bits : {0x7F800000U, 0x7FC00000U}) {
     std::string binary = square_binary();
     for (std::size_t i = 0; i < 4; ++i) binary[16 + i] = static_cast<char>(bits >> (8 * i));
-    expect_refused(load(square_json(), binary), "not a finite number");
+    expect_refused(load(square_json(), binary), "not finite");
   }
 }
 
@@ -176,7 +177,7 @@ TEST_F(HostileGltf, IsRefusedForNumbersBeyondDouble) {
   std::string text = square_json().dump();
   const std::string name = R"("name":"sample")";
   text.replace(text.find(name), name.size(), R"("translation":[1e999,0,0])");
-  expect_refused(load_bytes(glb(text, square_binary())), "JSON is broken");
+  expect_refused(load_bytes(glb(text, square_binary())), "JSON is invalid");
 }
 
 TEST_F(HostileGltf, IsRefusedForDeepNestingWithoutOverflowingTheStack) {
@@ -200,11 +201,11 @@ TEST_F(HostileGltf, IsRefusedForWrongHeadersAndChunks) {
   };
   const std::size_t binary_chunk = whole.size() - 60 - 8;
   expect_refused(load_bytes(with(4, 3)), "version 3");
-  expect_refused(load_bytes(with(8, 40)), "its header says 40 bytes");
-  expect_refused(load_bytes(with(12, 0xFFFFFFF0)), "a chunk reaches past its end");
+  expect_refused(load_bytes(with(8, 40)), "its header announces 40 bytes");
+  expect_refused(load_bytes(with(12, 0xFFFFFFF0)), "a chunk extends past its end");
   expect_refused(load_bytes(with(16, 0x004E4942)), "not JSON");
   // the chunk's own header counts too
-  expect_refused(load_bytes(with(binary_chunk, 68)), "a chunk reaches past its end");
+  expect_refused(load_bytes(with(binary_chunk, 68)), "a chunk extends past its end");
 }
 
 TEST_F(HostileGltf, SurvivesAFlippedByteAnywhere) {
@@ -248,9 +249,9 @@ TEST_F(HostileGltf, ReadsNoSideFileOutsideItsFolder) {
 
 TEST_F(HostileGltf, NamesWhatIsWrongWithThePath) {
   expect_refused(load_gltf(folder_ / "none.glb"), "there is no such file; check the path");
-  expect_refused(load_gltf(folder_), "it is not a plain file");
+  expect_refused(load_gltf(folder_), "it is not a regular file");
   expect_refused(load_gltf(write("empty.glb", "")), "it is empty");
-  expect_refused(load_gltf(write("noise.glb", "not a model at all")), "JSON is broken");
+  expect_refused(load_gltf(write("noise.glb", "not a model at all")), "JSON is invalid");
 }
 
 TEST_F(HostileGltf, IsRefusedForAFileThatIsTooLarge) {
@@ -292,13 +293,14 @@ const std::vector<HostileCase>& rich_cases() {
        [](json& d) { d["animations"][0]["channels"][0]["target"]["node"] = 9; }},
       {"AnimationOfMissingSampler", "sampler that does not exist",
        [](json& d) { d["animations"][0]["channels"][0]["sampler"] = 1; }},
-      {"AnimationOfWrongWidth", "output numbers", [](json& d) { d["animations"][0]["samplers"][0]["output"] = 4; }},
-      {"AnimationOfTimesThatAreMatrices", "no floats", [](json& d) { d["animations"][0]["samplers"][0]["input"] = 6; }},
+      {"AnimationOfWrongWidth", "output values", [](json& d) { d["animations"][0]["samplers"][0]["output"] = 4; }},
+      {"AnimationOfTimesThatAreMatrices", "not floats",
+       [](json& d) { d["animations"][0]["samplers"][0]["input"] = 6; }},
       {"AnimationOfUnknownInterpolation", "interpolation",
        [](json& d) { d["animations"][0]["samplers"][0]["interpolation"] = "BEZIER"; }},
       {"AnimationOfAMatrix", "is animated but has a matrix",
        [](json& d) { d["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }},
-      {"AnimationOfMorphsThatAreNone", "moves what the node has not",
+      {"AnimationOfMorphsThatAreNone", "animates a property that its node lacks",
        [](json& d) { d["animations"][0]["channels"][0]["target"]["path"] = "weights"; }},
       {"CameraMissing", "/nodes/0/camera is 4", [](json& d) { d["nodes"][0]["camera"] = 4; }},
       {"CameraWithoutAngle", "yfov is 0", [](json& d) { d["cameras"][0]["perspective"]["yfov"] = 0; }},
@@ -307,11 +309,12 @@ const std::vector<HostileCase>& rich_cases() {
          d["cameras"][0] = {{"type", "orthographic"},
                             {"orthographic", {{"xmag", 1}, {"ymag", 0}, {"znear", 1}, {"zfar", 2}}}};
        }},
-      {"CameraOfBothKinds", "orthographic beside a perspective",
+      {"CameraOfBothKinds", "both orthographic and perspective",
        [](json& d) { d["cameras"][0]["orthographic"] = {{"xmag", 1}, {"ymag", 1}, {"znear", 1}, {"zfar", 2}}; }},
       {"TargetsOfUnequalCount", "TANGENT",
        [](json& d) { d["meshes"][0]["primitives"][0]["targets"] = {{{"TANGENT", 5}, {"POSITION", 0}}}; }},
-      {"WeightsOfNoTarget", "as many weights as morph targets", [](json& d) { d["meshes"][0]["weights"] = {1}; }},
+      {"WeightsOfNoTarget", "different numbers of weights and morph targets",
+       [](json& d) { d["meshes"][0]["weights"] = {1}; }},
       {"TextureMissing", "index is 0", [](json& d) { d["materials"][0]["normalTexture"] = {{"index", 0}}; }},
       {"ImageMissing", "source is 2", [](json& d) { d["textures"] = json::array({{{"source", 2}}}); }},
       {"UnknownAlphaMode", "alphaMode", [](json& d) { d["materials"][0]["alphaMode"] = "GLASS"; }},
@@ -326,17 +329,17 @@ const std::vector<HostileCase>& rich_cases() {
          d["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", 0}, {"SCALE", 5}};
        }},
       {"UnknownRole", "role", [](json& d) { d["nodes"][0]["extras"]["touchafm"]["role"] = "laser"; }},
-      {"MeshoptCountTooLarge", "do not fit together",
+      {"MeshoptCountTooLarge", "inconsistent count, byteStride and filter",
        [](json& d) {
          d["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
              {"buffer", 0}, {"byteLength", 48}, {"byteStride", 12}, {"count", 200000000}, {"mode", "ATTRIBUTES"}};
        }},
-      {"MeshoptGarbage", "compressed stream that is broken",
+      {"MeshoptGarbage", "corrupt compressed stream",
        [](json& d) {
          d["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
              {"buffer", 0}, {"byteLength", 48}, {"byteStride", 12}, {"count", 4}, {"mode", "ATTRIBUTES"}};
        }},
-      {"DracoGarbage", "no mesh of bitstream 2.2",
+      {"DracoGarbage", "not a mesh of bitstream 2.2",
        [](json& d) {
          d["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
              {"bufferView", 0}, {"attributes", {{"POSITION", 0}}}};
@@ -370,14 +373,14 @@ TEST_F(HostileGltf, IsRefusedForImagesThatAreNone) {
   write("bomb.png", bomb);
   expect_refused(load(with_image("bomb.png")), "65535 x 65535 pixels");
   write("cut.png", tiny_png().substr(0, 50));
-  expect_refused(load(with_image("cut.png")), "/images/0 cannot be decoded: its PNG data is broken");
+  expect_refused(load(with_image("cut.png")), "/images/0 cannot be decoded: its PNG data is corrupt");
   write("cut.jpg", "\xFF\xD8\xFF\xE0 and nothing more");
-  expect_refused(load(with_image("cut.jpg")), "its JPEG header is broken");
+  expect_refused(load(with_image("cut.jpg")), "its JPEG header is corrupt");
   write("text.png", "not an image at all");
   expect_refused(load(with_image("text.png")), "neither PNG nor JPEG");
-  expect_refused(load(with_image("data:image/png;base64,####")), "base64 is broken");
-  expect_refused(load(with_image("missing.png")), "not a plain file in the model's folder");
-  expect_refused(load(with_image("../../../../etc/passwd")), "not a plain file in the model's folder");
+  expect_refused(load(with_image("data:image/png;base64,####")), "invalid base64");
+  expect_refused(load(with_image("missing.png")), "not a regular file in the model's folder");
+  expect_refused(load(with_image("../../../../etc/passwd")), "not a regular file in the model's folder");
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ TEST(MaterialLibrary, ListsTheKnownNamesForAnUnknownOne) {
   const auto missing = library->require("unobtainium");
   ASSERT_FALSE(missing.has_value());
   EXPECT_EQ(missing.error().category, core::ErrorCategory::WrongUsage);
-  EXPECT_THAT(missing.error().message, HasSubstr("unknown material \"unobtainium\"; known are mica, gold, si3n4, "));
+  EXPECT_THAT(missing.error().message, HasSubstr("unknown material \"unobtainium\"; choose mica, gold, si3n4, "));
 }
 
 TEST(MaterialFile, IsAcceptedAsWritten) {
@@ -179,10 +179,10 @@ TEST(MaterialFile, NamesTheKeyThatIsMissing) {
 }
 
 TEST(MaterialFile, NamesTheKeyOfAWrongType) {
-  EXPECT_THAT(refusal(changed("\"Mica\"", "7")), HasSubstr("line 3: material.title: must be a text"));
+  EXPECT_THAT(refusal(changed("\"Mica\"", "7")), HasSubstr("line 3: material.title: must be text"));
   EXPECT_THAT(refusal(changed("{ value = \"50 nm\", source = \"a\" }", "50e-9")),
               HasSubstr("line 6: material.tip_radius: must be written { value"));
-  EXPECT_THAT(refusal(changed("\"50 nm\"", "50")), HasSubstr("material.tip_radius.value: must be a text"));
+  EXPECT_THAT(refusal(changed("\"50 nm\"", "50")), HasSubstr("material.tip_radius.value: must be text"));
   EXPECT_THAT(refusal("material = 3\n"), HasSubstr("line 1: material: must be written [[material]]"));
   EXPECT_THAT(refusal("material = [3]\n"), HasSubstr("must be written [[material]]"));
 }
@@ -268,7 +268,8 @@ TEST(MaterialFile, RefusesANameTwiceOrTooLong) {
 TEST(MaterialFile, SaysWhenItCannotBeReadOrParsed) {
   const auto missing = load_materials("/no/such/file.toml");
   ASSERT_FALSE(missing.has_value());
-  EXPECT_EQ(missing.error().message, "material file /no/such/file.toml: cannot be read; check the path and its rights");
+  EXPECT_EQ(missing.error().message,
+            "material file /no/such/file.toml: cannot be read; check the path and its permissions");
   EXPECT_THAT(refusal(changed("title = \"Mica\"", "title = \"Mica")), HasSubstr("line 3: "));
 }
 

@@ -80,7 +80,7 @@ TEST(ProbeLibrary, ListsTheKnownNamesForAnUnknownOne) {
   const auto missing = load_probes(std::string(kShipped)).value().require("tweezers");
   ASSERT_FALSE(missing.has_value());
   EXPECT_EQ(missing.error().category, core::ErrorCategory::WrongUsage);
-  EXPECT_THAT(missing.error().message, HasSubstr("unknown probe \"tweezers\"; known are mlct-c"));
+  EXPECT_THAT(missing.error().message, HasSubstr("unknown probe \"tweezers\"; choose mlct-c"));
 }
 
 TEST(Probe, ReplacesLeverAndTipButNotThePairOfMaterials) {
@@ -93,7 +93,7 @@ TEST(Probe, ReplacesLeverAndTipButNotThePairOfMaterials) {
   EXPECT_EQ(after.lever.quality_factor, 100.0);
   EXPECT_EQ(after.contact.hamaker, before.contact.hamaker);
   EXPECT_EQ(after.contact.mean_surface_energy, before.contact.mean_surface_energy);
-  EXPECT_THAT(after.note, HasSubstr("those of a Si3N4 tip, the probe's is of silicon"));
+  EXPECT_THAT(after.note, HasSubstr("those of a Si3N4 tip; the probe's tip is silicon"));
   // 1/E* = (1 - 0.22^2)/165 GPa + (1 - 0.25^2)/60 GPa
   EXPECT_NEAR(after.contact.reduced_modulus.si, 1.0 / (0.9516 / 165e9 + 0.9375 / 60e9), 1.0);
   EXPECT_EQ(find_source(after.sources, "tip_radius")->source, "My lever: a");
@@ -131,7 +131,7 @@ TEST(ProbeFile, NamesLineAndKeyOfWhatIsWrong) {
   EXPECT_THAT(refusal(changed("spring_constant = { value = \"0.2 N/m\", source = \"b\" }", "")),
               HasSubstr("probe.length: is missing"));
   EXPECT_THAT(refusal(std::string(kOneProbe) + "lever_modulus = { value = \"1 GPa\", source = \"g\" }\n"),
-              HasSubstr("acts only where no spring_constant is given"));
+              HasSubstr("has an effect only if no spring_constant is given"));
   EXPECT_THAT(refusal(std::string(kOneProbe) + kOneProbe), HasSubstr("\"mine\" is used twice"));
 }
 

@@ -358,7 +358,7 @@ TEST(ServoProgram, RefusesASegmentOfAnotherVersionAndPrintsBoth) {
     const std::string number = std::to_string(inherited.get());
     const auto [code, said] = run({kServoProgram, "--segment", number, "--parent-socket", "0"});
     EXPECT_EQ(code, 1);
-    EXPECT_THAT(said, HasSubstr("segment of version " + std::to_string(other) + ": this program speaks version " +
+    EXPECT_THAT(said, HasSubstr("segment of version " + std::to_string(other) + ": this program uses version " +
                                 std::to_string(kSegmentVersion) + ";"));
   }
 }

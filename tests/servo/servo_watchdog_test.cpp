@@ -151,7 +151,7 @@ TEST_F(ServoWatchdog, TellsTheDeviceToLetGoAndEndsAServoThatIsStopped) {
   EXPECT_EQ(servo->exit_status(), 128 + SIGKILL);
   EXPECT_TRUE(watchdog_gone());
   EXPECT_EQ(held_n(), 0.0);
-  EXPECT_THAT(errors.text(), HasSubstr("watchdog: the servo is silent"));
+  EXPECT_THAT(errors.text(), HasSubstr("watchdog: the servo stopped responding"));
   std::printf("stopped: zero after %.1f ms, ended after %.1f ms\n", released.count(), ended.count());
 }
 

@@ -7,8 +7,8 @@ namespace afm::core {
 
 constexpr double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
-// Monotonic time in nanoseconds. Code that needs time takes a Clock. The programs make the real
-// one: their mains, commands and live window, and whoever runs the servo as a thread.
+// Monotonic time in nanoseconds. Code that needs time takes a Clock. Only the programs create a real one: their main
+// functions, commands and live window, and the code that runs the servo as a thread.
 class Clock {
  public:
   Clock() = default;

@@ -47,7 +47,7 @@ consteval auto find_enumerators() {
 template <class Enum>
 inline constexpr auto kEnumerators = find_enumerators<Enum>();
 
-// False for a number from elsewhere that stands for nothing.
+// False for a value from outside that is no enumerator.
 template <class Enum>
 constexpr bool is_enumerator(Enum value) {
   return std::find(kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(), value) != kEnumerators<Enum>.end();
@@ -60,7 +60,7 @@ constexpr std::size_t index_of(Enum value) {
                                   kEnumerators<Enum>.begin());
 }
 
-// Whether a table has one row for each enumerator, in their order. `key` is the member that holds it.
+// True if a table has one row for each enumerator, in their order. `key` is the member that holds it.
 template <class Rows, class Row, class Enum>
 constexpr bool has_row_for_each(const Rows& rows, Enum Row::* key) {
   return std::equal(rows.begin(), rows.end(), kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(),

@@ -22,7 +22,7 @@ class FileDescriptor {
   int get() const noexcept { return descriptor_; }
   bool is_open() const noexcept { return descriptor_ >= 0; }
 
-  // What close() reports cannot be acted upon: the descriptor is gone in any case.
+  // Ignores the result of close(): the descriptor is gone in any case.
   void close() noexcept {
     if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
   }

@@ -19,8 +19,8 @@ void take_interruptions();
 // end. Any thread.
 [[noreturn]] void end_at_once(ExitCode code, std::string_view line);
 
-// What an interruption must undo, for as long as this lives. `undo` is called by the signals' thread while this one
-// runs on; it must be quick, and what it touches must not belong to one thread alone.
+// Registers the clean-up of an interruption for the lifetime of this object. `undo` is called by the signals' thread
+// while this one runs on; it must be quick, and what it touches must not belong to one thread alone.
 class OnInterruption {
  public:
   explicit OnInterruption(std::function<void()> undo);
@@ -61,7 +61,7 @@ class OrderlyEnd {
   ~OrderlyEnd();
 };
 
-// Whether a signal has come. For a run with an OrderlyEnd; any thread.
+// True after a signal. For a run with an OrderlyEnd; any thread.
 bool interrupted();
 
 }  // namespace afm::core

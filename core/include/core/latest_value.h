@@ -29,8 +29,8 @@ class LatestValue {
     std::array<std::uint64_t, kWords> words{};
     std::memcpy(words.data(), &value, sizeof(T));
 
-    // an odd number says that a store is under way; a writer that died there leaves it odd for ever, and its successor
-    // must continue from the next even one
+    // an odd number says that a store is under way; a writer that died there leaves it odd, and its successor must
+    // continue from the next even one
     const std::uint64_t begin = (sequence_.load(std::memory_order_relaxed) | 1U);
     sequence_.store(begin, std::memory_order_relaxed);
     for (std::size_t i = 0; i < kWords; ++i) payload_[i].store(words[i], std::memory_order_release);

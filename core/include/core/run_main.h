@@ -14,7 +14,7 @@ int fail(ExitCode code, const std::string& message);
 // The value of `run`; an exception is one line and RunFailed: no memory, no threads, Vulkan's own failures.
 int report_exceptions(const std::function<int()>& run) noexcept;
 
-// What main() does: takes interruptions, then runs `run`, whose value is the exit code; reports exceptions.
+// Body of main(): handles interruptions, runs `run`, whose value is the exit code, and reports exceptions.
 int run_main(const std::function<int()>& run) noexcept;
 
 }  // namespace afm::core

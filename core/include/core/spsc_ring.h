@@ -11,8 +11,8 @@
 namespace afm::core {
 
 // Every value of a trivially copyable T from one producer to one consumer, or a counted drop: no locks, no pointers, so
-// that it may lie in memory shared by two processes. Indices count up for ever and are masked on access, so that
-// garbage in them can spoil values but never reach outside the array.
+// that it may lie in memory shared by two processes. Indices only count up and are masked on access, so that garbage in
+// them can spoil values but never reach outside the array.
 template <class T, std::size_t Capacity>
 class SpscRing {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -38,7 +38,7 @@ class SpscRing {
     const std::uint64_t head = head_.load(std::memory_order_acquire);
     if (tail == head) return std::nullopt;
     if (head - tail > Capacity) {
-      // no producer can be that far ahead: indices are garbage, and draining them could take for ever
+      // no producer can be that far ahead: indices are garbage, and draining them might never end
       tail_.store(head, std::memory_order_release);
       return std::nullopt;
     }

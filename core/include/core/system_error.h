@@ -3,8 +3,7 @@
 
 namespace afm::core {
 
-// What an errno value means, in English: "No such file or directory". Never null; lives as long as the program. Any
-// thread.
+// English text for an errno value: "No such file or directory". Never null; lives as long as the program. Any thread.
 const char* system_error(int error) noexcept;
 
 }  // namespace afm::core

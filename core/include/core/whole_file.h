@@ -12,9 +12,9 @@ namespace afm::core {
 // pipe is none, and is not waited for.
 core::Result<std::string> read_file(const std::string& path);
 
-// A regular file is replaced as a whole: what is written lies beside it under a name of its own until it is on the
-// disk. It keeps its permissions, and links to it stay links. Devices and pipes are written into; a pipe's reader is
-// waited for 5 s. Failed names the path and the reason; nothing partial is left.
+// Replaces a regular file as a whole: the new contents stay in a temporary file in the same folder until they are on
+// the disk. It keeps its permissions, and links to it stay links. Devices and pipes are written into; a pipe's reader
+// is waited for 5 s. Failed names the path and the reason; nothing partial is left.
 core::Result<void> write_file(const std::string& path, std::string_view bytes);
 
 }  // namespace afm::core

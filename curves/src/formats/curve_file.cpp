@@ -85,12 +85,12 @@ void check(RecordedCurve& curve) {
   }
   for (const physics::CurvePoint& point : curve.points) {
     if (!(std::abs(point.z.si) <= kHighest_m) || !(std::abs(point.force.si) <= kStrongest_n)) {
-      throw CurveError(
-          fmt::format("a point at {} m with {} N is no force microscope's; is it in SI?", point.z.si, point.force.si));
+      throw CurveError(fmt::format("a point at {} m with {} N is outside the range of a force microscope; is it in SI?",
+                                   point.z.si, point.force.si));
     }
   }
   if (const auto k = curve.metadata.spring_constant; k && !(k->si > 0.0 && k->si <= kStiffest_n_per_m)) {
-    throw CurveError(fmt::format("its spring constant of {} N/m is no lever's", k->si));
+    throw CurveError(fmt::format("its spring constant of {} N/m is not within 0 to 1 MN/m", k->si));
   }
   const auto is_approach = [](const auto& point) { return point.branch == physics::Branch::Approach; };
   if (!std::is_partitioned(curve.points.begin(), curve.points.end(), is_approach)) {

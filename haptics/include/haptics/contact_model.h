@@ -39,8 +39,7 @@ struct Touch {
   glm::dvec3 hand_force_n{0.0};      // for the hand
 };
 
-// What the hand meets with one material under the tip: its law of force, its surface, and the scales on which it can be
-// felt.
+// One material under the tip, as the hand meets it: its law of force, its surface, and its scales.
 //
 // Z is measured from the surface below the tip, d = z - h(x, y), and the force on the hand is what the potential of
 // F(d) gives: F(d) (-dh/dx, -dh/dy, 1), along the local normal (docs/decisions/0007). So no path sideways gains energy

@@ -8,14 +8,14 @@
 
 #include "scene/shared/shared_blocks.h"
 
-// What the servo knows of a haptic device. The device frame is right +x, up +y, towards the user +z, in metres; its
+// The servo's interface to a haptic device. The device frame is right +x, up +y, towards the user +z, in metres; its
 // axes are parallel to the room's.
 namespace afm::haptics {
 
 struct DeviceSpec {
   std::string name;
   double max_force_n = 0;                                              // nominal peak
-  double max_continuous_force_n = 0;                                   // what the motors stand for ever
+  double max_continuous_force_n = 0;                                   // continuous rating of the motors
   double max_stiffness_n_per_m = 0;                                    // stable at the servo's rate
   double max_slew_n_per_s = std::numeric_limits<double>::infinity();   // beyond it the driver cuts the force
   double max_speed_m_per_s = std::numeric_limits<double>::infinity();  // likewise
@@ -35,8 +35,8 @@ DeviceSpec omni_like(std::string name);
 // The same device, its places from the contact point, which is then the origin: what a recording can keep of it.
 DeviceSpec from_contact(DeviceSpec spec);
 
-// A device as the shared segment tells of it; of a spec that is from_contact(), the way there and back changes nothing
-// but a name that is too long.
+// Description of a device in the shared segment. For a spec that is from_contact(), the round trip changes nothing
+// except a name that is too long.
 scene::SharedDevice shared(const DeviceSpec& spec);
 DeviceSpec spec_of(const scene::SharedDevice& device);
 
@@ -48,7 +48,7 @@ double force_cap_n(const DeviceSpec& spec);
 inline constexpr double kLeastForceLimitN = 0.1;
 DeviceSpec limited_to(DeviceSpec spec, double max_n);
 
-// What a device's limits of slew and speed leave for use: a driver that sees its own limit exceeded cuts the force.
+// Usable share of a device's slew and speed limits: a driver cuts the force when its own limit is exceeded.
 inline constexpr double kUsableLimitShare = 0.8;
 
 // `wanted`, or what the device leaves for use where that is less.
@@ -90,7 +90,7 @@ class HapticDevice {
   virtual DeviceSample read(std::int64_t now_ns) noexcept = 0;
   virtual void write(const ForceCommand& command) noexcept = 0;
 
-  // What the simulated person is to do next. There is nobody to tell at a real device.
+  // Next motion of the simulated user. A real device ignores it.
   virtual void follow(const scene::HandScript& /*script*/) noexcept {}
 };
 

@@ -30,7 +30,7 @@ struct ProbeLine {
   std::string said;
 };
 
-// What one kind of device tells of the search for it.
+// Record of the search for one kind of device.
 class ProbeLog {
  public:
   explicit ProbeLog(std::string_view subject) : subject_(subject) {}
@@ -39,7 +39,7 @@ class ProbeLog {
   void found(std::string said) { tried(subject_, true, std::move(said)); }
   void missing(std::string said) { tried(subject_, false, std::move(said)); }
 
-  // What it needs.
+  // Requirement of the device.
   void tried(std::string subject, bool usable, std::string said) {
     lines_.push_back({std::move(subject), usable, std::move(said)});
   }

@@ -16,7 +16,7 @@ struct OutputRequest {
   double arm_gain = 0;           // 0 to 1; outside, the nearer of them
   double thermal_gain = 1;       // likewise
   double damping_n_s_per_m = 0;  // 0 to ForceLimiter::kMostDampingNSPerM; likewise
-  double slew_n_per_s = 0;       // less than the stage's own, if this is; 0: the force stands still
+  double slew_n_per_s = 0;       // overrides the limiter's slew limit if lower; 0: the force does not change
   double elapsed_s = 0;          // since the tick before, at most one period
   bool too_fast = false;         // the velocity trip
 };
@@ -43,7 +43,7 @@ class ForceLimiter {
 
   const glm::dvec3& command_n() const noexcept { return command_n_; }
 
-  // What law and end-stop asked for in that tick, before damping and limits: what the passivity observer counts.
+  // Force of law and end-stop in that tick, before damping and limits: input of the passivity observer.
   const glm::dvec3& wanted_n() const noexcept { return wanted_n_; }
 
   double cap_n() const noexcept { return cap_n_; }

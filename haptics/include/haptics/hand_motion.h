@@ -6,8 +6,8 @@
 
 namespace afm::haptics {
 
-// How fast the hand is: a first-order low-pass of 30 Hz on the differences of its places, which an encoder of 0.055 mm
-// would otherwise turn into noise. For damping and the velocity trip only, never for a force law. Servo's thread.
+// Velocity of the hand: differences of its positions after a first-order low-pass of 30 Hz, without which the encoder's
+// steps of 0.055 mm would be noise. For damping and the velocity trip only, never for a force law. Servo's thread.
 class HandMotion {
  public:
   static constexpr double kCutoffHz = 30.0;

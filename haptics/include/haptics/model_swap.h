@@ -27,8 +27,7 @@ class ModelSwap {
 
   ContactModel& current(std::size_t index) noexcept { return *slots_[index].current; }
 
-  // Whether another contact model is ready and the one before the current has been reclaimed, so that there is room for
-  // one.
+  // True if a new contact model is ready and the one before the current has been reclaimed, which leaves a free slot.
   bool has_offer(std::size_t index) const noexcept;
 
   // Puts the offer in the place of the current one, which must not be used any more. Only after has_offer().
@@ -41,7 +40,7 @@ class ModelSwap {
   void reclaim() noexcept;
 
  private:
-  // A contact model belongs to whoever has exchanged its pointer out.
+  // A contact model belongs to the thread that exchanged its pointer out.
   struct Slot {
     std::unique_ptr<ContactModel> current;
     std::atomic<ContactModel*> offered{nullptr};

@@ -35,7 +35,7 @@ class PassivityObserver {
   static constexpr double kMostDampingNSPerM = 4.0;
   static constexpr double kLimitJ = 1e-3;  // a hand of 0.12 kg at 0.13 m/s
 
-  // What the observer has to know of a law in one place; on the hand's scale.
+  // Quantities of a law at one position that the observer needs, on the hand's scale.
   struct Law {
     double stored_j = 0;           // U
     double stiffness_n_per_m = 0;  // K: no spring in the law is stiffer
@@ -59,7 +59,7 @@ class PassivityObserver {
   double excess_j() const noexcept { return excess_j_; }
   bool exceeded() const noexcept { return excess_j_ > kLimitJ; }
 
-  // What to damp with over the next tick, for a hand of this velocity.
+  // Damping for the next tick, for a hand at this velocity.
   double damping_n_s_per_m(const glm::dvec3& velocity_m_per_s, double period_s) const noexcept;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace afm::haptics {
 
-// Whether a sensor's places can be a hand's, asked before any force is computed from them.
+// Checks that a sensor's positions can be those of a hand, before any force is computed from them.
 //
 // - A place that no hand can have reached since the last one that was believed is passed over: that one holds for some
 //   ticks. If the next places are impossible too, the device is not healthy.
@@ -39,7 +39,7 @@ class PositionCheck {
   glm::dvec3 read_m_{0.0};
   glm::dvec3 believed_m_{0.0};
   std::int64_t forced_ns_ = 0;    // since the place that was read last changed, under force
-  std::int64_t believed_ns_ = 0;  // since the device last told a place that was believed
+  std::int64_t believed_ns_ = 0;  // since the device last reported a plausible position
   int doubt_ = 0;
 };
 

@@ -8,14 +8,14 @@
 
 namespace afm::haptics {
 
-// What a hand can get at most from a force law, at every height and on both branches: the potential U of the force that
-// is felt, in joules of the hand. On each branch dU/dh = -F, up to a constant. Where the tip jumps to contact the
-// branches meet, U_free(h_in) = U_attached(h_in): the most that a latch without work of its own can hold there. And U
-// is zero at its lowest place, so that U far away is E0, the free energy that one approach can give: the work of the
-// free branch down to h_in and of the attached one from there to where it pulls no more. For the paper's law, on a
-// scale that makes it a spring K, E0 = 1/2 K h_in^2. A force that is bent by a monotone map of itself
-// (haptics/scaling.h) has such a potential like any other, because force and height are one-dimensional; over a height
-// field it is that of the height above the surface.
+// The most energy that a hand can get from a force law, at every height and on both branches: the potential U of the
+// felt force, in joules of the hand. On each branch dU/dh = -F, up to a constant. Where the tip jumps to contact the
+// branches meet, U_free(h_in) = U_attached(h_in): the most that a latch without work can hold there. And U is zero at
+// its lowest place, so that U far away is E0, the free energy that one approach can give: the work of the free branch
+// down to h_in and of the attached one from there to where it pulls no more. For the paper's law, on a scale that makes
+// it a spring K, E0 = 1/2 K h_in^2. A force that is bent by a monotone map of itself (haptics/scaling.h) has such a
+// potential like any other, because force and height are one-dimensional; over a height field it is that of the height
+// above the surface.
 //
 // A law is passive if it jumps off contact where U_attached >= U_free: the difference is what its loop loses.
 //

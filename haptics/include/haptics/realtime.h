@@ -28,7 +28,7 @@ struct RealtimeGrant {
 RealtimeGrant enter_realtime(int priority, PageLock lock);
 
 // The line that raises a limit of /etc/security/limits.d for the person who runs it.
-std::string limit_mend(const char* item, const char* value);
+std::string limit_fix(const char* item, const char* value);
 
 // Until this time of CLOCK_MONOTONIC, signals or not.
 void sleep_until(std::int64_t deadline_ns) noexcept;

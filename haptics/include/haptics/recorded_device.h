@@ -13,7 +13,7 @@
 
 namespace afm::haptics {
 
-// What one tick of a recording says of the hand.
+// State of the hand in one tick of a recording.
 struct RecordedHand {
   glm::dvec3 from_contact_m{0.0};  // device frame, from the place where Z = 0
   bool turn_on = false;

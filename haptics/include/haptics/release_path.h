@@ -6,8 +6,8 @@
 
 namespace afm::haptics {
 
-// How another process takes the force off the hand when the servo cannot: `zero` is written to a duplicate of
-// `descriptor`, a stream socket, in one piece.
+// Means by which another process releases the hand when the servo cannot: it writes `zero` in one piece to a duplicate
+// of `descriptor`, a stream socket.
 struct ReleasePath {
   int descriptor = -1;
   std::string zero;

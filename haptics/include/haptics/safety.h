@@ -17,7 +17,7 @@ namespace afm::haptics {
 
 using scene::RendererLink;
 
-// What a hand, a device and its motors stand.
+// Limits that protect a hand, a device and its motors.
 struct SafetyLimits {
   std::int64_t period_ns = 1'000'000;
   double force_cap_n = 2.0;  // the longest vector
@@ -68,7 +68,7 @@ class SafetyGovernor {
 
   struct Output {
     ForceCommand command;
-    bool dropped = false;  // the force was just taken away: the model has to wait for a lift
+    bool dropped = false;  // the force was just removed: the model has to wait for a lift
   };
 
   explicit SafetyGovernor(const SafetyLimits& limits);
@@ -81,8 +81,8 @@ class SafetyGovernor {
   // For another material or scale. Only while released().
   void set_release_height(double release_height_m) noexcept { release_height_m_ = release_height_m; }
 
-  // What the hand did before no longer counts, except for the state and the heat: for a change of material, so that
-  // what follows depends on nothing that a recording of it does not hold. Only while released().
+  // Discards the past motion, but keeps the state and the heat: for a change of material, so that the following ticks
+  // depend only on what their recording contains. Only while released().
   void forget_motion() noexcept;
 
   scene::ServoState state() const noexcept { return state_.state; }
@@ -97,7 +97,7 @@ class SafetyGovernor {
   bool dead_man() const noexcept { return dead_man_; }
 
  private:
-  // What the tick before left for the passivity observer.
+  // State of the previous tick for the passivity observer.
   struct Snapshot {
     bool valid = false;
     double law_gain = 0;

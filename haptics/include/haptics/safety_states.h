@@ -15,7 +15,7 @@
 // A device that is missing or not calibrated is one that failed. Nothing but these edges is taken.
 namespace afm::haptics {
 
-// What one tick found.
+// Conditions found in one tick.
 struct SafetyConditions {
   scene::FaultCode cut = scene::FaultCode::None;  // DeviceError, NotFinite, StopPressed, VelocityTrip
   scene::RendererLink renderer = scene::RendererLink::Absent;

@@ -7,12 +7,12 @@
 
 namespace afm::haptics {
 
-// How the sample is turned against the device, whose axes are parallel to the room's. Only its orientation counts:
-// where the picture shows it, and how large, does not move the contact point in a hand's workspace.
+// Orientation of the sample relative to the device, whose axes are parallel to the room's. Position and size in the
+// picture do not count: they do not move the contact point in the hand's workspace.
 class SampleAxes {
  public:
   // Takes the orientation of a node's transform, column-major; its scale is left out. False, and nothing changes, if
-  // its z or x axis has no direction of its own.
+  // the direction of its z or x axis is undefined.
   bool set_orientation(const std::array<double, 16>& room_from_sample) noexcept;
 
   bool operator==(const SampleAxes&) const = default;

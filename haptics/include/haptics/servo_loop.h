@@ -22,7 +22,7 @@
 
 namespace afm::haptics {
 
-// How a servo is run; what touchafm's options say.
+// Settings of the servo, from touchafm's options.
 struct ServoSettings {
   double rate_hz = 1000.0;                                       // 100 Hz to 10 kHz
   double max_force_n = std::numeric_limits<double>::infinity();  // what an operator allows, kLeastForceLimitN or more
@@ -67,7 +67,7 @@ class ServoLoop {
   // For one thread beside the servo's (EditThread), as long as the loop is there.
   EditBuilder& edits() noexcept { return edits_; }
 
-  // What enter_realtime() granted, for the record. Before run().
+  // Stores the result of enter_realtime() for the report. Before run().
   void note_grant(const RealtimeGrant& grant) noexcept;
 
   std::int64_t period_ns() const noexcept { return period_ns_; }
@@ -105,7 +105,7 @@ class ServoLoop {
   glm::dvec3 hand_from_contact_m_{0.0};
   bool turn_on_ = false;
   bool device_healthy_ = true;
-  bool changing_ = false;  // the force was taken away for what is to be felt next
+  bool changing_ = false;  // the force was removed for a change of material, scale or parameters
   RendererLink renderer_ = RendererLink::Absent;
   Touch touch_;  // of this tick
   scene::TipState state_;

@@ -9,15 +9,15 @@
 
 namespace afm::haptics {
 
-// How a hand that holds a pen responds, per axis: m x'' = -c x' + k (aim - x) + force.
+// Impedance of a hand that holds a pen, per axis: m x'' = -c x' + k (aim - x) + force.
 struct HandImpedance {
   double mass_kg = 0.12;
   double damping_n_s_per_m = 2.0;
   double grip_stiffness_n_per_m = 200.0;
 };
 
-// What a real device adds; nothing by default. An Omni's encoders step by 0.055 mm, and its joints rub with up to 0.26
-// N (its maker's sheet, by way of the research on haptics).
+// Imperfections of a real device; none by default. An Omni's encoders step by 0.055 mm, and its joints rub with up to
+// 0.26 N (according to its data sheet).
 struct DeviceFlaws {
   double quantum_m = 0;       // of the place that is reported
   std::int64_t delay_ns = 0;  // of that place, 16 ms at most; what lies between two ticks is not reported

@@ -32,7 +32,7 @@ class WorkspaceStop {
   bool is_outside(const glm::dvec3& position_m) const noexcept;
 
  private:
-  // How far the hand is in a wall of this axis: above zero at the upper end, below at the lower.
+  // Penetration of the hand into an end-stop of this axis: positive at the upper end, negative at the lower.
   double depth_m(int axis, double position_m) const noexcept;
 
   glm::dvec3 min_m_;

@@ -23,7 +23,7 @@ tl::unexpected<core::Error> refusal(const scene::SharedContact& material, core::
   // a name that came without its end is cut, and nothing in it may command a terminal
   std::string name(material.name.data(), ::strnlen(material.name.data(), material.name.size()));
   std::replace_if(name.begin(), name.end(), [](char byte) { return byte < ' ' || byte > '~'; }, '?');
-  return core::failure(category, fmt::format("cannot make {} felt: {}", name, why));
+  return core::failure(category, fmt::format("cannot build the contact model for {}: {}", name, why));
 }
 
 std::shared_ptr<const physics::LawTables> build(const scene::SharedContact& material,
@@ -56,7 +56,8 @@ PotentialEnergy stored_energy_of(const physics::LawTables& tables, const Scaling
 }
 
 // Where a surface bends, a force on it is a stiffness sideways: force times curvature, both on the hand. It gets this
-// share of what the device stands on the scale of Fit, beside the law's own stiffness. The common scale is softer.
+// share of the device's stiffness limit on the scale of Fit, beside the law's own stiffness. The common scale is
+// softer.
 constexpr double kShareOfStiffness = 0.5;
 
 double largest_curvature_per_m(const Scaling& fit, const DeviceSpec& device) {

@@ -32,7 +32,7 @@ void EditBuilder::build() {
     if (model) {
       exchange_.offer(i, std::move(*model));
     } else {
-      core::log_line(fmt::format("the material stays as it was: {}", model.error().message));
+      core::log_line(fmt::format("the material is unchanged: {}", model.error().message));
       refused_.store(edit->revision, std::memory_order_relaxed);
     }
   }

@@ -102,7 +102,7 @@ double excess_of_stiffness(const Scaling& scaling, const physics::LawTables& tab
 core::Result<void> check_force(const DeviceSpec& device) {
   if (force_cap_n(device) >= Scaling::kFaintestPullN) return {};
   return core::failure(core::ErrorCategory::DeviceMissing,
-                       fmt::format("the {} gives {:.2g} N at most, too little to feel; use a stronger device",
+                       fmt::format("the {} renders at most {:.2g} N, too little to feel; use a stronger device",
                                    device.name, force_cap_n(device)));
 }
 
@@ -111,14 +111,14 @@ core::Result<void> check_workspace(const DeviceSpec& device) {
   if (above_m > Scaling::kStrokeM) return {};
   return core::failure(
       core::ErrorCategory::DeviceMissing,
-      fmt::format("cannot fit the stroke of {:.0f} mm to the {}: it reaches {:.0f} mm above the contact point",
+      fmt::format("cannot fit the stroke of {:.0f} mm to the {}: its reach is {:.0f} mm above the contact point",
                   1e3 * Scaling::kStrokeM, device.name, 1e3 * above_m));
 }
 
 core::Result<void> check_extent(const Extent& extent) {
   if (std::isnormal(extent.reach_m) && extent.reach_m > 0.0 && std::isnormal(extent.strong_n) && extent.strong_n > 0.0)
     return {};
-  return refusal(fmt::format("there is nothing to feel: a pull of {:.3g} nN up to Z = {:.3g} nm", 1e9 * extent.strong_n,
+  return refusal(fmt::format("too weak to feel: a pull of {:.3g} nN up to Z = {:.3g} nm", 1e9 * extent.strong_n,
                              1e9 * extent.reach_m));
 }
 
@@ -156,8 +156,8 @@ core::Result<Scaling> Scaling::fit(const physics::LawTables& tables, const Devic
     scaling.hand_n_per_n_ *= std::min(0.95, 1.0 / excess);
     if (scaling.hand_n_per_n_ * extent.felt_n < kFaintestPullN) {
       return refusal(
-          fmt::format("beside the stiffness of its contact, of which a hand can be given {:.0f} N/m, its force of "
-                      "{:.3g} nN would be too faint to feel; use a softer lever",
+          fmt::format("a hand can be given a contact stiffness of {:.0f} N/m; at that scale its force of {:.3g} nN is "
+                      "too weak to feel; use a softer lever",
                       std::min(kMaxStiffnessNPerM, device.max_stiffness_n_per_m), 1e9 * extent.strong_n));
     }
   }

@@ -7,16 +7,15 @@
 
 namespace afm::haptics {
 
-// What two motors with eccentric weights do, 0 to 1: the heavy, slow one and the light, quick one.
+// Speeds of the two eccentric-mass motors, 0 to 1: the heavy, slow one and the light, fast one.
 struct Rumble {
   double heavy = 0;
   double light = 0;
 };
 
-// Tells by rumble what a force would tell. A jump, which is a change within kWindow ticks that no hand on a spring
-// brings about, shakes the heavy motor: shortly when the pull sets in (the tip snaps in), three times as long when it
-// goes (the tip lets go). The light one hums in proportion to the force. For a tick of the servo; one step a tick of
-// about a millisecond.
+// Renders a force as rumble. A jump, a change within kWindow ticks that no hand on a spring can cause, runs the heavy
+// motor: briefly when the pull begins (the tip snaps in), three times as long when it ends (the tip breaks free). The
+// light one hums in proportion to the force. For a tick of the servo; one step a tick of about a millisecond.
 class ForceRumble {
  public:
   static constexpr std::size_t kWindow = 4;

@@ -7,7 +7,7 @@
 
 namespace afm::haptics {
 
-// Why this thread's last dlopen() failed.
+// Reason for the failure of this thread's last dlopen().
 inline std::string linker_error() {
   const char* text = ::dlerror();  // NOLINT(concurrency-mt-unsafe): glibc keeps one for each thread
   return text == nullptr ? "the dynamic linker gave no reason" : text;

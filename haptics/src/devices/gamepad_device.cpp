@@ -31,7 +31,7 @@ core::Result<int> start(const SdlFunctions& sdl) {
   sdl.set_hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
   if (sdl.init(SDL_INIT_GAMECONTROLLER | SDL_INIT_HAPTIC) != 0) {
     return core::failure(core::ErrorCategory::DeviceMissing,
-                         fmt::format("SDL2 cannot look for gamepads: {}", sdl.error()));
+                         fmt::format("SDL2 cannot search for gamepads: {}", sdl.error()));
   }
   return sdl.count();
 }
@@ -77,10 +77,9 @@ core::Result<std::unique_ptr<GamepadDevice>> GamepadDevice::open(const SdlFuncti
   if (best == ports->end() && wanted == Wanted::Any) best = ports->begin();
   if (best == ports->end()) {
     return core::failure(core::ErrorCategory::DeviceMissing,
-                         ports->empty()
-                             ? kNone
-                             : fmt::format("{} has no force feedback; --haptics gamepad takes it all the same",
-                                           ports->front()->facts().name));
+                         ports->empty() ? kNone
+                                        : fmt::format("{} has no force feedback; --haptics gamepad uses it anyway",
+                                                      ports->front()->facts().name));
   }
   std::unique_ptr<GamepadDevice> device(new GamepadDevice(clock, std::move(*best)));
   device->frames_.store({.time_ns = clock.now_ns(), .sticks = {}, .turn_on = 0, .attached = 1});
@@ -144,7 +143,7 @@ void GamepadDevice::run() {
   while (!closing_.load()) {
     if (attached && !port_->update()) {
       attached = false;
-      core::log_line(fmt::format("{}: it is unplugged; plug it in, then start again", spec_.name));
+      core::log_line(fmt::format("{}: unplugged; plug it in, then start again", spec_.name));
     }
     const std::int64_t now_ns = clock_.now_ns();
     Frame frame{.time_ns = now_ns, .sticks = {}, .turn_on = 0, .attached = attached ? 1U : 0U};
@@ -199,7 +198,7 @@ void probe_gamepads(const Environment& /*environment*/, ProbeLog& log) {
   for (const GamepadDevice::Facts& pad : *found) {
     const char* shows = pad.force_feedback ? "force feedback"
                         : pad.rumble       ? "rumble"
-                                           : "moves the hand, shows no force";
+                                           : "moves the hand, renders no force";
     log.found(fmt::format("{}: {}", pad.name, shows));
   }
 }

@@ -27,27 +27,28 @@ class GamepadPort;    // haptics/src/gamepad_port.h
 // it what the device can show.
 //
 // - A game controller moves the aim at a bounded speed: left stick up and down, right stick or cross sideways; A is
-//   Turn-On. Its motors tell of jumps and of the force (ForceRumble).
+//   Turn-On. Its motors render jumps and the force (ForceRumble).
 // - A joystick with force feedback places the aim by its deflection, its first button is Turn-On, and it is pushed with
 //   a constant effect in the direction of the force, at full strength for the cap.
 //
-// SDL lives in a thread of its own, some 250 times a second; the servo's tick and it meet in two mailboxes. Neither
-// trusts the other: with no news for kStallNs, or unplugged, the device is not healthy; a force that the servo has not
-// renewed for kStaleNs stops, and a rumble ends by itself after kRumbleMs.
+// SDL runs in a separate thread, about 250 times a second; it and the servo's tick exchange data through two mailboxes.
+// Neither trusts the other: with no update for kStallNs, or unplugged, the device is not healthy; a force that the
+// servo has not renewed for kStaleNs stops, and a rumble ends by itself after kRumbleMs.
 class GamepadDevice final : public HapticDevice {
  public:
   static constexpr std::int64_t kStallNs = 100'000'000;
-  static constexpr std::int64_t kCoastNs = 20'000'000;  // the aim stands still without news for so long
+  static constexpr std::int64_t kCoastNs = 20'000'000;  // the aim stops if there is no update for so long
   static constexpr std::int64_t kStaleNs = 20'000'000;
   static constexpr std::uint32_t kRumbleMs = 60;
   static constexpr double kFastestMPerS = 0.10;  // of the aim of a game controller
   static constexpr double kReachM = 0.060;       // of the aim of a joystick, to either side
 
-  // What is said when there is no gamepad, with the line that mends the rights to one.
+  // Message when there is no gamepad, with the command that grants access to one.
   static constexpr const char* kNone =
-      "none is plugged in, or none may be opened: then sudo usermod -aG input \"$(id -un)\" and log in again";
+      "none is plugged in, or permission is denied; in that case: sudo usermod -aG input \"$(id -un)\", then log in "
+      "again";
 
-  // What is plugged in.
+  // The connected device.
   struct Facts {
     std::string name;
     bool force_feedback = false;

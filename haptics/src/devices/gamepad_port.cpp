@@ -30,10 +30,10 @@ core::Result<std::unique_ptr<GamepadPort>> GamepadPort::open(const SdlFunctions&
   }
   if (port->joystick_ == nullptr) {
     return core::failure(core::ErrorCategory::DeviceMissing,
-                         fmt::format("gamepad {} cannot be opened: {}", index, sdl.error()));
+                         fmt::format("cannot open gamepad {}: {}", index, sdl.error()));
   }
   const char* name = sdl.name(port->joystick_);
-  port->facts_.name = name == nullptr ? "a gamepad without a name" : name;
+  port->facts_.name = name == nullptr ? "unnamed gamepad" : name;
   port->facts_.rumble = sdl.has_rumble(port->joystick_) == SDL_TRUE;
   port->open_force();
   return port;

@@ -26,9 +26,9 @@ constexpr auto kReceivePatience = std::chrono::milliseconds(2);
 constexpr auto kPartPatience = std::chrono::milliseconds(200);  // what the link takes to send and to leave, and as much
 constexpr std::int64_t kComplaintNs = 1'000'000'000;            // between two lines about a service that stammers
 
-// The service tells no limits. The force is what careful drivers give a hand (Isaac Lab clips at 2 N); the stiffness
-// that of a Touch; the workspace a part of the reach in front of the arm that every Inverse3 has, around the place
-// (0, -0.12, 0.15) of its documentation.
+// The service reports no limits. The force is what careful drivers give a hand (Isaac Lab clips at 2 N); the stiffness
+// that of a Touch; the workspace a part of the reach in front of the arm that every Inverse3 has, around the place (0,
+// -0.12, 0.15) of its documentation.
 DeviceSpec inverse3() {
   return {.name = "Haply Inverse3",
           .max_force_n = 2.2,
@@ -50,8 +50,8 @@ core::Result<std::unique_ptr<HaplyDevice>> HaplyDevice::open(const core::Clock& 
   std::unique_ptr<HaplyDevice> device(new HaplyDevice(clock, port, std::move(link), std::move(offer)));
   if (!wait_until(kFirstPlacePatience, [&] { return device->frames_.try_load().has_value(); })) {
     return core::failure(core::ErrorCategory::DeviceMissing,
-                         fmt::format("the haply inverse service at port {} tells the place of no inverse3 within {} s: "
-                                     "plug it in, and calibrate it",
+                         fmt::format("the haply inverse service at port {} reported no inverse3 within {} s: plug the "
+                                     "device in and calibrate it",
                                      port, kFirstPlacePatience.count()));
   }
   return device;
@@ -96,7 +96,7 @@ void HaplyDevice::serve() noexcept {
         exchange();
       }
     } catch (const std::exception& error) {
-      core::log_line(fmt::format("haptics: the haply inverse service cannot be spoken with: {}", error.what()));
+      core::log_line(fmt::format("haptics: cannot communicate with the haply inverse service: {}", error.what()));
     }
     part();
     if (closing_.load()) return;
@@ -132,7 +132,7 @@ void HaplyDevice::exchange() {
     if (silent && !was_silent && now_ns - complained_ns_ > kComplaintNs) {
       complained_ns_ = now_ns;
       core::log_line(
-          fmt::format("haptics: the haply inverse service has told no place for {} ms: no force until it does",
+          fmt::format("haptics: the haply inverse service has reported no position for {} ms: no force until it does",
                       kStallNs / 1'000'000));
     }
   }
@@ -153,7 +153,7 @@ void HaplyDevice::part() noexcept {
   attempt([&] { link_->leave(); });
   exchanging_.store(false);
   if (released_.exchange(true)) return;
-  core::log_line("haptics: the haply inverse service could not be told to let go: it may still hold the last force");
+  core::log_line("haptics: cannot send zero force to the haply inverse service: it may still apply the last force");
 }
 
 void HaplyDevice::offer_release() const {
@@ -188,7 +188,7 @@ std::uint16_t service_port(const Environment& environment) {
   if (error == std::errc() && end == text.data() + text.size() && port > 0) return port;
   if (!text.empty()) {
     core::log_line(
-        fmt::format("{}: \"{}\" is no port, 1 to 65535: {} is used", kHaplyPortVariable, text, kHaplyServicePort));
+        fmt::format("{}: \"{}\" is not a port from 1 to 65535: using {}", kHaplyPortVariable, text, kHaplyServicePort));
   }
   return kHaplyServicePort;
 }

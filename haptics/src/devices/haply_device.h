@@ -21,14 +21,15 @@ class HaplyLink;
 inline constexpr std::uint16_t kHaplyServicePort = 10001;  // of the maker's service on this machine
 inline constexpr const char* kHaplyPortVariable = "TOUCHAFM_HAPLY_PORT";
 
-// A Haply Inverse3, through the Inverse Service that its maker's set-up starts on this machine. One thread speaks with
-// the service, a message each way about once a millisecond; the servo finds the newest place and leaves the newest
-// force, and waits for nothing. Turn-On is the grip's button.
+// A Haply Inverse3, through the Inverse Service that the manufacturer's set-up starts on this machine. One thread talks
+// to the service, one message each way about every millisecond; the servo reads the newest position, writes the newest
+// force, and never waits. Turn-On is the grip's button.
 //
 // - A force that the servo has not renewed for kStaleNs fades to exactly zero within kReleaseNs, and comes back over
 //   kReturnNs.
 // - Without a place for kStallNs the device is not healthy, so that the governor cuts, and zero is sent unasked: the
-//   service holds what it was last sent, also while it tells nothing. So it is before every end of a connection.
+//   service keeps applying the last force, even while it reports nothing. Zero is also sent before every end of a
+//   connection.
 // - A service that went away is looked for again every kRetryNs.
 class HaplyDevice final : public HapticDevice {
  public:
@@ -38,13 +39,13 @@ class HaplyDevice final : public HapticDevice {
   static constexpr std::int64_t kStallNs = 20'000'000;
   static constexpr std::int64_t kRetryNs = 200'000'000;
 
-  // DeviceMissing: no service, or no Inverse3 that tells its place within two seconds. `clock` outlives the device and
-  // is the one whose time read() is given. `offer` is called for each connection.
+  // DeviceMissing: no service, or no Inverse3 that reports its position within two seconds. `clock` outlives the device
+  // and is the one whose time read() is given. `offer` is called for each connection.
   static core::Result<std::unique_ptr<HaplyDevice>> open(const core::Clock& clock,
                                                          std::uint16_t port = kHaplyServicePort,
                                                          OfferReleasePath offer = {});
 
-  // Whether the service answers; nothing is started.
+  // Checks that the service answers; starts nothing.
   static core::Result<void> query(std::uint16_t port = kHaplyServicePort);
 
   ~HaplyDevice() override;  // after a message of zero force

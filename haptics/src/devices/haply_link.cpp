@@ -79,7 +79,7 @@ struct HaplyLink::Socket {
   void read_on() {
     if (reading || ended) return;
     reading = true;
-    // piece by piece: whoever sends too much can still be told to let go, which Beast's own limit would prevent
+    // piece by piece: a peer that sends too much can still be sent zero force, which Beast's own limit would prevent
     stream->async_read_some(incoming, kLongestMessage + 1 - incoming.size(),
                             [this](const ErrorCode& error, std::size_t) {
                               reading = false;
@@ -94,10 +94,10 @@ HaplyLink::~HaplyLink() = default;
 
 core::Result<void> HaplyLink::connect(std::uint16_t port) {
   const auto refused = [port](const ErrorCode& error) {
-    return core::failure(core::ErrorCategory::DeviceMissing,
-                         fmt::format("no haply inverse service at port {} of this machine ({}): start it, and plug the "
-                                     "device in",
-                                     port, error.message()));
+    return core::failure(
+        core::ErrorCategory::DeviceMissing,
+        fmt::format("no haply inverse service at port {} of this machine ({}): start it and plug the device in", port,
+                    error.message()));
   };
   Socket& socket = *socket_;
   socket.cut();
@@ -117,7 +117,7 @@ core::Result<void> HaplyLink::connect(std::uint16_t port) {
       socket.finish([&](auto done) { tcp_socket.async_connect(service, std::move(done)); }, kHandshakePatience);
   if (error) return refused(error);
   error = tcp_socket.set_option(tcp::no_delay(true), error);
-  socket.stream->read_message_max(0);  // read_on() has a limit of its own
+  socket.stream->read_message_max(0);  // read_on() has its own limit
   socket.stream->text(true);
   const std::string host = fmt::format("localhost:{}", port);
   error =

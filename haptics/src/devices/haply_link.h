@@ -41,7 +41,7 @@ class HaplyLink {
   // The connection's socket, on which another process may send a text_frame(); -1 if there is no connection.
   int descriptor() const;
 
-  // Ends the connection, so that whoever waits goes on; there will be no other. From any thread.
+  // Ends the connection for good and wakes every waiting thread. From any thread.
   void interrupt();
 
  private:

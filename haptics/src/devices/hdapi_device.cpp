@@ -83,8 +83,9 @@ core::Result<void> HdapiDevice::start(Supervision supervision) {
     error = hdapi::take_newest_error(hd_);
   }
   if (error.code != 0 || !callback_) {
-    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot start {}: {}; end other programs that use it",
-                                                                  spec_.name, hdapi::error_text(hd_, error.code)));
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("cannot start {}: {}; close other programs that use it", spec_.name,
+                                     hdapi::error_text(hd_, error.code)));
   }
   if (supervision == Supervision::Caller) return {};
   if (!wait_until(kFirstFramePatience, [this] { return called_.load(); })) {
@@ -329,7 +330,7 @@ void probe_hdapi(const Environment& environment, ProbeLog& log) {
   const auto spec = HdapiDevice::query(*functions, environment(kHdDeviceVariable));
   if (!spec) return log.missing(spec.error().message);
   const glm::dvec3 workspace_mm = 1e3 * (spec->workspace_max_m - spec->workspace_min_m);
-  log.found(fmt::format("{}: {:.2g} N at most, {:.2g} N for ever, {:.0f} x {:.0f} x {:.0f} mm", spec->name,
+  log.found(fmt::format("{}: {:.2g} N peak, {:.2g} N continuous, {:.0f} x {:.0f} x {:.0f} mm", spec->name,
                         spec->max_force_n, spec->max_continuous_force_n, workspace_mm.x, workspace_mm.y,
                         workspace_mm.z));
 }

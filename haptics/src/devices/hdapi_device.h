@@ -40,7 +40,7 @@ class HdapiDevice final : public HapticDevice {
   static constexpr std::int64_t kCalibrationCheckNs = 100'000'000;
   static constexpr std::int64_t kSameLineNs = 10'000'000'000;  // between two that say the same
 
-  // Who calls supervise(): a thread of the device's own, or a test in its own time.
+  // Caller of supervise(): the device's thread, or a test at its own pace.
   enum class Supervision { Thread, Caller };
 
   // Takes the device called `name`, or, if that is empty, the first of the default device, "Default Device" and
@@ -51,7 +51,7 @@ class HdapiDevice final : public HapticDevice {
                                                          const std::string& name,
                                                          Supervision supervision = Supervision::Thread);
 
-  // What a device is and can, without starting it.
+  // Properties of a device, read without starting it.
   static core::Result<DeviceSpec> query(const HdapiFunctions& functions, const std::string& name);
 
   // Zero force, force output off, then the scheduler stops, the callback goes, and the device is released.
@@ -61,7 +61,7 @@ class HdapiDevice final : public HapticDevice {
   DeviceSample read(std::int64_t now_ns) noexcept override;
   void write(const ForceCommand& command) noexcept override;
 
-  // How the device is at `now_ns`. Any thread.
+  // Health of the device at `now_ns`. Any thread.
   HdapiHealth health(std::int64_t now_ns) const noexcept;
 
   // Switches the force output off when the scheduler has stalled. Gives a line for the log when the health has changed

@@ -55,23 +55,23 @@ std::string_view describe(HdapiHealth health) noexcept {
     case HdapiHealth::Ready:
       return "ready; lift the pen and press Turn-On";
     case HdapiHealth::Calibrating:
-      return "it calibrates itself; wait";
+      return "it is calibrating; wait";
     case HdapiHealth::NeedsInkwell:
       return "it is not calibrated; put the pen into the inkwell";
     case HdapiHealth::WarmMotors:
-      return "its motors are too warm; let them cool for some seconds";
+      return "its motors are too warm; let them cool for a few seconds";
     case HdapiHealth::ForceExceeded:
-      return "the driver refused a force as too large; press Turn-On again";
+      return "the driver rejected a force as too large; press Turn-On again";
     case HdapiHealth::ImpulseExceeded:
-      return "the driver refused a force as too sudden; press Turn-On again";
+      return "the driver rejected a force as too sudden; press Turn-On again";
     case HdapiHealth::VelocityExceeded:
       return "the pen was faster than the driver allows; press Turn-On again";
     case HdapiHealth::ImplausiblePosition:
-      return "it gave a place that cannot be; hold the pen still, then press Turn-On again";
+      return "it reported an impossible position; hold the pen still, then press Turn-On again";
     case HdapiHealth::SchedulerStalled:
-      return "its driver does not call any more; force output was switched off";
+      return "its driver stopped calling; force output was switched off";
     case HdapiHealth::ConnectionLost:
-      return "the connection is lost; check cable and power, then start again";
+      return "the connection was lost; check cable and power, then start again";
     case HdapiHealth::DeviceFault:
       return "it failed; switch it off and on, then start again";
   }

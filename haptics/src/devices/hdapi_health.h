@@ -7,8 +7,8 @@
 
 namespace afm::haptics {
 
-// How a device that is driven through HDAPI is. In every state but Ready its force output is off and the servo is told
-// that the device is not healthy.
+// Health of a device that is driven through HDAPI. In every state but Ready its force output is off and it reports to
+// the servo that it is not healthy.
 enum class HdapiHealth : std::uint32_t {
   Starting,  // the scheduler has not called yet
   Ready,
@@ -27,11 +27,11 @@ enum class HdapiHealth : std::uint32_t {
 // The state that an error of the library (not 0) leads to.
 HdapiHealth health_after(std::uint32_t error_code) noexcept;
 
-// How long a fault must not have come again until the device counts as healthy. Empty: only a restart of the servo ends
-// it. Calibration and a stall end when their cause does and have no such time.
+// Time without a new fault after which the device counts as healthy. Empty: only a restart of the servo clears it.
+// Calibration and a stall end when their cause does and have no such time.
 std::optional<std::int64_t> recovery_ns(HdapiHealth fault) noexcept;
 
-// What is wrong and what to do, for the log: lower case, no full stop.
+// Fault and remedy, for the log: lower case, no full stop.
 std::string_view describe(HdapiHealth health) noexcept;
 
 }  // namespace afm::haptics

@@ -61,7 +61,7 @@ core::Result<double> limit(const HdapiFunctions& hd, std::uint32_t property, con
   if (value > 0 && value <= largest) return value;
   return core::failure(
       core::ErrorCategory::Failed,
-      fmt::format("the haptic device reports a {} of {} {}, which cannot be; check it with its maker's test program",
+      fmt::format("the haptic device reports an impossible {} of {} {}; check it with the manufacturer's test program",
                   what, value, unit));
 }
 
@@ -84,7 +84,7 @@ HdapiError take_newest_error(const HdapiFunctions& hd) {
 
 std::string error_text(const HdapiFunctions& hd, std::uint32_t code) {
   const char* words = hd.get_error_string(code);
-  return fmt::format("{} (0x{:04x})", words == nullptr ? "an error without a name" : words, code);
+  return fmt::format("{} (0x{:04x})", words == nullptr ? "unnamed error" : words, code);
 }
 
 core::Result<HdapiHandle> take_device(const HdapiFunctions& hd, const std::string& name) {
@@ -107,13 +107,12 @@ core::Result<HdapiHandle> take_device(const HdapiFunctions& hd, const std::strin
       return taken.device;
     }
     refusals += fmt::format("{}{}: {}", refusals.empty() ? "" : ", ", candidate.said,
-                            taken.error.code == 0 ? "no handle, and no error" : error_text(hd, taken.error.code));
+                            taken.error.code == 0 ? "neither a handle nor an error" : error_text(hd, taken.error.code));
   }
-  return core::failure(
-      core::ErrorCategory::DeviceMissing,
-      fmt::format("no haptic device answers ({}); check cable, power, and that its maker's test program "
-                  "finds it",
-                  refusals));
+  return core::failure(core::ErrorCategory::DeviceMissing,
+                       fmt::format("no haptic device responds ({}); check cable and power, and check that the "
+                                   "manufacturer's test program finds it",
+                                   refusals));
 }
 
 core::Result<DeviceSpec> query_spec(const HdapiFunctions& hd) {
@@ -133,14 +132,14 @@ core::Result<DeviceSpec> query_spec(const HdapiFunctions& hd) {
   if (!is_box(smallest, largest)) {
     return core::failure(
         core::ErrorCategory::Failed,
-        "the haptic device reports a workspace that cannot be; check it with its maker's test program");
+        "the haptic device reports an impossible workspace; check it with the manufacturer's test program");
   }
   const double stiffness = 1e3 * one_double(hd, kNominalStiffness);
   const std::string model = text(hd, kModel);
   const std::string serial = text(hd, kSerialNumber);
   if (const HdapiError error = take_newest_error(hd); error.code != 0) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("the haptic device does not tell its limits: {}", error_text(hd, error.code)));
+                         fmt::format("the haptic device does not report its limits: {}", error_text(hd, error.code)));
   }
   return DeviceSpec{
       .name = (model.empty() ? std::string("HDAPI device") : model) + (serial.empty() ? "" : ", serial " + serial),

@@ -7,7 +7,7 @@
 #include "devices/hdapi_library.h"
 #include "haptics/device.h"
 
-// What happens once before the scheduler starts. Any thread that may wait.
+// Set-up before the scheduler starts. Any thread that may wait.
 namespace afm::haptics::hdapi {
 
 // The newest error, after which the stack of errors is empty. Code 0: there was none.

@@ -13,10 +13,11 @@ core::Result<std::unique_ptr<RecordedDevice>> RecordedDevice::create(const std::
     return core::failure(core::ErrorCategory::BadInputFile,
                          fmt::format("cannot replay {}: {}; record it again", name, why));
   };
-  if (hand.empty()) return bad("it holds no tick");
+  if (hand.empty()) return bad("it contains no ticks");
   const auto wrong = std::find_if(hand.begin(), hand.end(),
                                   [](const RecordedHand& entry) { return !is_within_reach(entry.from_contact_m); });
-  if (wrong != hand.end()) return bad(fmt::format("the hand's place at tick {} cannot be", wrong - hand.begin()));
+  if (wrong != hand.end())
+    return bad(fmt::format("the hand's position at tick {} is impossible", wrong - hand.begin()));
   return std::unique_ptr<RecordedDevice>(new RecordedDevice(omni_like("replay of " + name), std::move(hand)));
 }
 

@@ -6,7 +6,7 @@
 
 namespace afm::haptics {
 
-// How long a driver's end waits until its thread has taken the force off the hand.
+// Time that the end of a driver waits for its thread to release the hand.
 inline constexpr auto kReleasePatience = std::chrono::milliseconds(50);
 
 // False if the condition does not come true in time. It is asked every millisecond.

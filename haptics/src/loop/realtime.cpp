@@ -34,7 +34,7 @@ rlim_t limit_of(__rlimit_resource resource) {
 
 }  // namespace
 
-std::string limit_mend(const char* item, const char* value) {
+std::string limit_fix(const char* item, const char* value) {
   return fmt::format("echo \"$(id -un) - {} {}\" | sudo tee -a /etc/security/limits.d/touchafm.conf, then log in again",
                      item, value);
 }
@@ -47,18 +47,17 @@ RealtimeGrant enter_realtime(int priority, PageLock lock) {
     grant.priority = priority;
   } else {
     grant.notes.push_back(fmt::format("not real-time: SCHED_FIFO {} was refused ({}, the limit is {}); {}", priority,
-                                      core::system_error(error), limit_of(RLIMIT_RTPRIO), limit_mend("rtprio", "80")));
+                                      core::system_error(error), limit_of(RLIMIT_RTPRIO), limit_fix("rtprio", "80")));
   }
   if (::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL) != 0) {
-    grant.notes.push_back(
-        fmt::format("timers stay coarse: a slack of 1 ns was refused ({})", core::system_error(errno)));
+    grant.notes.push_back(fmt::format("coarse timers: a slack of 1 ns was refused ({})", core::system_error(errno)));
   }
   if (lock == PageLock::Lock) {
     grant.pages_locked = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
     if (!grant.pages_locked) {
       grant.notes.push_back(fmt::format("not real-time: locking the pages was refused ({}, the limit is {} KiB); {}",
                                         core::system_error(errno), limit_of(RLIMIT_MEMLOCK) / 1024,
-                                        limit_mend("memlock", "unlimited")));
+                                        limit_fix("memlock", "unlimited")));
     }
   }
   prefault_stack();

@@ -47,13 +47,12 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
   if (rate_hz < slowest_hz) {
     return core::failure(
         core::ErrorCategory::WrongUsage,
-        fmt::format(
-            "cannot run the servo at {} Hz: the {} lets go of a force that is older than {} ms; choose {} Hz or more",
-            rate_hz, device.spec().name, 1e3 * device.spec().force_lasts_s, slowest_hz));
+        fmt::format("cannot run the servo at {} Hz: the {} drops any force older than {} ms; choose {} Hz or more",
+                    rate_hz, device.spec().name, 1e3 * device.spec().force_lasts_s, slowest_hz));
   }
   if (settings.spin_ns < 0 || settings.spin_ns > period_ns / 2) {
     return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("cannot stay awake for {} us of every period of {} us: choose 0 to {} us",
+                         fmt::format("--spin {} us is too long for a period of {} us: choose 0 to {} us",
                                      settings.spin_ns / 1000, period_ns / 1000, period_ns / 2000));
   }
   if (!(settings.max_force_n >= kLeastForceLimitN)) {
@@ -192,7 +191,7 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
 }
 
 // The paper's procedure: choose, lift, press Turn-On. A choice waits until the tip is off the sample, then the force is
-// taken away, and only without force does the law or its scale change. An edit of the material under the tip does the
+// removed, and only without force does the law or its scale change. An edit of the material under the tip does the
 // same; no hand feels that of another.
 void ServoLoop::change_model() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {

@@ -11,7 +11,7 @@ namespace afm::haptics {
 MotorThermalModel::MotorThermalModel(double continuous_force_n, double cap_n)
     : continuous_force_n_(continuous_force_n) {
   AFM_CHECK(continuous_force_n >= 0 && cap_n > 0);
-  // a device that tells no rating but is hot gets along with half
+  // a hot device of unknown rating gets half the force
   rest_gain_ = continuous_force_n > 0 ? std::min(1.0, kRestShare * continuous_force_n / cap_n) : 0.5;
 }
 

@@ -16,7 +16,7 @@ void PassivityObserver::integrate(const Tick& tick) noexcept {
 double PassivityObserver::damping_n_s_per_m(const glm::dvec3& velocity_m_per_s, double period_s) const noexcept {
   if (excess_j_ <= kToleranceJ) return 0.0;
   const double damped_j_per_n_s_per_m = glm::dot(velocity_m_per_s, velocity_m_per_s) * period_s;
-  // a hand that stands still pays nothing back, whatever the damping
+  // a hand at rest returns no energy, whatever the damping
   if (excess_j_ >= kMostDampingNSPerM * damped_j_per_n_s_per_m) return kMostDampingNSPerM;
   return excess_j_ / damped_j_per_n_s_per_m;
 }

@@ -38,7 +38,8 @@ DeviceSample PositionCheck::checked(DeviceSample sample, std::int64_t elapsed_ns
   return sample;
 }
 
-// A device that tells its places less often than the servo asks moves further between two of them; a late tick too.
+// A device that reports less often than the servo asks moves further between two reports, as it does during a late
+// tick.
 bool PositionCheck::is_possible(const glm::dvec3& position_m, std::int64_t elapsed_ns) const noexcept {
   const std::int64_t time_ns = std::min(believed_ns_, std::max(kLongestGapNs, elapsed_ns));
   return glm::length(position_m - believed_m_) <= kSlackM + kFastestMPerS * 1e-9 * static_cast<double>(time_ns);

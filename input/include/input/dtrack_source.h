@@ -16,7 +16,7 @@
 
 namespace afm::input {
 
-// Where a tracker sends to, and how its frame lies in the room.
+// Address that a tracker sends to, and the pose of its frame in the room.
 struct DtrackSettings {
   std::string address = "127.0.0.1";  // of this machine, IPv4
   std::uint16_t port = 5000;
@@ -26,7 +26,7 @@ struct DtrackSettings {
   glm::dquat room_from_tracker{std::numbers::sqrt2 / 2.0, -std::numbers::sqrt2 / 2.0, 0.0, 0.0};
 };
 
-// What has come in so far.
+// Data received so far.
 struct DtrackUpdate {
   std::int64_t time_ns = 0;  // when the newest good packet came
   std::uint64_t good_packets = 0;

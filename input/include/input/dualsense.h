@@ -25,7 +25,7 @@ struct DualSenseReport {
 
 std::optional<DualSenseReport> parse_dualsense(Bytes report);
 
-// What feature report 5 says: physical = (raw - bias) * gain, in rad/s and in g.
+// Calibration from feature report 5: physical = (raw - bias) * gain, in rad/s and in g.
 struct DualSenseCalibration {
   std::array<double, 3> gyro_bias{};
   std::array<double, 3> gyro_gain{};

@@ -8,7 +8,7 @@
 
 namespace afm::input {
 
-// Where the eyes are drawn for, from a tracker that is late, and may lose the head. Pure; one thread.
+// Head position for the picture, from a tracker that has latency and may lose the head. Pure; one thread.
 //
 // - The head's place is predicted over the measured latency by its measured velocity, by 50 mm at most. It is not
 //   smoothed: on a wall lag is worse than jitter.

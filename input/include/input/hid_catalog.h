@@ -36,7 +36,7 @@ struct KnownHid {
   std::function<std::unique_ptr<HidDriver>()> make;  // empty: known not to be a wand
 };
 
-// What is known of a device, empty for one that nobody has described. A mapping comes before what is built in.
+// Description of a device; empty if it is unknown. A mapping takes precedence over the built-in entry.
 std::optional<KnownHid> identify(const HidIdentity& device, std::span<const HidMapping> mappings);
 
 }  // namespace afm::input

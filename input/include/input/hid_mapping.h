@@ -13,7 +13,7 @@
 
 namespace afm::input {
 
-// How the reports of any HID device become a wand's, as a wand file says it. docs/adding-a-wand.md explains each key.
+// Mapping from the reports of any HID device to a wand, from a wand file. docs/adding-a-wand.md explains each key.
 struct HidMapping {
   enum class Quantity { Push, Turn, Gyro, Acceleration };
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-// What HID wands have in common: bytes of a report in, what the hand did out.
+// Common interface of HID wands: bytes of a report in, motion and buttons out.
 namespace afm::input {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -40,7 +40,7 @@ struct ImuSample {
   glm::dvec3 acceleration_g{0.0};
 };
 
-// What one report says; what it does not mention is empty and stays as it was. `push` and `turn` as in WandState.
+// Contents of one report; an empty member means no change. `push` and `turn` as in WandState.
 struct HidInput {
   std::optional<glm::dvec3> push;
   std::optional<glm::dvec3> turn;
@@ -69,7 +69,7 @@ class HidDriver {
   // Empty: not a report that the device sends, or damaged.
   virtual std::optional<HidInput> read(Bytes report) = 0;
 
-  // Whether the cap or the stick steers the ray; else the wand is pointed by turning it.
+  // True if the cap or the stick steers the ray; otherwise the wand points where it is turned.
   virtual bool steered() const { return false; }
 
   // Output reports that make the device send what read() understands.

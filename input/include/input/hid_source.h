@@ -15,7 +15,7 @@
 
 namespace afm::input {
 
-// What was found of one HID device, for a person to read.
+// Result of the search for one HID device, as text.
 struct HidFinding {
   std::string path;
   std::string name;  // as the device calls itself, with its numbers: "SpaceMouse Compact (256f:c635)"

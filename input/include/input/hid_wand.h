@@ -12,8 +12,8 @@
 
 namespace afm::input {
 
-// Where the hand is taken to be that holds a wand without a position of its own, and what lies straight ahead of it.
-// Room frame; `forward` need not have unit length but must not stand upright.
+// Assumed position of the hand that holds a wand without position tracking, and the direction straight ahead of it.
+// Room frame; `forward` need not have unit length but must not be vertical.
 struct HandPlace {
   glm::dvec3 position_m{0.0};
   glm::dvec3 forward{0.0, 0.0, -1.0};

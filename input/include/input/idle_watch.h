@@ -5,7 +5,7 @@
 
 namespace afm::input {
 
-// Whether anyone is there, from what is done. One thread.
+// Detects from the input whether a visitor is present. One thread.
 class IdleWatch {
  public:
   enum class Change { None, WentAway, CameBack };

@@ -11,13 +11,12 @@
 
 namespace afm::input {
 
-// Whether the wand must leave the scene where it is: the tip is in contact, or the hand feels a force. Else the hand
-// and the picture would part.
+// True if the wand must not move the scene: the tip is in contact, or the hand feels a force. Otherwise hand and
+// picture would separate.
 bool navigation_locked(const scene::TipState& tip);
 
-// Where a wand has moved, turned and scaled the scene: a similarity of the room. What stands at `pivot_m` is the middle
-// of the scene, about which it is turned and scaled by sticks and caps. Pure: depends on what it was given alone, and
-// on the frame rate not at all. One thread.
+// Transform of the scene by a wand: a similarity of the room. `pivot_m` is the middle of the scene, about which sticks
+// and caps turn and scale it. Pure: depends only on its inputs, not on the frame rate. One thread.
 //
 // - Grab held, with a wand that is pointed: the scene is stuck to the wand, exactly; brought back, it is where it was.
 // - Grab held, with a cap: it flies and turns the scene. Sticks of other wands do so at any time.

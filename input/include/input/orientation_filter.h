@@ -10,13 +10,13 @@ namespace afm::input {
 
 inline constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);  // of the level frame and of the room
 
-// How a wand is turned, from its gyroscope and accelerometer: Mahony, Hamel and Pflimlin (2008), the explicit
-// complementary filter, with the direction of gravity alone. Tilt is absolute; heading starts at zero and drifts with
-// what is left of the gyroscope's bias, which is measured whenever the wand lies still. One thread.
+// Orientation of a wand from its gyroscope and accelerometer: the explicit complementary filter of Mahony, Hamel and
+// Pflimlin (2008), with the direction of gravity alone. Tilt is absolute; heading starts at zero and drifts with what
+// is left of the gyroscope's bias, which is measured whenever the wand lies still. One thread.
 class OrientationFilter {
  public:
-  // `duration_s` > 0 since the sample before. Without a gyroscope the tilt follows gravity and the heading stands
-  // still.
+  // `duration_s` > 0 since the sample before. Without a gyroscope the tilt follows gravity and the heading does not
+  // change.
   void add(const ImuSample& sample, double duration_s, bool has_gyro = true);
 
   bool valid() const { return started_; }

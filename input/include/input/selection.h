@@ -21,8 +21,8 @@ struct Target {
 // ray hits, the nearest to the wand. The bubble ray of Lu, Yu and Shi (2020) with angular distance.
 std::optional<std::size_t> pick(const Ray& ray, double cone_rad, std::span<const Target> targets);
 
-// Whether the eye sees the middle of a target: no other target stands before it. What the hand could point at round a
-// corner, but the person does not see, is not what is meant (Argelaguet and Andujar 2009).
+// True if no other target hides the middle of a target from the eye. A target that the hand can point at but the eye
+// cannot see is not the intended one (Argelaguet and Andujar 2009).
 bool seen_from(const glm::dvec3& eye_m, std::size_t target, std::span<const Target> targets);
 
 // Turns pointing and pressing into a choice: a target is chosen when the select button goes down while the ray is on

@@ -11,7 +11,7 @@
 
 namespace afm::input {
 
-// Where a head is at a time of a script.
+// Position of the head at one time of a script.
 struct HeadKey {
   double time_s = 0;
   scene::HeadPose pose;

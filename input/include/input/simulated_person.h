@@ -10,8 +10,8 @@
 
 namespace afm::input {
 
-// Where the hand goes, heights above the contact point along the sample's normal (haptics/scaling.h: the tip lets go at
-// 50 mm, where it tears at the hand with 2 N, so the aim must lie well above).
+// Path of the hand, heights above the contact point along the sample's normal (haptics/scaling.h: the tip lets go at 50
+// mm, where it tears at the hand with 2 N, so the aim must lie well above).
 struct HandPath {
   double lift_m = 0.070;
   double push_m = -0.018;
@@ -44,10 +44,10 @@ class SimulatedPerson {
   WandState wand(std::int64_t now_ns) const { return wand_.state(now_ns); }
   const scene::HandScript& hand() const { return hand_; }
 
-  // How often in this procedure the force was taken away in mid-stroke, so that it had to be begun again with a lift.
+  // Number of times in this procedure that the force was removed in mid-stroke, which required a new start with a lift.
   int restarts() const { return restarts_; }
 
-  // What is being waited for, for the message when it does not come; and since when.
+  // Event that is being waited for, for the message if it does not occur; and the start of the wait.
   std::string waiting_for() const;
   double seconds_in_step(std::int64_t now_ns) const;
 

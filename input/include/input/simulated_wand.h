@@ -8,9 +8,8 @@
 
 namespace afm::input {
 
-// A wand in a simulated hand: it rests at a fixed grip and turns towards what it is told to aim at along a minimum-jerk
-// path, with the tremor that hands have. Deterministic: the state depends only on the script and the times asked for.
-// One thread.
+// A wand in a simulated hand: it rests at a fixed grip and turns towards its aim along a minimum-jerk path, with the
+// tremor that hands have. Deterministic: the state depends only on the script and the times asked for. One thread.
 class SimulatedWand {
  public:
   explicit SimulatedWand(const glm::dvec3& grip_m);
@@ -21,7 +20,7 @@ class SimulatedWand {
   // Holds the select button from `now_ns` for `duration_s`.
   void press(double duration_s, std::int64_t now_ns);
 
-  // Whether the last aim has been reached.
+  // True once the last aim has been reached.
   bool arrived(std::int64_t now_ns) const;
 
   WandState state(std::int64_t now_ns) const;

@@ -10,8 +10,7 @@
 
 namespace afm::input {
 
-// What the log says of a tracker: when its frames begin, stop and go on, and how many do not arrive. The main thread
-// alone.
+// Log lines about a tracker: when its frames begin, stop and continue, and how many are lost. Main thread only.
 class TrackerReport {
  public:
   // `place` is where the tracker sends to, as ADDRESS:PORT.

@@ -19,11 +19,11 @@ enum class WandButton : std::uint32_t {
 
 constexpr std::uint32_t bit(WandButton button) { return static_cast<std::uint32_t>(button); }
 
-// How a wand moves the scene while Grab is held: by its pose, or by pushing a cap that springs back.
+// Motion of the scene while Grab is held: by the wand's pose, or by pushing a cap that springs back.
 enum class WandMotion : std::uint32_t { Absolute = 0, Rate = 1 };
 
-// What every wand gives, whatever it is made of. Room frame, metres, right-handed, +y up; the ray leaves the wand along
-// its -z. Trivially copyable, so that it crosses threads by core::LatestValue.
+// State that every wand reports. Room frame, metres, right-handed, +y up; the ray leaves the wand along its -z.
+// Trivially copyable, so that it crosses threads by core::LatestValue.
 struct WandState {
   std::int64_t time_ns = 0;  // when the newest report came in
   glm::dvec3 position_m{0.0};

@@ -12,9 +12,9 @@
 
 namespace afm::input {
 
-// What a wand file (TOML) may say: where the hand is, which tracker there is, how an HID device is read.
+// Contents of a wand file (TOML): position of the hand, tracker, mapping of an HID device.
 struct WandFile {
-  std::optional<glm::dvec3> hand_m;  // of a wand without a position of its own, room frame
+  std::optional<glm::dvec3> hand_m;  // for a wand without position tracking, room frame
   std::optional<DtrackSettings> dtrack;
   std::optional<std::uint32_t> head_body;  // of the tracker
   std::optional<HidMapping> device;

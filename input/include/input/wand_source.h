@@ -10,7 +10,7 @@
 
 namespace afm::input {
 
-// Where a wand's state comes from. Used by one thread, which may wait in it.
+// Source of a wand's state. Used by one thread, which may wait in it.
 class WandSource {
  public:
   WandSource() = default;
@@ -23,7 +23,7 @@ class WandSource {
   virtual WandState poll() = 0;
 };
 
-// Polls a source on a thread of its own, off the render thread, and publishes the newest state.
+// Polls a source in a separate thread and publishes the newest state.
 class WandThread {
  public:
   explicit WandThread(std::unique_ptr<WandSource> source);

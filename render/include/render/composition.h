@@ -8,7 +8,7 @@
 
 namespace afm::render {
 
-// How the two eyes' images become what an output shows.
+// Parameters that turn the two eye images into the picture of an output.
 struct Composition {
   scene::StereoMode mode = scene::StereoMode::SideBySide;
   scene::EyeOrder order = scene::EyeOrder::Straight;
@@ -18,7 +18,8 @@ struct Composition {
   glm::dmat3 picture_from_output{1.0};
 };
 
-// Where a composed picture is read: its size, and where its first pixel lies on the screen that interleaving counts on.
+// Area of a composed picture to read: its size, and the screen position of its first pixel, which interleaving depends
+// on.
 struct ReadArea {
   glm::uvec2 size_px{0};  // 0 x 0: one pixel of an eye image is one pixel
   glm::ivec2 screen_px{0};

@@ -15,7 +15,7 @@ class Device;
 // Off in the programs; on in every test, together with synchronisation validation.
 enum class Validation { Off, On };
 
-// Whether pictures are to be shown in a Window, which is then opened before the context, or only read back.
+// Use of the pictures: shown in a Window, which must be opened before the context, or only read back.
 enum class Presentation { None, Window };
 
 // One Vulkan device as the `devices` command lists it.
@@ -43,13 +43,13 @@ class Context {
 
   const std::string& device_name() const;
 
-  // Whether the device has multiview: both eyes in one pass.
+  // True if the device has multiview: both eyes in one pass.
   bool draws_both_eyes_at_once() const;
 
   // Pixels of the longest picture, each way.
   std::uint32_t largest_picture_px() const;
 
-  // What the validation layer has said since the last call. Always empty with Validation::Off.
+  // Messages of the validation layer since the last call. Always empty with Validation::Off.
   std::vector<std::string> take_validation_messages();
 
   Device& device() { return *device_; }

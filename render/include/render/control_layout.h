@@ -14,7 +14,7 @@ struct ControlBox {
   glm::dvec2 to_mm{0.0};
 };
 
-// Where a target stands on a control panel of this size, as it is drawn. The target is one of the panel's own.
+// Position of a target on a control panel of this size, as drawn. The target must belong to the panel.
 ControlBox control_box(const ControlPanel& panel, const glm::dvec2& size_mm, const ControlTarget& target);
 
 // The target at a point of the panel, if one is there.

@@ -8,14 +8,13 @@
 
 namespace afm::render {
 
-// How near and how far the things are that a frame shows, both eyes together: metres from the plane of an eye that is
-// parallel to the wall.
+// Nearest and farthest depth in a frame, over both eyes: metres from the plane through the eye parallel to the wall.
 struct DepthRange {
   double nearest_m = 0;
   double farthest_m = 0;
 };
 
-// Reduces the eyes' depth to its extremes on the device, without waiting for it. The thread of the renderer.
+// Reduces the eyes' depth to its extremes on the device, without waiting for it. Renderer's thread.
 class DepthMeter {
  public:
   // Both must outlive it.

@@ -15,7 +15,8 @@
 #include "scene/display/wall.h"
 #include "scene/graph/scene.h"
 
-// What a frame shows, as plain data: everything that the renderer needs beside the constant Scene. No Vulkan types.
+// Contents of a frame, as plain data: everything that the renderer needs in addition to the constant Scene. No Vulkan
+// types.
 namespace afm::render {
 
 // Bends the mesh of one node like an end-loaded beam (physics/beam_shape.h), clamped at x = 0 and loaded at x = L,
@@ -34,8 +35,8 @@ struct KeyLight {
   float shadow_radius_m = 2.5F;
 };
 
-// Where the tip meets the sample: a soft shade that deepens as they come closer, and for a moment after a jump a ring
-// of light on all that is `ring_radius_m` away.
+// Mark at the contact point: a soft shadow that deepens as the tip approaches and, briefly after a jump, a ring of
+// light at the distance `ring_radius_m`.
 struct ContactMark {
   glm::vec3 place_m{0.0F};      // the apex
   float shade_radius_m = 0.0F;  // 0: no mark
@@ -59,7 +60,7 @@ struct PlacedLight {
   glm::vec3 direction{0.0F, 0.0F, -1.0F};  // of its rays, unit
 };
 
-// What is beyond these is not drawn.
+// Further lights are not drawn.
 inline constexpr std::size_t kMostPlacedLights = 16;
 
 // A rectangle in the room that shows a drawn panel: lower-left corner, and edges to the right and up, in metres.
@@ -81,7 +82,7 @@ struct PlotPoint {
   bool operator==(const PlotPoint&) const = default;
 };
 
-// One approach-retract curve. Approach is drawn dashed and thinner, retract solid: told apart by more than colour.
+// One approach-retract curve. Approach is drawn dashed and thinner, retract solid: they differ in more than colour.
 struct PlotCurve {
   std::string label;
   glm::vec3 color{1.0F};  // sRGB
@@ -157,7 +158,7 @@ struct Label {  // a short text standing in the room: a swatch's name
   bool operator==(const Label&) const = default;
 };
 
-// What a ray can point at on a ControlPanel.
+// Target of a ray on a ControlPanel.
 struct ControlTarget {
   enum class Kind { Less, More, Button } kind = Kind::Less;
   std::size_t index = 0;  // of the row, or of the button

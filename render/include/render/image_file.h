@@ -26,7 +26,7 @@ struct ImageSpan {
   ImageSpan(const Image& image) : ImageSpan(image.width, image.height, image.rgba, ChannelOrder::Rgba) {}
 };
 
-// A copy of its own.
+// An independent copy.
 Image to_image(const ImageSpan& span);
 
 // The image as the bytes of a PNG file: 8-bit sRGB without alpha.

@@ -22,10 +22,10 @@ core::Result<std::vector<Monitor>> list_monitors();
 // The one that is called so or, if none is, the one of that number, counted from 1; null if there is neither.
 const Monitor* find_monitor(const std::vector<Monitor>& monitors, const std::string& name_or_number);
 
-// Whether every corner of a rectangle of the desktop lies on some of them.
+// True if every corner of a rectangle of the desktop lies on one of the monitors.
 bool is_shown(const scene::PixelRect& rect, const std::vector<Monitor>& monitors);
 
-// Whether a program may choose where its windows stand. Wayland lets it choose the monitor alone.
+// True if a program may place its windows. Wayland only lets it choose the monitor.
 bool can_place_windows();
 
 }  // namespace afm::render

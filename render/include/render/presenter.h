@@ -13,8 +13,8 @@
 
 namespace afm::render {
 
-// How a picture lies in its window: at its own proportions between black bars, or stretched to all of it, as on a
-// projector whose light reaches just the measured corners of its screen.
+// Fit of a picture in its window: at its proportions, between black bars, or stretched to the whole window, as for a
+// projector whose image ends at the measured corners of the screen.
 enum class PictureFit { Proportions, Fill };
 struct PicturePlace {
   glm::uvec2 offset_px{0};
@@ -22,7 +22,7 @@ struct PicturePlace {
 };
 PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px, PictureFit fit = PictureFit::Proportions);
 
-// What a window shows of a frame. Of mode dual it is the left eye's: one window has one picture.
+// Picture of a frame in a window. In mode dual, the left eye's: one window has one picture.
 struct WindowPicture {
   Composition composition;
   PictureFit fit = PictureFit::Proportions;
@@ -32,7 +32,7 @@ inline constexpr std::size_t kMostWindows = 16;
 
 // Shows a renderer's frames in windows that are presented together, in step with their display: begin(), then for the
 // windows of each screen render() and draw(), then show(). Follows the windows through resizes, full screen and the
-// loss of a surface. The main thread alone. A lost device and a lack of memory are exceptions: DeviceFailure.
+// loss of a surface. Main thread only. A lost device and a lack of memory are exceptions: DeviceFailure.
 class Presenter {
  public:
   // DeviceMissing: the device and the display have no way to show pictures in common. All must outlive the presenter;

@@ -15,9 +15,9 @@
 
 namespace afm::render {
 
-// How both eyes get their pictures: in one multiview pass, which not every device can, or one after the other, to the
-// same bytes. Automatic: in one pass unless the device cannot, or would draw that frame wrongly. Where both eyes see
-// the same, one is drawn.
+// Passes for the two eyes: one multiview pass, which some devices lack, or one pass per eye, with identical results.
+// Automatic: one pass unless the device lacks it or would draw that frame wrongly. Where both eyes see the same, one is
+// drawn.
 enum class PassMode { Automatic, Multiview, TwoPasses };
 
 struct RendererOptions {
@@ -28,12 +28,13 @@ struct RendererOptions {
   // Resolution of the panels' textures. Text is sharpest at twice the eye image's pixels per metre of wall: then each
   // pixel's bilinear sample covers just the texels below it.
   double panel_texels_per_m = 640.0;
-  // What the panels, whose texts have their sizes for the paper's wall, draw as a millimetre: less on a smaller one.
+  // Size of a panel's millimetre. Panel texts have their sizes for the paper's wall; a smaller wall has a smaller
+  // millimetre.
   double panel_millimetre_m = 1e-3;
   bool time_passes = false;  // for pass_times()
 };
 
-// How finely frames are drawn; what is seen and where stays the same.
+// Resolution and samples of a frame; its contents and layout do not depend on it.
 struct FrameQuality {
   double scale = 1.0;         // of the eye images' resolution each way: (0, 1]; what is shown is scaled back up
   std::uint32_t samples = 4;  // 1 or 4, no more than the renderer was made for
@@ -41,7 +42,7 @@ struct FrameQuality {
   bool operator==(const FrameQuality&) const = default;
 };
 
-// What the parts of a frame took on the device.
+// Device times of the parts of a frame.
 struct PassTimes {
   double panels_ms = 0;  // painting those that have changed
   double shadow_ms = 0;
@@ -49,7 +50,7 @@ struct PassTimes {
   double compose_ms = 0;   // of the newest frame that was shown in a window or saved
   double readback_ms = 0;  // of the newest one that was saved
 
-  // What every frame takes.
+  // Time of the whole frame.
   double total_ms() const { return panels_ms + shadow_ms + eyes_ms + compose_ms; }
 };
 
@@ -69,7 +70,7 @@ class Renderer {
   // `frame.room_from_node` and, unless empty, `frame.visible` have one entry per node of the scene.
   void render(const FrameState& frame);
 
-  // Whether render() would return without waiting for an earlier frame. Does not wait.
+  // True if render() would return without waiting for an earlier frame. Does not wait.
   bool ready() const;
 
   // The newest frame; waits for it. At least one frame has been rendered. Of an eye what is drawn: less than

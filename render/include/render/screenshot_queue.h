@@ -10,14 +10,14 @@
 
 namespace afm::render {
 
-// What became of a picture that was to be saved; the error names its path.
+// Outcome of saving a picture; the error names its path.
 struct SavedPicture {
   std::string path;
   core::Result<void> written;
 };
 
 // Saves pictures of frames as PNG files while the next frames are drawn: copied by the device, encoded and written by a
-// thread of its own. A few pictures can be on their way; where there are more, the next waits, and none is lost. The
+// separate thread. A few pictures can be on their way; where there are more, the next waits, and none is lost. The
 // thread of the renderer. A lost device and a lack of memory are exceptions: DeviceFailure.
 class ScreenshotQueue {
  public:

@@ -16,7 +16,7 @@ namespace afm::render {
 
 enum class MouseButton { Left, Middle, Right };
 
-// What a person did, and where the cursor was then: pixels of the window's picture from its top left corner.
+// An input event and the position of the cursor, in pixels from the top left corner of the window's picture.
 struct WindowEvent {
   enum class Kind { KeyDown, KeyUp, ButtonDown, ButtonUp, Scroll } kind = Kind::KeyDown;
   Key key = Key::Other;
@@ -31,8 +31,8 @@ struct WindowInput {
   glm::dvec2 origin_px{0.0};     // where the picture's top left corner lies on the desktop; 0,0 where it is unknown
   bool close_requested = false;  // the window's own close button
 
-  // What has become of the monitor that the window fills, or of those under its rectangle: without it the window is a
-  // small one on what is left.
+  // Change of the monitor that the window fills, or of those under its rectangle. Without its monitor, the window
+  // continues at a small size on another.
   enum class MonitorChange { None, Lost, Back } monitor_change = MonitorChange::None;
   std::string monitor;  // that the change is of; empty: under the rectangle
 };
@@ -59,7 +59,7 @@ class Window {
   Window& operator=(Window&&) noexcept;
   ~Window();
 
-  // What has happened since the last call. Does not wait. A display that has gone is an exception: DeviceFailure.
+  // Events since the last call. Does not wait. Throws DeviceFailure if the display has gone.
   WindowInput poll();
 
   // Waits until something happens, but no longer than `seconds`: for a window that nobody sees.

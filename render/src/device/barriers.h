@@ -8,8 +8,8 @@
 
 namespace afm::render {
 
-// How an image is used at one point of a command buffer. Every barrier of the renderer names two of these, with stages
-// and accesses spelled out at the call.
+// Use of an image at one point of a command buffer. Every barrier of the renderer names two of these, with stages and
+// accesses spelled out at the call.
 struct ImageUse {
   vk::PipelineStageFlags2 stages;
   vk::AccessFlags2 access;

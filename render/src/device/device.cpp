@@ -366,11 +366,10 @@ void Device::wait_for(const vk::raii::Semaphore& timeline, std::uint64_t value) 
 }
 
 void Device::give_up() const {
-  core::end_at_once(
-      core::ExitCode::RunFailed,
-      fmt::format("error: the graphics device {} has not finished its work within {} s: it hangs, or is not "
-                  "allowed the threads and the memory it needs (ulimit -u, ulimit -v)",
-                  name_, kLongestWorkNs / 1'000'000'000));
+  core::end_at_once(core::ExitCode::RunFailed,
+                    fmt::format("error: the graphics device {} did not finish its work within {} s: it hangs, or a "
+                                "limit denies it threads or memory (ulimit -u, ulimit -v)",
+                                name_, kLongestWorkNs / 1'000'000'000));
 }
 
 }  // namespace afm::render

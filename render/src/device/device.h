@@ -32,7 +32,7 @@ core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader
 core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::raii::Instance& instance);
 DeviceDescription describe(const vk::raii::PhysicalDevice& physical);
 
-// What Context hides: the Vulkan objects that every part of the renderer needs.
+// Implementation of Context: the Vulkan objects that every part of the renderer needs.
 class Device {
  public:
   static core::Result<std::unique_ptr<Device>> open(Validation validation, Presentation presentation);
@@ -50,7 +50,7 @@ class Device {
   // here.
   std::uint32_t memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags wanted) const;
 
-  // Whether both eyes can be drawn in one pass.
+  // True if both eyes can be drawn in one pass.
   bool multiview() const { return multiview_; }
 
   // Mesa 22.3's lavapipe draws a triangle that is clipped into the first view of a multiview pass alone.

@@ -9,7 +9,7 @@
 
 namespace afm::render {
 
-// What a failure of Vulkan means to a person: one line. `doing`: "drawing a frame".
+// Message for a Vulkan failure, one line. `doing`: "drawing a frame".
 std::string describe_error(const vk::SystemError& error, const Device& device, const std::string& doing);
 
 // Does `work`; a failure of Vulkan leaves as a DeviceFailure.

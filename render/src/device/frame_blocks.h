@@ -27,7 +27,7 @@ glm::dmat3 normal_matrix(const glm::dmat4& room_from_node);
 // A node's DrawBlock::bend.
 glm::vec4 bend_of(const FrameState& frame, scene::NodeIndex node);
 
-// Which nodes glow: the highlighted ones with all that hangs below them.
+// Marks the nodes that glow: the highlighted ones and all their descendants.
 void mark_highlighted(const FrameState& frame, const SceneGeometry& geometry, std::vector<std::uint8_t>& glowing);
 
 // One block for each of the geometry's draws, `stride` bytes apart from `blocks` on.

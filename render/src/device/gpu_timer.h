@@ -6,7 +6,7 @@
 
 namespace afm::render {
 
-// When the passes of one frame in flight began and ended.
+// Start and end times of the passes of one frame in flight.
 class GpuTimer {
  public:
   explicit GpuTimer(const Device& device);

@@ -9,7 +9,7 @@
 
 namespace afm::render {
 
-// A buffer with memory of its own. `mapped` is null in device-local memory, else valid and coherent for the buffer's
+// A buffer with dedicated memory. `mapped` is null in device-local memory, else valid and coherent for the buffer's
 // life.
 struct Buffer {
   vk::raii::DeviceMemory memory{nullptr};
@@ -18,7 +18,7 @@ struct Buffer {
   vk::DeviceSize size = 0;
 };
 
-// An image with memory of its own.
+// An image with dedicated memory.
 struct DeviceImage {
   vk::raii::DeviceMemory memory{nullptr};
   vk::raii::Image image{nullptr};

@@ -12,8 +12,8 @@ namespace afm::render {
 enum class Blending { Opaque, Premultiplied };
 enum class DepthUse { None, TestAndWrite, TestOnly };
 
-// What distinguishes the renderer's graphics pipelines; everything else is the same for all. Viewport, scissor, cull
-// mode and front face are dynamic.
+// Parameters that distinguish the renderer's graphics pipelines; everything else is the same for all. Viewport,
+// scissor, cull mode and front face are dynamic.
 struct PipelineRequest {
   std::string name;
   std::span<const std::uint32_t> vertex_code{};

@@ -13,14 +13,14 @@
 
 namespace afm::render {
 
-// Where a picture is drawn.
+// Target area of a picture.
 struct ComposePlace {
   vk::Extent2D target;      // the whole image
   vk::Rect2D area;          // what the picture fills
   glm::ivec2 screen_px{0};  // where the target's first pixel lies on its screen
 };
 
-// What a picture is composed into: an image with a layer for each picture of the mode, whose contents are not needed.
+// Target of a composition: an image with one layer for each picture of the mode. Its previous contents are discarded.
 struct ComposeInto {
   vk::Image image;
   std::span<const vk::ImageView> layers;  // views of single layers
@@ -34,7 +34,7 @@ struct ComposeTarget {
   std::array<vk::raii::ImageView, 2> views{nullptr, nullptr};  // of each layer alone
 };
 
-// What composes into images of one format: a pipeline for each kind of picture, made when it is first asked for.
+// Composes into images of one format: one pipeline for each kind of picture, created at first use.
 class ComposePipeline {
  public:
   // `layout` must outlive it.
@@ -69,9 +69,9 @@ class Composer {
   // For targets of another format than the eyes'.
   ComposePipeline create_pipeline_for(vk::Format format) const { return {device_, *layout_, format}; }
 
-  // Draws the picture, or each of two into a layer of its own, scaled to fill its area and black around it: into what a
-  // window shows and into what is read alike. Where the picture is nothing but the eyes' images beside each other,
-  // these are copied: on a CPU device that takes a fifth of the time.
+  // Draws the picture, or each of two into its layer, scaled to fill its area and black around it: into what a window
+  // shows and into what is read alike. Where the picture is nothing but the eyes' images beside each other, these are
+  // copied: on a CPU device that takes a fifth of the time.
   void record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
               const ComposePlace& place, const ComposeInto& into) const;
 

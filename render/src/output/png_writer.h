@@ -22,7 +22,7 @@ class PngWriter {
   PngWriter& operator=(const PngWriter&) = delete;
   ~PngWriter();  // once all is written
 
-  // The pixels stay as they are until take() or wait() tells what became of the picture. Does not wait.
+  // The pixels must not change until take() or wait() reports the outcome. Does not wait.
   void write(const ImageSpan& picture, std::string path);
 
   // The oldest picture that is done and was not taken yet. take() does not wait; before wait() something was given that

@@ -95,7 +95,7 @@ bool Presenter::Parts::follow_surfaces(Work&& work) {
     }
   } catch (const vk::SurfaceLostKHRError&) {
     if (++surfaces_lost > kMostSurfacesLost) {
-      throw DeviceFailure("the window's surface was lost and no other can be had: see to the display and start again");
+      throw DeviceFailure("the window's surface was lost and cannot be recreated: check the display and start again");
     }
     for (Pane& pane : panes) {
       pane.surface->replace();
@@ -202,7 +202,7 @@ core::Result<void> Presenter::check_mode(scene::StereoMode mode) const {
   if (mode == scene::StereoMode::QuadBuffer && std::any_of(panes.begin(), panes.end(), flat)) {
     return core::failure(core::ErrorCategory::DeviceMissing,
                          "stereo mode quad-buffer: " + parts_->device.name() +
-                             " gives this display one picture for both eyes; enable stereo in the driver of a "
+                             " offers one picture for both eyes on this display; enable stereo in the driver of a "
                              "professional graphics card, or choose another mode");
   }
   return {};

@@ -73,10 +73,9 @@ core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptio
 core::Result<void> WindowHandle::place(const WindowOptions& options) {
   if (options.rect) {
     if (!can_place_windows()) {
-      return core::failure(
-          kNoWindow,
-          "a Wayland desktop lets no program place its windows: name a monitor instead of a rectangle, "
-          "or log into an X11 session");
+      return core::failure(kNoWindow,
+                           "a Wayland desktop does not let programs place their windows: name a monitor instead of a "
+                           "rectangle, or log in to an X11 session");
     }
     rect_ = options.rect;
     fill_rect();
@@ -111,7 +110,7 @@ vk::raii::SurfaceKHR WindowHandle::create_surface(const vk::raii::Instance& inst
 WindowInput WindowHandle::poll() {
   glfwPollEvents();
   if (WindowSystem::lost()) {
-    throw DeviceFailure("the display was lost, with the window on it: see to the X server and start again");
+    throw DeviceFailure("the display and its window were lost: check the X server and start again");
   }
   int x = 0, y = 0;
   glfwGetWindowPos(window_, &x, &y);

@@ -7,7 +7,7 @@
 
 namespace afm::render {
 
-// What Window hides. Its place in memory is known to GLFW: never moved.
+// Implementation of Window. GLFW keeps its address: never moved.
 class WindowHandle {
  public:
   static core::Result<std::unique_ptr<WindowHandle>> open(const WindowOptions& options);
@@ -53,14 +53,15 @@ class WindowHandle {
   std::string full_on_;  // the monitor that it fills, or fills again when it is back; empty: a window
   bool monitor_lost_ = false;
   std::vector<WindowEvent> events_;
-  glm::dvec2 cursor_{0.0};  // after the newest event, in the desktop's units: asking GLFW tells where it is now
+  glm::dvec2 cursor_{
+      0.0};  // after the newest event, in the desktop's units: GLFW itself only knows the current position
   int windowed_x_ = 0, windowed_y_ = 0, windowed_width_ = 0, windowed_height_ = 0;  // to come back from full screen
 };
 
 // Instance extensions that GLFW needs for surfaces. Empty before a window has been opened.
 std::vector<const char*> surface_extensions();
 
-// Whether this queue can present to this machine's windows.
+// True if this queue can present to this machine's windows.
 bool can_present(const vk::raii::Instance& instance, const vk::raii::PhysicalDevice& physical, std::uint32_t family);
 
 }  // namespace afm::render

@@ -30,8 +30,8 @@ core::Result<void> WindowSurface::choose_format() {
   }
   if (format_.format == vk::Format::eUndefined) {
     return core::failure(core::ErrorCategory::DeviceMissing,
-                         "cannot show pictures of 8 bits a channel in a window of this display with " + device_.name() +
-                             ": set the display to a colour depth of 24 bits");
+                         "cannot show pictures with 8 bits per channel in a window on this display with " +
+                             device_.name() + ": set the display to a colour depth of 24 bits");
   }
   pipeline_ = composer_.create_pipeline_for(format_.format);
   return {};

@@ -13,7 +13,7 @@ namespace afm::render {
 
 inline constexpr std::uint64_t kTurnNs = 5'000'000;  // from one call of while_waiting to the next
 
-// What waits until an image that was acquired may be filled.
+// Stage that waits until an acquired image may be filled.
 inline constexpr auto kFilling = vk::PipelineStageFlagBits2::eColorAttachmentOutput | vk::PipelineStageFlagBits2::eCopy;
 
 // A window's surface with the images that it shows in turn, made anew as the window changes. Not moved: the window and

@@ -20,10 +20,10 @@ class WindowSystem {
   WindowSystem& operator=(WindowSystem&& other) noexcept;
   ~WindowSystem();
 
-  // Whether the display has gone, with everything on it. Xlib would end the process by itself.
+  // True if the display has gone. Without this handler, Xlib would end the process.
   static bool lost() { return lost_; }
 
-  // How many monitors have come and gone until now.
+  // Number of monitor connections and disconnections so far.
   static unsigned monitor_changes() { return monitor_changes_; }
 
  private:

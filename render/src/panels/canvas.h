@@ -17,8 +17,8 @@ struct Color {
   float alpha = 1.0F;
 };
 
-// The panels' colours: light ink on a dark plate, and what must be told apart in Okabe and Ito's palette, which people
-// with any colour vision can.
+// The panels' colours: light ink on a dark background, and Okabe and Ito's palette for what must be distinguished,
+// which people with any colour vision can.
 namespace palette {
 inline constexpr Color kPlate{{0.055F, 0.066F, 0.090F}, 0.90F};
 inline constexpr Color kEdge{{0.62F, 0.70F, 0.80F}, 0.30F};
@@ -33,7 +33,7 @@ inline constexpr Color kYellow{{0.941F, 0.894F, 0.259F}, 1.0F};
 
 enum class Align { Left, Center, Right };
 
-// What painting needs for a moment, kept so that painting again needs no new memory.
+// Scratch memory for painting, kept so that painting again allocates nothing.
 struct CanvasMemory {
   std::vector<ImVec2> texels;
   std::vector<glm::vec2> points, dash;

@@ -16,7 +16,7 @@ struct DrawBox {
   glm::dvec3 half_size;
 };
 
-// What a draw fills at most, bent as the frame says.
+// Bounding box of a draw, with the bend of the frame.
 DrawBox bent_box(const Draw& draw, const FrameState& frame);
 
 // The least and the largest value of dot(form, (place, 1)) over the box.

@@ -115,7 +115,7 @@ void paint_captions(Canvas& canvas, const Plot& plot) {
   const LabelBox force = force_caption(canvas, plot);
   canvas.rectangle(force.from, force.to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
   canvas.text(force.from + glm::vec2(8.0F, 1.0F), TextStyle::Body, palette::kInk, kForceCaption);
-  // in the middle: the sample stands before the panel's right corner
+  // in the middle: the sample hides the panel's right corner
   canvas.text({0.5F * (plot.top_left.x + plot.bottom_right.x), plot.bottom_right.y + 54.0F}, TextStyle::Body,
               palette::kInk, "Z (nm)", Align::Center);
 }

@@ -7,7 +7,7 @@
 
 #include "render/frame.h"
 
-// Where the labels of a plot's markers stand, apart from any drawing. Millimetres, y down.
+// Positions of the labels of a plot's markers, without any drawing. Millimetres, y down.
 namespace afm::render {
 
 struct LabelBox {
@@ -24,7 +24,7 @@ struct MarkerLabel {
 };
 
 // Adds one box for each label, in their order, inside `plot`: beside its line, where it covers none of what is `taken`,
-// the labels before it included. A label for which there is no such place stands where it would stand alone.
+// the labels before it included. A label without such a place keeps its preferred position.
 void place_labels(std::span<const MarkerLabel> labels, const LabelBox& plot, std::vector<LabelBox>& taken);
 
 }  // namespace afm::render

@@ -84,7 +84,7 @@ core::Result<PanelFonts> draw_glyphs(float texels_per_mm, float true_mm) {
   }
   if (!result.atlas->Build()) {
     return core::failure(core::ErrorCategory::Failed,
-                         "cannot draw the panels' fonts: reinstall fonts-inter and fonts-dejavu-core");
+                         "cannot rasterise the panels' fonts: reinstall fonts-inter and fonts-dejavu-core");
   }
   return result;
 }

@@ -12,7 +12,7 @@
 
 namespace afm::render {
 
-// What a text is for; its size on the wall follows from it.
+// Purpose of a text; determines its size on the wall.
 enum class TextStyle { Small, Body, Strong, Title, Guidance };
 inline constexpr std::size_t kTextStyles = 5;
 

@@ -78,7 +78,7 @@ glm::dvec2 size_mm(const PanelPlacement& placement, const PanelFonts& fonts) {
   return size_m(placement) * 1000.0 * static_cast<double>(fonts.true_mm);
 }
 
-// The L stands in the left half of the calibration picture, the R in the right.
+// The L is in the left half of the calibration picture, the R in the right.
 PanelPlacement mark_placement(const PanelPlacement& whole, scene::Eye eye) {
   const double left = eye == scene::Eye::Left ? 0.14 : 0.66;
   return {.lower_left_m = whole.lower_left_m + left * whole.right_m + 0.36 * whole.up_m,

@@ -20,9 +20,9 @@ namespace afm::render {
 
 inline constexpr std::size_t kFramesInFlight = 2;
 
-// The panels of a frame: each is painted into a texture of its own, again only when its content or size has changed,
-// and shown on its rectangle in the room, the banner over all that is there. Panels without area are neither painted
-// nor shown.
+// The panels of a frame: each is painted into its texture, and again only when its content or size has changed, and
+// shown on its rectangle in the room, the banner over all that is there. Panels without area are neither painted nor
+// shown.
 class Panels {
  public:
   Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout);

@@ -10,7 +10,7 @@
 
 namespace afm::render {
 
-// What a frame draws: places in SceneGeometry::draws().
+// Draws of a frame: indices into SceneGeometry::draws().
 struct DrawList {
   std::vector<std::uint32_t> shadow;     // opaque ones that are shown, seen or not
   std::vector<std::uint32_t> opaque;     // seen by an eye, from near to far, so that what is hidden is not shaded

@@ -14,7 +14,7 @@ namespace {
 constexpr ImageUse kDepthResolved{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
                                   vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eDepthAttachmentOptimal};
 
-// The eyes' colour and depth between frames: composed, measured or copied by whoever asks.
+// Use of the eyes' colour and depth between frames: composed, measured or copied.
 constexpr ImageUse kEyesRead{vk::PipelineStageFlagBits2::eFragmentShader | vk::PipelineStageFlagBits2::eCopy,
                              vk::AccessFlagBits2::eShaderSampledRead | vk::AccessFlagBits2::eTransferRead,
                              vk::ImageLayout::eShaderReadOnlyOptimal};

@@ -18,7 +18,7 @@ inline constexpr vk::Format kEyeLinearFormat = vk::Format::eB8G8R8A8Srgb;  // sa
 inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
 inline constexpr std::uint32_t kBothEyes = 0b11;  // the view mask of a multiview pass
 
-// How the eyes of one frame are drawn.
+// Settings for drawing the eyes of one frame.
 struct EyePassConfig {
   EyePass pass = EyePass::Both;
   std::size_t pass_count = 1;  // of single passes: 2, or 1 where both eyes see the same
@@ -31,14 +31,14 @@ struct EyePassConfig {
 // The images that eyes are drawn into: colour and depth of two layers, the left eye's first. What is drawn with more
 // samples goes through attachments that are made when first needed. Mesa 22.3's lavapipe neither draws into layer 1 of
 // a multisampled image as a base layer, nor resolves into one: so single passes share attachments of one layer, and the
-// second one resolves into images of its own, which are copied.
+// second one resolves into separate images, which are copied.
 class EyeTargets {
  public:
   EyeTargets(const Device& device, const RendererOptions& options);
 
   vk::Extent2D extent() const { return extent_; }
 
-  // How much larger than the eye image the viewport is; clip space is shrunk by as much, so that the picture stays and
+  // Ratio of the viewport to the eye image; clip space is shrunk by the same factor, so that the picture stays and
   // triangles across its border are cut by the scissor instead of being clipped, which some devices do wrong (see
   // Device::clips_first_view_only()).
   float guard_band() const { return guard_band_; }
@@ -89,7 +89,7 @@ class EyeTargets {
     DeviceImage color, depth;
     vk::raii::ImageView color_view{nullptr}, depth_view{nullptr};
   };
-  // What a pass fills: both layers, or one.
+  // Layers that a pass fills: both or one.
   struct Filled {
     const Target& color;
     const Target& depth;

@@ -17,7 +17,7 @@ namespace afm::render {
 enum class ShadowMapUse { Read, Drawn };
 vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowMapUse use);
 
-// What one frame in flight owns: its commands, uniforms and draw blocks. Reused once the frame is finished.
+// Resources of one frame in flight: its commands, uniforms and draw blocks. Reused once the frame is finished.
 class FrameSlot {
  public:
   // `layout` where the shadow map is read, `shadow_layout` where it is drawn.
@@ -36,7 +36,7 @@ class FrameSlot {
   // Bytes from one draw's block to the next: dynamic offsets of binding AFM_BINDING_DRAW are multiples of it.
   std::uint32_t draw_stride() const { return draw_stride_; }
 
-  // What the frame draws; the slot only keeps its memory.
+  // Draws of the frame; the slot only keeps their memory.
   DrawList draws;
 
   // Commands that are recorded for one frame.
@@ -53,7 +53,7 @@ class FrameSlot {
     std::uint64_t panels = 0;  // as Panels::revision()
     bool anything = false;
 
-    // Whether something is another than before, and has been taken.
+    // True if something has changed; it is then stored.
     bool take(const DrawList& new_draws, const EyePassConfig& new_drawing, std::uint64_t new_panels);
   };
   Recorded recorded;

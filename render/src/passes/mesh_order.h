@@ -8,7 +8,7 @@
 
 namespace afm::render {
 
-// Which of a primitive's vertices lies where, and the indices into that order.
+// New order of a primitive's vertices, and the indices into that order.
 struct MeshOrder {
   std::vector<std::uint32_t> vertices;  // the primitive's, without those that no triangle uses
   std::vector<std::uint32_t> indices;

@@ -29,9 +29,10 @@ core::Result<void> check_options(const Device& device, const RendererOptions& op
   const auto largest = limits.maxImageDimension2D;
   if (options.eye_width == 0 || options.eye_height == 0 || options.eye_width > largest ||
       options.eye_height > largest) {
-    return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot draw eye images of {}x{} pixels on {}: choose 1 to {} pixels each way",
-                                     options.eye_width, options.eye_height, device.name(), largest));
+    return core::failure(
+        core::ErrorCategory::Failed,
+        fmt::format("cannot draw eye images of {}x{} pixels on {}: choose a width and height of 1 to {} pixels",
+                    options.eye_width, options.eye_height, device.name(), largest));
   }
   const double needed_gb = 1e-9 * eye_memory_bytes({options.eye_width, options.eye_height}, options.samples);
   const double memory_gb = 1e-9 * static_cast<double>(device.largest_heap_bytes());
@@ -45,12 +46,14 @@ core::Result<void> check_options(const Device& device, const RendererOptions& op
   if (options.pass_mode == PassMode::Multiview && !device.multiview()) {
     return core::failure(
         core::ErrorCategory::Failed,
-        fmt::format("cannot draw both eyes in one pass on {}: it has no multiview; draw them in two", device.name()));
+        fmt::format("cannot draw both eyes in one pass on {}: it does not support multiview; draw them in two passes",
+                    device.name()));
   }
   const auto counts = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
   if (options.samples != 1 && (options.samples != 4 || !(counts & vk::SampleCountFlagBits::e4))) {
-    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot draw {} samples a pixel on {}: choose 1 or 4",
-                                                                  options.samples, device.name()));
+    return core::failure(
+        core::ErrorCategory::Failed,
+        fmt::format("cannot draw {} samples per pixel on {}: choose 1 or 4", options.samples, device.name()));
   }
   return {};
 }
@@ -217,17 +220,16 @@ core::Result<Renderer> Renderer::create(Context& context, const scene::Scene& sc
   const auto largest = context.device().physical().getProperties().limits.maxImageDimension2D;
   for (const scene::Image& image : scene.images) {
     if (image.width > largest || image.height > largest) {
-      return core::failure(
-          core::ErrorCategory::Failed,
-          fmt::format("cannot show a texture of {}x{} pixels on {}: it does up to {} each way; make it "
-                      "smaller",
-                      image.width, image.height, context.device().name(), largest));
+      return core::failure(core::ErrorCategory::Failed,
+                           fmt::format("cannot show a texture of {}x{} pixels on {}: the limit is {} pixels in each "
+                                       "direction; make the texture smaller",
+                                       image.width, image.height, context.device().name(), largest));
     }
   }
   if (const std::size_t variants = count_variants(scene); variants > kMostShaderVariants) {
     return core::failure(core::ErrorCategory::BadInputFile,
-                         fmt::format("cannot draw a scene whose materials combine their textures and extensions in {} "
-                                     "ways: up to {} are drawn; make it smaller",
+                         fmt::format("cannot draw a scene with {} combinations of textures and extensions in its "
+                                     "materials: the limit is {}; use fewer kinds of material",
                                      variants, kMostShaderVariants));
   }
   auto fonts = load_panel_fonts(options.panel_texels_per_m, options.panel_millimetre_m, largest);

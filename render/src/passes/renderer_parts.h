@@ -16,7 +16,7 @@
 
 namespace afm::render {
 
-// In the order of creation: what is declared later uses what stands before it.
+// In the order of creation: later members use earlier ones.
 struct Renderer::Parts {
   Parts(const Device& the_device, const scene::Scene& scene, const RendererOptions& the_options, PanelFonts fonts);
   Parts(const Parts&) = delete;
@@ -52,7 +52,7 @@ struct Renderer::Parts {
   std::uint64_t frames = 0;                // submitted
   bool eyes_drawn = false;                 // since the eye images were made
   double near_m = 0;                       // of the newest frame: its depth is near_m / distance
-  double compose_ms = 0, readback_ms = 0;  // as in PassTimes, told by whoever does it
+  double compose_ms = 0, readback_ms = 0;  // as in PassTimes, set by the caller
 };
 
 }  // namespace afm::render

@@ -33,7 +33,7 @@ struct Draw {
   DrawBlock block{};          // with the material's constants filled in
 };
 
-// What only a ShaderVariant reads of a vertex.
+// Vertex data that only a ShaderVariant reads.
 struct LookVertex {
   glm::vec4 tangent{0.0F};
   glm::vec4 coordinates{0.0F};

@@ -37,7 +37,7 @@ bool ShadowCasters::follow(const FrameState& frame, const SceneGeometry& geometr
   return others;
 }
 
-// True if a static map of its own spares at least half of the triangles.
+// True if a separate static map saves at least half of the triangles.
 bool ShadowCasters::separate(const SceneGeometry& geometry) {
   dynamic_before_.swap(dynamic_);
   dynamic_.clear();

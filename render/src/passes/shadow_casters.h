@@ -14,8 +14,8 @@
 
 namespace afm::render {
 
-// What a frame draws of the shadow map: nothing; everything; or the dynamic casters, onto a copy of the static map,
-// which is drawn first where it has changed.
+// Part of the shadow map that a frame draws: nothing; everything; or the dynamic casters, onto a copy of the static
+// map, whose changed areas are drawn first.
 enum class ShadowStep { Nothing, Everything, StaticAndDynamic, Dynamic };
 
 // The static and the dynamic casters of shadows, and the part of the map that the dynamic ones cover. In most frames

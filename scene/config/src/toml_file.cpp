@@ -73,7 +73,7 @@ std::string in_one_line(std::string text) {
 
 core::Result<toml::table> parse_toml(const char* kind, const std::string& path) {
   const auto text = core::read_file(path);
-  if (!text) return tl::unexpected(bad(kind, path, "cannot be read; check the path and its rights"));
+  if (!text) return tl::unexpected(bad(kind, path, "cannot be read; check the path and its permissions"));
   if (text->size() > kLargestBytes) return tl::unexpected(bad(kind, path, "is larger than 4 MiB"));
   if (const auto line = line_of_too_long_key(*text)) {
     return tl::unexpected(bad(kind, path, fmt::format("line {}: a key has more than {} parts", *line, kMostParts)));

@@ -96,7 +96,7 @@ core::Result<StereoMode> parse_stereo_mode(std::string_view name) {
     known += known.empty() ? std::string(entry.name) : ", " + std::string(entry.name);
   }
   return core::failure(core::ErrorCategory::WrongUsage,
-                       fmt::format("\"{}\" is not a stereo mode; there are {}", name, known));
+                       fmt::format("\"{}\" is not a stereo mode; choose {}", name, known));
 }
 
 glm::uvec2 picture_size(StereoMode mode, glm::uvec2 eye_px) {

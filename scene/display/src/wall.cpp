@@ -75,7 +75,7 @@ core::Result<void> check_screen(const Screen& screen) {
     return failure(ErrorCategory::BadInputFile, fmt::format("screen \"{}\": {}", screen.name, what));
   };
   if (!finite(screen.lower_left) || !finite(screen.lower_right) || !finite(screen.upper_left)) {
-    return bad("a corner is not a finite number; give lower_left, lower_right and upper_left in metres");
+    return bad("a corner is not finite; give lower_left, lower_right and upper_left in metres");
   }
   const glm::dvec3 right = screen.lower_right - screen.lower_left;
   const glm::dvec3 up = screen.upper_left - screen.lower_left;
@@ -90,7 +90,7 @@ core::Result<void> check_screen(const Screen& screen) {
                     text(screen.lower_left), text(screen.lower_right), text(screen.upper_left)));
   }
   if (std::abs(cosine) > kLargestSquareErrorCosine) {
-    return bad(fmt::format("the corners are {:.1f} degrees off a right angle at lower_left; measure them again",
+    return bad(fmt::format("the angle at lower_left is {:.1f} degrees off a right angle; measure the corners again",
                            std::abs(90.0 - glm::degrees(std::acos(cosine)))));
   }
   return {};
@@ -129,11 +129,10 @@ core::Result<EyeView> off_axis_view(const Screen& screen, const glm::dvec3& eye_
   const glm::dvec3 to_upper_left = screen.upper_left - eye_position_m;
   const double distance = -glm::dot(to_lower_left, normal);
   if (!(distance >= kSmallestEyeDistanceM)) {
-    return failure(
-        ErrorCategory::BadInputFile,
-        fmt::format("screen \"{}\": the eye at {} is {:.3f} m behind or in the screen; it must be at least {} mm in "
-                    "front, on the side from which lower_left is at the left",
-                    screen.name, text(eye_position_m), -distance, kSmallestEyeDistanceM * 1e3));
+    return failure(ErrorCategory::BadInputFile,
+                   fmt::format("screen \"{}\": the eye at {} is {:.3f} m behind or in the screen; it must be at least "
+                               "{} mm in front, on the side where lower_left appears on the left",
+                               screen.name, text(eye_position_m), -distance, kSmallestEyeDistanceM * 1e3));
   }
 
   const double scale = near_m / distance;

@@ -39,7 +39,7 @@ class TableReader {
 
   std::string text(std::string_view key) const {
     const auto value = required(key).value_exact<std::string>();
-    if (!value || value->empty()) throw Fault{required(key).source(), name(key), "must be a text that is not empty"};
+    if (!value || value->empty()) throw Fault{required(key).source(), name(key), "must be text and not empty"};
     return *value;
   }
 
@@ -155,15 +155,15 @@ Output read_output(const toml::table& table, const std::vector<Screen>& screens)
   output.name = reader.text("name");
   const std::string screen = reader.text("screen");
   const auto found = std::find_if(screens.begin(), screens.end(), [&](const Screen& s) { return s.name == screen; });
-  if (found == screens.end()) reader.fail("screen", fmt::format("there is no [[screen]] of the name \"{}\"", screen));
+  if (found == screens.end()) reader.fail("screen", fmt::format("there is no [[screen]] with the name \"{}\"", screen));
   output.screen = static_cast<std::size_t>(found - screens.begin());
   const auto mode = parse_stereo_mode(reader.text("mode"));
   if (!mode) reader.fail("mode", mode.error().message);
   output.mode = *mode;
   if (reader.has("eye") != (output.mode == StereoMode::Dual)) {
     reader.fail("eye", reader.has("eye")
-                           ? "belongs to mode \"dual\" alone; other modes say which eyes they show"
-                           : "is missing; of mode \"dual\" each output shows the \"left\" or \"right\" eye");
+                           ? "applies only to mode \"dual\"; remove it"
+                           : "is missing; in mode \"dual\" each output shows the \"left\" or the \"right\" eye");
   }
   if (reader.has("eye")) {
     const std::string eye = reader.text("eye");
@@ -199,7 +199,7 @@ void check_together(const Output& output, const std::vector<Output>& earlier, co
       reader.fail("monitor", fmt::format("\"{}\" already shows output \"{}\"", output.monitor, other.name));
     }
     if (output.monitor.empty() && other.monitor.empty() && overlap(output.rect, other.rect)) {
-      reader.fail("rect", fmt::format("overlaps the one of output \"{}\"", other.name));
+      reader.fail("rect", fmt::format("overlaps that of output \"{}\"", other.name));
     }
     if (output.eye && other.eye == output.eye && other.screen == output.screen) {
       reader.fail("eye", fmt::format("output \"{}\" already shows this eye of the screen", other.name));
@@ -215,7 +215,7 @@ void check_pairs(const std::vector<Output>& outputs, const toml::array& tables) 
     });
     if (output.eye && !paired) {
       TableReader(*tables[i].as_table(), "output")
-          .fail("eye", "no output of mode \"dual\" shows the other eye of this screen");
+          .fail("eye", "no output in mode \"dual\" shows the other eye of this screen");
     }
   }
 }
@@ -241,7 +241,7 @@ Viewer read_viewer(const toml::table& table) {
   if (reader.has("eye_from_head")) {
     viewer.eye_from_head_m = reader.point("eye_from_head");
     if (glm::length(viewer.eye_from_head_m) > kLargestEyeFromHeadM) {
-      reader.fail("eye_from_head", fmt::format("is {:g} m from the tracked body; a head is not so large",
+      reader.fail("eye_from_head", fmt::format("is {:g} m from the tracked body, too far for a head; check the unit",
                                                glm::length(viewer.eye_from_head_m)));
     }
   }

@@ -115,8 +115,7 @@ Wall read_wall(const pugi::xml_document& document) {
     const Screen& first = wall.screens.front();
     viewer.sweet_spot.position_m = first.center() + first.width_m() * first.normal();
     if (!in_front_of_all(wall.screens, viewer)) {
-      throw XmlFault{root.offset_debug(),
-                     "its screens cannot be seen from one place, neither 0 0 0 nor before the first"};
+      throw XmlFault{root.offset_debug(), "its screens cannot all be seen from 0 0 0 or from in front of the first"};
     }
   }
   wall.viewers.push_back(viewer);
@@ -131,7 +130,7 @@ core::Result<Wall> load_pvx(const std::string& path) {
   };
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const std::streamsize size = file ? static_cast<std::streamsize>(file.tellg()) : -1;
-  if (size < 0) return bad("cannot be read; check the path and its rights");
+  if (size < 0) return bad("cannot be read; check the path and its permissions");
   if (size > kLargestFile) return bad("is larger than 1 MiB; is it a ParaView configuration?");
   file.seekg(0);
   std::string text{std::istreambuf_iterator<char>(file), {}};

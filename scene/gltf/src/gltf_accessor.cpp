@@ -35,7 +35,7 @@ class AccessorReader {
     accessor_.matrix =
         source_.type == TINYGLTF_TYPE_MAT2 || source_.type == TINYGLTF_TYPE_MAT3 || source_.type == TINYGLTF_TYPE_MAT4;
     accessor_.normalized = source_.normalized;
-    if (accessor_.normalized && size_of(accessor_.type) == 4) fail("normalises what is no 8 or 16-bit integer");
+    if (accessor_.normalized && size_of(accessor_.type) == 4) fail("normalises a type other than 8 or 16-bit integers");
     accessor_.count = source_.count;
     const std::size_t size = element_size(accessor_);
     accessor_.stride = size;
@@ -61,7 +61,7 @@ class AccessorReader {
     if (offset > length || (count - 1) * stride + size > length - offset) {
       fail("reaches past the end of its buffer view");
     }
-    if (offset % size_of(type) != 0) fail("has a byteOffset that is not a multiple of its components' size");
+    if (offset % size_of(type) != 0) fail("has a byteOffset that is not a multiple of its component size");
     return view.bytes.subspan(offset, (count - 1) * stride + size);
   }
 
@@ -139,7 +139,7 @@ void for_each_element(const Accessor& accessor, int index, Put put) {
   for (std::size_t i = 0; i < sparse.count; ++i) {
     const std::uint32_t element = integer(sparse.indices.data() + i * size_of(sparse.index_type), sparse.index_type);
     if (element < next || element >= accessor.count) {
-      throw GltfError(fmt::format("/accessors/{}/sparse has indices that do not rise or are out of range", index));
+      throw GltfError(fmt::format("/accessors/{}/sparse has indices that are out of range or not increasing", index));
     }
     next = std::uint64_t{element} + 1;
     put(element, sparse.values.data() + i * element_size(accessor));
@@ -162,7 +162,8 @@ std::vector<float> GltfAccessors::floats(int index) const {
   for_each_element(accessor, index, [&](std::size_t element, const std::uint8_t* bytes) {
     for (std::size_t i = 0; i < components; ++i) {
       const float value = number_at(bytes + i * width, accessor.type, accessor.normalized);
-      if (!std::isfinite(value)) throw GltfError(fmt::format("/accessors/{} holds what is not a finite number", index));
+      if (!std::isfinite(value))
+        throw GltfError(fmt::format("/accessors/{} contains a value that is not finite", index));
       values[element * components + i] = value;
     }
   });

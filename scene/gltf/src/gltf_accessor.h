@@ -9,7 +9,7 @@
 
 namespace afm::scene {
 
-// Which elements of an accessor are others than its view says.
+// Elements of an accessor that replace those of its view.
 struct SparseValues {
   std::size_t count = 0;
   int index_type = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;

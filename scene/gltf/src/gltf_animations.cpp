@@ -30,10 +30,10 @@ Track read_track(const std::string& path, const tinygltf::AnimationSampler& samp
   const std::size_t values_a_key = width * (track.interpolation == Interpolation::CubicSpline ? 3 : 1);
   const Accessor &input = accessors[sampler.input], &output = accessors[sampler.output];
   const auto components = static_cast<std::uint64_t>(output.components);
-  if (input.components != 1 || !input.is_float()) fail("has times that are no floats");
-  if (output.matrix || (!output.is_float() && !output.normalized)) fail("has an output of a type that it may not have");
+  if (input.components != 1 || !input.is_float()) fail("has times that are not floats");
+  if (output.matrix || (!output.is_float() && !output.normalized)) fail("has an output of a forbidden type");
   if (output.count * components != input.count * values_a_key) {
-    fail(fmt::format("has {} output numbers for {} times of {} each", output.count * components, input.count,
+    fail(fmt::format("has {} output values for {} times of {} each", output.count * components, input.count,
                      values_a_key));
   }
   budget.take(input.count * (1 + values_a_key), sizeof(float));
@@ -41,7 +41,7 @@ Track read_track(const std::string& path, const tinygltf::AnimationSampler& samp
   track.values = accessors.floats(sampler.output);
   for (std::size_t i = 0; i < track.times_s.size(); ++i) {
     if (track.times_s[i] < 0 || (i > 0 && track.times_s[i] <= track.times_s[i - 1])) {
-      fail("has times that are negative or do not rise");
+      fail("has times that are negative or not increasing");
     }
   }
   return track;
@@ -81,8 +81,9 @@ Animation read_animation(std::size_t index, const tinygltf::Model& model, const 
     const int mesh = model.nodes[node].mesh;
     const std::size_t weights = mesh < 0 ? 0 : scene.meshes[static_cast<std::size_t>(mesh)].weights.size();
     const std::size_t width = width_of(channel.target_path, weights);
-    if (width == 0) fail("moves what the node has not");
-    if (!seen.emplace(channel.target_node, channel.target_path).second) fail("moves what another channel moves");
+    if (width == 0) fail("animates a property that its node lacks");
+    if (!seen.emplace(channel.target_node, channel.target_path).second)
+      fail("animates the same property as another channel");
     const auto place = places[node];
     if (!place) continue;
     AnimatedNode& moved = animated.try_emplace(*place, at_rest(model, node, *place)).first->second;

@@ -88,14 +88,14 @@ void check_attribute(const std::string& path, const std::string& name, const Acc
   const bool is_float = accessor.is_float() && attribute->plain != Integers::Unsigned;
   const Integers integers = quantized ? attribute->quantized : attribute->plain;
   if (accessor.matrix || !right_size || !(is_float || is_among(accessor, integers))) {
-    throw GltfError(fmt::format("{} has {} of a type that it may not have", path, name));
+    throw GltfError(fmt::format("{} has {} of a forbidden type", path, name));
   }
 }
 
 void check_indices(const std::string& path, const Accessor& accessor) {
   const bool is_unsigned = is_small_unsigned(accessor) || accessor.type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
   if (accessor.components != 1 || !is_unsigned || accessor.normalized) {
-    throw GltfError(fmt::format("{} has indices of a type that they may not have", path));
+    throw GltfError(fmt::format("{} has indices of a forbidden type", path));
   }
 }
 

@@ -10,11 +10,11 @@ namespace afm::scene {
 
 bool uses_quantization(const tinygltf::Model& model);
 
-// Whether anything is made of the vertex attribute of this name.
+// True if the loader uses the vertex attribute of this name.
 bool is_read_attribute(const std::string& name);
 
 // Throws GltfError unless the accessor is of a kind that glTF 2.0 (section 3.7.2.1), or KHR_mesh_quantization if it is
-// used, gives the attribute of a primitive or of a morph target. `path` is where the list of attributes stands.
+// used, gives the attribute of a primitive or of a morph target. `path` is the place of the list of attributes.
 enum class AttributeOwner { Primitive, Target };
 void check_attribute(const std::string& path, const std::string& name, const Accessor& accessor, AttributeOwner owner,
                      bool quantized);

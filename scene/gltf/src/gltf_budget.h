@@ -7,8 +7,8 @@
 
 namespace afm::scene {
 
-// What the meshes and animations of a model may take. Many may share an accessor, so that a small file can ask for
-// much; every stream asks before it is made.
+// Memory budget for the meshes and animations of a model. Many may share an accessor, so a small file can demand a lot;
+// every stream asks before it allocates.
 class GltfBudget {
  public:
   void take(std::uint64_t count, std::uint64_t bytes_each) {

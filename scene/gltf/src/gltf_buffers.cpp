@@ -84,11 +84,11 @@ BufferView GltfBuffers::decompress(const tinygltf::Model& model, std::size_t vie
   const Mode mode = mode_of(text_or(compression, "mode", ""));
   const Filter filter = filter_of(text_or(compression, "filter", ""));
   if (!is_consistent(mode, filter, count, stride) || model.bufferViews[view].byteLength != count * stride) {
-    fail(view, "has a count, a byteStride and a filter of EXT_meshopt_compression that do not fit together");
+    fail(view, "has an inconsistent count, byteStride and filter of EXT_meshopt_compression");
   }
   decompressed_bytes_ += count * stride;
   if (decompressed_bytes_ > kMostDecompressedBytes) {
-    throw GltfError(fmt::format("its compressed buffer views make more than {} MiB of data; make it smaller",
+    throw GltfError(fmt::format("its compressed buffer views expand to more than {} MiB; make it smaller",
                                 kMostDecompressedBytes >> 20U));
   }
   auto& bytes = decompressed_.emplace_back(count * stride);
@@ -97,7 +97,7 @@ BufferView GltfBuffers::decompress(const tinygltf::Model& model, std::size_t vie
                     : mode == Mode::Triangles
                         ? meshopt_decodeIndexBuffer(bytes.data(), count, stride, source.data(), source.size())
                         : meshopt_decodeIndexSequence(bytes.data(), count, stride, source.data(), source.size());
-  if (fault != 0) fail(view, "holds a compressed stream that is broken");
+  if (fault != 0) fail(view, "contains a corrupt compressed stream");
   undo(filter, bytes, count, stride);
   return {bytes, mode == Mode::Attributes ? stride : 0};
 }

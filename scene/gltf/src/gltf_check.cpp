@@ -17,7 +17,7 @@ namespace {
 
 using Kind = GltfMember::Kind;
 
-// Where a value stands in the text: a chain of names and numbers, which becomes a path only if something is wrong.
+// Place of a value in the text: a chain of names and numbers, which becomes a path only in an error.
 struct Place {
   const Place* parent = nullptr;
   std::string_view name{};
@@ -110,7 +110,7 @@ class Checker {
     if (member.bars.empty()) return;
     for (const auto& [name, value] : object.items()) {
       if (is_among(member.bars, name)) {
-        place.fail(fmt::format("has a {} beside a {}", member.name, name));
+        place.fail(fmt::format("has both {} and {}", member.name, name));
       }
     }
   }
@@ -131,7 +131,7 @@ class Checker {
   void check_value(Json& value, const GltfMember& member, const Place& place) const {
     switch (member.kind) {
       case Kind::Text:
-        if (!value.is_string()) place.fail(fmt::format("is {}, not a text", quoted(value)));
+        if (!value.is_string()) place.fail(fmt::format("is {}, not a string", quoted(value)));
         break;
       case Kind::Flag:
         if (!value.is_boolean()) place.fail(fmt::format("is {}, not true or false", quoted(value)));
@@ -215,7 +215,7 @@ class Checker {
     keep_only(object, {member.members});
     if (own.is_null()) return;
     const Place role{&place, "extras/touchafm/role"};
-    if (!own.is_object() || !own.contains("role") || !own["role"].is_string()) role.fail("is no text");
+    if (!own.is_object() || !own.contains("role") || !own["role"].is_string()) role.fail("is not a string");
     check_choice(own["role"], GltfMember{"role", Kind::Choice, 0, 0, "tip base surface mark"}, role);
     object["extras"] = {{"touchafm", {{"role", own["role"]}}}};
   }

@@ -101,7 +101,7 @@ void decode(Stream stream, draco::Mesh& mesh) {
                                 kMostAttributeBytes >> 20U));
   }
   if (!status.ok()) {
-    throw GltfError(fmt::format("its Draco stream is broken ({})", status.error_msg_string().substr(0, 80)));
+    throw GltfError(fmt::format("its Draco stream is corrupt ({})", status.error_msg_string().substr(0, 80)));
   }
 }
 
@@ -123,7 +123,7 @@ std::vector<float> read_attribute(const draco::Mesh& mesh, const DracoAttribute&
   const auto components = static_cast<std::size_t>(wanted.accessor->components);
   if (attribute == nullptr || attribute->num_components() != wanted.accessor->components ||
       mesh.num_points() != wanted.accessor->count) {
-    throw GltfError(fmt::format("its Draco stream does not hold {} as its accessor describes it", wanted.name));
+    throw GltfError(fmt::format("its Draco stream does not contain {} as its accessor describes it", wanted.name));
   }
   std::vector<float> values(components * mesh.num_points());
   const bool normalize = wanted.accessor->normalized && !attribute->normalized();
@@ -132,12 +132,12 @@ std::vector<float> read_attribute(const draco::Mesh& mesh, const DracoAttribute&
     const draco::AttributeValueIndex index = attribute->mapped_index(draco::PointIndex(point));
     if (index.value() >= attribute->size() ||
         !attribute->ConvertValue<float>(index, static_cast<std::int8_t>(components), value)) {
-      throw GltfError(fmt::format("its Draco stream holds a {} that cannot be read", wanted.name));
+      throw GltfError(fmt::format("its Draco stream contains an unreadable {}", wanted.name));
     }
     for (std::size_t i = 0; i < components; ++i) {
       if (normalize) value[i] = std::max(value[i] / largest(wanted.accessor->type), -1.0F);
       if (!std::isfinite(value[i])) {
-        throw GltfError(fmt::format("its Draco stream holds a {} that is not a finite number", wanted.name));
+        throw GltfError(fmt::format("its Draco stream contains a {} that is not finite", wanted.name));
       }
     }
   }
@@ -148,7 +148,7 @@ std::vector<float> read_attribute(const draco::Mesh& mesh, const DracoAttribute&
 
 DracoMesh decode_draco(Stream stream, std::size_t corners, const std::vector<DracoAttribute>& wanted) {
   const std::optional<Announced> announced = read_announced(stream);
-  if (!announced) throw GltfError("its Draco stream is no mesh of bitstream 2.2 without metadata");
+  if (!announced) throw GltfError("its Draco stream is not a mesh of bitstream 2.2 without metadata");
   if (announced->triangles * 3 != corners || corners / kMostCornersPerByte > stream.size()) {
     throw GltfError(
         fmt::format("its Draco stream announces {} triangles, its accessor {} indices", announced->triangles, corners));
@@ -163,7 +163,7 @@ DracoMesh decode_draco(Stream stream, std::size_t corners, const std::vector<Dra
   } else {
     decode<draco::MeshSequentialDecoder>(stream, mesh);
   }
-  if (std::uint64_t{mesh.num_faces()} * 3 != corners) throw GltfError("its Draco stream is broken (it ends early)");
+  if (std::uint64_t{mesh.num_faces()} * 3 != corners) throw GltfError("its Draco stream is corrupt (it ends early)");
   DracoMesh result;
   result.indices.reserve(corners);
   for (std::uint32_t face = 0; face < mesh.num_faces(); ++face) {

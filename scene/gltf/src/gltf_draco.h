@@ -17,7 +17,7 @@ struct DracoMesh {
   std::map<std::string, std::vector<float>> attributes;
 };
 
-// What is wanted from the stream: the attribute of this number, as the accessor describes it.
+// Attribute to read from the stream: its number, and its description from the accessor.
 struct DracoAttribute {
   std::string name;
   std::uint32_t id = 0;

@@ -5,7 +5,7 @@
 
 namespace afm::scene {
 
-// What is wrong with a model, as the end of a sentence that begins with its name. Thrown inside the loader only:
+// A fault in a model, as the end of a sentence that begins with the model's name. Thrown inside the loader only:
 // load_gltf() turns it into an Error.
 struct GltfError : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -27,20 +27,19 @@ Bytes read_plain_file(const fs::path& path, std::uint64_t most_bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw GltfError("there is no such file; check the path");
-  if (!fs::is_regular_file(status)) throw GltfError("it is not a plain file; give the path of a .glb or .gltf file");
+  if (!fs::is_regular_file(status)) throw GltfError("it is not a regular file; give the path of a .glb or .gltf file");
   const std::uintmax_t size = fs::file_size(path, error);
-  if (error) throw GltfError(fmt::format("its size cannot be read ({}); check the path", error.message()));
+  if (error) throw GltfError(fmt::format("cannot read its size ({}); check the path", error.message()));
   if (size > most_bytes) {
-    throw GltfError(
-        fmt::format("it has {} MiB and {} MiB are left of the {} MiB that a model may take; make it smaller",
-                    size >> 20U, most_bytes >> 20U, kLargestGltfBytes >> 20U));
+    throw GltfError(fmt::format("it has {} MiB, but only {} MiB of the model limit of {} MiB remain; make it smaller",
+                                size >> 20U, most_bytes >> 20U, kLargestGltfBytes >> 20U));
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw GltfError(fmt::format("it cannot be opened ({}); check its permissions", core::system_error(errno)));
+  if (!file) throw GltfError(fmt::format("cannot open it ({}); check its permissions", core::system_error(errno)));
   Bytes bytes(size);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   if (file.gcount() != static_cast<std::streamsize>(size)) {
-    throw GltfError("it cannot be read to its end; copy it again");
+    throw GltfError("cannot read it to the end; copy it again");
   }
   return bytes;
 }
@@ -76,9 +75,9 @@ Json parse_text(std::string_view text) {
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const Json::parse_error& error) {
-    throw GltfError(fmt::format("its JSON is broken at byte {}; export it again", error.byte));
+    throw GltfError(fmt::format("its JSON is invalid at byte {}; export it again", error.byte));
   } catch (const Json::exception&) {  // a number that is too large for double
-    throw GltfError("its JSON is broken: a number is out of range; export it again");
+    throw GltfError("its JSON is invalid: a number is out of range; export it again");
   }
 }
 
@@ -104,8 +103,8 @@ Chunks split(const Bytes& bytes) {
     throw GltfError(fmt::format("it is binary glTF of version {}, not 2; export it as glTF 2.0", version));
   }
   if (little_endian(bytes, 8) != bytes.size()) {
-    throw GltfError(
-        fmt::format("its header says {} bytes but it has {}; copy it again", little_endian(bytes, 8), bytes.size()));
+    throw GltfError(fmt::format("its header announces {} bytes but it has {}; copy it again", little_endian(bytes, 8),
+                                bytes.size()));
   }
   Chunks chunks;
   int chunk = 0;
@@ -114,7 +113,7 @@ Chunks split(const Bytes& bytes) {
     const std::uint32_t length = little_endian(bytes, offset);
     const std::uint32_t type = little_endian(bytes, offset + 4);
     offset += kChunkHeader;
-    if (length > bytes.size() - offset) throw GltfError("a chunk reaches past its end; copy it again");
+    if (length > bytes.size() - offset) throw GltfError("a chunk extends past its end; copy it again");
     if (chunk == 0 && type != kJson) throw GltfError("its first chunk is not JSON; export it again");
     if (chunk == 0) chunks.text = {reinterpret_cast<const char*>(bytes.data()) + offset, length};
     if (chunk == 1 && type == kBinary) chunks.binary.emplace(offset, length);
@@ -145,7 +144,7 @@ Bytes SideFiles::read(const std::string& uri) {
   if (is_data_uri(uri)) return decode_data_uri(uri);
   const std::optional<fs::path> file = resolve(decode_percent(uri));
   if (!file) {
-    throw GltfError(fmt::format("it refers to '{}', which is not a plain file in the model's folder; put it there",
+    throw GltfError(fmt::format("it refers to '{}', which is not a regular file in the model's folder; put it there",
                                 uri.substr(0, 80)));
   }
   Bytes bytes = read_plain_file(*file, bytes_left_);

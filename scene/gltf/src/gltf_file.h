@@ -13,7 +13,8 @@ namespace afm::scene {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// What a model may read beside itself: data URIs, and plain files in its folder or below, no links that lead out of it.
+// Files that a model may refer to: data URIs, and regular files in its folder or below, without links that lead
+// outside.
 class SideFiles {
  public:
   SideFiles() = default;

@@ -60,7 +60,7 @@ core::Result<Scene> load_gltf(const std::string& path, GltfWarnings* notes) {
   } catch (const GltfError& fault) {
     return refuse(fault.what());
   } catch (const std::bad_alloc&) {
-    return refuse("it needs more memory than there is; make it smaller");
+    return refuse("it needs more memory than is available; make it smaller");
   }
 }
 

@@ -77,14 +77,14 @@ class PrimitiveReader {
   void read_draco() {
     const tinygltf::Value* draco = find_extension(source_.extensions, "KHR_draco_mesh_compression");
     if (draco == nullptr) return;
-    if (mode_ != TINYGLTF_MODE_TRIANGLES) fail("compresses what is no list of triangles");
+    if (mode_ != TINYGLTF_MODE_TRIANGLES) fail("compresses a primitive that is not a triangle list");
     if (source_.indices < 0) fail("has a Draco stream but no indices");
     const auto view = static_cast<std::size_t>(draco->Get("bufferView").GetNumberAsInt());
     const std::size_t corners = accessors_[source_.indices].count;
     std::vector<DracoAttribute> wanted;
     for (const auto& [name, id] : draco->Get("attributes").Get<tinygltf::Value::Object>()) {
       const auto accessor = source_.attributes.find(name);
-      if (accessor == source_.attributes.end()) fail("has a Draco stream of an attribute that it has not");
+      if (accessor == source_.attributes.end()) fail("has a Draco stream for an attribute that it lacks");
       const Accessor& described = accessors_[accessor->second];
       check_attribute(path_, name, described, AttributeOwner::Primitive, quantized_);
       if (described.count != count_) fail(fmt::format("has {} {} but {} POSITION", described.count, name, count_));
@@ -160,7 +160,7 @@ class PrimitiveReader {
     }
     const std::uint64_t size = list_size(mode_, corners.size());
     if (size == 0) {
-      fail(fmt::format("has {} corners, no whole number of points, lines or triangles", corners.size()));
+      fail(fmt::format("has {} corners, which is not a whole number of points, lines or triangles", corners.size()));
     }
     budget_.take(size, sizeof(std::uint32_t));
     primitive_.indices = as_list(mode_, std::move(corners));
@@ -252,7 +252,7 @@ void read_weights(std::size_t index, const tinygltf::Mesh& source, Mesh& mesh) {
     }
   }
   if (!source.weights.empty() && source.weights.size() != targets) {
-    throw GltfError(fmt::format("/meshes/{} has not as many weights as morph targets", index));
+    throw GltfError(fmt::format("/meshes/{} has different numbers of weights and morph targets", index));
   }
   mesh.weights.assign(source.weights.begin(), source.weights.end());
   mesh.weights.resize(targets, 0.0F);
@@ -270,10 +270,10 @@ void read_meshes(const tinygltf::Model& model, const GltfBuffers& buffers, const
     for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = model.meshes[m].primitives[p];
       for (const auto& [name, accessor] : primitive.attributes) {
-        if (!is_read_attribute(name)) notes.ignore(fmt::format("attribute {}: nothing is drawn from it", name));
+        if (!is_read_attribute(name)) notes.ignore(fmt::format("attribute {}: not drawn", name));
       }
       if (primitive.attributes.count("POSITION") == 0) {
-        notes.ignore("a primitive without POSITION: nothing can be drawn of it");
+        notes.ignore("a primitive without POSITION: cannot be drawn");
         continue;
       }
       uses_default |= primitive.material < 0;

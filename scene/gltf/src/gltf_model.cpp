@@ -26,14 +26,16 @@ void check_header(const Json& document, GltfWarnings& notes) {
     if (!understood.contains(name)) refused += fmt::format("{}'{}'", refused.empty() ? "" : ", ", name.substr(0, 80));
   }
   if (!refused.empty()) {
-    throw GltfError(fmt::format(
-        "it requires {}, which TouchAFM does not know; export it without (docs/gltf.md lists what is known)", refused));
+    throw GltfError(
+        fmt::format("it requires {}, which TouchAFM does not support; export it without (docs/gltf.md lists the "
+                    "supported extensions)",
+                    refused));
   }
   for (const std::string name : document.value("extensionsUsed", Json::array())) {
     if (understood.contains(name)) {
       notes.extensions.push_back(name);
     } else {
-      notes.ignore(fmt::format("{}: not known, and not required to show the model", name));
+      notes.ignore(fmt::format("{}: not supported, and not required to show the model", name));
     }
   }
 }
@@ -131,7 +133,7 @@ class Exchange {
       const Json& target = channel["target"];
       const std::string path = target["path"];
       if (target.contains("node") && path != "pointer") return false;
-      notes.ignore(fmt::format("animation channel of path '{}': moves no node", path.substr(0, 40)));
+      notes.ignore(fmt::format("animation channel with path '{}': animates no node", path.substr(0, 40)));
       return true;
     };
     list.erase(std::remove_if(list.begin(), list.end(), moves_no_node), list.end());
@@ -152,7 +154,7 @@ class Exchange {
     if (source.kind == Source::Chunk) bytes = std::move(*file_.binary);
     if (source.kind == Source::Uri) bytes = file_.side_files.read(source.uri);
     if (bytes.size() < source.length) {
-      throw GltfError(fmt::format("/buffers/{} says {} bytes but there are {}", i, source.length, bytes.size()));
+      throw GltfError(fmt::format("/buffers/{} announces {} bytes but has {}", i, source.length, bytes.size()));
     }
     bytes.resize(source.length);
     return true;
@@ -195,7 +197,7 @@ GltfModel read_gltf_model(const std::string& path, GltfWarnings& notes) {
   std::string fault, warning;
   if (!reader.LoadASCIIFromString(&model.parts, &fault, &warning, text.data(), static_cast<unsigned>(text.size()),
                                   "")) {
-    throw GltfError(fmt::format("tinygltf does not understand it ({})", fault.substr(0, fault.find('\n'))));
+    throw GltfError(fmt::format("tinygltf cannot parse it ({})", fault.substr(0, fault.find('\n'))));
   }
   exchange.give_back(model.parts);
   model.side_files = std::move(file.side_files);

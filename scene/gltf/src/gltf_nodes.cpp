@@ -110,7 +110,7 @@ class NodeReader {
     }
     if (source.extras.IsObject()) node.role = text_or(source.extras.Get("touchafm"), "role", "");
     if (!source.weights.empty() && (!mesh || source.weights.size() != scene_.meshes[*mesh].weights.size())) {
-      fail(index, "has not as many weights as its mesh has morph targets");
+      fail(index, "has a number of weights that differs from its mesh's morph targets");
     }
     node.weights.assign(source.weights.begin(), source.weights.end());
     const auto* instances = find_extension(source.extensions, "EXT_mesh_gpu_instancing");
@@ -134,11 +134,11 @@ class NodeReader {
     drawn_corners_ += times * corners;
     draws_ += times * scene_.meshes[mesh].primitives.size();
     if (moved_vertices_ > kMostMovedVertices) {
-      throw GltfError(fmt::format("its skins and morph targets move more than {} vertices together; make it smaller",
+      throw GltfError(fmt::format("its skins and morph targets move more than {} vertices in total; make it smaller",
                                   kMostMovedVertices));
     }
     if (drawn_corners_ > kMostDrawnCorners || draws_ > kMostDraws || scene_.nodes.size() + times > kMostNodes) {
-      fail(index, fmt::format("shows too much: more than {} nodes, {} primitives or {} corners together", kMostNodes,
+      fail(index, fmt::format("is too large: more than {} nodes, {} primitives or {} corners in total", kMostNodes,
                               kMostDraws, kMostDrawnCorners));
     }
   }
@@ -153,7 +153,7 @@ class NodeReader {
       const bool is_rotation = components == 4;
       const bool right_type = accessor.is_float() || (is_rotation && accessor.normalized);
       if (accessor.components != components || accessor.matrix || !right_type || accessor.count > kMostNodes) {
-        fail(index, fmt::format("has instances with {} of a type or number that it may not have", name));
+        fail(index, fmt::format("has instances with {} of a forbidden type or number", name));
       }
       return accessors_.floats(number);
     };
@@ -177,7 +177,7 @@ class NodeReader {
         const float* q = &rotations[4 * i];
         transform.rotation = glm::dquat(glm::quat(q[3], q[0], q[1], q[2]));
         if (std::abs(glm::length(transform.rotation) - 1.0) > 0.01)
-          fail(index, "has an instance with a ROTATION of no unit length");
+          fail(index, "has an instance with a ROTATION that is not of unit length");
         transform.rotation = glm::normalize(transform.rotation);
       }
       scene_.nodes.push_back(Node{fmt::format("{}#{}", name, i), parent, mesh, matrix_of(transform)});
@@ -204,7 +204,8 @@ void read_skins(const tinygltf::Model& model, const GltfAccessors& accessors, co
     for (const int joint : source.joints) {
       const auto place = places[static_cast<std::size_t>(joint)];
       if (!place && used[i]) {
-        throw GltfError(fmt::format("/skins/{} has the joint {}, no node of the scene that is shown", i, joint));
+        throw GltfError(
+            fmt::format("/skins/{} has the joint {}, which is not a node of the displayed scene", i, joint));
       }
       skin.joints.push_back(place.value_or(0));
     }
@@ -312,7 +313,8 @@ NodePlaces read_nodes(const tinygltf::Model& model, const GltfAccessors& accesso
   const NodePlaces places = NodeReader(model, accessors, scene).read();
   read_skins(model, accessors, places, budget, scene);
   check_joints(scene);
-  if (model.scenes.size() > 1) notes.ignore(fmt::format("{} more scenes: only one is shown", model.scenes.size() - 1));
+  if (model.scenes.size() > 1)
+    notes.ignore(fmt::format("{} more scenes: only one is displayed", model.scenes.size() - 1));
   return places;
 }
 

@@ -9,7 +9,7 @@
 
 namespace afm::scene {
 
-// Where the file's nodes stand in the scene; nothing for those that the scene does not show.
+// Index of each of the file's nodes in the scene; empty for nodes that the scene does not contain.
 using NodePlaces = std::vector<std::optional<NodeIndex>>;
 
 // Cameras, lights, skins and the nodes of the scene that is shown, after the meshes. Throws GltfError.

@@ -168,7 +168,7 @@ std::span<const GltfMember> gltf_document() {
 }
 
 std::set<std::string_view> gltf_extensions() {
-  std::set<std::string_view> names{"KHR_mesh_quantization"};  // allows more types, and has no object of its own
+  std::set<std::string_view> names{"KHR_mesh_quantization"};  // allows more types, and has no object
   collect_extensions(gltf_document(), names);
   return names;
 }

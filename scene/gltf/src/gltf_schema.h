@@ -31,7 +31,7 @@ enum class GltfList {
 };
 inline constexpr std::size_t kGltfLists = 14;
 
-// What a member of an object of the JSON text may be: glTF 2.0's schema, with our bounds.
+// Legal values of a member of a JSON object: glTF 2.0's schema, with our bounds.
 struct GltfMember {
   enum class Kind {
     Text,
@@ -84,7 +84,7 @@ struct GltfMember {
   }
 };
 
-// What must be known before the rest can be judged: `asset` and the lists of extensions.
+// Members to check before all others: `asset` and the lists of extensions.
 std::span<const GltfMember> gltf_header();
 
 // All of a document but its header, with the extensions that are understood.

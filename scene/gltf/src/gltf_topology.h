@@ -13,8 +13,8 @@ namespace afm::scene {
 inline constexpr std::uint64_t kMostMode = 6;
 Topology topology_of(std::uint64_t mode);
 
-// How many indices a list has that shows the same as `corners` indices of this mode; 0 if that is no whole number of
-// points, lines or triangles.
+// Number of indices of the list that is equivalent to `corners` indices of this mode; 0 if these are not a whole number
+// of points, lines or triangles.
 std::uint64_t list_size(std::uint64_t mode, std::uint64_t corners);
 
 // The list. list_size() is not 0.

@@ -25,7 +25,7 @@ NodeTransform read_transform(const tinygltf::Model& model, std::size_t index) {
     const auto& rotation = node.rotation;
     transform.rotation = glm::dquat(rotation[3], rotation[0], rotation[1], rotation[2]);
     const double length = glm::length(transform.rotation);
-    if (std::abs(length - 1.0) > 0.005) fail("has a rotation that is no unit quaternion");
+    if (std::abs(length - 1.0) > 0.005) fail("has a rotation that is not a unit quaternion");
     transform.rotation /= length;
   }
   return transform;

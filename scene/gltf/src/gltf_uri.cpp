@@ -30,7 +30,7 @@ bool is_data_uri(std::string_view uri) { return uri.substr(0, 5) == "data:"; }
 std::vector<std::uint8_t> decode_data_uri(std::string_view uri) {
   constexpr std::string_view kMark = ";base64,";
   const std::size_t mark = uri.find(kMark);
-  if (mark == std::string_view::npos) throw GltfError("it holds a data URI that is not base64; export it again");
+  if (mark == std::string_view::npos) throw GltfError("it contains a data URI that is not base64; export it again");
   std::string_view text = uri.substr(mark + kMark.size());
   while (!text.empty() && text.back() == '=') text.remove_suffix(1);
 
@@ -40,7 +40,7 @@ std::vector<std::uint8_t> decode_data_uri(std::string_view uri) {
   unsigned count = 0;
   for (const char letter : text) {
     const std::uint8_t digit = kDigits[static_cast<unsigned char>(letter)];
-    if (digit == kNoDigit) throw GltfError("it holds a data URI whose base64 is broken; export it again");
+    if (digit == kNoDigit) throw GltfError("it contains a data URI with invalid base64; export it again");
     bits = bits << 6U | digit;
     count += 6;
     if (count < 8) continue;

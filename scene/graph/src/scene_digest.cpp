@@ -8,7 +8,7 @@
 namespace afm::scene {
 namespace {
 
-// Stands for a value of any type, to count how many of them fill a struct.
+// Placeholder for a value of any type, to count the members of a struct.
 struct AnyFieldValue {
   template <class T>
   operator T() const {

@@ -80,7 +80,10 @@ class MaterialReader {
  private:
   void read_adhesion() {
     if (table_.has("mean_surface_energy") == table_.has("work_of_adhesion")) {
-      table_.refuse("mean_surface_energy", "is missing; give either it or work_of_adhesion, its double, and not both");
+      table_.refuse("mean_surface_energy",
+                    table_.has("work_of_adhesion")
+                        ? "is given together with work_of_adhesion; give one or the other, not both"
+                        : "is missing; give this value or work_of_adhesion, which is twice as large");
     }
     physics::SurfaceEnergy& mean = entry_.contact.mean_surface_energy;
     if (table_.has("mean_surface_energy")) {
@@ -97,7 +100,7 @@ class MaterialReader {
     const auto given = std::count_if(kBodies.begin(), kBodies.end(), [&](const char* key) { return table_.has(key); });
     if (table_.has("reduced_modulus")) {
       if (given > 0)
-        table_.refuse("reduced_modulus", "is given beside the moduli of tip and sample; give one or other");
+        table_.refuse("reduced_modulus", "is given together with the moduli of tip and sample; give one or the other");
       entry_.contact.reduced_modulus = table_.quantity("reduced_modulus", physics::kPressureUnits);
       return;
     }

@@ -10,7 +10,7 @@
 
 #include "core/result.h"
 
-// What the libraries of materials and probes share: entries with unique names.
+// Common part of the libraries of materials and probes: entries with unique names.
 namespace afm::scene {
 
 // Null if there is none.
@@ -26,8 +26,7 @@ core::Result<const Entry*> require_named(const std::vector<Entry>& entries, cons
   if (const Entry* entry = find_named(entries, name)) return entry;
   std::string known;
   for (const Entry& entry : entries) known += (known.empty() ? "" : ", ") + entry.name;
-  return core::failure(core::ErrorCategory::WrongUsage,
-                       fmt::format("unknown {} \"{}\"; known are {}", kind, name, known));
+  return core::failure(core::ErrorCategory::WrongUsage, fmt::format("unknown {} \"{}\"; choose {}", kind, name, known));
 }
 
 // Behind the others, but in the place of one of the same name.

@@ -79,7 +79,7 @@ class ProbeReader {
       // read for their sources alone
       for (const char* key : {"length", "width", "thickness"}) table_.optional_quantity(key, physics::kLengthUnits);
       for (const char* key : {"base_width", "arm_width", "lever_modulus", "lever_density"}) {
-        if (table_.has(key)) table_.refuse(key, "acts only where no spring_constant is given");
+        if (table_.has(key)) table_.refuse(key, "has an effect only if no spring_constant is given");
       }
       return;
     }
@@ -222,8 +222,9 @@ MaterialEntry with_probe(MaterialEntry material, const ProbeEntry& probe) {
 
   const bool pair_is_known = find_source(material.sources, "hamaker") != nullptr;
   if (pair_is_known && material.tip != probe.tip) {
-    material.note += fmt::format("{}Hamaker constant and work of adhesion are those of a {} tip, the probe's is of {}.",
-                                 material.note.empty() ? "" : " ", material.tip, probe.tip);
+    material.note +=
+        fmt::format("{}The Hamaker constant and the work of adhesion are those of a {} tip; the probe's tip is {}.",
+                    material.note.empty() ? "" : " ", material.tip, probe.tip);
   }
   material.tip = probe.tip;
   return material;

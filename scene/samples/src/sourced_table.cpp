@@ -48,7 +48,7 @@ std::string SourcedTable::text_in(const toml::table& table, std::string_view key
   if (node == nullptr) throw Fault{table.source(), name(outer + std::string(key)), "is missing"};
   const auto value = node->value_exact<std::string>();
   if (!value || value->empty()) {
-    throw Fault{node->source(), name(outer + std::string(key)), "must be a text that is not empty"};
+    throw Fault{node->source(), name(outer + std::string(key)), "must be text and not empty"};
   }
   return *value;
 }

@@ -29,7 +29,7 @@ struct SegmentHeader {
   BlockSizes block_bytes = kBlockSizes;
 };
 
-// What lies in the segment, byte for byte. No pointers; every channel has one writer.
+// Layout of the segment, byte for byte. No pointers; every channel has one writer.
 struct SegmentLayout {
   alignas(4096) SegmentHeader header;
   alignas(4096) SharedModel model;

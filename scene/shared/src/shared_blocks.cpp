@@ -108,10 +108,10 @@ physics::LawOptions law_options(const SharedContact& material) {
 
 core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count,
                             std::uint32_t height_field_count) {
-  if (!terminated(material.name)) return model_refused("it has a name without an end");
+  if (!terminated(material.name)) return model_refused("its name is not terminated");
   if (!physics::is_known(material.law) || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
       material.dynamic > 1) {
-    return model_refused("it has a law or an option that is not known");
+    return model_refused("its law or an option is unknown");
   }
   if (material.law == physics::Law::Measured && material.measured_curve >= curve_count) {
     return model_refused("it has no measured curve");
@@ -120,9 +120,10 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
     return model_refused(fmt::format("the law {} has no dynamics", physics::name_of(material.law)));
   }
   if (material.height_field != kNoHeightField && material.height_field >= height_field_count) {
-    return model_refused("it has a surface that is not there");
+    return model_refused("its surface does not exist");
   }
-  if (!(material.retardation_wavelength_m >= 0)) return model_refused("its retardation wavelength is not a length");
+  if (!(material.retardation_wavelength_m >= 0))
+    return model_refused("its retardation wavelength is not a valid length");
   try {
     physics::validate(material.contact);
     physics::validate(law_options(material));
@@ -135,11 +136,12 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
 
 core::Result<void> validate(const SharedModel& model) {
   if (model.node_count == 0 || model.node_count > kMaxNodes) {
-    return model_refused(fmt::format("the shared scene has {} nodes: 1 to {} fit", model.node_count, kMaxNodes));
+    return model_refused(
+        fmt::format("the shared scene has {} nodes: the limits are 1 to {}", model.node_count, kMaxNodes));
   }
   if (model.material_count == 0 || model.material_count > kMaxMaterials) {
     return model_refused(
-        fmt::format("the shared scene has {} materials: 1 to {} fit", model.material_count, kMaxMaterials));
+        fmt::format("the shared scene has {} materials: the limits are 1 to {}", model.material_count, kMaxMaterials));
   }
   if (model.sample_node >= model.node_count) {
     return model_refused(
@@ -147,31 +149,32 @@ core::Result<void> validate(const SharedModel& model) {
   }
   for (std::uint32_t i = 0; i < model.node_count; ++i) {
     const SharedNode& node = model.nodes[i];
-    if (!terminated(node.name)) return model_refused(fmt::format("shared node {} has a name without an end", i));
+    if (!terminated(node.name)) return model_refused(fmt::format("the name of shared node {} is not terminated", i));
     if (node.parent != kNoParent && node.parent >= i) {
-      return model_refused(fmt::format("shared node {} stands before its parent {}", i, node.parent));
+      return model_refused(fmt::format("shared node {} precedes its parent {}", i, node.parent));
     }
     if (!all_sane(node.parent_from_node))
-      return model_refused(fmt::format("shared node {} has a transform of no use", i));
+      return model_refused(fmt::format("shared node {} has an invalid transform", i));
   }
   if (model.curve_count > kMaxMeasuredCurves) {
     return model_refused(
-        fmt::format("the shared scene has {} measured curves: {} fit", model.curve_count, kMaxMeasuredCurves));
+        fmt::format("the shared scene has {} measured curves: the limit is {}", model.curve_count, kMaxMeasuredCurves));
   }
   for (std::uint32_t i = 0; i < model.curve_count; ++i) {
-    if (!is_valid(model.curves[i])) return model_refused(fmt::format("measured curve {} is not along rising Z", i));
+    if (!is_valid(model.curves[i]))
+      return model_refused(fmt::format("measured curve {} is not in order of increasing Z", i));
   }
   const bool no_scale = model.common_hand_m_per_m == 0 && model.common_hand_n_per_n == 0;
   if (!no_scale && !(std::isnormal(model.common_hand_m_per_m) && model.common_hand_m_per_m > 0 &&
                      std::isnormal(model.common_hand_n_per_n) && model.common_hand_n_per_n > 0)) {
-    return model_refused("the common scale of the shared scene is of no use");
+    return model_refused("the common scale of the shared scene is invalid");
   }
   if (model.height_field_count > kMaxHeightFields) {
     return model_refused(
-        fmt::format("the shared scene has {} surfaces: {} fit", model.height_field_count, kMaxHeightFields));
+        fmt::format("the shared scene has {} surfaces: the limit is {}", model.height_field_count, kMaxHeightFields));
   }
   for (std::uint32_t i = 0; i < model.height_field_count; ++i) {
-    if (!is_valid(model.height_fields[i])) return model_refused(fmt::format("surface {} is no grid of heights", i));
+    if (!is_valid(model.height_fields[i])) return model_refused(fmt::format("surface {} is not a grid of heights", i));
   }
   for (std::uint32_t i = 0; i < model.material_count; ++i) {
     if (auto valid = validate(model.materials[i], model.curve_count, model.height_field_count); !valid) {

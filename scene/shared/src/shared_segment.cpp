@@ -35,14 +35,14 @@ core::Result<void> validate(const SegmentHeader& header) {
   }
   if (header.version != kSegmentVersion) {
     return segment_refused(
-        fmt::format("cannot use a shared segment of version {}: this program speaks version {}; "
-                    "start touchafm and touchafm-servo of one build",
+        fmt::format("cannot use a shared segment of version {}: this program uses version {}; start touchafm and "
+                    "touchafm-servo from the same build",
                     header.version, kSegmentVersion));
   }
   if (header.total_bytes != sizeof(SegmentLayout) || header.block_bytes != kBlockSizes) {
     return segment_refused(
-        fmt::format("cannot use the shared segment: its blocks differ from this program's ({} against {} bytes); "
-                    "start touchafm and touchafm-servo of one build",
+        fmt::format("cannot use the shared segment: its blocks differ from this program's ({} and {} bytes); start "
+                    "touchafm and touchafm-servo from the same build",
                     header.total_bytes, sizeof(SegmentLayout)));
   }
   return {};

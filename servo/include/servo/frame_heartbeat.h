@@ -8,9 +8,8 @@
 
 namespace afm::servo {
 
-// Keeps a slow frame from looking like a dead one: tells the servo that the loop lives, as often as it is called, but
-// for no longer than two seconds of one frame. A slow picture is no reason to let go of the hand, one that has stopped
-// is. Made at the beginning of each frame.
+// Keeps a slow frame from looking like a dead one: each call sends a heartbeat to the servo, for at most two seconds
+// per frame. A slow picture is no reason to release the hand; a stopped one is. Made at the beginning of each frame.
 class FrameHeartbeat {
  public:
   FrameHeartbeat(ServoClient& servo, const core::Clock& clock)

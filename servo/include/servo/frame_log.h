@@ -15,7 +15,7 @@
 
 namespace afm::servo {
 
-// What --frame-log keeps of a frame.
+// Record of a frame for --frame-log.
 struct FrameRecord {
   std::int64_t begun_ns = 0, presented_ns = 0;
   std::optional<double> head_latency_s{};               // from a tracker's packet to the presenting of what it moved

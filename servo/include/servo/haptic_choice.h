@@ -8,14 +8,14 @@
 #include "core/result.h"
 #include "haptics/device_registry.h"
 
-// What a person writes after --haptics, and the device that it stands for.
+// Values of --haptics and their devices.
 namespace afm::servo {
 
 struct HapticChoice {
   const haptics::DeviceKind* device = nullptr;  // null: the best there is
   std::string replay_file;                      // not empty: a session whose hand is played, and no device
   enum class Person { Mouse, Simulated };
-  Person person = Person::Mouse;  // who moves a device that has no hand of its own
+  Person person = Person::Mouse;  // moves a device that no real hand moves
 };
 
 struct HapticWord {

@@ -13,8 +13,8 @@
 
 namespace afm::servo {
 
-// What touchafm-servo does when its renderer has died: for so long it keeps the device, and shows what it runs on to
-// another one.
+// Behaviour of touchafm-servo after its renderer has died: it keeps the device for this time and offers its segment to
+// a new renderer.
 struct Linger {
   double seconds = 0;   // 0: end at once
   std::string program;  // the path of touchafm-servo

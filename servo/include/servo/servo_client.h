@@ -20,20 +20,20 @@ enum class ServoMode { Process, Thread };
 
 inline constexpr double kServoRateHz = 1000.0;
 
-// How a servo is run, and what it holds.
+// Settings of a servo and its device.
 struct ServoChoice {
   ServoMode mode = ServoMode::Process;
   std::string haptic_device = "sim";  // what parse_haptic_choice() takes
   haptics::ServoSettings settings{.rate_hz = kServoRateHz};
 };
 
-// The frame loop's end of the servo: starts it over a segment of its own, tells it what was chosen and where things
-// are, and takes every sample and event. One thread.
+// The frame loop's side of the servo: starts it with a new segment, sends it the selection and the transforms, and
+// receives every sample and event. One thread.
 class ServoClient {
  public:
-  // `program` is the running touchafm; touchafm-servo lies beside it. A servo that waits since its renderer died is
-  // taken over, if it is of the same scene, device and settings and if settings.linger_s, how long this one would wait,
-  // is not zero; otherwise it is told to leave first.
+  // `program` is the running touchafm, with touchafm-servo in the same folder. Takes over a servo that waits because
+  // its renderer died, if its scene, device and settings are the same and if settings.linger_s, the time that this one
+  // would wait, is not zero; otherwise asks it to exit first.
   static core::Result<std::unique_ptr<ServoClient>> start(const scene::SharedModel& model, std::uint64_t scene_digest,
                                                           const ServoChoice& choice, const std::string& program);
 
@@ -46,8 +46,8 @@ class ServoClient {
   // servo runs but has been silent for 200 ms, tip() reports Fault with ServoSilent until its next state arrives.
   core::Result<Update> poll(std::int64_t now_ns);
 
-  // Tells the servo that the frame loop lives; poll() does so too. A loop that is silent for 250 ms has hung for the
-  // servo.
+  // Sends the frame loop's heartbeat; poll() does so too. After 250 ms without one, the servo assumes that the loop
+  // hangs.
   void beat(std::int64_t now_ns);
 
   // A person wants no force, now: the servo cuts it in its next tick, whatever state it is in, and gives none for 250
@@ -61,20 +61,20 @@ class ServoClient {
   const scene::SharedModel& model() const { return segment_.model(); }
   const std::array<double, 16>& room_from_sample() const { return room_from_sample_; }  // as placed last
 
-  // What a material is felt with after this edit, 0 for none.
+  // Parameters of a material after this edit; edit 0: as loaded.
   const scene::SharedContact& parameters(std::size_t material, std::uint32_t edit_revision) const;
 
   std::uint64_t lost_samples() const { return side_.lost_samples(); }
 
-  // The material under the tip, and the scale on which it is felt; both take effect once the tip is off the sample,
-  // with the force taken away first. Without a mode: that of the choice before, at first Fit.
+  // Selects the material under the tip and its scale; both take effect once the tip is off the sample, after the force
+  // has been removed. Without a mode: the previous one, initially Fit.
   void choose(std::int32_t material) { choose(material, selection_.scale_mode); }
   void choose(std::int32_t material, scene::ScaleMode mode);
 
-  // Other parameters for a material, by its index in the shared model; returns the revision of the edit. It takes
-  // effect as a choice does: once the tip is off the sample, with the force taken away first, so that the hand has to
-  // lift and Turn-On has to be pressed again. tip().edit_revision says when, tip().edit_refused if these cannot be felt
-  // (the servo's log line says why). Edits may come as fast as they like: of each material the newest counts.
+  // Changes the parameters of a material, given by its index in the shared model; returns the revision of the edit. It
+  // takes effect like a selection: once the tip is off the sample, after the force has been removed, so that the hand
+  // has to lift and press Turn-On again. tip().edit_revision shows when; tip().edit_refused is set if the parameters
+  // cannot be felt (the servo logs the reason). Edits may come at any rate: the newest one for each material counts.
   std::uint32_t change(std::size_t material, const scene::SharedContact& parameters);
   void place(const scene::SceneTransforms& transforms);
   void script(const scene::HandScript& script);

@@ -12,9 +12,9 @@
 #include "core/result.h"
 #include "haptics/servo_loop.h"
 
-// How a servo whose renderer died is found by the next one, so that the device that it holds is not opened, and not
-// calibrated, again. The two meet at a Unix socket in a folder that only their user can enter
-// ($XDG_RUNTIME_DIR/touchafm); each believes only a process of its own user. Several servos may wait.
+// Handover of a servo whose renderer died to a new renderer, without opening and calibrating the device again. The two
+// meet at a Unix socket in a private folder of the user ($XDG_RUNTIME_DIR/touchafm); each trusts only processes of the
+// same user. Several servos may wait.
 namespace afm::servo {
 
 // The options of touchafm-servo that say how it runs and what it holds: a renderer that wants others wants another
@@ -33,8 +33,8 @@ class HandoverPort {
 
   int descriptor() const { return listener_.get(); }  // readable when somebody has come
 
-  // Shows the segment and the servo's arguments to whoever has come, and waits at most a second for the answer. With
-  // Stay, `lifeline` closes when that renderer dies; Leave: it wants another servo; Nobody: it was of another user, saw
+  // Shows the segment and the servo's arguments to a new renderer and waits at most a second for the answer. With Stay,
+  // `lifeline` closes when that renderer dies; Leave: it wants another servo; Nobody: it was of another user, saw
   // nothing and does not count.
   enum class Answer { Stay, Leave, Nobody };
   Answer receive(int segment, const std::vector<std::string>& arguments, core::FileDescriptor& lifeline) const;
@@ -66,7 +66,7 @@ std::vector<std::filesystem::path> find_waiting_servos(const std::string& progra
 std::optional<WaitingServo> visit_servo(const std::filesystem::path& socket);
 
 // Waits for the process behind a pidfd; false if it still runs after so long.
-inline constexpr int kLeaveMs = 2000;  // for a servo that was told to leave
+inline constexpr int kLeaveMs = 2000;  // for a servo that was asked to exit
 bool process_ended_within(const core::FileDescriptor& process, int milliseconds);
 
 }  // namespace afm::servo

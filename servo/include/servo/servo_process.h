@@ -16,7 +16,7 @@
 #include "scene/shared/shared_segment.h"
 #include "servo/servo_handover.h"
 
-// How touchafm starts a servo, sees whether it lives, and ends it.
+// Starts a servo, monitors it and ends it.
 namespace afm::servo {
 
 // A running servo. Used by the thread that stores heartbeats; the segment and its RendererSide must outlive it.

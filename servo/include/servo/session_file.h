@@ -14,9 +14,9 @@
 
 namespace afm::servo {
 
-// What was felt on one material, with everything that it depended on: every tick's sample and every event, as the servo
-// gave them. The first sample follows a moment without force or motion that counts (haptics::ServoLoop), so that a
-// replay gives the same forces bit for bit.
+// Recording of one material, with everything that its forces depend on: every tick's sample and every event from the
+// servo. The first sample follows a moment without force or motion that counts (haptics::ServoLoop), so that a replay
+// gives the same forces bit for bit.
 struct RecordedSession {
   std::string material;                             // name in the material file
   scene::SharedContact parameters;                  // what was felt; curve and surface are the only ones of a replay
@@ -52,7 +52,7 @@ core::Result<void> save_session(const RecordedSession& session, const std::strin
 // and numbers that are not finite are errors that name the file. One that was cut holds what came before.
 core::Result<RecordedSession> load_session(const std::string& path);
 
-// What to tell a user of a session that is not complete.
+// Message about a session that is not complete.
 std::string cut_text(const RecordedSession& session, const std::string& path);
 
 }  // namespace afm::servo

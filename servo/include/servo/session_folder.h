@@ -13,15 +13,15 @@
 
 namespace afm::servo {
 
-// Where sessions are kept as they come: session-NAME.afms, then session-NAME-2.afms; what lies there already is left
-// alone. Each grows while it is felt (SessionWriter). One thread.
+// Folder that sessions are recorded into: session-NAME.afms, then session-NAME-2.afms; existing files are never
+// overwritten. Each grows while it is felt (SessionWriter). One thread.
 class SessionFolder {
  public:
   // Makes it. Fails at once if it cannot be written.
   static core::Result<SessionFolder> open(const std::string& path);
 
-  // What has come of the session under way since the last call; its first part names it. The file of a session without
-  // force goes when it ends.
+  // Adds a part of the current session; the first part determines its name. A session without force loses its file when
+  // it ends.
   core::Result<void> add(const RecordedSession& part);
 
   // The session under way is over; the log says where it is.

@@ -17,9 +17,9 @@ namespace afm::servo {
 // newest state; `dynamic`: the lever swings.
 bool can_begin_with(const scene::TipSample& sample, const scene::TipState& tip, bool dynamic);
 
-// Makes sessions of what a servo tells: a new one whenever another material, other parameters or another scale have
-// taken effect. A session begins where no force was on and the tip was off the sample, holds every tick from there, and
-// ends at a gap or at kLongestTicks: whatever it is cut to can be replayed. One thread.
+// Records the servo's output as sessions: a new one whenever a change of material, parameters or scale has taken
+// effect. A session begins without force and with the tip off the sample, contains every tick from there, and ends at a
+// gap or at kLongestTicks: any shorter part of it can be replayed. One thread.
 class SessionRecorder {
  public:
   static constexpr std::size_t kLongestTicks = 1'800'000;  // 30 minutes at 1 kHz, some 400 MB
@@ -33,7 +33,7 @@ class SessionRecorder {
   // The curves that were on the wall when the session under way began.
   void set_earlier(std::vector<EarlierCurve> curves) { session_.earlier_curves = std::move(curves); }
 
-  // Whether the head of the session under way is known, which may be some ticks later than its first sample.
+  // True once the header of the current session is known, possibly some ticks after its first sample.
   bool has_head() const { return scale_known_ && !session_.samples.empty(); }
 
   // The records of the session under way are kept elsewhere: it goes on without them.

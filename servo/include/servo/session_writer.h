@@ -26,7 +26,7 @@ class SessionWriter {
   SessionWriter& operator=(SessionWriter&&) noexcept;
   ~SessionWriter();  // the file ends where it is
 
-  // What has come since the last call.
+  // Appends the part of the session since the last call.
   core::Result<void> add(const RecordedSession& part);
 
   // Nothing follows: the file is whole.

@@ -28,11 +28,11 @@ struct RecordedWand {
   bool operator==(const RecordedWand&) const = default;
 };
 
-// What the wall showed in one frame beside what the servo felt. With the tick at the same time it is all that the
-// picture needs. Names are those of the files and of the command line; an empty name stands for nothing.
+// State of the wall in one frame. With the servo's tick at the same time, it determines the picture. Names are those of
+// the files and of the command line; empty: none.
 struct WallFrame {
   std::int64_t time_ns = 0;                   // CLOCK_MONOTONIC: of the state of the tip that was drawn
-  std::array<double, 16> room_from_sample{};  // as in SceneTransforms: told to the servo with this frame
+  std::array<double, 16> room_from_sample{};  // as in SceneTransforms: sent to the servo with this frame
   std::array<double, 16> navigation{};        // room from room, column by column: how the scene was moved
   std::string centerpiece{};                  // "instrument", "analogy" or "journey"
   double journey_orders = 0;                  // 0 to 9

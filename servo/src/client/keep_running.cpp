@@ -86,16 +86,17 @@ core::Result<void> keep_running(const std::string& program, const std::vector<st
     if (!pid) return tl::unexpected(pid.error());
     const int status = wait_for(*pid);
     if (core::interrupted() || (WIFEXITED(status) && WEXITSTATUS(status) == 0)) return {};
-    if (const auto refused = refusal_of(status)) return core::failure(*refused, "the window was not opened; see above");
+    if (const auto refused = refusal_of(status))
+      return core::failure(*refused, "the window could not be opened; see above");
     const Clock::time_point now = Clock::now();
     failures.push_back(now);
     while (now - failures.front() > kMinute) failures.pop_front();
     if (failures.size() > static_cast<std::size_t>(kMostRestarts)) {
       return core::failure(core::ErrorCategory::Failed,
-                           fmt::format("the window {} {} times within a minute; its last words are above",
+                           fmt::format("the window {} {} times within a minute; see its last messages above",
                                        end_of(status), failures.size()));
     }
-    core::log_line(fmt::format("the window {}; it is opened again", end_of(status)));
+    core::log_line(fmt::format("the window {}; reopening it", end_of(status)));
     std::this_thread::sleep_for(kBeforeRestart);
   }
 }

@@ -27,9 +27,10 @@ core::Error ended(int status) {
   switch (static_cast<core::ExitCode>(status)) {
     case core::ExitCode::DeviceMissing:
       return {core::ErrorCategory::DeviceMissing,
-              "the haptic device is missing: the line above says what was tried; use --haptics sim without one"};
+              "the haptic device is missing: the line above lists what was tried; without a device, use --haptics sim"};
     case core::ExitCode::BadInputFile:
-      return {core::ErrorCategory::BadInputFile, "the servo cannot replay that session: the line above says why"};
+      return {core::ErrorCategory::BadInputFile,
+              "the servo cannot replay this session: the line above gives the reason"};
     default:
       return {core::ErrorCategory::Failed,
               fmt::format("the servo ended unexpectedly (status {}): no force reaches the hand", status)};

@@ -42,10 +42,10 @@ std::optional<TakenServo> take_waiting_servo(const scene::SharedModel& model, st
       core::log_line("taking over the servo of a renderer that died");
       return TakenServo{.segment = std::move(*segment), .servo = std::move(*waiting)};
     }
-    core::log_line("the servo of a renderer that died is of another scene or device: it is told to leave");
+    core::log_line("the servo of a renderer that died has another scene or device: asking it to exit");
     waiting->lifeline.close();
     if (!process_ended_within(waiting->process, kLeaveMs)) {
-      core::log_line("the servo of a renderer that died does not leave: it may still hold the device");
+      core::log_line("the servo of a renderer that died does not exit: it may still hold the device");
     }
   }
   return std::nullopt;

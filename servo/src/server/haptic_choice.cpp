@@ -20,7 +20,7 @@ constexpr std::string_view kReplay = "replay:";
 
 void log_probe(const std::vector<haptics::ProbeLine>& lines) {
   for (const haptics::ProbeLine& line : lines) core::log_line(fmt::format("haptics: {}: {}", line.subject, line.said));
-  core::log_line(fmt::format("haptics: the {} is taken", lines.back().subject));
+  core::log_line(fmt::format("haptics: using the {}", lines.back().subject));
 }
 
 core::Result<haptics::OpenedDevice> open_recording(const std::string& file) {
@@ -45,11 +45,12 @@ core::Result<haptics::OpenedDevice> open_recording(const std::string& file) {
 }  // namespace
 
 std::vector<HapticWord> haptic_words() {
-  std::vector<HapticWord> words{{"auto", "the best device there is, else the mouse"}, {kMouse, "the mouse"}};
+  std::vector<HapticWord> words{{"auto", "best available device, otherwise the mouse"},
+                                {kMouse, "simulated hand, moved by the mouse"}};
   for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
     words.push_back({std::string(kind.word), std::string(kind.meaning)});
   }
-  words.push_back({std::string(kReplay) + "FILE", "a recorded session"});
+  words.push_back({std::string(kReplay) + "FILE", "recorded session"});
   return words;
 }
 
@@ -71,7 +72,7 @@ core::Result<HapticChoice> parse_haptic_choice(std::string_view text) {
     known += word.word;
   }
   return core::failure(core::ErrorCategory::WrongUsage,
-                       fmt::format("there is no haptic device \"{}\": choose {}", text, known));
+                       fmt::format("unknown haptic device \"{}\": choose {}", text, known));
 }
 
 core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choice, const core::Clock& clock,

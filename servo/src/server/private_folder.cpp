@@ -19,13 +19,13 @@ core::Result<std::filesystem::path> private_folder() {
                                      : std::filesystem::path(fmt::format("/tmp/touchafm-{}", ::getuid()));
   if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot make {}: {}", folder.string(), core::system_error(errno)));
+                         fmt::format("cannot create {}: {}", folder.string(), core::system_error(errno)));
   }
   struct stat found{};
   if (::lstat(folder.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) || found.st_uid != ::getuid() ||
       (found.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("{} is not a folder that only its user can enter: remove it", folder.string()));
+                         fmt::format("{} is not a private folder of this user: remove it", folder.string()));
   }
   return folder;
 }

@@ -7,8 +7,8 @@
 
 namespace afm::servo {
 
-// Where this user's processes meet: touchafm in $XDG_RUNTIME_DIR, or without one /tmp/touchafm-UID. Made with mode 700.
-// Failed: it cannot be made, or is not a folder of this user that nobody else can enter.
+// Meeting place of this user's processes: touchafm in $XDG_RUNTIME_DIR, or without one /tmp/touchafm-UID. Created with
+// mode 700. Failed: it cannot be created, or is not a private folder of this user.
 core::Result<std::filesystem::path> private_folder();
 
 }  // namespace afm::servo

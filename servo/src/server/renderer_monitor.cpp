@@ -79,7 +79,7 @@ bool RendererMonitor::find_successor() {
     core::log_line(port.error().message);
     return false;
   }
-  core::log_line(fmt::format("the renderer died: the servo waits {} s for another one", linger_.seconds));
+  core::log_line(fmt::format("the renderer died: the servo waits {} s for a new one", linger_.seconds));
   const core::MonotonicClock clock;
   const std::int64_t end_ns = clock.now_ns() + static_cast<std::int64_t>(1e9 * linger_.seconds);
   for (;;) {
@@ -89,10 +89,10 @@ bool RendererMonitor::find_successor() {
     }
     switch (port->receive(linger_.segment, linger_.arguments, lifeline_)) {
       case HandoverPort::Answer::Stay:
-        core::log_line("another renderer took the servo over");
+        core::log_line("a new renderer took over the servo");
         return true;
       case HandoverPort::Answer::Leave:
-        core::log_line("another renderer came and wants another servo");
+        core::log_line("a new renderer requested different settings: shutting down");
         return false;
       case HandoverPort::Answer::Nobody:
         break;

@@ -43,10 +43,9 @@ core::Result<sockaddr_un> address_of(const fs::path& socket) {
   address.sun_family = AF_UNIX;
   const std::string& name = socket.native();
   if (name.size() >= sizeof(address.sun_path)) {
-    return core::failure(
-        core::ErrorCategory::Failed,
-        fmt::format("the name of a socket, {}, is longer than {} bytes: choose a shorter XDG_RUNTIME_DIR", name,
-                    sizeof(address.sun_path) - 1));
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("the socket name {} is longer than {} bytes: choose a shorter XDG_RUNTIME_DIR",
+                                     name, sizeof(address.sun_path) - 1));
   }
   std::copy(name.begin(), name.end(), address.sun_path);
   return address;
@@ -110,7 +109,7 @@ core::Result<HandoverPort> HandoverPort::open(const std::string& program, std::u
       ::listen(listener.get(), kWaitingVisitors) != 0 || ::rename(unready.c_str(), path.c_str()) != 0) {
     const int error = errno;
     ::unlink(unready.c_str());
-    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot wait for another renderer at {}: {}",
+    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot wait for a new renderer at {}: {}",
                                                                   path.string(), core::system_error(error)));
   }
   return HandoverPort(std::move(listener), path);

@@ -59,7 +59,7 @@ class Guard {
     for (;;) {
       switch (hear()) {
         case Heard::Gone:
-          if (!ending_) take_over("touchafm: watchdog: the servo was killed: the device was sent zero force\n"sv);
+          if (!ending_) take_over("touchafm: watchdog: the servo was killed: zero force was sent to the device\n"sv);
           return;
         case Heard::Message:
           continue;
@@ -73,9 +73,8 @@ class Guard {
       const int silent_ms = silent_wakes_ * kWakeMs;
       if (!ending_ && silent_ms == kWatchdogReleaseMs) release();
       if (silent_ms < (ending_ ? kWatchdogCloseMs : kWatchdogKillMs)) continue;
-      take_over(ending_
-                    ? "touchafm: watchdog: the device did not close: the servo is ended, no force reaches the hand\n"sv
-                    : "touchafm: watchdog: the servo is silent: it is ended, no force reaches the hand\n"sv);
+      take_over(ending_ ? "touchafm: watchdog: the device did not close: ended the servo, no force reaches the hand\n"sv
+                        : "touchafm: watchdog: the servo stopped responding: ended it, no force reaches the hand\n"sv);
       return;
     }
   }

@@ -23,18 +23,18 @@ constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
 constexpr auto kBetweenWrites = std::chrono::milliseconds(500);
 
 constexpr const char* kColumns =
-    "# time_s: begin of the frame, since the start; drawn_ms: until it was presented; interval_ms: since the frame "
-    "before\n"
-    "# head_latency_ms: from a tracker's packet to the presenting of the first frame that it moved\n"
-    "# nearest_deg, farthest_deg: how much more the eyes turn in than for the wall, as measured last, four times a "
-    "second\n"
-    "# ipd_mm: eye distance that was drawn; servo_late_us: of the latest tick reported since; servo_missed: in all\n"
+    "# time_s: begin of the frame, since the start; drawn_ms: time until it was presented; interval_ms: time since the "
+    "previous frame\n"
+    "# head_latency_ms: time from a tracker's packet to the presentation of the first frame that it moved\n"
+    "# nearest_deg, farthest_deg: disparity of the nearest and farthest point, measured four times a second\n"
+    "# ipd_mm: eye distance of the picture; servo_late_us: scheduling latency of the latest tick; servo_missed: ticks "
+    "missed in total\n"
     "frame,time_s,drawn_ms,interval_ms,head_latency_ms,nearest_deg,farthest_deg,ipd_mm,servo_late_us,servo_missed\n";
 
 core::Result<void> cannot_log(const std::string& path, int error) {
   return core::failure(core::ErrorCategory::Failed,
-                       fmt::format("--frame-log: cannot write {} ({}); name a file in a folder that you may write to",
-                                   path, core::system_error(error)));
+                       fmt::format("--frame-log: cannot write {} ({}); name a file in a writable folder", path,
+                                   core::system_error(error)));
 }
 
 std::string text_of(const std::optional<double>& value, double factor) {

@@ -26,8 +26,9 @@ using scene::RendererLink;
 using scene::TipEvent;
 using scene::TipSample;
 
-// The hand of one sample after the other. The motors' heat, which is older than the session, is told as if the device
-// had measured it: the governor goes by the larger of that and its own estimate, which began cold and is never larger.
+// The hand of one sample after the other. The motors' heat, which is older than the session, is reported as if the
+// device had measured it: the governor goes by the larger of that and its own estimate, which began cold and is never
+// larger.
 class RecordedHand final : public haptics::HapticDevice {
  public:
   explicit RecordedHand(const RecordedSession& session) : spec_(haptics::spec_of(session.device)) {}
@@ -85,7 +86,7 @@ bool beats(std::span<const TipSample> from_here) {
   return true;
 }
 
-// A servo over a segment of its own, in the session's time.
+// A servo with a separate segment, in the session's time.
 class Player {
  public:
   static core::Result<std::unique_ptr<Player>> create(const RecordedSession& session) {

@@ -35,7 +35,7 @@ constexpr const char* kRecordAgain = "; record it again";
 // Throws as session_of does. What is wrong, or nothing.
 std::string read_header(std::string_view text, RecordedSession& session) {
   const nlohmann::json header = nlohmann::json::parse(text);
-  if (!fits_records(header)) return "its records have another size than this program's";
+  if (!fits_records(header)) return "the size of its records differs from this program's";
   session = session_of(header);
   return {};
 }
@@ -60,13 +60,13 @@ bool finite(const Record& record) {
 std::string read_records(std::string_view file, RecordedSession& session) {
   std::string_view body = file.substr(kSessionMagic.size() + sizeof(kVersionOf010));
   std::uint64_t sum = 0, header_size = 0;
-  if (body.size() < sizeof(sum)) return "it is cut short";
+  if (body.size() < sizeof(sum)) return "it is truncated";
   std::memcpy(&sum, body.data() + body.size() - sizeof(sum), sizeof(sum));
   body.remove_suffix(sizeof(sum));
   if (sum != core::fnv1a(file.substr(0, file.size() - sizeof(sum)))) {
-    return "its checksum is wrong: it is cut short or altered";
+    return "its checksum is wrong: the file is truncated or altered";
   }
-  if (!take(body, header_size) || header_size > body.size()) return "it is cut short";
+  if (!take(body, header_size) || header_size > body.size()) return "it is truncated";
   if (std::string wrong = read_header(body.substr(0, header_size), session); !wrong.empty()) return wrong;
   body.remove_prefix(header_size);
   std::vector<SharedHeightField> surface;
@@ -93,18 +93,18 @@ std::string read_chunks(std::string_view file, RecordedSession& session) {
   nlohmann::json last_frame;
   for (bool first = true;; first = false) {
     const SessionDecoder::Step step = decoder.next();
-    if (step == SessionDecoder::Step::Altered) return "its checksum is wrong: it was altered";
+    if (step == SessionDecoder::Step::Altered) return "its checksum is wrong: the file was altered";
     if (step == SessionDecoder::Step::End) return {};
     session.complete = false;
     if (step == SessionDecoder::Step::Cut)
-      return session.samples.empty() ? "it is cut short before its first tick" : "";
-    if (first != (decoder.name() == kHeadChunk)) return "its parts are not in their order";
+      return session.samples.empty() ? "it is truncated before its first tick" : "";
+    if (first != (decoder.name() == kHeadChunk)) return "its parts are out of order";
     std::string_view payload = decoder.payload();
     if (first) {
       if (std::string wrong = read_header(payload, session); !wrong.empty()) return wrong;
     } else if (decoder.name() == kSurfaceChunk) {
       if (payload.size() != sizeof(SharedHeightField) || !take(payload, session.surface.emplace())) {
-        return "its surface has another size than this program's";
+        return "the size of its surface differs from this program's";
       }
     } else if (decoder.name() == kPartChunk) {
       if (std::string wrong = read_part(payload, session, last_frame); !wrong.empty()) return wrong;
@@ -138,24 +138,24 @@ bool can_be_a_name(const std::string& name) { return !name.empty() && name.size(
 // What cannot be in a session that was read, or nothing.
 std::string what_cannot_be(const RecordedSession& session) {
   if (const auto valid = scene::validate(*model_of(session)); !valid) return valid.error().message;
-  if (!scene::is_valid(session.device)) return "its device has limits that cannot be";
+  if (!scene::is_valid(session.device)) return "the limits of its device are impossible";
   if (!(session.rate_hz > 0 && std::isfinite(session.hand_m_per_m) && std::isfinite(session.hand_n_per_n))) {
-    return "its rate or its scale cannot be";
+    return "its rate or its scale is impossible";
   }
-  if (session.samples.empty()) return "it holds no sample";
-  if (!can_be_a_name(session.material)) return "its material has no name that can be";
+  if (session.samples.empty()) return "it contains no samples";
+  if (!can_be_a_name(session.material)) return "the name of its material is impossible";
   const auto not_before = [](const TipSample& a, const TipSample& b) { return a.time_ns >= b.time_ns; };
   if (session.samples.front().time_ns < 0 ||
       std::adjacent_find(session.samples.begin(), session.samples.end(), not_before) != session.samples.end()) {
-    return "the times of its ticks do not grow";
+    return "the times of its ticks do not increase";
   }
   const auto is_finite = [](const auto& record) { return finite(record); };
   if (!std::all_of(session.samples.begin(), session.samples.end(), is_finite) ||
       !std::all_of(session.events.begin(), session.events.end(), is_finite)) {
-    return "it holds numbers that are not finite";
+    return "it contains values that are not finite";
   }
   if (!std::all_of(session.wall.begin(), session.wall.end(), [](const WallFrame& f) { return can_be(f); })) {
-    return "it says of the wall what cannot be";
+    return "its state of the wall is impossible";
   }
   return {};
 }
@@ -210,13 +210,13 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   if (!file->starts_with(kSessionMagic)) {
     return core::failure(
         core::ErrorCategory::BadInputFile,
-        fmt::format("session file {}: this is not a TouchAFM session; give a file that `touchafm demo` wrote", path));
+        fmt::format("session file {}: not a TouchAFM session; give a file that touchafm demo wrote", path));
   }
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
-  if (!take(body, version)) return bad("it is cut short");
+  if (!take(body, version)) return bad("it is truncated");
   if (version != kSessionVersion && version != kVersionOf010) {
-    return bad(fmt::format("it has version {}, this program reads versions {} and {}", version, kVersionOf010,
+    return bad(fmt::format("its version is {}; this program reads versions {} and {}", version, kVersionOf010,
                            kSessionVersion));
   }
   RecordedSession session;
@@ -233,7 +233,7 @@ core::Result<RecordedSession> load_session(const std::string& path) {
 }
 
 std::string cut_text(const RecordedSession& session, const std::string& path) {
-  return fmt::format("session file {}: it was cut after {:.3f} s; what came before is whole", path,
+  return fmt::format("session file {}: truncated after {:.3f} s; everything before is complete", path,
                      session.seconds_since_start(session.samples.back().time_ns));
 }
 

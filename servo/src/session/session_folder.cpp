@@ -16,7 +16,7 @@ core::Result<SessionFolder> SessionFolder::open(const std::string& path) {
   std::filesystem::create_directories(path, error);
   if (!std::filesystem::is_directory(path, error) || ::access(path.c_str(), W_OK | X_OK) != 0) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot record into {}: it is no folder that can be written; name another", path));
+                         fmt::format("cannot record into {}: it is not a writable folder; choose another", path));
   }
   return SessionFolder(path);
 }

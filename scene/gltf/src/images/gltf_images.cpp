@@ -117,7 +117,7 @@ void measure(const std::vector<EncodedImage>& encoded, std::vector<Image>& image
   }
   if (pixels > kMostImagePixels) {
     throw GltfError(
-        fmt::format("its images have {} megapixels together, more than {}", pixels >> 20U, kMostImagePixels >> 20U));
+        fmt::format("its images have {} megapixels in total, more than {}", pixels >> 20U, kMostImagePixels >> 20U));
   }
 }
 
@@ -144,7 +144,7 @@ void read_textures(GltfModel& model, const GltfBuffers& buffers, Scene& scene, G
         used_textures.insert(*use.texture);
         used_images.insert(static_cast<std::uint32_t>(source));
       } else {
-        notes.ignore(fmt::format("/textures/{}: has an image only in a format that is not read", *use.texture));
+        notes.ignore(fmt::format("/textures/{}: has an image only in an unsupported format", *use.texture));
       }
     }
   }

@@ -24,7 +24,7 @@ struct CloseJpeg {
 };
 
 ImageSize png_size(Encoded bytes) {
-  if (std::memcmp(bytes.data() + 12, "IHDR", 4) != 0) throw GltfError("its PNG header is broken");
+  if (std::memcmp(bytes.data() + 12, "IHDR", 4) != 0) throw GltfError("its PNG header is corrupt");
   return {png_get_uint_32(bytes.data() + 16), png_get_uint_32(bytes.data() + 20)};
 }
 
@@ -33,7 +33,7 @@ ImageSize jpeg_size(Encoded bytes) {
   int width = 0, height = 0, sampling = 0, colors = 0;
   if (tjDecompressHeader3(decoder.get(), bytes.data(), bytes.size(), &width, &height, &sampling, &colors) != 0 ||
       width <= 0 || height <= 0) {
-    throw GltfError("its JPEG header is broken");
+    throw GltfError("its JPEG header is corrupt");
   }
   return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
@@ -74,11 +74,11 @@ void decode_png(Encoded bytes, Image& image) {
   std::vector<png_bytep> rows(image.height);
   for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = image.rgba.data() + row * row_bytes;
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, keep_quiet);
-  if (png == nullptr) throw GltfError("no memory is left to decode it");
+  if (png == nullptr) throw GltfError("out of memory while decoding it");
   png_infop info = png_create_info_struct(png);
   const bool whole = info != nullptr && read_png(png, info, &bytes, rows.data(), row_bytes);
   png_destroy_read_struct(&png, &info, nullptr);
-  if (!whole) throw GltfError("its PNG data is broken");
+  if (!whole) throw GltfError("its PNG data is corrupt");
 }
 
 void decode_jpeg(Encoded bytes, Image& image) {
@@ -87,7 +87,7 @@ void decode_jpeg(Encoded bytes, Image& image) {
       tjDecompress2(decoder.get(), bytes.data(), bytes.size(), image.rgba.data(), static_cast<int>(image.width), 0,
                     static_cast<int>(image.height), TJPF_RGBA, TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT);
   if (done != 0 && tjGetErrorCode(decoder.get()) == TJERR_FATAL) {
-    throw GltfError(fmt::format("its JPEG data is broken or of a kind that is not read ({})",
+    throw GltfError(fmt::format("its JPEG data is corrupt or of an unsupported kind ({})",
                                 std::string(tjGetErrorStr2(decoder.get())).substr(0, 80)));
   }
 }

@@ -19,7 +19,8 @@ struct ImageSize {
   std::uint32_t height = 0;
 };
 
-// What the header says, before anything is decoded. Throws GltfError for what is no PNG or JPEG, or too large.
+// Size from the header, without decoding. Throws GltfError if the data is neither PNG nor JPEG, or the image is too
+// large.
 ImageSize image_size(std::span<const std::uint8_t> encoded);
 
 // Decodes into eight bits RGBA; colour spaces and gamma that the file names are ignored, as glTF demands. `image` has

@@ -10,7 +10,7 @@
 
 namespace afm::scene {
 
-// A fault in a TOML file, thrown by whoever reads a key and turned into an Error by read_toml; never leaves the folder
+// A fault in a TOML file, thrown while reading a key and turned into an Error by read_toml; never leaves the folder
 // that reads.
 struct Fault {
   toml::source_region where;

@@ -5,8 +5,7 @@
 
 #include "scene/display/wall.h"
 
-// How hard two eyes have to work: what the depth of a picture asks of a viewer. Angles in radians, room frame in
-// metres.
+// Disparity: the vergence that the depth of a picture demands of a viewer. Angles in radians, room frame in metres.
 namespace afm::scene {
 
 // Beyond it pictures cease to fuse without strain for many (the one-degree rule; Nagata 2002 finds -1.84 to 2.04

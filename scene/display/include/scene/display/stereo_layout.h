@@ -11,7 +11,7 @@
 
 #include "core/result.h"
 
-// How the two eyes' images become what a screen shows: pure arithmetic over pixels, counted from the top left corner.
+// Layout of the two eye images on a screen: pure arithmetic over pixels, counted from the top left corner.
 namespace afm::scene {
 
 enum class StereoMode {
@@ -35,8 +35,8 @@ enum class StereoMode {
   Count
 };
 
-// How a picture is made of the eyes' images; compose.frag has the same list. TwoPictures shows each eye's image as a
-// picture of its own.
+// Arrangement of the eye images in a picture; compose.frag has the same list. TwoPictures shows each eye image as a
+// separate picture.
 enum class EyeArrangement {
   Left,
   Right,
@@ -56,7 +56,7 @@ struct FramePacking {
   unsigned blank_lines;
 };
 
-// What glasses of two colours need: rgb = left * L + right * R in linear light, clamped to 0..1.
+// Colour mix for anaglyph glasses: rgb = left * L + right * R in linear light, clamped to 0..1.
 struct AnaglyphMatrices {
   glm::dmat3 left;
   glm::dmat3 right;
@@ -152,14 +152,14 @@ core::Result<StereoMode> parse_stereo_mode(std::string_view name);
 enum class EyeOrder { Straight, Swapped };
 
 // Size of the picture (of each of them) in which one pixel of an eye image of `eye_px` is one pixel; the half modes
-// squeeze two into one. Frame packing has a size of its own, whatever the eyes'.
+// squeeze two into one. Frame packing has a fixed size.
 glm::uvec2 picture_size(StereoMode mode, glm::uvec2 eye_px);
 
 // The converse: eye images for a picture of `picture_px`, both at least 1 x 1. Where an odd number of pixels is shared
 // by two eyes, the last stays blank.
 glm::uvec2 eye_size(StereoMode mode, glm::uvec2 picture_px);
 
-// What a pixel of a picture shows.
+// Eye whose image a pixel of a picture shows.
 enum class PixelEye { Blank, Left, Right, Both };
 struct PixelSource {
   PixelEye eye = PixelEye::Blank;

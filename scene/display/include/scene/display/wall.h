@@ -52,7 +52,7 @@ struct EyeView {
 glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m,
                         const glm::dvec3& eye_from_tracker_m = glm::dvec3(0.0));
 
-// Whether the corners are finite, apart, and square within a degree (what a tape measure gets right).
+// Checks that the corners are finite, distinct, and at right angles within a degree (the accuracy of a tape measure).
 core::Result<void> check_screen(const Screen& screen);
 
 // An eye nearer to a screen than this is an error of measurement, not a viewer.
@@ -84,7 +84,7 @@ struct PixelRect {
   glm::uvec2 size_px{0};
 };
 
-// Where a screen's picture comes out, and how.
+// Output that shows a screen's picture.
 struct Output {
   std::string name;
   std::size_t screen = 0;  // of Wall::screens
@@ -102,7 +102,7 @@ struct Wall {
   std::vector<Viewer> viewers;
 };
 
-// Why no head can be at that place before this wall, in a few words such as "0.85 m below the floor"; empty: it can.
+// Reason why no head can be at this position in front of the wall, such as "0.85 m below the floor"; empty if it can.
 // The floor is at y = 0, or as low as a screen reaches, or a metre below the sweet spot where the room's origin lies
 // higher.
 std::string doubt_of_head(const Wall& wall, const glm::dvec3& head_m);

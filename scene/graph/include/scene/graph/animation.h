@@ -24,7 +24,7 @@ struct Track {
   std::vector<float> values;
 };
 
-// What an animation does with one node; what has no track keeps its value at rest.
+// Tracks of an animation for one node; a property without a track keeps its value at rest.
 struct AnimatedNode {
   NodeIndex node = 0;
   glm::dvec3 translation{0.0};
@@ -47,7 +47,7 @@ struct Animation {
 void sample(const Track& track, float time_s, std::vector<float>& value);
 glm::dquat sample_rotation(const Track& track, float time_s);
 
-// What bends a mesh: one matrix a joint, from the mesh into the joint's frame at rest.
+// Skin of a mesh: one matrix per joint, from the mesh into the joint's frame at rest.
 struct Skin {
   std::string name;
   std::vector<NodeIndex> joints;

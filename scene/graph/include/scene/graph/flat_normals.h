@@ -5,7 +5,7 @@
 
 namespace afm::scene {
 
-// Gives every triangle corners of its own, so that each can have its own normal.
+// Splits shared corners, so that every triangle can have its own normal.
 void separate_corners(Primitive& primitive);
 
 // Sets the normal of each triangle's three corners, which are its own, from where they stand.

@@ -39,7 +39,7 @@ struct Texture {
   bool operator==(const Texture&) const = default;
 };
 
-// What a texture of a material is for; each has its number in material.frag.
+// Purpose of a material's texture; each has its number in material.frag.
 enum class TextureSlot : std::uint8_t {
   BaseColor,             // rgb colour, a coverage
   MetallicRoughness,     // g roughness, b metalness
@@ -86,7 +86,7 @@ static_assert([] {
   return true;
 }());
 
-// How a material reads one of its textures: coordinates of set 0 or 1, scaled, turned and shifted in this order
+// Texture coordinates of one texture of a material: set 0 or 1, scaled, rotated and shifted in this order
 // (KHR_texture_transform).
 struct TextureUse {
   std::optional<std::uint32_t> texture;
@@ -98,8 +98,7 @@ struct TextureUse {
   bool operator==(const TextureUse&) const = default;
 };
 
-// What a surface looks like: glTF 2.0 metallic-roughness factors, linear, and those of the KHR_materials extensions
-// that are drawn.
+// Look of a surface: glTF 2.0 metallic-roughness factors, linear, and those of the supported KHR_materials extensions.
 struct PbrMaterial {
   std::string name;
   glm::vec4 base_color{1.0F};
@@ -127,10 +126,10 @@ struct PbrMaterial {
   TextureUse& texture(TextureSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
 };
 
-// Which shaders a field concerns. Plain materials are those that the shader without textures draws: every field of
-// Extended and of Feature has its default.
+// Shaders that use a field. Plain materials are those that the shader without textures draws: every field of Extended
+// and of Feature has its default.
 enum class PbrUse {
-  Plain,     // every shader draws it, or a texture has a bit of its own
+  Plain,     // every shader draws it, or a texture has its own bit
   Factor,    // material.frag alone reads it, and it says nothing without a texture or a feature
   Extended,  // material.frag alone draws what is not the default
   Feature,   // the same, and it switches a part of the shader on: 0 is off

@@ -18,10 +18,10 @@ Scene posed(Scene scene, std::optional<float> time_s);
 // The scene with the materials of a variant (KHR_materials_variants); false if there is none of that name.
 bool choose_variant(Scene& scene, std::string_view name);
 
-// Where every node is at rest, from the scene's own frame.
+// Transform of every node at rest, in the scene's frame.
 std::vector<glm::dmat4> scene_from_nodes(const Scene& scene);
 
-// The node that stands for a role, "tip", "base" or "surface": by its extras, or else by its name.
+// The node with a role, "tip", "base" or "surface": by its extras, or else by its name.
 std::optional<NodeIndex> find_role(const Scene& scene, std::string_view role);
 
 }  // namespace afm::scene

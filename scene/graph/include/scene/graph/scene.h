@@ -27,7 +27,7 @@ struct Vertex {
 // Strips, fans and loops become these when they are loaded.
 enum class Topology { Triangles, Lines, Points };
 
-// Where a primitive's normals come from: the file, its triangles, or nowhere: such lines and points are not lit.
+// Source of a primitive's normals: the file, its triangles, or none: such lines and points are not lit.
 enum class Normals { Given, Flat, None };
 
 struct TextureCoordinates {
@@ -41,7 +41,7 @@ struct Influence {
   glm::vec4 weights{0.0F};
 };
 
-// What a morph target adds to the vertices; a stream that the target lacks is empty.
+// Displacements that a morph target adds to the vertices; a stream that the target lacks is empty.
 struct MorphTarget {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
@@ -54,8 +54,8 @@ struct VariantMaterial {
   std::uint32_t material = 0;
 };
 
-// A list of triangles, lines or points; indices into its own vertices, all of them valid. What few models have stands
-// beside the vertices: each stream is empty or has one entry a vertex.
+// A list of triangles, lines or points; indices into its own vertices, all of them valid. Rare attributes are separate
+// streams: each is empty or has one entry per vertex.
 struct Primitive {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;

@@ -8,7 +8,7 @@
 
 namespace afm::scene {
 
-// Why the servo took the force away. 7 was never given by a servo; the other numbers stay as they were.
+// Reason for which the servo removed the force. No servo ever used 7; the numbers are stable.
 enum class FaultCode : std::uint32_t {
   None = 0,
   RendererDied = 1,

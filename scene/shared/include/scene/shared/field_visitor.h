@@ -4,15 +4,15 @@
 #include <cstddef>
 #include <type_traits>
 
-// What stands beside a block of the shared scene, so that nobody has to list its fields again:
+// Description of the fields of a block of the shared scene, the only list of them:
 //
 //   template <class Visit, std::same_as<Tip>... Record>
 //   constexpr void for_each_field(Visit&& visit, const Record&... tip) {
 //     visit("z_m", tip.z_m...);
 //     ...
 //
-// With one record it visits the values, with two it visits them in pairs. `all_fields_described` tells the compiler
-// when a field was forgotten.
+// With one record it visits the values, with two it visits them in pairs. `all_fields_described` fails to compile if a
+// field was forgotten.
 namespace afm::scene {
 
 template <class T>

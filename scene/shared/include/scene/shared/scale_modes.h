@@ -8,8 +8,8 @@
 
 namespace afm::scene {
 
-// How nanometres and nanonewtons become a hand's: one scale for all materials, one that fits each (the usual), or that
-// with small forces raised by a bounded compression.
+// Scaling of nanometres and nanonewtons to the hand: one scale for all materials, one that fits each (the default), or
+// the latter with small forces amplified by a bounded compression.
 enum class ScaleMode : std::uint32_t { Common = 0, Fit = 1, Compressed = 2 };
 
 struct ScaleModeText {
@@ -20,7 +20,7 @@ struct ScaleModeText {
 
 inline constexpr std::array kScaleModes{ScaleModeText{ScaleMode::Common, "common", "one scale for all samples"},
                                         ScaleModeText{ScaleMode::Fit, "fit", "each sample on its own scale"},
-                                        ScaleModeText{ScaleMode::Compressed, "compressed", "weak forces are raised"}};
+                                        ScaleModeText{ScaleMode::Compressed, "compressed", "weak forces amplified"}};
 static_assert(core::has_row_for_each(kScaleModes, &ScaleModeText::mode));
 
 constexpr const ScaleModeText& text_of(ScaleMode mode) { return kScaleModes[core::index_of(mode)]; }

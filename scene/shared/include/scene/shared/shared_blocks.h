@@ -43,8 +43,8 @@ struct SharedNode {
   std::array<double, 16> parent_from_node{};  // column-major rest transform
 };
 
-// What is felt: one choice of tip, lever, sample and medium, and the law of force that they are given. The options of
-// the law lie flat, because nobody can check the bytes of a std::optional.
+// Parameters of a contact: one combination of tip, lever, sample and medium, and its law of force. The options of the
+// law lie flat, because nobody can check the bytes of a std::optional.
 struct SharedContact {
   Name name{};
   physics::ContactParameters contact{};
@@ -97,7 +97,7 @@ struct SharedModel {
 
 // ---- written by touchafm ----
 
-// Where every node is now: room from node, column-major, metres.
+// Current transform of every node: room from node, column-major, metres.
 struct SceneTransforms {
   std::uint32_t count = 0;
   std::uint32_t padding = 0;
@@ -121,7 +121,7 @@ struct MaterialEdit {
   std::uint32_t padding = 0;
 };
 
-// What the simulated person does with the simulated hand; ignored by real devices. A new `revision` starts a
+// Motion that the simulated user makes with the simulated hand; real devices ignore it. A new `revision` starts a
 // minimum-jerk path of the hand's aim from where it is now to `target_m` (device frame, +y up, metres) in `duration_s`.
 struct HandScript {
   std::array<double, 3> target_m{};
@@ -141,7 +141,7 @@ struct RendererHeartbeat {
 
 enum class ServoState : std::uint32_t { Disarmed = 0, Arming = 1, Running = 2, Fading = 3, Fault = 4 };
 
-// What the servo saw of the process that draws.
+// State of the renderer as the servo sees it.
 enum class RendererLink : std::uint32_t {
   Absent = 0,  // has not shown a sign of life yet
   Alive = 1,
@@ -151,7 +151,7 @@ enum class RendererLink : std::uint32_t {
   Stopped = 5,  // lives, and a person has pressed Stop there
 };
 
-// What the servo holds: limits as in haptics::DeviceSpec, places in the device frame from the contact point, metres.
+// The servo's device: limits as in haptics::DeviceSpec, positions in the device frame from the contact point, metres.
 // Stored once, when the servo starts.
 struct SharedDevice {
   Name name{};

@@ -33,7 +33,7 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
 
 physics::LawOptions law_options(const SharedContact& material);
 
-// Whether a block is worth believing: indices within counts, enumerators known, numbers finite.
+// True if a block is valid: indices within counts, enumerators known, numbers finite.
 bool is_valid(const SceneTransforms& transforms, const SharedModel& model);
 bool is_valid(const Selection& selection, const SharedModel& model);
 bool is_valid(const HandScript& script);
@@ -43,7 +43,7 @@ bool is_valid(const TipState& state, const SharedModel& model);
 bool is_valid(const TipSample& sample, const SharedModel& model);
 bool is_valid(const TipEvent& event, const SharedModel& model);
 
-// Where `node` rests, composed along its parents. `model` is valid and `node` is less than its node_count.
+// Transform of `node` at rest, composed along its parents. `model` is valid and `node` is less than its node_count.
 glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node);
 
 // The ends that touchafm holds. Keep one for the life of the segment and use it from one thread: it is the single
@@ -57,8 +57,8 @@ class RendererSide {
   void store(const HandScript& script) noexcept;
   void store(const RendererHeartbeat& heartbeat) noexcept;
 
-  // What this side stored last, for a process that takes the place of one that died: its revisions must go on from
-  // there. Empty if nothing was stored, or only half.
+  // The last value that this side stored, for a process that replaces one that died and must continue its revisions.
+  // Empty if nothing was stored completely.
   std::optional<Selection> last_selection() const noexcept;
   std::optional<HandScript> last_hand_script() const noexcept;
   std::optional<MaterialEdit> last_edit(std::uint32_t material) const noexcept;  // material < material_count
@@ -114,7 +114,7 @@ class ServoSide {
   std::uint32_t refused_ = 0;
 };
 
-// The end for whoever builds what the servo feels, one thread beside the servo's.
+// Side of the thread that builds the servo's contact models.
 class EditSide {
  public:
   // The newest edit of this material, once; unchecked. `material` < kMaxMaterials.

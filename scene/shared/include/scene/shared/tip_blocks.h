@@ -9,8 +9,8 @@
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/shared_blocks.h"
 
-// What touchafm-servo tells of the tip, every tick. Fields that several blocks have are one struct; a new field takes
-// one line in the struct, one in its description and one in ServoLoop::publish().
+// State of the tip that touchafm-servo publishes every tick. Fields that several blocks have are one struct; a new
+// field takes one line in the struct, one in its description and one in ServoLoop::publish().
 namespace afm::scene {
 
 // The tip and its lever, from the law of force. Heights along +z of the sample.
@@ -59,7 +59,7 @@ constexpr void for_each_field(Visit&& visit, const Record&... hand) {
 }
 static_assert(all_fields_described<HandState>());
 
-// How much larger the hand's world is: metres of hand per metre of Z, newtons on the hand per newton on the tip.
+// Scale of the hand: metres of hand per metre of Z, newtons on the hand per newton on the tip.
 struct HandScale {
   double hand_m_per_m = 0;
   double hand_n_per_n = 0;
@@ -91,7 +91,7 @@ constexpr void for_each_field(Visit&& visit, const Record&... active) {
 }
 static_assert(all_fields_described<ActiveContact>());
 
-// What limits the force on the hand, from the safety governor.
+// Limits on the force on the hand, from the safety governor.
 struct SafetyFigures {
   double force_cap_n = 0;  // the longest force vector that may be given now
   double slew_limit_n_per_s = 0;
@@ -112,7 +112,7 @@ constexpr void for_each_field(Visit&& visit, const Record&... safety) {
 }
 static_assert(all_fields_described<SafetyFigures>());
 
-// How far the servo has got with what the renderer asked for.
+// Newest requests of the renderer that the servo has handled.
 struct Acknowledged {
   std::uint32_t selection = 0;     // revision of the newest Selection that took effect
   std::uint32_t refused_edit = 0;  // of the newest MaterialEdit that cannot be built
@@ -195,7 +195,7 @@ struct TipSample {
   std::uint32_t changing = 0;        // 1: another choice, or an edit, has taken the force away
 };
 
-// What the servo computed in the tick: a replay must give it again, bit for bit.
+// Results of the tick: a replay must reproduce them bit for bit.
 template <class Visit, std::same_as<TipSample>... Record>
 constexpr void for_each_result(Visit&& visit, const Record&... sample) {
   visit("tip", sample.tip...);
@@ -206,7 +206,7 @@ constexpr void for_each_result(Visit&& visit, const Record&... sample) {
   visit("surface", sample.surface...);
 }
 
-// What the tick was given: a replay begins from it.
+// Inputs of the tick: a replay begins with them.
 template <class Visit, std::same_as<TipSample>... Record>
 constexpr void for_each_input(Visit&& visit, const Record&... sample) {
   visit("time_ns", sample.time_ns...);
