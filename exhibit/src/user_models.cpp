@@ -81,7 +81,7 @@ core::Result<scene::Scene> load(const std::string& file) {
   const LoadingNotice notice(file);
   auto loaded = scene::load_gltf(file);
   if (loaded && !loaded->animations.empty()) {
-    core::log_line(fmt::format("'{}' stands at rest: the animations of a model are not played on the wall", file));
+    core::log_line(fmt::format("'{}' is shown at rest: the wall plays no animations of models", file));
   }
   return loaded;
 }

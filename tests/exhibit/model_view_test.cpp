@@ -197,7 +197,7 @@ TEST_F(OwnModel, SaysThatItsAnimationsAreNotPlayedOnTheWall) {
     return testing::internal::GetCapturedStderr();
   };
   EXPECT_EQ(said(""), "");
-  EXPECT_THAT(said(R"(, "animations": [{"samplers": [], "channels": []}])"), HasSubstr("stands at rest"));
+  EXPECT_THAT(said(R"(, "animations": [{"samplers": [], "channels": []}])"), HasSubstr("is shown at rest"));
 }
 
 }  // namespace
