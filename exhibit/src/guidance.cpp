@@ -26,7 +26,7 @@ static_assert([] {
   return true;
 }());
 
-// Where the servo accepts Turn-On.
+// High enough for the servo to accept Turn-On.
 bool is_lifted(const scene::TipState& tip) {
   return tip.phase == physics::Phase::Free && (tip.tip.z_m - tip.active.release_z_m) * tip.active.scale.hand_m_per_m >=
                                                   haptics::SafetyGovernor::kArmingMarginM;

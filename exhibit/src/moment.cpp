@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTurnM = 0.2e-9;  // Z must rise this far above its lowest before it counts as retracting
 
-// What the newest state and a recorded sample have in common.
+// The part that the newest state and a recorded sample share.
 template <class TipRecord>
 Moment moment_from(const TipRecord& record) {
   Moment moment;

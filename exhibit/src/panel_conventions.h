@@ -3,7 +3,7 @@
 
 namespace afm::exhibit {
 
-// What the panels agree about. Of the axis of force, what lies above and below zero, in units of the greatest force
+// Shared by the panels. The shares of the axis of force above and below zero, in units of the greatest force
 // towards the one and the other side.
 inline constexpr double kForceAbove = 0.52, kForceBelow = 1.22;
 inline constexpr int kDigits = 3;  // of a number

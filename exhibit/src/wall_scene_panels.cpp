@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a wall of any shape is composed, and where its panels stand.
+// The composition of a wall of any shape and the place of its panels.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -40,7 +40,7 @@ render::PanelPlacement in_frame(const glm::dmat4& room_from_frame, double left, 
 
 }  // namespace
 
-// Where all is laid out, from the screens and who stands before them.
+// The layout, from the screens and the viewer in front of them.
 void WallScene::lay_out(const StagePlace& stage) {
   // the contact point: at eye height, in the middle, as far as everything finds its place above and below it, but never
   // out of the wall's middle third
@@ -79,7 +79,7 @@ void WallScene::lay_out_front(const StagePlace& stage, double contact_height_m) 
   wand_grip_ = kWandGrip;
   wand_grip_.z = std::clamp(nearest - kWandReach, kLeastShelfZ, kWandGrip.z);
 
-  // who looks down from above the wall sees what stands before it lower: then the shelf is higher
+  // seen from above the wall, things in front of it appear lower: then the shelf is higher
   const double bottom = shape_.arrangement == Arrangement::Below ? -kRoomBelow : -contact_height_m / unit;
   const double lowest_seen = eye.y + (bottom + kPanelMargin - eye.y) * (eye.z - shelf_z_) / eye.z;
   shelf_y_ = std::clamp(lowest_seen + kShelfHeight, kShelfY, kHighestShelfY);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where everything stands in one state.
+// The place of everything in one state.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

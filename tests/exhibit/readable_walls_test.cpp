@@ -181,6 +181,8 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
                     .highlighted = false,
                     .placement = stage.wall_scene.note_placement()});
   for (const render::Label& label : labels) expect_whole(label, label.placement, label.text.c_str());
+  constexpr double kRulerM = 0.080;  // at true scale, whatever the screen
+  if (stage.screen.width_m() < kRulerM) return;
   render::FrameState pattern;
   show_calibration(stage.screen, scene::StereoMode::SideBySide, 0.063, phrases, pattern);
   const Painted whole_screen = painter.paint(pattern.calibration, pattern.calibration_placement);

@@ -25,7 +25,7 @@ class Analogy {
   };
   void place(const Heights& heights, std::vector<glm::dmat4>& local) const;
 
-  // Where the names of the parts stand: heights of the middles of magnet and spring.
+  // Heights of the middles of magnet and spring, for their names.
   double magnet_middle(const Heights& heights) const { return heights.poles + 0.5 * magnet_height_; }
   double spring_middle(const Heights& heights) const;
 

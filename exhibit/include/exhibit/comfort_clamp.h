@@ -21,7 +21,7 @@ class ComfortClamp {
   // that a thing that comes and goes does not make the picture breathe. Times never run backwards.
   double ipd_m(double ipd_m, std::int64_t now_ns);
 
-  // The same once it stands still: what the depth measured last is about to be drawn for.
+  // The same once it has settled: what the depth measured last is about to be drawn for.
   double settled_ipd_m(double ipd_m) const { return wanted_ * ipd_m; }
 
   static constexpr double kNarrowS = 0.25, kWidenS = 2.0;

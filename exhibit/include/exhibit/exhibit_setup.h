@@ -19,7 +19,7 @@
 
 namespace afm::exhibit {
 
-// What the shelf in front of the wall holds.
+// The capacity of the shelf in front of the wall.
 inline constexpr std::size_t kMostMaterials = 9;
 
 // The languages of the assets: guidance/en.toml and on.
@@ -57,7 +57,7 @@ core::Result<LoadedPhrases> load_phrases(const ExhibitFiles& files);
 struct Stage {
   scene::MaterialLibrary materials;
   scene::Wall wall;
-  scene::Screen screen;  // that the scene stands on: StagePlace::main
+  scene::Screen screen;  // of the scene: StagePlace::main
   std::array<scene::EyeView, 2> eyes;
   WallScene wall_scene;
   Phrases english;  // for the log, which staff and bug reports share
@@ -73,7 +73,7 @@ struct Stage {
 
 core::Result<Stage> load_exhibit(const ExhibitFiles& files);
 
-// Whether it ends as the name of a glTF model does.
+// True for the name of a glTF file: .glb or .gltf.
 bool is_model_file(const std::string& name);
 
 }  // namespace afm::exhibit

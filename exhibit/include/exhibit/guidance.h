@@ -25,14 +25,14 @@ enum class Hint {
   ServoEnded
 };
 
-// How far the present cycle is.
+// Progress of the present cycle.
 struct StepsDone {
   bool ascending = false;  // the hand, last time that it moved
   bool pressed = false;    // below Z = 0 since the tip touched
   bool let_go = false;     // since the force came on
 };
 
-// What CycleHistory counts.
+// Progress as CycleHistory counts it.
 struct CycleProgress {
   bool ascending = false;
   bool pressed = false;

@@ -34,7 +34,7 @@ class Journey {
   // `orders`: 0 to kJourneyOrders, else the nearest of them.
   void place(double orders, std::vector<glm::dmat4>& local) const;
 
-  // Whether a node below the journey's frame is to be drawn. What is beyond the haze or smaller than a pixel is not.
+  // True for a node below the journey's frame that is to be drawn: none beyond the fog or smaller than a pixel.
   bool shows(scene::NodeIndex node, double orders, std::size_t ground) const;
 
   scene::NodeIndex frame() const { return frame_; }

@@ -10,7 +10,7 @@
 
 namespace afm::exhibit {
 
-// Lives while a file is loaded, and says on a thread of its own that it takes its time, once it has taken a second.
+// Lives while a file is loaded. After a second a separate thread says that loading goes on.
 class LoadingNotice {
  public:
   // Waits for the moment to say so; false if the stop comes before it.

@@ -13,7 +13,7 @@
 
 namespace afm::exhibit {
 
-// Which model is shown, and how.
+// A model and the way to show it.
 struct ModelChoice {
   std::string file{};
   std::optional<double> at_s{};  // of its animations; none: at rest
@@ -29,7 +29,7 @@ struct ModelView {
   render::FrameState frame;
 };
 
-// What a camera is called: its own name, its node's, or its place in the file as "#0".
+// The name of a camera: its own name, its node's, or its place in the file as "#0".
 std::string camera_name(const scene::Scene& scene, const scene::Node& node);
 
 // Loads a model, poses it, and places it behind a wall as its camera, or one that has all of it in view, sees it: what

@@ -15,7 +15,7 @@
 
 namespace afm::exhibit {
 
-// What a finished cycle came to, magnitudes.
+// The events of a finished cycle, magnitudes.
 struct CycleResult {
   std::string title;
   std::string law;  // "dmt"
@@ -38,14 +38,14 @@ struct Moment {
   std::vector<CycleResult> results;  // of Centerpiece::Plot
 };
 
-// What the newest state of the tip tells the wall.
+// The moment of the newest state of the tip.
 Moment moment_of(const scene::TipState& tip, bool retracting);
 
 // The moment of a session at `time_ns`, as the live wall showed it; `curves` has one entry per material.
 Moment moment_of(const servo::RecordedSession& session, std::size_t material, std::int64_t time_ns,
                  std::span<const CycleCurve> curves);
 
-// Whether the tip is on its way back from the deepest push of its cycle.
+// True once the tip is on its way back from the deepest push of its cycle.
 bool is_retracting(double z_m, double deepest_z_m);
 
 }  // namespace afm::exhibit

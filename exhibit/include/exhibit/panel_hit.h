@@ -15,8 +15,8 @@ struct PanelHit {
   glm::dvec2 place_mm{0.0};  // of the panel, from the panel's top left corner, x to the right and y down
 };
 
-// Where a ray meets a panel, from whichever side; nothing beside it, or if the panel has no area. `millimetre_m` as in
-// render::RendererOptions.
+// The point where a ray meets a panel, from either side; nothing outside it, or if the panel has no area.
+// `millimetre_m` as in render::RendererOptions.
 std::optional<PanelHit> hit_of(const input::Ray& ray, const render::PanelPlacement& panel, double millimetre_m);
 
 // Width and height of a panel in its millimetres.

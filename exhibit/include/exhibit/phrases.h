@@ -16,7 +16,7 @@ namespace afm::exhibit {
 // Characters that a text may have: on one line of the wall, and as a paragraph of the report.
 inline constexpr std::size_t kLine = 100, kParagraph = 700;
 
-// What a guidance line may name: the controls of the device in the hand.
+// Placeholders of a guidance line: the controls of the device in the hand.
 inline constexpr std::string_view kControlPlaces = "up? down? turn-on? choose?";
 
 #define AFM_PHRASE_NAME(name, key, places, limit) name,
@@ -57,7 +57,7 @@ class Phrases {
   // The same for a file of the user's own: what it lacks is as in `base`.
   static core::Result<Phrases> load(const std::string& path, const Phrases& base);
 
-  // As it stands in the file: of a phrase without placeholders the text.
+  // The text as in the file; for phrases without placeholders.
   const std::string& operator[](Phrase phrase) const { return texts_[static_cast<std::size_t>(phrase)]; }
 
   // With its placeholders filled, in the order of its row. Numbers get the language's decimal mark.

@@ -9,7 +9,7 @@
 
 namespace afm::exhibit {
 
-// Which hint the wall shows: the next step, but each for so long that it can be read. One thread.
+// The hint on the wall: the next step, each shown long enough to be read. One thread.
 class Procedure {
  public:
   static constexpr std::int64_t kReadableNs = 3'000'000'000;

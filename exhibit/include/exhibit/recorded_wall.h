@@ -13,7 +13,7 @@
 
 namespace afm::exhibit {
 
-// What a session keeps of a moment of the live wall; `materials` are the names of those on it. Who draws it adds the
+// A moment of the live wall as a session records it; `materials` are the names of those on it. The caller adds the
 // place of the sample, the head and the modes.
 servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::span<const std::string> materials);
 

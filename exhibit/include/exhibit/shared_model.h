@@ -18,7 +18,7 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
                                               std::span<const scene::SharedHeightField> surfaces,
                                               std::span<const scene::SharedMeasuredCurve> curves = {});
 
-// What the servo reads of a frame's transforms: room from node. At most scene::kMaxNodes.
+// The transforms of a frame for the servo: room from node. At most scene::kMaxNodes.
 scene::SceneTransforms shared_transforms(std::span<const glm::dmat4> room_from_node);
 
 }  // namespace afm::exhibit

@@ -58,10 +58,10 @@ inline constexpr double kPanelInnerEdge = 0.74;
 inline constexpr double kPanelBottom = -0.20;
 inline constexpr double kPanelHeight = 0.92;
 inline constexpr double kTabHeight = 0.10;
-// right of the sample, which stands before the wall
+// right of the sample, which is in front of the wall
 inline constexpr double kParameterInset = 0.06;
 inline constexpr double kTabInset = 0.18;
-// the ruler stands on the sample, right of the tip, in the wall's plane
+// the ruler on the sample, right of the tip, in the wall's plane
 inline constexpr glm::dvec3 kRulerFoot(0.45, 0.0, 0.0);
 inline constexpr double kRulerLongest = 0.46;
 inline constexpr double kRulerTick = 0.026;
@@ -83,7 +83,7 @@ inline constexpr double kAnalogyLabelGap = 0.16;
 inline constexpr glm::dvec3 kAnalogyPlateLabel(0.0, -0.382, -0.07);  // in the sample's frame, on the plate's front
 inline constexpr float kFogBegin = 3.5F, kFogEnd = 14.0F;            // behind the wall, on the journey
 inline constexpr double kBannerHeight = 0.21;
-// of the wall below and above the contact point: the shelf is seen whole, and the banner stands over the panels
+// of the wall below and above the contact point: the shelf is seen whole, and the banner is above the panels
 inline constexpr double kRoomBelow = 1.20;
 inline constexpr double kRoomAbove = kPanelBottom + kPanelHeight + kBannerHeight + 2.0 * kPanelMargin;
 
@@ -91,7 +91,7 @@ inline constexpr double kRoomAbove = kPanelBottom + kPanelHeight + kBannerHeight
 inline constexpr double kBelowBottom = -kRoomBelow - 0.08 - kPanelHeight;  // the stage's foot is seen above them
 inline constexpr double kRoomBelowPanels = -kBelowBottom + 2.0 * kPanelMargin + kTabHeight;
 inline constexpr double kRoomAboveNarrow = 0.5 * kRoomBelowPanels;
-inline constexpr double kNarrowWidth = 1.75;  // of what stands without panels beside it
+inline constexpr double kNarrowWidth = 1.75;  // of a composition without panels beside it
 inline constexpr double kWidestPanel = 1.6 * kPanelHeight;
 inline constexpr double kWidestPlot = 2.0 * kPanelInnerEdge + 0.724;  // of the finale: as on the paper's wall
 inline constexpr double kCornerGap = 0.10;                            // from the corner of two screens to a panel
@@ -99,7 +99,7 @@ inline constexpr double kCornerGap = 0.10;                            // from th
 // The stroke of a cycle in units of Z_joc: from the deepest push below zero to the highest lift.
 inline constexpr double kStrokeOfZjoc = 0.30 + 1.40;
 
-// Where the panels stand: beside the instrument, below the shelf of an upright screen, or on the side screens.
+// The place of the panels: beside the instrument, below the shelf of an upright screen, or on the side screens.
 enum class Arrangement { Beside, Below, SideScreens };
 
 struct WallShape {

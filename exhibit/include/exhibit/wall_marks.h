@@ -14,7 +14,7 @@ namespace afm::exhibit {
 // A round length, 1, 2 or 5 times a power of ten, that is drawn no longer than a limit.
 struct ScaleBar {
   double length_m = 0;  // of the nanoworld
-  double drawn = 0;     // as large as it stands in the picture
+  double drawn = 0;     // its size in the picture
   std::string text;     // "10 nm"
 };
 
@@ -22,7 +22,7 @@ struct ScaleBar {
 // most 1.0 times `longest`.
 ScaleBar scale_bar(double m_per_unit, double longest);
 
-// What is drawn beside the instrument so that it can be read: a ruler that stands on the sample in the wall's plane,
+// Marks beside the instrument that make it readable: a ruler on the sample in the wall's plane,
 // and where the lever would be without its bend.
 class WallMarks {
  public:

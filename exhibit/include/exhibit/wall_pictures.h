@@ -15,7 +15,7 @@
 
 namespace afm::exhibit {
 
-// What a user asks of a picture of a wall that is written to a file.
+// Options of a picture of a wall that is written to a file.
 struct PictureOptions {
   std::optional<scene::StereoMode> mode{};            // instead of the outputs' own
   scene::EyeOrder order = scene::EyeOrder::Straight;  // Swapped: the other way round in every output
@@ -39,7 +39,7 @@ struct WallPlan {
 };
 
 // The wall's outputs in one picture, as they stand on the desktop; those that fill a monitor follow at the right. A
-// wall without outputs has one for each screen, beside each other. WrongUsage: a size that the mode cannot have.
+// wall without outputs has one for each screen, side by side. WrongUsage: a size that the mode cannot have.
 core::Result<WallPlan> plan_wall(const scene::Wall& wall, const PictureOptions& options);
 
 // Two eyes before a screen. Fails as scene::off_axis_view does.

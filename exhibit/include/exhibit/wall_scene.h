@@ -28,14 +28,14 @@ namespace afm::exhibit {
 
 class ModelBuilder;
 
-// How large things are drawn: metres of the nanoworld (or of the instrument) shown as one metre on the wall.
+// Scales of the drawing: metres of the nanoworld (or of the instrument) shown as one metre on the wall.
 struct DrawnScale {
   double sample_m_per_m = 0;  // sample, displacement, deflection
   double lever_m_per_m = 0;   // chip and cantilever
   double tip_m_per_m = 0;     // tip
 };
 
-// The scene that stands on the wall (design, section 5): which models, where, and how they move with the tip. Built
+// The scene on the wall: its models, their places, and their motion with the tip. Built
 // once; const from then on. A wall of any size shows the same picture.
 class WallScene {
  public:
@@ -55,17 +55,17 @@ class WallScene {
   std::span<const scene::SharedHeightField> height_fields() const { return height_fields_; }
   std::uint32_t height_field(std::size_t material) const { return looks_[material].height_field; }
 
-  // Where the tip meets the sample, as long as nothing has been moved: in the wall's plane.
+  // The contact point, in the wall's plane as long as nothing has been moved.
   glm::dvec3 contact_m() const { return glm::dvec3(room_from_layout_[3]); }
 
-  // What the panels draw as a millimetre, so that they look on every wall as on the paper's.
+  // The length that panels draw as a millimetre, so that they look the same on every wall.
   double panel_millimetre_m() const;
 
   // Outward normal of the sample in the room, and its x axis, to the right; unit.
   glm::dvec3 sample_normal() const;
   glm::dvec3 sample_right() const;
 
-  // Where a simulated person holds the wand.
+  // The place of the wand in a simulated person's hand.
   glm::dvec3 wand_grip_m() const;
 
   // Metres of the nanoworld on a metre of the wall, at a place of the journey.
@@ -74,7 +74,7 @@ class WallScene {
   // `release_z_m` as in WallState.
   DrawnScale drawn_scale(std::size_t material, double release_z_m = 0) const;
 
-  // Where the parameters of a material are changed, in the place of its data; and the target that opens it.
+  // The panel of a material's parameters, in the place of its data; and the target that opens it.
   render::PanelPlacement parameter_placement() const;
   render::PanelPlacement parameter_tab_placement() const;
 
@@ -92,14 +92,14 @@ class WallScene {
     std::size_t ground;       // of the journey
     scene::NodeIndex sample;  // the frame that is scaled
     scene::NodeIndex swatch;
-    scene::NodeIndex label;    // on the swatch, where its name stands
+    scene::NodeIndex label;    // on the swatch, for its name
     double stroke_m;           // from the deepest push to the highest lift
     double full_deflection_m;  // at pull-off
     double thickness_m;        // of the slab
     std::uint32_t height_field;
   };
 
-  // How the lever stands in the sample's frame, layout units.
+  // The lever's pose in the sample's frame, layout units.
   struct LeverPose {
     glm::dmat4 frame_from_lever{1.0};  // origin at the clamp, x along the unbent lever, z away from the sample
     double end = 0;                    // of the bent lever, along z
@@ -124,7 +124,7 @@ class WallScene {
   render::PanelPlacement right_of_data(double inset) const;
   glm::dvec3 swatch_place(std::size_t i) const;
   glm::dvec3 below_tip(const WallState& state) const;     // the surface's point, sample's frame, layout units
-  double ruler_m_per_unit(const WallState& state) const;  // what a layout unit beside the ruler shows; 0: nothing
+  double ruler_m_per_unit(const WallState& state) const;  // metres shown by a layout unit at the ruler; 0: no ruler
   Analogy::Heights analogy_heights(const WallState& state) const;
   std::vector<scene::NodeIndex> hidden_roots(const WallState& state) const;
   void place_panels(const WallState& state, render::FrameState& frame) const;

@@ -11,11 +11,11 @@
 
 namespace afm::exhibit {
 
-// What stands in the middle of the wall: the instrument; in the finale the plot alone; Millet's analogy of what
+// The middle of the wall: the instrument; in the finale the plot alone; Millet's analogy of what
 // happens; or the instrument at one true scale.
 enum class Centerpiece { Instrument, Plot, Analogy, Journey };
 
-// What moves, shows or hides the things on the wall.
+// The state that moves, shows or hides the things on the wall.
 struct WallState {
   std::optional<std::size_t> material{};  // none: no sample lies on the stage yet
   scene::Tip tip{};
