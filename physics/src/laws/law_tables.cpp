@@ -58,7 +58,7 @@ class Builder {
 
   LawTables build() {
     CycleFigures& figures = tables_.figures;
-    // of a loop narrower than rounding nothing is left
+    // of a loop narrower than rounding nothing is left; two loops beside each other count as none
     figures.hysteretic = !single_valued_ || (free_.folded() && attached_.folded() &&
                                              attached_.at(attached_.end()).z > free_.at(free_.end()).z);
     figures.critical_stiffness = critical_stiffness();
