@@ -226,10 +226,10 @@ core::Result<void> measure_all(const DemoPlan& plan, DemoResult& result) {
 
 core::Result<void> check_accuracy(const Measurement& m) {
   if (m.worst_error() <= m.error_bound()) return {};
-  return core::failure(
-      core::ErrorCategory::Failed,
-      fmt::format("{}: an event is off by {:.3g} % from the {}, more than {} %; see summary.json", m.title,
-                  100.0 * m.worst_error(), m.recorded ? "recorded curve" : "equations", 100.0 * m.error_bound()));
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("{}: {} is off by {:.3g} % from the {}, more than {} %; see summary.json", m.title,
+                                   m.recorded ? "an event or the loop energy" : "an event", 100.0 * m.worst_error(),
+                                   m.recorded ? "recorded curve" : "equations", 100.0 * m.error_bound()));
 }
 
 core::Result<void> check_accuracy(const DemoResult& result) {
