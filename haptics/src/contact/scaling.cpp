@@ -14,7 +14,7 @@ namespace {
 constexpr double kKneeShare = 0.75;
 constexpr double kPushShareOfRadius = 0.1;
 constexpr double kLeastShareOfDepth = 0.25;  // of a recording's, that the stroke fills
-constexpr double kRounding = 1e-9;  // relative
+constexpr double kRounding = 1e-9;           // relative
 
 // Where compression begins, in shares of the snap-in, or of the strongest pull without one; and where it is so weak
 // that it is left out.
