@@ -83,8 +83,7 @@ core::Result<std::string> curve_text(const CurveOptions& options, const curves::
   }
   const auto file_format = curves::writable_format(format);
   if (!file_format) return wrong_usage(fmt::format("unknown format \"{}\"; choose {}", format, kFormats));
-  return curves::curve_bytes(*file_format,
-                             curves::recorded_curve(run.curve, run.setup.material.contact.spring_constant));
+  return curves::curve_bytes(*file_format, curves::recorded_curve(run));
 }
 
 core::Result<void> write_curve(const CurveOptions& options, const curves::ContactSetup& setup,

@@ -54,6 +54,10 @@ CycleEvents Measurement::error_vs_calculation() const {
           .z_joc_m = relative(measured.z_joc_m, calculation.z_joc_m)};
 }
 
+double Measurement::error_of_loop_energy() const {
+  return recorded ? relative(loop_energy_j, recorded_loop_energy_j) : 0.0;
+}
+
 std::optional<double> Measurement::experiment_error_f_attr() const {
   if (!hysteretic || !experiment_f_attr_n) return std::nullopt;
   return relative(measured.f_attr_n, *experiment_f_attr_n);
@@ -70,7 +74,7 @@ double Measurement::worst_error() const {
   if (!judged) return 0.0;
   const CycleEvents e = error_vs_calculation();
   // heights of a recording are as uncertain as its bins are wide
-  if (recorded) return std::max(std::abs(e.f_attr_n), std::abs(e.f_ad_n));
+  if (recorded) return std::max({std::abs(e.f_attr_n), std::abs(e.f_ad_n), std::abs(error_of_loop_energy())});
   return std::max({std::abs(e.f_attr_n), std::abs(e.f_ad_n), std::abs(e.z_jtc_m), std::abs(e.z_joc_m)});
 }
 

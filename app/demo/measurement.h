@@ -45,6 +45,7 @@ struct Measurement {
 
   // Relative; that of a jump to contact at Z = 0 (JKR) relative to Z_joc.
   CycleEvents error_vs_calculation() const;
+  double error_of_loop_energy() const;  // of a recording; else 0
   std::optional<double> experiment_error_f_attr() const;
   std::optional<double> experiment_error_f_ad() const;
   double worst_error() const;  // the largest relative error against the calculation; 0 where nothing is judged

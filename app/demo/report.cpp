@@ -59,6 +59,7 @@ nlohmann::json json_of(const Measurement& m) {
                         {"z_jtc_m", or_null(m.snaps_in, m.calculation.z_jtc_m)},
                         {"z_joc_m", m.calculation.z_joc_m},
                         {"loop_energy_J", m.recorded_loop_energy_j}};
+    json["error_vs_calculation"]["loop_energy"] = m.error_of_loop_energy();
   }
   return json;
 }

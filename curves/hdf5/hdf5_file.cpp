@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -45,7 +46,7 @@ void must_do(herr_t status, const char* what) {
 
 // A file that lives in memory alone.
 Handle access_to_memory() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // its error stack goes to nobody
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // no error stack on stderr
   H5PLset_loading_state(0);                     // and it loads no filters from plug-ins
   Handle access = must(H5Pcreate(H5P_FILE_ACCESS), "prepare a file");
   must_do(H5Pset_fapl_core(access.get(), std::size_t{1} << 20U, 0), "keep a file in memory");
@@ -103,6 +104,18 @@ void put_curve(hid_t group, const RecordedCurve& curve) {
   if (!curve.time_s.empty()) put_column(group, "time", "s", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, curve.time_s);
 }
 
+// At the file's root: afmformats refuses a curve with keys that it does not know, and looks at no others there.
+void put_parameters(hid_t file, const CurveMetadata& metadata) {
+  for (const auto& [key, value] : metadata.parameters) {
+    if (H5Aexists(file, key.c_str()) != 0) continue;
+    if (const auto number = number_of(value)) {
+      put_attribute(file, key, *number);
+    } else {
+      put_attribute(file, key, value);
+    }
+  }
+}
+
 std::string text_of(hid_t attribute, hid_t type) {
   constexpr std::size_t kLongestText = 65536;
   const Handle memory = must(H5Tcopy(H5T_C_S1), "make a type");
@@ -142,6 +155,30 @@ nlohmann::json metadata_of(hid_t group) {
     }
   }
   return metadata;
+}
+
+// The attributes of the file's root other than afmformats' own two.
+void read_parameters(hid_t file, CurveMetadata& metadata) {
+  constexpr hsize_t kMostAttributes = 200;
+  constexpr std::size_t kLongestName = 200;
+  H5O_info_t info{};
+  if (H5Oget_info2(file, &info, H5O_INFO_NUM_ATTRS) < 0) return;
+  for (hsize_t i = 0; i < std::min(info.num_attrs, kMostAttributes); ++i) {
+    const Handle attribute(H5Aopen_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT, H5P_DEFAULT));
+    if (!attribute.is_open()) continue;
+    std::array<char, kLongestName> name{};
+    if (H5Aget_name(attribute.get(), name.size(), name.data()) < 0) continue;
+    const std::string key(name.data());
+    if (key == "software" || key == "software version") continue;
+    const Handle type = must(H5Aget_type(attribute.get()), "read a type");
+    const Handle space = must(H5Aget_space(attribute.get()), "read a space");
+    if (H5Sget_simple_extent_npoints(space.get()) != 1) continue;
+    if (H5Tget_class(type.get()) == H5T_STRING) {
+      add_parameter(fmt::format("{}: {}", key, text_of(attribute.get(), type.get())), metadata);
+    } else if (double number = 0; H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &number) >= 0) {
+      add_parameter(fmt::format("{}: {}", key, number), metadata);
+    }
+  }
 }
 
 // Whether there is such a link within the file; one that leads out of it is not followed.
@@ -192,6 +229,7 @@ RecordedCurve read_hdf5(std::string_view bytes, std::size_t index) {
   if (!group.is_open()) throw CurveError(fmt::format("its curve \"{}\" is damaged", name));
 
   RecordedCurve curve;
+  read_parameters(file.get(), curve.metadata);
   read_afmformats_metadata(metadata_of(group.get()), curve.metadata);
   const std::vector<double> force = column_of(group.get(), "force"), segment = column_of(group.get(), "segment");
   const std::vector<double> height =
@@ -216,6 +254,7 @@ std::string hdf5_bytes(const RecordedCurve& curve) {
   const Handle file = must(H5Fcreate("curve", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), "make a file");
   put_attribute(file.get(), "software", std::string("TouchAFM"));
   put_attribute(file.get(), "software version", std::string(core::kVersion));
+  put_parameters(file.get(), curve.metadata);
   {
     const Handle group = must(H5Gcreate2(file.get(), "0", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "make a group");
     put_curve(group.get(), curve);

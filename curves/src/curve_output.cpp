@@ -15,6 +15,7 @@
 
 #include "core/version.h"
 #include "curves/plot_units.h"
+#include "formats/text_table.h"
 
 namespace afm::curves {
 namespace {
@@ -116,7 +117,28 @@ json pull_off_json(const CurveRun& run) {
   return result;
 }
 
+std::string run_header(const CurveRun& run) {
+  std::string text =
+      fmt::format("{}# from_m: {}\n# to_m: {}\n# step_m: {}\n", setup_header(run.setup, run.model, run.place),
+                  run.plan.from.si, run.plan.to.si, run.plan.step.si);
+  if (!run.motion) return text;
+  return text + fmt::format("# speed_m_per_s: {}\n# seed: {}\n# slow_motion: {}\n", run.motion->speed.si,
+                            run.motion->seed, run.motion->slow_motion);
+}
+
 }  // namespace
+
+RecordedCurve recorded_curve(const CurveRun& run) {
+  RecordedCurve recorded = recorded_curve(run.curve, run.setup.material.contact.spring_constant);
+  recorded.metadata.curve_id = run.setup.material.name;
+  if (run.motion) recorded.metadata.approach_speed = recorded.metadata.retract_speed = run.motion->speed;
+  const std::string header = run_header(run);
+  std::string_view line;
+  for (Lines lines(header); lines.next(line);) {
+    if (!line.starts_with("# software: ")) add_parameter(line.substr(1), recorded.metadata);
+  }
+  return recorded;
+}
 
 std::string setup_header(const ContactSetup& setup, std::span<const ContactParameter* const> swept) {
   fmt::memory_buffer text;
@@ -157,12 +179,7 @@ std::string setup_header(const ContactSetup& setup, const std::string& model,
 
 std::string curve_csv(const CurveRun& run) {
   std::string text =
-      fmt::format("# TouchAFM force-displacement curve\n{}# from_m: {}\n# to_m: {}\n# step_m: {}\n",
-                  setup_header(run.setup, run.model, run.place), run.plan.from.si, run.plan.to.si, run.plan.step.si);
-  if (run.motion) {
-    text += fmt::format("# speed_m_per_s: {}\n# slow_motion: {}\n", run.motion->speed.si, run.motion->slow_motion);
-  }
-  text += fmt::format("# samples: {}\n", run.curve.samples.size());
+      fmt::format("# TouchAFM force-displacement curve\n{}# samples: {}\n", run_header(run), run.curve.samples.size());
   text +=
       "# signs: z along the sample's outward normal from its undeformed surface; force on the tip positive away from "
       "the "
@@ -196,7 +213,10 @@ nlohmann::ordered_json curve_json(const CurveRun& run) {
   parameters["from_m"] = run.plan.from.si;
   parameters["to_m"] = run.plan.to.si;
   parameters["step_m"] = run.plan.step.si;
-  if (run.motion) parameters["speed_m_per_s"] = run.motion->speed.si;
+  if (run.motion) {
+    parameters["speed_m_per_s"] = run.motion->speed.si;
+    parameters["seed"] = run.motion->seed;
+  }
   result["snap_in"] = snap_in_json(run);
   result["pull_off"] = pull_off_json(run);
   const auto energy = loop_energy(run);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -176,6 +177,13 @@ json features_json(const AnalysedCurve& measured, const AnalysedCurve* other) {
     const auto& estimate = measured.features.contact_estimates[i];
     result["contact_point_methods_m"][std::string(physics::kContactMethods[i].name)] =
         estimate ? json(estimate->si) : json();
+  }
+  if (!from.parameters.empty()) {
+    json& parameters = result["parameters"];
+    for (const auto& [key, value] : from.parameters) {
+      const auto number = number_of(value);
+      parameters[key] = number && std::isfinite(*number) ? json(*number) : json(value);
+    }
   }
   if (other == nullptr) return result;
   result["beside"]["name"] = other->name;

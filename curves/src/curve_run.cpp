@@ -42,6 +42,13 @@ physics::Length default_end(const physics::LawTables& tables) {
 }
 
 constexpr double kMostDefaultSteps = 20'000;
+// Where only the events are asked for, and they depend on the samples.
+constexpr double kMostEventSteps = 2e5;
+
+physics::SweepPlan no_finer_than(physics::SweepPlan plan, double steps) {
+  plan.step = std::max(plan.step, (plan.from - plan.to) / steps);
+  return plan;
+}
 
 core::Result<physics::SweepPlan> sweep_plan(const PathOptions& path, const physics::LawTables& tables) {
   const physics::CycleFigures& figures = tables.figures;
@@ -87,13 +94,13 @@ core::Result<void> sweep_static(const PathOptions& path, CurveRun& run) {
   const auto plan = sweep_plan(path, model.tables());
   if (!plan) return tl::unexpected(plan.error());
   run.plan = *plan;
-  // at rest the events are those of the tables whatever the step
-  if (path.events_only && !run.setup.model.direction_rule) {
-    run.plan.step = std::max(run.plan.step, (run.plan.from - run.plan.to) / 100.0);
+  if (run.setup.model.direction_rule) {
+    if (path.events_only) run.plan = no_finer_than(run.plan, kMostEventSteps);
+    run.curve = physics::record_curve(physics::DirectionRuleModel(run.setup.material.contact), run.plan);
+  } else {
+    // at rest the events are those of the tables whatever the step
+    run.curve = physics::record_curve(model, path.events_only ? no_finer_than(run.plan, 100.0) : run.plan);
   }
-  run.curve = run.setup.model.direction_rule
-                  ? physics::record_curve(physics::DirectionRuleModel(run.setup.material.contact), run.plan)
-                  : physics::record_curve(model, run.plan);
   return {};
 }
 
@@ -116,11 +123,11 @@ core::Result<void> sweep_dynamic(const PathOptions& path, CurveRun& run) {
   const physics::DynamicModel model(run.setup.law(), run.setup.material.contact, run.setup.material.lever, kServoTick,
                                     run.setup.law_options, *seed);
   run.figures = model.figures();
-  run.motion = {*speed, model.slow_motion()};
+  run.motion = {*speed, model.slow_motion(), *seed};
   const auto at_rest = physics::build_law_tables(run.setup.law(), run.setup.material.contact, run.setup.law_options);
   const auto plan = sweep_plan(path, *at_rest);
   if (!plan) return tl::unexpected(plan.error());
-  run.plan = *plan;
+  run.plan = path.events_only ? no_finer_than(*plan, kMostEventSteps) : *plan;
   run.curve = physics::record_curve(model, run.plan, *speed);
   return {};
 }
@@ -149,7 +156,7 @@ const physics::ModelEvent* find_event(const physics::ForceCurve& curve, physics:
 
 std::optional<physics::Energy> loop_energy(const CurveRun& run) {
   if (run.curve.samples.empty() || run.curve.samples.back().phase == physics::Phase::Attached) return std::nullopt;
-  // what the direction rule or a moving tip does stands in the samples alone, the law's own area needs none
+  // only samples show the loop of the direction rule or of a moving tip; the law's own area needs none
   if (run.setup.model.direction_rule || run.setup.model.dynamic)
     return physics::summarise(run.curve.samples).loop_energy;
   const bool jumped = find_event(run.curve, physics::EventKind::JumpToContact) != nullptr;

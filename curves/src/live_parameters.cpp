@@ -25,7 +25,7 @@ constexpr physics::Pressure kStiffestModulus{1e12};  // where a step down from "
 constexpr int kDigits = 3;
 constexpr double kPointsOfCycle = 400.0;
 
-// In the order in which the panel goes through them; none stands for the adhesion map's choice.
+// In the order in which the panel goes through them; none means the choice of the adhesion map.
 std::span<const std::optional<Law>> choices_of_law() {
   static const auto choices = [] {
     std::vector<std::optional<Law>> all{std::nullopt};

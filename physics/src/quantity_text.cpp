@@ -10,17 +10,21 @@
 namespace afm::physics {
 namespace {
 
-constexpr std::array kLengths{Unit{"m", 1.0, true},        Unit{"mm", 1e3, true},       Unit{"um", 1e6, true},
-                              Unit{"\u00b5m", 1e6, false}, Unit{"\u03bcm", 1e6, false}, Unit{"nm", 1e9, true},
-                              Unit{"\u00c5", 1e10, false}, Unit{"\u212b", 1e10, false}, Unit{"pm", 1e12, true}};
+constexpr std::array kLengths{Unit{"m", 1.0, true},          Unit{"mm", 1e3, true},         Unit{"um", 1e6, true},
+                              Unit{"\u00b5m", 1e6, false},   Unit{"\u03bcm", 1e6, false},   Unit{"nm", 1e9, true},
+                              Unit{"\u00c5", 1e10, false},   Unit{"\u212b", 1e10, false},   Unit{"A", 1e10, false},
+                              Unit{"Angstrom", 1e10, false}, Unit{"angstrom", 1e10, false}, Unit{"pm", 1e12, true}};
 constexpr std::array kForces{Unit{"N", 1.0, true},        Unit{"mN", 1e3, true},       Unit{"uN", 1e6, true},
                              Unit{"\u00b5N", 1e6, false}, Unit{"\u03bcN", 1e6, false}, Unit{"nN", 1e9, true},
                              Unit{"pN", 1e12, true}};
-constexpr std::array kVelocities{Unit{"m/s", 1.0, true}, Unit{"mm/s", 1e3, true}, Unit{"um/s", 1e6, true}};
+constexpr std::array kVelocities{Unit{"m/s", 1.0, true},        Unit{"mm/s", 1e3, true},
+                                 Unit{"um/s", 1e6, true},       Unit{"\u00b5m/s", 1e6, false},
+                                 Unit{"\u03bcm/s", 1e6, false}, Unit{"nm/s", 1e9, false}};
 // SI brochure, 9th edition: exact.
 constexpr double kJoulesPerElectronvolt = 1.602176634e-19;
 constexpr std::array kEnergies{Unit{"J", 1.0, true}, Unit{"aJ", 1e18, true},
-                               Unit{"eV", 1.0 / kJoulesPerElectronvolt, false}, Unit{"zJ", 1e21, true}};
+                               Unit{"eV", 1.0 / kJoulesPerElectronvolt, false},
+                               Unit{"meV", 1e3 / kJoulesPerElectronvolt, false}, Unit{"zJ", 1e21, true}};
 constexpr std::array kStiffnesses{Unit{"N/m", 1.0, true}, Unit{"mN/m", 1e3, true}, Unit{"nN/nm", 1.0, false},
                                   Unit{"pN/nm", 1e3, false}};
 constexpr std::array kSurfaceEnergies{Unit{"J/m2", 1.0, true}, Unit{"J/m^2", 1.0, false}, Unit{"J/m\u00b2", 1.0, false},
@@ -32,7 +36,8 @@ constexpr std::array kPressures{Unit{"TPa", 1e-12, true}, Unit{"GPa", 1e-9, true
                                 Unit{"kPa", 1e-3, true}, Unit{"Pa", 1.0, true}};
 constexpr std::array kFrequencies{Unit{"MHz", 1e-6, true}, Unit{"kHz", 1e-3, true}, Unit{"Hz", 1.0, true}};
 constexpr std::array kTemperatures{Unit{"K", 1.0, true}, Unit{"\u00b0C", 1.0, false, 273.15},
-                                   Unit{"degC", 1.0, false, 273.15}};
+                                   Unit{"\u2103", 1.0, false, 273.15}, Unit{"degC", 1.0, false, 273.15},
+                                   Unit{"C", 1.0, false, 273.15}};
 constexpr std::array kDensities{Unit{"kg/m3", 1.0, true}, Unit{"kg/m^3", 1.0, false}, Unit{"kg/m\u00b3", 1.0, false}};
 
 // By a power of ten above one, which a double holds exactly up to 1e22 where it does not hold the small factor.

@@ -48,6 +48,19 @@ TEST(Measurement, SeesAnEventThatIsOff) {
   EXPECT_LT(measure(cycle(0.0005), mica())->worst_error(), kEventErrorBound);
 }
 
+TEST(Measurement, OfARecordingJudgesItsLoopEnergyToo) {
+  const curves::SampleModel felt = mica();
+  physics::CurveFeatures recorded;
+  recorded.loop_energy = 1.02 * felt.figures().loop_energy;
+  const auto m = measure(cycle(0.0, felt), felt, &recorded);
+  ASSERT_TRUE(m.has_value());
+  EXPECT_NEAR(m->error_of_loop_energy(), 1.0 / 1.02 - 1.0, 1e-12);
+  EXPECT_GT(m->worst_error(), m->error_bound());
+  recorded.loop_energy = felt.figures().loop_energy;
+  EXPECT_EQ(measure(cycle(0.0, felt), felt, &recorded)->error_of_loop_energy(), 0.0);
+  EXPECT_EQ(measure(cycle(0.0, felt), felt)->error_of_loop_energy(), 0.0);
+}
+
 TEST(Measurement, IsMadeAgainstTheFiguresOfTheLawThatWasFelt) {
   const curves::SampleModel dmt = mica(physics::Law::Dmt);
   const auto m = measure(cycle(0.0, dmt), dmt);

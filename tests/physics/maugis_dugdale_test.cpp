@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -183,8 +184,12 @@ struct JoinedLaw {
   ContactParameters contact;
   ForceLaw law;
   bool single_valued() const { return law.attached.at(law.attached.last).h > 0.5_mm; }
-  // where van der Waals force takes over, or the end
+  // the end of the contact, or of what pulls as strongly
   double contact_end() const { return single_valued() ? law.attached.kinks.back() : law.attached.last; }
+  bool is_near_kink(double s) const {
+    const auto& kinks = law.attached.kinks;
+    return std::any_of(kinks.begin(), kinks.end(), [s](double kink) { return std::abs(s - kink) < 0.01; });
+  }
 };
 
 template <class Check>
@@ -270,7 +275,7 @@ TEST(MaugisLaw, BranchesAreContinuousAndTheirDerivativesTrue) {
     const double end = joined.contact_end();
     const double step = 1e-5;
     const double s = end - random.between(0.01, end - branch.first - 0.01);
-    if (std::abs(s) < 0.01) return;  // the point, where the derivatives jump
+    if (joined.is_near_kink(s)) return;  // where the derivatives jump
     const LawPoint before = branch.at(s - step);
     const LawPoint here = branch.at(s);
     const LawPoint after = branch.at(s + step);

@@ -65,6 +65,17 @@ TEST(MeasuredCurve, WithoutAdhesionIsNotRefusedForItsNoise) {
   EXPECT_NEAR(felt(points)->figures.loop_energy / recorded.loop_energy, 1.0, 0.01);
 }
 
+// A retract that was recorded more coarsely than the approach, and pulls weakly over a long way: what a bin's force is
+// above or below the mean of its samples does not cancel between the branches.
+TEST(MeasuredCurve, KeepsTheEnergyOfBranchesOfDifferentDensity) {
+  const auto points = test::long_weak_pull();
+  const CurveFeatures recorded = analyse(points);
+  ASSERT_TRUE(recorded.jumps_off);
+  const CycleFigures figures = felt(points)->figures;
+  EXPECT_NEAR(figures.loop_energy / recorded.loop_energy, 1.0, 0.01);
+  EXPECT_NEAR(figures.force_before_joc / recorded.pull_off->force, 1.0, 0.01);
+}
+
 // -integral of F dZ along the path from `from` to `to`.
 Energy work(ApproachRetractModel& model, Length from, Length to) {
   constexpr int kSteps = 20000;

@@ -11,19 +11,19 @@
 // Cycles as instruments record them, with a loop in contact and noise, which no law of ours has.
 namespace afm::test {
 
-// 1000 points a branch between `far` and `deep`; forces by Z, in newtons.
+// Points between `far` and `deep`; forces by Z, in newtons.
 template <class Down, class Up>
-std::vector<physics::CurvePoint> recording(double far, double deep, Down down, Up up, double noise) {
+std::vector<physics::CurvePoint> recording(double far, double deep, Down down, Up up, double noise,
+                                           int count_down = 1000, int count_up = 1000) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal(0.0, noise);
   std::vector<physics::CurvePoint> points;
-  constexpr int kCount = 1000;
-  for (int i = 0; i < kCount; ++i) {
-    const double z = far + (deep - far) * i / (kCount - 1);
+  for (int i = 0; i < count_down; ++i) {
+    const double z = far + (deep - far) * i / (count_down - 1);
     points.push_back({physics::Length(z - 3e-6), physics::Force(down(z) + normal(random)), physics::Branch::Approach});
   }
-  for (int i = 0; i < kCount; ++i) {
-    const double z = deep + (far - deep) * i / (kCount - 1);
+  for (int i = 0; i < count_up; ++i) {
+    const double z = deep + (far - deep) * i / (count_up - 1);
     points.push_back({physics::Length(z - 3e-6), physics::Force(up(z) + normal(random)), physics::Branch::Retract});
   }
   return points;
@@ -46,6 +46,27 @@ inline std::vector<physics::CurvePoint> soft_sample() {
     return push(z) - 1.5e-9 * turned * std::exp(-std::max(0.0, z) / 60e-9);
   };
   return recording(2e-6, -400e-9, down, up, 15e-12);
+}
+
+// A soft sample that goes on to pull over many micrometres, recorded more densely on the way down.
+inline std::vector<physics::CurvePoint> long_weak_pull() {
+  const auto down = [](double z) { return z > 0 ? 0.0 : 6e-9 * std::pow(-z / 3.2e-6, 1.5); };
+  const auto up = [&](double z) {
+    const double turned = std::min(1.0, (z + 3.2e-6) / 1e-6);
+    return down(z) - turned * (0.3e-9 + 0.6e-9 * std::exp(-std::max(0.0, z) / 300e-9)) * (z > 20e-6 ? 0.0 : 1.0);
+  };
+  return recording(60e-6, -3.2e-6, down, up, 40e-12, 10400, 2000);
+}
+
+// A soft sample that lets go below the contact point, while it is still pressed: the approach pulls a little before it,
+// over a retract that lies beside it by much of its push.
+inline std::vector<physics::CurvePoint> lets_go_pressed() {
+  const auto down = [](double z) { return z > 30e-9 ? 0.0 : 24e-12 * std::pow((30e-9 - z) / 740e-9, 1.3); };
+  const auto up = [](double z) {
+    const double push = z > -500e-9 ? 0.0 : 24e-12 * std::pow((-500e-9 - z) / 240e-9, 1.3);
+    return push - (z < -16e-9 && z > -640e-9 ? 11e-12 : 0.0);
+  };
+  return recording(475e-9, -740e-9, down, up, 0.3e-12);
 }
 
 // Pushed and taken off without any adhesion, through an undulating baseline.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "curves/curve_run.h"
+#include "curves/recorded_curve.h"
 #include "curves/svg_plot.h"
 
 namespace afm::curves {
@@ -20,6 +21,9 @@ std::string setup_header(const ContactSetup& setup, std::span<const ContactParam
 
 // CSV in SI: a # header with every parameter and its source, a line of column names with units, one line a sample.
 std::string curve_csv(const CurveRun& run);
+
+// The samples as any file holds them, with what the CSV's header says as parameters.
+RecordedCurve recorded_curve(const CurveRun& run);
 
 // The numbers that act as {"tip_radius_m": ...}; null where JSON has no such number.
 nlohmann::ordered_json parameters_json(const ContactSetup& setup);

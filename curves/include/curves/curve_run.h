@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -27,6 +28,7 @@ struct PathOptions {
 struct Motion {
   physics::Velocity speed;
   double slow_motion = 1.0;  // how much longer than its physics a servo of 1 kHz needs for it
+  std::uint64_t seed = 0;    // of the noise
 };
 
 // One cycle with everything that it was made from.

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "physics/curve_analysis.h"
@@ -23,7 +25,9 @@ struct CurveMetadata {
   std::string software_version;
   std::string date;      // YYYY-MM-DD
   std::string time;      // HH:MM:SS, local to the instrument
-  std::string curve_id;  // whatever tells this curve from others
+  std::string curve_id;  // identifies the curve
+  // What a computed curve was made from, and whatever else a file of ours says: keys with their units, "tip_radius_m".
+  std::vector<std::pair<std::string, std::string>> parameters;
 };
 
 // One approach-retract cycle as any file or model gave it, in one convention: SI, force positive away from the sample,
@@ -42,5 +46,12 @@ inline constexpr const char* kComputedBy = "TouchAFM";
 
 // A model's curve with the lever that it was made for.
 RecordedCurve recorded_curve(const physics::ForceCurve& curve, physics::Stiffness spring_constant);
+
+// Adds "key: value", made fit for one line of text; anything else, what is longer than 2000 characters, and the 201st
+// are passed over.
+void add_parameter(std::string_view line, CurveMetadata& metadata);
+
+// The value of a parameter that is a number.
+std::optional<double> number_of(std::string_view value);
 
 }  // namespace afm::curves

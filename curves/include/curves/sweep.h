@@ -31,7 +31,7 @@ inline constexpr std::uint64_t kLargestParameterSweep = 1'000'000;
 // what is wrong; the caller knows its option.
 core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelName& model);
 
-// What one cycle at one point of a sweep comes to; forces signed. Without hysteresis the jumps are null.
+// The results of one cycle at one point of a sweep; forces signed. Without hysteresis the jumps are null.
 struct SweepRow {
   std::array<double, 2> at{};  // SI, by axis
   std::string model;

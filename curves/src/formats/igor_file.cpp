@@ -118,7 +118,7 @@ Wave read_wave(std::string_view bytes) {
     wave.labels.push_back(label.substr(0, label.find('\0')));
   }
   if (wave.labels.size() != wave.columns)
-    throw CurveError("its columns have no labels, so that nobody knows which is which");
+    throw CurveError("its columns have no labels, so that their channels are unknown");
   check_trailer(bytes.substr(offset + labels.size()));
   return wave;
 }

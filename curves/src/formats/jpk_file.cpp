@@ -102,7 +102,7 @@ class Segment {
     return properties_.text(prefix + ".conversion-set.conversions.base").value_or("volts");
   }
 
-  // From the slot back to the base. A calibration that was given stands in the place of the file's.
+  // From the slot back to the base. A given calibration replaces the file's.
   std::vector<Linear> conversions(const std::string& prefix, const std::string& base, std::string slot,
                                   const CurveReading& reading) const {
     std::vector<Linear> steps;

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "curves/recorded_curve.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/printable.h"
 #include "core/version.h"
+#include "formats/text_table.h"
 
 namespace afm::curves {
 
@@ -11,6 +17,27 @@ RecordedCurve recorded_curve(const physics::ForceCurve& curve, physics::Stiffnes
   recorded.metadata.software = kComputedBy;
   recorded.metadata.software_version = core::kVersion;
   return recorded;
+}
+
+void add_parameter(std::string_view line, CurveMetadata& metadata) {
+  constexpr std::size_t kMostParameters = 200, kLongest = 2000;
+  const std::size_t colon = line.find(": ");
+  if (colon == std::string_view::npos || line.size() > kLongest || metadata.parameters.size() == kMostParameters)
+    return;
+  const auto one_line = [](std::string_view part) {
+    std::string text = core::printable(trimmed(part));
+    std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+    return text;
+  };
+  const std::string key = one_line(line.substr(0, colon)), value = one_line(line.substr(colon + 2));
+  if (!key.empty() && !value.empty()) metadata.parameters.emplace_back(key, value);
+}
+
+std::optional<double> number_of(std::string_view value) {
+  double number = 0.0;
+  const char* end = value.data() + value.size();
+  const auto read = std::from_chars(value.data(), end, number);
+  return read.ec == std::errc() && read.ptr == end ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace afm::curves

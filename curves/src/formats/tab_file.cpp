@@ -16,8 +16,11 @@ namespace afm::curves {
 
 namespace {
 
-// The # lines at the top: the metadata and the column names, which stand in the last of them.
+constexpr std::string_view kBegin = "BEGIN METADATA";
+
+// The # lines at the top: what a curve was made from, the metadata, and in the last of them the column names.
 struct Heading {
+  CurveMetadata made_from;
   std::string metadata;
   std::string_view columns;
   bool has_metadata = false;
@@ -27,7 +30,7 @@ Heading read_heading(Lines& lines, std::string_view& first_row) {
   Heading heading;
   bool inside = false;
   for (std::string_view line; lines.next(line);) {
-    if (line.starts_with("# BEGIN METADATA")) {
+    if (line.starts_with('#') && trimmed(line.substr(1)).starts_with(kBegin)) {
       inside = true;
     } else if (line.starts_with("# END METADATA")) {
       inside = false;
@@ -36,6 +39,7 @@ Heading read_heading(Lines& lines, std::string_view& first_row) {
       heading.metadata.append(line.substr(1)).push_back('\n');
     } else if (line.starts_with('#')) {
       if (!trimmed(line.substr(1)).empty()) heading.columns = trimmed(line.substr(1));
+      if (!heading.has_metadata) add_parameter(line.substr(1), heading.made_from);
     } else if (!trimmed(line).empty()) {
       first_row = line;
       break;
@@ -68,7 +72,11 @@ void check_count(const nlohmann::json& metadata, std::size_t points, std::string
 std::string tab_bytes(const RecordedCurve& curve) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "# TouchAFM {}\n#\n# BEGIN METADATA\n", core::kVersion);
+  fmt::format_to(out, "# TouchAFM {}\n", core::kVersion);
+  for (const auto& [key, value] : curve.metadata.parameters) {
+    if (!key.starts_with(kBegin)) fmt::format_to(out, "# {}: {}\n", key, value);
+  }
+  fmt::format_to(out, "#\n# {}\n", kBegin);
   const std::string metadata = afmformats_metadata(curve).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
   std::string_view line;
   for (Lines lines(metadata); lines.next(line);) fmt::format_to(out, "# {}\n", line);
@@ -91,6 +99,7 @@ RecordedCurve read_tab(std::string_view bytes) {
   const Heading heading = read_heading(lines, line);
   const nlohmann::json metadata = nlohmann::json::parse(heading.metadata);
   RecordedCurve curve;
+  curve.metadata = heading.made_from;
   read_afmformats_metadata(metadata, curve.metadata);
 
   std::vector<std::string_view> names, fields;

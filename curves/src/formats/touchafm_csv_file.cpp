@@ -13,14 +13,21 @@ namespace {
 // The number of samples is 0 in what 0.1.0 wrote.
 void read_comment(std::string_view line, const Lines& lines, CurveMetadata& metadata, double& samples) {
   constexpr std::string_view kSamplesLine = "# samples: ";
-  constexpr std::string_view kSpringConstantLine = "# spring_constant_N_per_m: ", kMaterialLine = "# material: ";
+  constexpr std::string_view kSpringConstantLine = "# spring_constant_N_per_m: ", kMaterialLine = "# material: ",
+                             kSoftwareLine = "# software: TouchAFM ";
   if (line.starts_with(kSpringConstantLine)) {
     metadata.spring_constant =
         physics::Stiffness(number_in(line.substr(kSpringConstantLine.size()), "spring_constant_N_per_m", lines));
   } else if (line.starts_with(kSamplesLine)) {
     samples = number_in(line.substr(kSamplesLine.size()), "samples", lines);
+    return;
   } else if (line.starts_with(kMaterialLine)) {
     metadata.curve_id = line.substr(kMaterialLine.size());
+  }
+  if (line.starts_with(kSoftwareLine)) {
+    metadata.software_version = line.substr(kSoftwareLine.size());
+  } else if (!line.starts_with("# signs: ")) {
+    add_parameter(line.substr(1), metadata);
   }
 }
 

@@ -9,9 +9,12 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
+#include "core/printable.h"
 #include "curves/curve_error.h"
 #include "curves/plot_units.h"
+#include "formats/afmformats_metadata.h"
 #include "formats/text_table.h"
 
 namespace afm::curves {
@@ -71,6 +74,49 @@ std::string long_date(std::string_view iso) {
                      *day, *year);
 }
 
+// What its format has no line for. Readers pass over lines that they do not know.
+constexpr std::string_view kOwnLine = "TouchAFM ", kParameterLine = "TouchAFM made from ";
+
+std::string own_lines(const RecordedCurve& curve) {
+  static constexpr std::array<std::string_view, 7> kElsewhere{"imaging mode", "point count", "z range",        "date",
+                                                              "time",         "sensitivity", "spring constant"};
+  fmt::memory_buffer text;
+  const auto add = [&text](std::string_view start, std::string_view key, std::string value) {
+    // three commas would make it the line of the column names
+    if (std::count(value.begin(), value.end(), ',') >= 3) std::replace(value.begin(), value.end(), ',', ';');
+    fmt::format_to(std::back_inserter(text), "{}{}:\t{}\r\n", start, key, value);
+  };
+  const nlohmann::ordered_json metadata = afmformats_metadata(curve);
+  for (const auto& [key, value] : metadata.items()) {
+    if (std::find(kElsewhere.begin(), kElsewhere.end(), key) != kElsewhere.end()) continue;
+    add(kOwnLine, key, value.is_string() ? core::printable(value.get<std::string>()) : value.dump());
+  }
+  for (const auto& [key, value] : curve.metadata.parameters) add(kParameterLine, key, value);
+  return fmt::to_string(text);
+}
+
+// Of a line that own_lines() wrote.
+void read_own_line(std::string_view line, CurveMetadata& metadata) {
+  if (line.starts_with(kParameterLine)) {
+    std::string parameter(line.substr(kParameterLine.size()));
+    std::replace(parameter.begin(), parameter.end(), '\t', ' ');
+    add_parameter(parameter, metadata);
+    return;
+  }
+  line.remove_prefix(kOwnLine.size());
+  const std::size_t colon = line.find(":\t");
+  if (colon == std::string_view::npos) return;
+  const std::string key(line.substr(0, colon)), value(line.substr(colon + 2));
+  const auto number = number_of(value);
+  const bool is_text = !number || (key != "setpoint" && !key.starts_with("speed "));
+  nlohmann::json entry = nlohmann::json::object();
+  entry[key] = is_text ? nlohmann::json(value) : nlohmann::json(*number);
+  read_afmformats_metadata(entry, metadata);
+}
+
+// AFM Workshop writes 1 for a missing calibration: a true 1 is written a little larger.
+double never_one(double value) { return value == 1.0 ? std::nextafter(1.0, 2.0) : value; }
+
 struct Header {
   CurveMetadata metadata;
   std::vector<std::string_view> columns;
@@ -83,7 +129,7 @@ Header read_header(Lines& lines) {
     const auto value_of = [&](std::string_view key) {
       return line.starts_with(key) ? trimmed(line.substr(key.size())) : std::string_view();
     };
-    // "1" stands for a calibration that nobody has made (afmformats reads it so too)
+    // "1" marks a missing calibration (for afmformats too)
     const auto calibration = [&](std::string_view key) -> std::optional<double> {
       const std::string_view text = value_of(key);
       if (text.empty()) return std::nullopt;
@@ -96,7 +142,9 @@ Header read_header(Lines& lines) {
       header.metadata.software_version = version;
     if (const auto gain = calibration("Light Lever Gain, mV/nm:")) header.metadata.sensitivity_m_per_v = 1e-6 / *gain;
     if (const auto k = calibration("Force Constant, nN/nm:")) header.metadata.spring_constant = physics::Stiffness(*k);
-    if (std::count(line.begin(), line.end(), ',') >= 3) {
+    if (line.starts_with(kOwnLine)) {
+      read_own_line(line, header.metadata);
+    } else if (std::count(line.begin(), line.end(), ',') >= 3) {
       split(line, ',', header.columns);
       return header;
     }
@@ -177,9 +225,13 @@ std::string workshop_bytes(const RecordedCurve& curve) {
   fmt::format_to(out, "Date:\t{}\r\n", date.empty() ? kNoDate : date);
   fmt::format_to(out, "Time:\t{}\r\n", curve.metadata.time.empty() ? kNoTime : curve.metadata.time);
   fmt::format_to(out, "Mode:\tSingle\r\nPoint:\t0\r\nX, um:\t0.000000\r\nY, um:\t0.000000\r\n");
-  if (curve.metadata.spring_constant) {
-    fmt::format_to(out, "Force Constant, nN/nm:\t{}\r\n", curve.metadata.spring_constant->si);
+  if (const auto& k = curve.metadata.spring_constant) {
+    fmt::format_to(out, "Force Constant, nN/nm:\t{}\r\n", never_one(k->si));
   }
+  if (const auto& sensitivity = curve.metadata.sensitivity_m_per_v) {
+    fmt::format_to(out, "Light Lever Gain, mV/nm:\t{}\r\n", never_one(1e-6 / *sensitivity));
+  }
+  fmt::format_to(out, "{}", own_lines(curve));
   fmt::format_to(out, "\r\nExtend Z-Sense(nm),Extend Force(nN),Retract Z-Sense(nm),Retract Force(nN)\r\n");
   for (std::size_t i = 0; i < approach.size(); ++i) {
     fmt::format_to(out, "{},{},{},{}\r\n", -kNmPerM * approach[i].z.si + 0.0, kNnPerN * approach[i].force.si + 0.0,

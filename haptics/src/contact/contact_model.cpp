@@ -66,10 +66,10 @@ double largest_curvature_per_m(const Scaling& fit, const DeviceSpec& device) {
 }
 
 // What a recorded contact that was pressed down to `lowest` gives the hand on its way up from z beyond what the
-// attached branch gives, until it has gone over to that branch.
+// attached branch gives, until it has gone over to that branch or lets go.
 double turn_energy_j(const physics::LawTables& tables, const Scaling& scaling, physics::Length z,
                      physics::Length lowest) {
-  const physics::Length way = lowest + tables.turn - z;
+  const physics::Length way = std::min(lowest + tables.turn, tables.figures.z_joc) - z;
   if (tables.turn.si <= 0.0 || way.si <= 0.0) return 0.0;
   constexpr int kSteps = 32;
   double sum_n = 0.0;

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kKneeShare = 0.75;
 constexpr double kPushShareOfRadius = 0.1;
-constexpr double kRounding = 1e-9;  // relative
+constexpr double kLeastShareOfDepth = 0.25;  // of a recording's, that the stroke fills
+constexpr double kRounding = 1e-9;           // relative
 
 // Where compression begins, in shares of the snap-in, or of the strongest pull without one; and where it is so weak
 // that it is left out.
@@ -56,9 +57,11 @@ Extent extent_of(const physics::LawTables& tables) {
   const double pull_n = strongest_pull_n(tables);
   const double push_n = tables.turn.si > 0.0 ? force_n(tables.pressed, tables.pressed_to.si) : 0.0;
   if (pull_n > Scaling::kFaintShare * push_n) {
-    // of a recorded curve that hardly pulls, the push is what is felt
-    return {std::max(tables.figures.z_joc.si, faint_above_m(tables, Scaling::kFaintShare * pull_n)), pull_n,
-            std::max(pull_n, push_n)};
+    // a recorded curve may let go close to its contact point, or below it
+    const double least_m = tables.turn.si > 0.0 ? -kLeastShareOfDepth * tables.pressed_to.si : 0.0;
+    const double reach_m = std::max(tables.figures.z_joc.si, faint_above_m(tables, Scaling::kFaintShare * pull_n));
+    // of one that hardly pulls, the push is what is felt
+    return {std::max(reach_m, least_m), pull_n, std::max(pull_n, push_n)};
   }
   if (tables.turn.si > 0.0) {
     const double depth_m = -tables.pressed_to.si;

@@ -28,16 +28,16 @@ ForceLaw dmt_law(const ContactParameters& contact, const LawOptions& options = {
 ForceLaw jkr_law(const ContactParameters& contact, const LawOptions& options = {});
 
 // Maugis-Dugdale's contact, with the cohesive stress of surfaces that attract by the 3-9 law, joined to van der Waals
-// attraction. In contact h = a0 - delta. Van der Waals force and that of the contact, which goes on as a cohesive zone
-// without contact where lambda is below 0.95, are two laws of one attraction, and meet like this:
+// attraction. The zero of contact is always a0: h = a0 - delta, whatever the values. Van der Waals force and that of
+// the contact, which goes on as a cohesive zone without contact where the family does (maugis_fixed_grips_end), are two
+// laws of one attraction, and meet like this:
 //
-// - Where the contact's, followed to its end under fixed grips, pulls harder there, the law has a loop of its own: the
-//   tip is free until van der Waals' force is the contact's, and attached until the end.
-// - Where van der Waals' becomes the stronger one on the way out through the cohesive zone, it takes over there, and
-// the
-//   law is single-valued.
-// - Where it is so already at the end of the contact (attraction of a long range and little adhesion), the contact gap
-//   is taken larger than a0, so much that it takes over at that end without a step.
+// - Where the zone, followed to its end under fixed grips, pulls harder there than van der Waals force, the law has a
+//   loop of its own: the tip is free until van der Waals' force is the contact's, and attached until the end.
+// - Where van der Waals' becomes the stronger one on the way out through the zone, it takes over there, and the law is
+//   single-valued.
+// - Where it is so already at the end of the contact (attraction of a long range and little adhesion), the pull stays
+//   that of the contact's end, as Dugdale's stress does, until van der Waals' is no stronger. The law is single-valued.
 //
 // So forces are continuous where contact forms, no jump weakens the attraction on the way in, and every value changes
 // continuously with the parameters. For lambda -> 0 the contact is DMT's, with its jump from afar and its pull-off, but

@@ -35,9 +35,9 @@ struct MaugisPoint {
 MaugisPoint maugis_point(double lambda, double s);
 
 // The parameter s of three contacts: where the load is least, so that contact is lost when the load is given; where the
-// indentation is least, so that it is lost under fixed grips (above 0, in a zone without contact, for lambda below
-// 0.95); and the stable one that carries `load`, at least that of the first. The last throws std::invalid_argument for
-// less.
+// indentation is least, so that it is lost under fixed grips: above 0, in a zone without contact, for lambda below
+// cbrt(9 pi/(16 (pi - 1))) = 0.938, where c = 8 lambda/(3 pi) solves (6.18) at the point; and the stable one that
+// carries `load`, at least that of the first. The last throws std::invalid_argument for less.
 double maugis_pull_off(double lambda);
 double maugis_fixed_grips_end(double lambda);
 double maugis_at_load(double lambda, double load);

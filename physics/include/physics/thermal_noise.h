@@ -5,7 +5,7 @@
 #include "physics/units.h"
 
 // What heat does to a lever that touches nothing, by equipartition and the fluctuation-dissipation theorem. Which part
-// of it each flexural mode takes stands in physics/flexural_modes.h. For any thread.
+// of it each flexural mode takes is in physics/flexural_modes.h. For any thread.
 namespace afm::physics {
 
 // sqrt(k_B T/k): root mean square of the deflection.

@@ -14,8 +14,17 @@ namespace afm::physics {
 struct CurveBin {
   Length z;  // mean
   Force mean;
-  Force median;  // leaves a jump as sharp as the bins are and throws out single outliers
+  Force median;  // of an even number the upper; leaves a jump as sharp as the bins are and throws out single outliers
+  Force middle;  // mean of the middle half: throws out single outliers, and keeps the area under the branch
 };
+
+// Of values that rise.
+inline Force middle_half(std::span<const double> values) {
+  const std::size_t left_out = values.size() / 4;
+  double sum = 0.0;
+  for (std::size_t i = left_out; i < values.size() - left_out; ++i) sum += values[i];
+  return Force(sum / static_cast<double>(values.size() - 2 * left_out));
+}
 
 // The points between `bottom` and `top`, of either branch, in bins of equal width along rising Z; empty ones are left
 // out. At most `most_bins`, and so few that `fewest_samples` fall into each on average. Heights that a sensor reports
@@ -43,9 +52,8 @@ inline std::vector<CurveBin> curve_bins(std::span<const CurvePoint> points, Leng
       bin.mean = bin.mean + rising[last].force;
     }
     const auto count = static_cast<double>(forces.size());
-    const auto middle = forces.begin() + static_cast<std::ptrdiff_t>(forces.size() / 2);
-    std::nth_element(forces.begin(), middle, forces.end());
-    result.push_back({bin.z / count, bin.mean / count, Force(*middle)});
+    std::sort(forces.begin(), forces.end());
+    result.push_back({bin.z / count, bin.mean / count, Force(forces[forces.size() / 2]), middle_half(forces)});
   }
   return result;
 }

@@ -8,7 +8,7 @@
 
 namespace afm::physics {
 
-// A branch of a law with lever and support in series, SI: at its parameter s the tip stands at h and the lever's base
+// A branch of a law with lever and support in series, SI: at its parameter s the tip is at h and the lever's base
 // at Z = h - c F, c = 1/k_c + 1/k_s. A tip can rest where Z runs the way it is moved, inwards along a free branch and
 // outwards along an attached one: until dF/dh = 1/c, where the branch folds, or until the branch ends.
 class EquilibriumBranch {
@@ -64,7 +64,7 @@ LawBranch reversed(const LawBranch& branch);
 // back along it.
 double steepest_attraction(const LawBranch& branch);
 
-// What -F dh comes to along a branch from one parameter to another: the rise of the potential.
+// The integral of -F dh along a branch from one parameter to another: the rise of the potential.
 double potential_rise(const LawBranch& branch, double from, double to);
 
 }  // namespace afm::physics

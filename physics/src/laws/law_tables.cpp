@@ -58,7 +58,7 @@ class Builder {
 
   LawTables build() {
     CycleFigures& figures = tables_.figures;
-    // of a loop narrower than rounding nothing is left
+    // of a loop narrower than rounding nothing is left; two loops beside each other count as none
     figures.hysteretic = !single_valued_ || (free_.folded() && attached_.folded() &&
                                              attached_.at(attached_.end()).z > free_.at(free_.end()).z);
     figures.critical_stiffness = critical_stiffness();
@@ -143,7 +143,7 @@ class Builder {
       const double lost = potential_rise(law_.attached, to.s, -from.s) + stored(from) - stored(to);
       return Energy(std::clamp(lost, 0.0, loop.si));
     }
-    // without a potential nothing tells the two jumps apart: the well is just deep enough for the first one
+    // without a potential the two jumps cannot be told apart: the well is taken just deep enough for the first one
     if (!law_.attached_end_potential) return Energy();
     const double u_from = potential_far_away() + potential_rise(law_.free, law_.free.first, from.s);
     const double u_to = law_.attached_end_potential->si - potential_rise(law_.attached, to.s, law_.attached.last);

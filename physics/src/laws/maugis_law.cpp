@@ -64,31 +64,33 @@ ForceLaw maugis_law(const ContactParameters& contact, const LawOptions& options)
   const VanDerWaals van_der_waals(contact.hamaker, contact.tip_radius, options);
   const Length a0 = contact_gap(contact, options);
   const double lambda = maugis_lambda(elastic, cohesive_stress(elastic.work_of_adhesion, contact.atomic_distance));
-  DimensionalContact neck_contact{lambda, maugis_units(elastic), a0};
+  const DimensionalContact neck_contact{lambda, maugis_units(elastic), a0};
   const double deepest = neck_contact.deepest(elastic.tip_radius);
   const double end = maugis_fixed_grips_end(lambda);
   const double contact_end = std::min(end, 0.0);
 
-  // van der Waals force takes over from the contact at the parameter `joint`, and the law is single-valued: both
-  // branches are one curve, the free one as far in as it can have a fold, to the largest attraction
+  // the law is single-valued: both branches are one curve, the free one as far in as it can have a fold, to the largest
+  // attraction. Beyond the parameter `joint` van der Waals force acts, no stronger than the contact is there
   const auto joined_at = [&](double joint, std::vector<double> kinks) {
-    const Length height = neck_contact.at(joint).h;
-    const Heights heights{height.si, a0.si};
-    const auto attraction = attraction_above(van_der_waals, height);
+    const LawPoint held = neck_contact.at(joint);
+    const Heights heights{held.h.si, a0.si};
+    const auto attraction = [=, unbound = attraction_above(van_der_waals, held.h)](double above) {
+      const ForceAndSlope here = unbound(above);
+      return here.force < held.force.si ? ForceAndSlope{held.force.si, 0.0} : here;
+    };
+    constexpr double kShortest = 1e-9;  // of a plateau, in the parameter; a shorter one is rounding
+    const double plateau = heights.parameter((van_der_waals.gap_at(held.force) - held.h).si);
+    if (plateau > kShortest) kinks.push_back(joint + plateau);
     const auto curve = [=](double s) { return s < joint ? neck_contact.at(s) : heights.point(s - joint, attraction); };
     const LawBranch attached{deepest, joint + heights.parameter(kFarthest), curve, std::move(kinks)};
     return ForceLaw{.free = reversed(attached, maugis_pull_off(lambda)),
                     .attached = attached,
-                    .contact_gap = neck_contact.gap,
-                    .attached_end_potential = van_der_waals.potential(height + Length(kFarthest))};
+                    .contact_gap = a0,
+                    .attached_end_potential = van_der_waals.potential(held.h + Length(kFarthest))};
   };
 
   const LawPoint neck = neck_contact.at(contact_end);
-  const Length same_force = van_der_waals.gap_at(neck.force);
-  if (same_force >= neck.h) {
-    neck_contact.gap = neck_contact.gap + (same_force - neck.h);
-    return joined_at(contact_end, {contact_end});
-  }
+  if (van_der_waals.force(neck.h) < neck.force) return joined_at(contact_end, {contact_end});
 
   const LawPoint last = neck_contact.at(end);
   if (van_der_waals.force(last.h) <= last.force) {

@@ -30,7 +30,7 @@ std::vector<MeasuredPoint> smoothed(std::span<const CurvePoint> points, Length b
                                     std::size_t most_points) {
   std::vector<MeasuredPoint> result;
   for (const CurveBin& bin : curve_bins(points, bottom, top, most_points, kSamplesABin)) {
-    result.push_back({bin.z, bin.median});
+    result.push_back({bin.z, bin.middle});
   }
   return result;
 }

@@ -128,7 +128,9 @@ Force LawTables::contact_force(Length z, Length lowest) const noexcept {
   const Force risen = attached.force(z);
   if (turn.si <= 0.0) return risen;
   const double share = std::clamp((z - lowest) / turn, 0.0, 1.0);
-  return risen + (1.0 - share) * std::max(Force(), pressed.force(z) - risen);
+  // above the place of contact no higher than the approach, so that a tip drawn up at once gets no work
+  const Force down = z > figures.z_jtc ? std::min(pressed.force(z), free.force(z)) : pressed.force(z);
+  return risen + (1.0 - share) * std::max(Force(), down - risen);
 }
 
 std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoint> approach,
