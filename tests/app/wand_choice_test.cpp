@@ -69,13 +69,13 @@ TEST(WandChoice, RefusesWhatIsNone) {
     const auto choice = choose(bad);
     ASSERT_FALSE(choice) << bad;
     EXPECT_EQ(choice.error().category, core::ErrorCategory::WrongUsage);
-    EXPECT_THAT(choice.error().message, HasSubstr("--wand: unknown source \""));
+    EXPECT_THAT(choice.error().message, HasSubstr("--wand: "));
   }
   for (const char* bad :
        {"dtrack", "dtrack:", "dtrack:x", "dtrack:64", "dtrack:-1", "dtrack:1@", "dtrack:1@host", "0"}) {
     const auto choice = choose("auto", bad);
     ASSERT_FALSE(choice) << bad;
-    EXPECT_THAT(choice.error().message, HasSubstr("--head: unknown source \""));
+    EXPECT_THAT(choice.error().message, HasSubstr("--head: "));
   }
   EXPECT_EQ(parse_wand_choice({.file = "/nowhere.toml"}).error().category, core::ErrorCategory::BadInputFile);
 }

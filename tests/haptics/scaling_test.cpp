@@ -308,7 +308,7 @@ TEST(FitScaling, RefusesADeviceThatCannotShowIt) {
   const auto tables = build_law_tables(Law::Paper, mica());
   DeviceSpec low = SimulatedDevice().spec();
   low.workspace_max_m.y = 0.049;
-  EXPECT_THAT(Scaling::fit(*tables, low).error().message, testing::HasSubstr("reaches 49 mm"));
+  EXPECT_THAT(Scaling::fit(*tables, low).error().message, testing::HasSubstr("its reach is 49 mm"));
   DeviceSpec feeble = SimulatedDevice().spec();
   feeble.max_force_n = 0.01;
   EXPECT_THAT(Scaling::fit(*tables, feeble).error().message, testing::HasSubstr("too little to feel"));

@@ -336,7 +336,7 @@ TEST(ServoProgram, SaysThatTouchafmStartsIt) {
                                                                      {kServoProgram, "--colour", "9"}}) {
     const auto [code, said] = run(arguments);
     EXPECT_EQ(code, 2);
-    EXPECT_THAT(said, HasSubstr("is started by touchafm"));
+    EXPECT_THAT(said, HasSubstr("touchafm starts this program"));
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
   }
 }
