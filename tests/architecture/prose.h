@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace afm::support {
+
+// Text for people, with the line of the file that each character comes from.
+struct Prose {
+  std::string text;
+  std::vector<int> lines;  // one for each character
+
+  void add(std::string_view piece, int line);
+};
+
+// Every string literal of a C++ source that holds more than one word; adjacent literals are one. Comments, included
+// files and literals of one word (keys, names) are left out.
+std::vector<Prose> messages_of(std::string_view source);
+
+// A page as one text, so that a phrase is found across the end of a line. Inline code of one word is left out.
+Prose page_of(std::string_view document);
+
+// Lines on which the word or phrase occurs: whole words, in any case.
+std::vector<int> lines_with(const Prose& prose, std::string_view phrase);
+
+}  // namespace afm::support
