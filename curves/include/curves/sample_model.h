@@ -46,7 +46,4 @@ core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry,
 // "dmt", "dynamic-dmt", "measured": the law that is felt.
 std::string law_name(const scene::SharedContact& parameters);
 
-// Why it is this law, in one short line for people.
-std::string law_reason(const SampleModel& material);
-
 }  // namespace afm::curves
