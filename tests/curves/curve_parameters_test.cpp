@@ -150,6 +150,16 @@ TEST(Parameters, OfAStrangeFileStayOnOneLineAndFew) {
   EXPECT_EQ(metadata.parameters.size(), 200U);
 }
 
+TEST(Parameters, DoNotHideWhatAFormatIsKnownBy) {
+  RecordedCurve curve = recorded_curve(dynamic_run());
+  for (int i = 0; i < 300; ++i) add_parameter("BEGIN METADATA " + std::string(1900, 'x') + ": \xff", curve.metadata);
+  for (int i = 0; i < 300; ++i) add_parameter("END METADATA: " + std::string(90, '\xff'), curve.metadata);
+  for (const CurveFormat format : {CurveFormat::Tab, CurveFormat::Hdf5, CurveFormat::AfmWorkshop}) {
+    const auto read = parse_curve(curve_bytes(format, curve).value(), "mica");
+    EXPECT_TRUE(read.has_value()) << read.error().message;
+  }
+}
+
 // Lines of instruments that look like ours, with anything in them.
 TEST(Parameters, AnotherFilesLinesAreReadOrRefused) {
   const RecordedCurve curve = recorded_curve(dynamic_run());

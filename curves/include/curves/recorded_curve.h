@@ -47,8 +47,8 @@ inline constexpr const char* kComputedBy = "TouchAFM";
 // A model's curve with the lever that it was made for.
 RecordedCurve recorded_curve(const physics::ForceCurve& curve, physics::Stiffness spring_constant);
 
-// Adds "key: value", made fit for one line of text; anything else, what is longer than 2000 characters, and the 201st
-// are passed over.
+// Adds "key: value", made fit for one line of text; anything else, what is longer than 2000 characters or 32 KiB
+// together with the others, and the 201st are passed over.
 void add_parameter(std::string_view line, CurveMetadata& metadata);
 
 // The value of a parameter that is a number.

@@ -29,6 +29,11 @@ void add_parameter(std::string_view line, CurveMetadata& metadata) {
     std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
     return text;
   };
+  // with room for the rest of a heading in what a format is known by
+  constexpr std::size_t kLongestOfAll = 32768;
+  std::size_t all = line.size();
+  for (const auto& parameter : metadata.parameters) all += parameter.first.size() + parameter.second.size();
+  if (all > kLongestOfAll) return;
   const std::string key = one_line(line.substr(0, colon)), value = one_line(line.substr(colon + 2));
   if (!key.empty() && !value.empty()) metadata.parameters.emplace_back(key, value);
 }
