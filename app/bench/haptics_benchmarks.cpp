@@ -124,7 +124,7 @@ std::string table(const Figures& figures, const HapticsBenchOptions& options) {
                       servo.p999 / plain.p999, servo.max / plain.max);
 
   text += fmt::format(
-      "\ntime until zero force after the renderer is killed, stopped, or told to stop the force, ms, {} rounds\n"
+      "\ntime until zero force after the renderer is killed, is stopped, or sends Stop, ms, {} rounds\n"
       "{:<22}{:>8}{:>8}{:>8}{:>9}   {:<24}{}\n",
       options.rounds, "", "p50", "", "", "max", "bar", "met");
   for (std::size_t i = 0; i < kReleases.size(); ++i) {

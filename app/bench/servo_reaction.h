@@ -21,10 +21,9 @@ struct Release {
   double bar_ms;
 };
 
-inline constexpr std::array kReleases{
-    Release{"killed", "is killed", SIGKILL, scene::FaultCode::RendererDied, 30.0},
-    Release{"stopped", "is stopped", SIGSTOP, scene::FaultCode::RendererHung, 350.0},
-    Release{"stop-key", "is told to stop the force", SIGUSR1, scene::FaultCode::StopPressed, 30.0}};
+inline constexpr std::array kReleases{Release{"killed", "is killed", SIGKILL, scene::FaultCode::RendererDied, 30.0},
+                                      Release{"stopped", "is stopped", SIGSTOP, scene::FaultCode::RendererHung, 350.0},
+                                      Release{"stop-key", "sends Stop", SIGUSR1, scene::FaultCode::StopPressed, 30.0}};
 
 // Time from the signal to zero force, milliseconds, one value per round. In each round a renderer in a separate process
 // starts touchafm-servo from the folder of `program` and holds the tip on the sample; then it is sent the signal.

@@ -104,13 +104,15 @@ void add_contact_options(OptionList& command, ContactOptions& options, const Com
                   "name replaces the built-in one")
       .type_name("FILE")
       .one_value_each();
-  command
-      .add_option("--probe", options.probe,
-                  "lever and tip from the probe file instead of the material's; touchafm material lists them")
-      .type_name("PROBE");
+  const Option probe =
+      command
+          .add_option("--probe", options.probe,
+                      "lever and tip from the probe file instead of the material's; touchafm material lists them")
+          .type_name("PROBE");
   command
       .add_option("--probes", options.probe_files,
                   "your own probe file (TOML); repeatable; adds to the built-in probes")
+      .needs(probe)
       .type_name("FILE")
       .one_value_each();
   command

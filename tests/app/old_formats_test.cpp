@@ -43,7 +43,7 @@ TEST(OldFormats, OfACurveIsAnalysed) {
 TEST(OldFormats, OfWallMaterialsProbesAndWandAreRead) {
   for (const std::string& command :
        {"wall " + kFiles + "wall.toml", "curve --material gold --materials " + kFiles + "materials.toml --json",
-        "curve --material gold --probes " + kFiles + "probes.toml --json",
+        "curve --material gold --probe mlct-c --probes " + kFiles + "probes.toml --json",
         "devices --wand-file " + kFiles + "wand.toml"}) {
     const auto done = touchafm(command);
     EXPECT_EQ(done.exit_code, 0) << command << ": " << done.err;

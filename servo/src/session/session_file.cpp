@@ -143,7 +143,7 @@ std::string what_cannot_be(const RecordedSession& session) {
     return "its rate or its scale is impossible";
   }
   if (session.samples.empty()) return "it contains no samples";
-  if (!can_be_a_name(session.material)) return "the name of its material is impossible";
+  if (!can_be_a_name(session.material)) return "the name of its material is invalid";
   const auto not_before = [](const TipSample& a, const TipSample& b) { return a.time_ns >= b.time_ns; };
   if (session.samples.front().time_ns < 0 ||
       std::adjacent_find(session.samples.begin(), session.samples.end(), not_before) != session.samples.end()) {
