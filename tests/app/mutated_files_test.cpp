@@ -11,6 +11,7 @@
 
 #include "core/whole_file.h"
 #include "places.h"
+#include "servo/session_file.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
@@ -32,6 +33,9 @@ struct Reading {
   const char* ending;  // of its name
 };
 
+// Of 0.1.0, saved as this version does: one that is cut holds what came before.
+constexpr const char* kSession = "/tests/formats/0.1.0/session-gold.afms";
+
 #define AFM_CORPUS "/tests/fuzz/corpus/"
 
 constexpr Reading kReadings[]{
@@ -49,9 +53,8 @@ constexpr Reading kReadings[]{
      ".toml"},
     {"Material", "material gold --materials ", "", "/tests/formats/0.1.0/materials.toml", ".toml"},
     {"Wall", "wall ", " --json", "/assets/walls/cave.toml", ".toml"},
-    {"Replay", "replay ", "", AFM_CORPUS "session/parts-and-frames.afms", ".afms"},
-    {"RenderSession", "render --at 0.1 --size 48x36 --out /dev/null --session ", "",
-     AFM_CORPUS "session/parts-and-frames.afms", ".afms"},
+    {"Replay", "replay ", "", kSession, ".afms"},
+    {"RenderSession", "render --at 0.1 --size 48x36 --out /dev/null --session ", "", kSession, ".afms"},
     {"RenderGltf", "render --size 48x36 --out /dev/null --gltf ", "", AFM_CORPUS "gltf/triangle.glb", ".glb"},
 };
 
@@ -88,14 +91,22 @@ class MutatedFiles : public ::testing::TestWithParam<Reading> {};
 TEST_P(MutatedFiles, AreReadOrRefusedInOneLine) {
   const Reading& reading = GetParam();
   const support::ScratchFolder folder;
-  const std::string whole = core::read_file(std::string(AFM_SOURCE_DIR) + reading.file).value();
   const std::string path = folder.file(std::string("damaged") + reading.ending);
+  const auto read = [&] {
+    return support::run_program(std::string("timeout 30 " AFM_PROGRAM " ") + reading.before + path + reading.after);
+  };
+  std::string whole = core::read_file(std::string(AFM_SOURCE_DIR) + reading.file).value();
+  ASSERT_TRUE(core::write_file(path, whole));
+  if (reading.file == kSession) {
+    ASSERT_TRUE(servo::save_session(servo::load_session(path).value(), path));
+    whole = core::read_file(path).value();
+  }
+  ASSERT_EQ(read().exit_code, 0) << "the file itself: " << read().err;
   std::mt19937 random(1515);
   int refused = 0;
   for (int run = 0; run < kRuns; ++run) {
     ASSERT_TRUE(core::write_file(path, damaged(whole, random)));
-    const auto done =
-        support::run_program(std::string("timeout 30 " AFM_PROGRAM " ") + reading.before + path + reading.after);
+    const auto done = read();
     EXPECT_TRUE(done.exit_code == 0 || done.exit_code == 1 || done.exit_code == 3)
         << "run " << run << " ended with " << done.exit_code << ": " << done.err;
     if (done.exit_code == 0) continue;
@@ -109,7 +120,6 @@ TEST_P(MutatedFiles, AreReadOrRefusedInOneLine) {
   }
   std::printf("%s: %d of %d were refused\n", reading.name, refused, kRuns);
   EXPECT_GT(refused, 0);
-  EXPECT_LT(refused, kRuns);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, MutatedFiles, testing::ValuesIn(kReadings),
