@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
-#include <set>
 #include <sstream>
 #include <string>
 
@@ -47,7 +47,7 @@ class InjectedFailures : public ::testing::TestWithParam<Command> {
     const auto whole = with_failure(kind + ":all", report, GetParam().line);
     EXPECT_EQ(whole.exit_code, 0) << whole.err;
     std::istringstream lines(core::read_file(report).value_or(""));
-    std::set<std::string> results;
+    std::map<std::string, std::string> results;  // the first line of each
     long tried = 0;
     for (std::string line; std::getline(lines, line);) {
       if (line.starts_with("count")) break;
@@ -62,12 +62,13 @@ class InjectedFailures : public ::testing::TestWithParam<Command> {
                                      << core::read_file(report + ".err").value_or("");
       const int code = WEXITSTATUS(status);
       EXPECT_TRUE(code == 0 || code == 1 || code == 3) << line;
-      if (code == 0) results.insert(hash);
+      if (code == 0) results.emplace(hash, line);
       EXPECT_LE(said, 1) << line << ": " << core::read_file(report + ".err").value_or("");
       EXPECT_TRUE(code == 0 || said == 1) << line;
       if (HasFailure()) return tried;
     }
-    EXPECT_LE(results.size(), 1U) << "a run that ended with 0 printed something else";
+    EXPECT_LE(results.size(), 1U) << "a run that ended with 0 printed something else: "
+                                  << testing::PrintToString(results);
     std::printf("%s: %ld failures of %s\n", GetParam().name, tried, kind.c_str());
     return tried;
   }
