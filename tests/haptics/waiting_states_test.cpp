@@ -17,7 +17,7 @@ std::string state_at(double x_m) {
       R"({{"inverse3":[{{"device_id":"1","state":{{"cursor_position":{{"x":{},"y":-0.12,"z":0.15}}}}}}]}})", x_m);
 }
 
-// A connection at which `waiting` lie; a take is late after `bearable` of them.
+// A connection at which `waiting` lie; a take is late once it has `bearable` of them.
 struct Connection {
   std::queue<std::string> waiting;
   int bearable = 3;
@@ -58,7 +58,7 @@ TEST(WaitingStates, GiveNothingWhereNothingWaits) {
 
 TEST(WaitingStates, GiveNoPlaceWhileMoreWaitBehindIt) {
   WaitingStates states;
-  Connection connection;
+  Connection connection{.waiting = {}, .bearable = 2};
   for (int i = 1; i <= 6; ++i) connection.waiting.push(state_at(0.01 * i));
   for (int i = 0; i < 2; ++i) {
     const auto taken = connection.take(states);
@@ -70,6 +70,17 @@ TEST(WaitingStates, GiveNoPlaceWhileMoreWaitBehindIt) {
   ASSERT_TRUE(taken.newest) << "nothing came after it";
   EXPECT_DOUBLE_EQ(taken.newest->position_m.x, 0.06);
   EXPECT_FALSE(connection.take(states).newest) << "given once";
+}
+
+// A service that waits for its force sends nothing more: a thread that was slow must see that nothing is behind.
+TEST(WaitingStates, GiveAStateThatCameLateAndAlone) {
+  WaitingStates states;
+  Connection connection{.waiting = {}, .bearable = 1};
+  connection.waiting.push(state_at(0.04));
+  const auto taken = connection.take(states);
+  EXPECT_TRUE(taken.asked);
+  ASSERT_TRUE(taken.newest);
+  EXPECT_DOUBLE_EQ(taken.newest->position_m.x, 0.04);
 }
 
 TEST(WaitingStates, KeepTheLastStateBeforeBytesThatAreNone) {

@@ -114,6 +114,7 @@ void HaplyDevice::exchange() {
   force_ns_ = heard_ns_ = clock_.now_ns();
   trust_ns_ = 0;
   bool silent = false;
+  bool owed = false;  // the service waits for a force
   WaitingStates waiting;
   while (!link_->ended() && !closing_.load()) {
     const auto end = std::chrono::steady_clock::now() + kReceivePatience;
@@ -128,7 +129,11 @@ void HaplyDevice::exchange() {
     const std::int64_t now_ns = clock_.now_ns();
     const glm::dvec3 force_n = force_for(now_ns);
     const bool was_silent = std::exchange(silent, now_ns - heard_ns_ > kStallNs);
-    if (asked ? !device_id_.empty() : silent && !released_.load()) tell(force_n);
+    owed = owed || asked;
+    if (owed ? !device_id_.empty() : silent && !released_.load()) {
+      tell(force_n);
+      owed = false;
+    }
     if (silent && !was_silent && now_ns - complained_ns_ > kComplaintNs) {
       complained_ns_ = now_ns;
       core::log_line(

@@ -8,10 +8,12 @@ namespace afm::haptics {
 WaitingStates::Taken WaitingStates::take(const std::function<std::optional<std::string>(bool first)>& receive,
                                          const std::function<bool()>& late) {
   Taken taken;
+  bool last = false;
   for (auto message = receive(true); message; message = receive(false)) {
     taken.asked = true;
     if (auto state = parse_haply_state(*message)) last_ = std::move(state);
-    if (late()) return taken;
+    if (last) return taken;
+    last = late();  // one more look, or a slow thread would take every state for one with others behind it
   }
   taken.newest = std::exchange(last_, std::nullopt);
   return taken;
