@@ -40,8 +40,9 @@ void add_parameter(std::string_view line, CurveMetadata& metadata) {
 
 std::optional<double> number_of(std::string_view value) {
   double number = 0.0;
-  const char* end = value.data() + value.size();
-  const auto read = std::from_chars(value.data(), end, number);
+  const char* const begin = value.data();
+  const char* const end = begin + value.size();
+  const auto read = std::from_chars(begin, end, number);
   return read.ec == std::errc() && read.ptr == end ? std::optional(number) : std::nullopt;
 }
 
