@@ -56,7 +56,7 @@ class LiveView {
   core::Result<void> run();
 
  private:
-  friend std::span<const LiveKey> live_keys();  // whose handlers act on what follows
+  friend struct LiveKeyTable;  // whose handlers act on what follows
 
   void begin_with(servo::ServoClient& servo, std::optional<std::size_t> felt_before);
   void run_frame(std::int64_t now_ns);

@@ -18,8 +18,9 @@ constexpr double kHeadStepM = 0.05;
 
 }  // namespace
 
-std::span<const LiveKey> live_keys() {
-  static constexpr std::array kKeys{
+// A friend of LiveView, so that a row may call what is private there.
+struct LiveKeyTable {
+  static constexpr std::array kRows{
       LiveKey{Key::Digit1, "1 to 9", Phrase::KeyChoose, [](LiveView& view, std::size_t number) { view.choose(number); },
               Phrase::LeftClick, Key::Digit9},
       LiveKey{MouseHand::kGripKey, "Space", Phrase::KeyHand, nullptr, Phrase::RightDragOrWheel},
@@ -80,8 +81,9 @@ std::span<const LiveKey> live_keys() {
           .for_staff(),
       LiveKey{Key::F1, "F1", Phrase::Keys, [](LiveView& view, std::size_t) { view.panels_.toggle_keys(); }},
   };
-  return kKeys;
-}
+};
+
+std::span<const LiveKey> live_keys() { return LiveKeyTable::kRows; }
 
 render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases) {
   render::DataPanel panel;
