@@ -27,7 +27,7 @@ std::vector<std::string> failing(const std::string& fault, std::vector<std::stri
   return all;
 }
 
-// Without what a sanitizer says of its own tools, as where its symbolizer is slow.
+// Without a sanitizer's warnings about its symbolizer, which may be too slow.
 std::string last_line(std::string text) {
   for (;;) {
     while (!text.empty() && text.back() == '\n') text.pop_back();

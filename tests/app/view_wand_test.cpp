@@ -61,7 +61,7 @@ TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
   EXPECT_TRUE(view.says("tracker: in the whole run: ")) << view.said();
 }
 
-// Whoever has a hand on the sample would be thrown by a scene that moves.
+// A scene that moves would throw a hand that is on the sample.
 TEST(ViewWand, MovesNothingWhileTheTipIsInContact) {
   const glm::dvec3 hand(0.5, 1.2, 1.8), aim(0.0, 1.2, 0.0);
   const support::VirtualDisplay display(320, 240);

@@ -72,15 +72,6 @@ TEST(Phrases, OfGermanTranslateEveryWordOfMaterialsAndProbes) {
   }
 }
 
-// Words that read as translated.
-TEST(Phrases, OfEnglishAreThoseOfANativeWriter) {
-  const std::string file = core::read_file(test::kPhraseFolder + "en.toml").value();
-  for (const char* word :
-       {"besides", " tells", "for ever", " stands", "comes to", " mend", "takes away", "whoever", "of its own"}) {
-    EXPECT_EQ(file.find(word), std::string::npos) << word;
-  }
-}
-
 TEST(Phrases, RefuseAFileThatIsNotComplete) {
   const support::ScratchFolder folder;
   const auto phrases = Phrases::load(folder.write("p.toml", "language = \"xx\"\ndecimal-mark = \".\"\n"));

@@ -39,7 +39,7 @@ struct PullOff {
   double z, force;
 };
 
-// By a script of its own: golden sections for the largest Z = h - P/k over the contact radius (JKR, h = -delta) or over
+// By a separate script: golden sections for the largest Z = h - P/k over the contact radius (JKR, h = -delta) or over
 // m = c/a (Maugis 1992, (6.16) to (6.18), h = a0 - delta); DMT: Z = a0 + F_ad/k, as k is less than A R/(3 a0^3).
 TEST(ZeroOfContact, PutsThePullOffWhereTheEquationsDo) {
   for (const PullOff& expected : {PullOff{Law::MaugisDugdale, 1.8376180936762297e-08, -4.024236209918857e-08},

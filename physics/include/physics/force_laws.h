@@ -33,7 +33,7 @@ ForceLaw jkr_law(const ContactParameters& contact, const LawOptions& options = {
 // laws of one attraction, and meet like this:
 //
 // - Where the zone, followed to its end under fixed grips, pulls harder there than van der Waals force, the law has a
-//   loop of its own: the tip is free until van der Waals' force is the contact's, and attached until the end.
+//   loop even then: the tip is free until van der Waals' force is the contact's, and attached until the end.
 // - Where van der Waals' becomes the stronger one on the way out through the zone, it takes over there, and the law is
 //   single-valued.
 // - Where it is so already at the end of the contact (attraction of a long range and little adhesion), the pull stays
