@@ -29,30 +29,31 @@ using exhibit::html_text;
 using exhibit::Phrase;
 using exhibit::Phrases;
 
-nlohmann::json json_of(const CycleEvents& e) {
-  return {{"f_attr", e.f_attr_n}, {"f_ad", e.f_ad_n}, {"z_jtc", e.z_jtc_m}, {"z_joc", e.z_joc_m}};
-}
-
 nlohmann::json json_of(const core::Percentiles& p) {
   return {{"p50", p.p50}, {"p99", p.p99}, {"p99.9", p.p999}, {"max", p.max}};
 }
 
 nlohmann::json json_of(const Measurement& m) {
   const auto or_null = [](bool there, double value) { return there ? nlohmann::json(value) : nlohmann::json(); };
+  const CycleEvents error = m.error_vs_calculation();
   nlohmann::json json{{"law", m.law},
                       {"hysteretic", m.hysteretic},
                       {"fold_N", m.fold_n},
                       {"loop_energy_J", m.loop_energy_j},
                       {"f_attr_N", or_null(m.snaps_in, m.measured.f_attr_n)},
                       {"f_ad_N", or_null(m.pulls_off, m.measured.f_ad_n)},
-                      {"z_jtc_m", m.measured.z_jtc_m},
+                      {"z_jtc_m", or_null(m.snaps_in, m.measured.z_jtc_m)},
                       {"z_joc_m", m.measured.z_joc_m},
                       {"sampled_f_attr_N", m.sampled_f_attr_n},
                       {"sampled_f_ad_N", m.sampled_f_ad_n},
-                      {"error_vs_calculation", json_of(m.error_vs_calculation())},
+                      {"error_vs_calculation",
+                       {{"f_attr", or_null(m.snaps_in, error.f_attr_n)},
+                        {"f_ad", or_null(m.pulls_off, error.f_ad_n)},
+                        {"z_jtc", or_null(m.snaps_in, error.z_jtc_m)},
+                        {"z_joc", error.z_joc_m}}},
                       {"error_vs_experiment", nlohmann::json::object()}};
-  if (const auto error = m.experiment_error_f_attr()) json["error_vs_experiment"]["f_attr"] = *error;
-  if (const auto error = m.experiment_error_f_ad()) json["error_vs_experiment"]["f_ad"] = *error;
+  if (const auto f_attr = m.experiment_error_f_attr()) json["error_vs_experiment"]["f_attr"] = *f_attr;
+  if (const auto f_ad = m.experiment_error_f_ad()) json["error_vs_experiment"]["f_ad"] = *f_ad;
   if (m.recorded) {
     json["recorded"] = {{"f_attr_N", or_null(m.snaps_in, m.calculation.f_attr_n)},
                         {"f_ad_N", or_null(m.pulls_off, m.calculation.f_ad_n)},
