@@ -52,7 +52,8 @@ TEST_F(ViewAlone, ArrowKeysMoveAHeadAndTheFrameLogFollowsIt) {
   EXPECT_THAT(program.said(), HasSubstr("head: latency from packet to presented frame"));
   const std::string text = core::read_file(log).value();
   EXPECT_THAT(text, HasSubstr("frame,time_s,drawn_ms,interval_ms,head_latency_ms,nearest_deg,"));
-  EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 10);
+  // three rows at least, for two keys and the answer; how many more is the speed of the machine
+  EXPECT_GE(std::count(text.begin(), text.end(), '\n'), 4);
 }
 
 TEST_F(ViewAlone, FollowsAScriptOfTheHead) {
