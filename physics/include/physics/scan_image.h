@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace afm::physics {
+
+// One quantity of a scan, row by row. Row 0 is the top one, with the largest y; columns run along x. NaN: not measured.
+struct ImageChannel {
+  std::string name;  // as AFM programs write it: "Height", "Deflection", "Lateral force (retrace)"
+  std::string unit;  // of the values, SI: "m", "N", "V", ""
+  std::vector<double> values;
+};
+
+// What an AFM's image file holds, whether the virtual microscope scanned it or an instrument wrote it.
+struct ScanImage {
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+  double width_m = 0;     // of the area that is scanned: columns times a pixel's width
+  double height_m = 0;    // rows times a pixel's height
+  double x_offset_m = 0;  // of the area's left edge
+  double y_offset_m = 0;  // of its top edge
+  std::vector<ImageChannel> channels;
+  std::vector<std::pair<std::string, std::string>> metadata;  // key and value as text
+};
+
+}  // namespace afm::physics
