@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
-#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -161,11 +160,10 @@ nlohmann::json metadata_of(hid_t group) {
 void read_parameters(hid_t file, CurveMetadata& metadata) {
   constexpr hsize_t kMostAttributes = 200;
   constexpr std::size_t kLongestName = 200;
-  H5O_info_t info{};
-  if (H5Oget_info2(file, &info, H5O_INFO_NUM_ATTRS) < 0) return;
-  for (hsize_t i = 0; i < std::min(info.num_attrs, kMostAttributes); ++i) {
+  for (hsize_t i = 0; i < kMostAttributes; ++i) {
+    // beyond the last one it fails; to ask for their number takes another call in HDF5 1.10 than in 1.14
     const Handle attribute(H5Aopen_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT, H5P_DEFAULT));
-    if (!attribute.is_open()) continue;
+    if (!attribute.is_open()) break;
     std::array<char, kLongestName> name{};
     if (H5Aget_name(attribute.get(), name.size(), name.data()) < 0) continue;
     const std::string key(name.data());
