@@ -96,8 +96,7 @@ core::Result<void> write_curve(const CurveOptions& options, const curves::Contac
   if (!run) return tl::unexpected(run.error());
   if (!run->curve.samples.empty() && run->curve.samples.back().phase == physics::Phase::Attached &&
       run->figures.hysteretic) {
-    core::log_line(
-        "the sweep ends below jump-off-contact, with the tip still attached; raise --from to close the loop");
+    core::log_line("the cycle ends below the pull-off, with the tip still attached; raise --from to close the loop");
   }
   const auto text = curve_text(options, *run, format);
   if (!text) return tl::unexpected(text.error());
@@ -156,13 +155,13 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
   const auto options = std::make_shared<CurveOptions>();
   command
       .add_option("--material", options->contact.material,
-                  "mica, gold or any other of touchafm material; without it, give every parameter that the model needs")
+                  "a name that touchafm material lists; without it, give every parameter that the model needs")
       .type_name("MATERIAL");
   add_contact_options(command, options->contact, context);
   const Option from =
       command
           .add_option("--from", options->path.from,
-                      "start and end of the cycle, above Z_jtc, in m, mm, um, nm or pm; default: 10 % above Z_joc")
+                      "start and end, above the snap-in, in m, mm, um, nm or pm; default: 10 % above the pull-off")
           .type_name("LENGTH");
   const Option to = command
                         .add_option("--to", options->path.to,

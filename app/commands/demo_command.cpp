@@ -316,7 +316,7 @@ core::Result<void> read_model(const std::string& text, DemoOptions& options) {
 void add_sample_options(OptionList& command, DemoOptions& options, const CommandContext& context) {
   command
       .add_option("--material", options.files.shown,
-                  "name of a sample in the material files; repeatable; default: the paper's three")
+                  "name of a material (touchafm material lists them); repeatable; default: the paper's three")
       .type_name("MATERIAL");
   command
       .add_parsed_option(

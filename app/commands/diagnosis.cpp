@@ -113,8 +113,8 @@ Finding haptic_device(const MachineFacts& facts) {
   }
   if (silent) return *silent;
   return {"haptic device", Verdict::Limited, "no driver is installed: a simulated hand is used instead",
-          fmt::format("install the driver of the PHANTOM or Touch, or run: export {}=/path/to/libHD.so; touchafm "
-                      "devices lists what was tried",
+          fmt::format("install the driver of the PHANTOM or Touch, or set {} to the path of its libHD.so (touchafm "
+                      "devices lists what was tried)",
                       haptics::kHdLibraryVariable)};
 }
 

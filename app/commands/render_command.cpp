@@ -296,7 +296,7 @@ void add_render_command(OptionList& program, const CommandContext& context) {
   add_stage_options(command, options->files, context);
   add_own_model_options(command, options->files);
   command.when_chosen([options, gltf, at]() -> core::Result<void> {
-    if (!options->describe && options->out.empty()) return core::wrong_usage("--out is required; see touchafm --help");
+    if (!options->describe && options->out.empty()) return core::wrong_usage("--out FILE.png is required");
     if (!gltf.given()) return run_render(*options);
     if (at.given()) options->model.at_s = options->at_s;
     return run_model(*options);

@@ -97,6 +97,12 @@ void add_contact_rows(const curves::SampleModel& material, const Phrases& phrase
   }
 }
 
+// Attraction pulls the lever down, towards the sample: the deflection is positive.
+std::string bend_text(double deflection_m, const Phrases& phrases) {
+  const std::string amount = fmt::format("{:.2f} nm", std::abs(deflection_m) * curves::kNmPerM);
+  return deflection_m < 0 ? phrases.text<Phrase::LeverBentUp>(amount) : phrases.text<Phrase::LeverBentDown>(amount);
+}
+
 }  // namespace
 
 render::DataPanel data_panel(const curves::SampleModel& material, const scene::Tip& tip, const Phrases& phrases) {
@@ -124,7 +130,7 @@ render::DataPanel data_panel(const curves::SampleModel& material, const scene::T
                         hysteresis_text(figures, phrases)});
   panel.rows.push_back({phrases[Phrase::ForceOnTip],
                         phrases.number(signed_text(tip.force_n * curves::kNnPerN, 3, "nN")),
-                        phrases.text<Phrase::LeverBent>(signed_text(tip.deflection_m * curves::kNmPerM, 2, "nm"))});
+                        bend_text(tip.deflection_m, phrases)});
   return panel;
 }
 

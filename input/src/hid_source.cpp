@@ -26,7 +26,7 @@ constexpr int kMostReportsAPoll = 64;
 constexpr auto kSetUpPause = std::chrono::milliseconds(20);  // between output reports: a Wii Remote drops the next one
 constexpr std::size_t kLongestReport = 256;
 constexpr const char* kRule =
-    "copy 70-touchafm-wands.rules to /etc/udev/rules.d, run udevadm control --reload, and plug it in again";
+    "copy assets/wands/70-touchafm-wands.rules to /etc/udev/rules.d, run sudo udevadm control --reload, replug it";
 
 // Printable ASCII: what a device says of itself is not to be trusted with a terminal.
 std::string plain(const wchar_t* text) {

@@ -17,11 +17,11 @@ namespace {
 
 using physics::Law;
 
-render::DataPanel panel_of(Law law) {
+render::DataPanel panel_of(Law law, const scene::Tip& tip = {}) {
   const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
   curves::ContactSetup setup{*library.find("mica"), {}, {}};
   setup.model.law = law;
-  return data_panel(curves::make_sample_model(setup).value(), {}, test::english());
+  return data_panel(curves::make_sample_model(setup).value(), tip, test::english());
 }
 
 bool shows(const render::DataPanel& panel, std::string_view begin) {
@@ -50,6 +50,15 @@ TEST(DataPanel, GivesLennardJonesItsAtomicDistanceAndNoHamakerConstant) {
   ASSERT_NE(row, panel.rows.end());
   EXPECT_EQ(row->value, "300 pm");
   EXPECT_THAT(row->source, ::testing::HasSubstr("estimated: "));
+}
+
+TEST(DataPanel, SaysWhichWayTheLeverIsBent) {
+  scene::Tip pulled{};
+  pulled.deflection_m = 0.8e-9;
+  scene::Tip pressed{};
+  pressed.deflection_m = -7e-9;
+  EXPECT_EQ(panel_of(Law::Paper, pulled).rows.back().source, "lever bent down by 0.80 nm");
+  EXPECT_EQ(panel_of(Law::Paper, pressed).rows.back().source, "lever bent up by 7.00 nm");
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST(ServoRows, TellLimitsScaleAndPunctualityWithTheirUnits) {
   EXPECT_THAT(all, HasSubstr("Scale of the hand: 3.57 mm/nm, 1.43 N/nN (compressed"));
   EXPECT_THAT(all, HasSubstr("Force limit: 2 N, 500 N/s (Omni)"));
   EXPECT_THAT(all, HasSubstr("Servo: 1000 Hz, not real-time"));
-  EXPECT_THAT(all, HasSubstr("p99 of wake-ups 38 \u00b5s late, 3 of 1003 ticks missed"));
+  EXPECT_THAT(all, HasSubstr("scheduling latency p99 38 \u00b5s, 3 of 1003 ticks missed"));
   EXPECT_THAT(all, Not(HasSubstr("Motors")));
 }
 

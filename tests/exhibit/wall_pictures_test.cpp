@@ -121,7 +121,7 @@ TEST(DepthReport, WarnsBeyondADegreeAndNamesTheEyesThatWouldDiverge) {
       HasSubstr("press [ or step back"))
       << "B changes nothing where the contact is in the wall's plane";
   const DepthReport far = report_depth({.nearest_m = 2.5, .farthest_m = 10.0}, 2.5, 0.063, Relief::BringToWall);
-  EXPECT_THAT(depth_text(far, test::english()), HasSubstr("not for eyes less than 48 mm apart"));
+  EXPECT_THAT(depth_text(far, test::english()), HasSubstr("too deep for eyes less than 48 mm apart"));
 }
 
 // ---- the comfort clamp ----

@@ -35,7 +35,7 @@ CurveFormat format_of(std::string_view bytes) {
   if (heading.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos) return CurveFormat::AfmWorkshop;
   if (looks_like_igor(bytes)) return CurveFormat::IgorBinaryWave;
   throw CurveError(
-      "it is no curve file of a known kind; known are TouchAFM .csv, afmformats .tab and .h5, AFM Workshop .csv, JPK "
+      "it is not a supported curve file; supported are TouchAFM .csv, afmformats .tab and .h5, AFM Workshop .csv, JPK "
       ".jpk-force and Igor .ibw");
 }
 

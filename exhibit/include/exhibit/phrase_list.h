@@ -150,7 +150,8 @@
   PHRASE(NoHysteresisAbove, "no-hysteresis-above", "k", kLine)           \
   PHRASE(HysteresisAlways, "hysteresis-always", "", kLine)               \
   PHRASE(ForceOnTip, "force-on-tip", "", kLine)                          \
-  PHRASE(LeverBent, "lever-bent", "deflection", kLine)                   \
+  PHRASE(LeverBentUp, "lever-bent-up", "deflection", kLine)              \
+  PHRASE(LeverBentDown, "lever-bent-down", "deflection", kLine)          \
   PHRASE(Results, "results", "", kLine)                                  \
   PHRASE(NoJumps, "no-jumps", "", kLine)                                 \
   PHRASE(NoJumpsBecause, "no-jumps-because", "law", kLine)               \
