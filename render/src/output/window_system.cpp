@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdarg>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -20,8 +21,38 @@ std::string window_system_error() {
   return text == nullptr ? "no reason given" : text;
 }
 
+namespace {
+
+#ifdef GLFW_PLATFORM  // 3.4 and later
+
+// libwayland prints a line of its own where there is no Wayland; ours says it.
+void silence_wayland() {
+  using Log = void (*)(const char* format, std::va_list values);
+  void* const wayland = ::dlopen("libwayland-client.so.0", RTLD_LAZY);  // never closed: what is set stays
+  if (wayland == nullptr) return;
+  const auto set_log = reinterpret_cast<void (*)(Log)>(::dlsym(wayland, "wl_log_set_handler_client"));
+  if (set_log != nullptr) set_log([](const char*, std::va_list) {});
+}
+
+// GLFW would prefer Wayland, which lets no program place its windows on the projectors; X11 runs there too.
+bool begin_glfw() {
+  glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+  if (glfwInit() == GLFW_TRUE) return true;
+  silence_wayland();
+  glfwInitHint(GLFW_PLATFORM, GLFW_ANY_PLATFORM);
+  return glfwInit() == GLFW_TRUE;
+}
+
+#else
+
+bool begin_glfw() { return glfwInit() == GLFW_TRUE; }
+
+#endif
+
+}  // namespace
+
 core::Result<WindowSystem> WindowSystem::join() {
-  if (glfwInit() != GLFW_TRUE) {
+  if (!begin_glfw()) {
     return core::failure(core::ErrorCategory::DeviceMissing,
                          "cannot open a window (" + window_system_error() +
                              "): run this on a desktop, with DISPLAY or WAYLAND_DISPLAY set");
