@@ -93,6 +93,12 @@ bool Presenter::Parts::follow_surfaces(Work&& work) {
     for (Pane& pane : panes) {
       pane.surface->outdate();
     }
+  } catch (const vk::OutOfHostMemoryError&) {
+    // Mesa's answer, too, to a display that has gone, which the next poll() of the window finds
+    if (++surfaces_lost > kMostSurfacesLost) throw;
+    for (Pane& pane : panes) {
+      pane.surface->outdate();
+    }
   } catch (const vk::SurfaceLostKHRError&) {
     if (++surfaces_lost > kMostSurfacesLost) {
       throw DeviceFailure("the window's surface was lost and cannot be recreated: check the display and start again");
