@@ -56,6 +56,11 @@ class ScanLoop {
     error_m_ = error_m;
   }
 
+  // The integral gain at which the loop, in contact, begins to swing by itself: with its ticks, delay, proportional
+  // gain and z resonance. Without delay Ki dt = 2 (1 - Kp) for an ideal z scanner (Jury), and Ki = (1 + Kp) w0/Q for
+  // slow ones. Zero where the proportional gain alone is too large. Takes below a millisecond.
+  Frequency largest_integral_gain() const;
+
   double z_m() const noexcept { return z_m_; }
   double deflection_m() const noexcept { return deflection_m_; }       // of the lever, without noise
   double force_n() const noexcept { return spring_ * deflection_m_; }  // of the lever; negative: it holds the tip back
@@ -83,7 +88,7 @@ class ScanLoop {
     return detected_m_[(newest_ + detected_m_.size() - delay_ticks_) % detected_m_.size()];
   }
 
-  double spring_ = 0, setpoint_m_ = 0, pull_off_m_ = 0, snap_in_m_ = 0;
+  double tick_s_ = 0, spring_ = 0, setpoint_m_ = 0, pull_off_m_ = 0, snap_in_m_ = 0;
   double integral_ = 0, proportional_ = 0;  // a tick
   double noise_of_tick_m_ = 0;
   double reach_m_ = 0;

@@ -35,7 +35,7 @@ struct ScanSettings {
   Force setpoint{0.5e-9};            // of the lever; below zero the tip is held by adhesion alone
   Frequency integral_gain{1000.0};   // 1/s; on a rigid contact 1/tau of the closed loop
   double proportional_gain = 0.0;    // of the velocity form, a tick: below one
-  Frequency loop_rate{250e3};        // the controller's ticks a second, at least
+  Frequency loop_rate{100e3};        // the controller's ticks a second, at least
   Time detector_delay;               // before the controller sees a deflection; rounded to ticks
   Frequency z_resonance{5e3};        // of the z scanner; zero: it follows its command at once
   double z_quality_factor = 10.0;    // of that resonance

@@ -92,6 +92,7 @@ class Scanner {
   double y_m() const noexcept { return y_m_; }
   double z_m() const noexcept;  // with the lever's deflection: the apex's own height
   bool touching() const noexcept { return loop_.touching(); }
+  const ScanLoop& loop() const noexcept { return loop_; }
 
  private:
   struct Below {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 
 namespace afm::physics {
@@ -14,6 +15,7 @@ ScanLoop::ScanLoop(const ScanSettings& settings, Time tick, std::uint64_t seed) 
 
 void ScanLoop::change(const ScanSettings& settings, Time tick) {
   validate(settings);
+  tick_s_ = tick.si;
   spring_ = settings.spring_constant.si;
   setpoint_m_ = settings.setpoint.si / spring_;
   pull_off_m_ = settings.adhesion.si / spring_;
@@ -35,6 +37,36 @@ void ScanLoop::change(const ScanSettings& settings, Time tick) {
   const double c = decay * std::cosh(rate * tick.si).real();
   const double s = decay * (rate == 0.0 ? tick.si : (std::sinh(rate * tick.si) / rate).real());
   swing_ = {.zz = c + damping * s, .zv = s, .vz = -w0 * w0 * s, .vv = c - damping * s};
+}
+
+// The loop swings by itself with z = exp(i theta) a tick where (z - 1) + (Kp (1 - 1/z) + g) z^-delay G(z) = 0, g = Ki
+// dt and G what the z scanner does with its command.
+Frequency ScanLoop::largest_integral_gain() const {
+  const auto gain_at = [this](double theta) {
+    const std::complex<double> z = std::polar(1.0, theta);
+    std::complex<double> scanner = 1.0;
+    if (resonant_) {
+      const double cross = swing_.zv * swing_.vz;
+      scanner = z * ((1.0 - swing_.zz) * (z - swing_.vv) - cross) / ((z - swing_.zz) * (z - swing_.vv) - cross);
+    }
+    return -((z - 1.0) * std::pow(z, static_cast<double>(delay_ticks_)) / scanner + proportional_ * (1.0 - 1.0 / z));
+  };
+  constexpr double kSlowest = 1e-6, kStep = 1.002;
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  // at half the rate of the ticks the gain is real
+  const double fastest = gain_at(std::numbers::pi).real();
+  double smallest = fastest > 0.0 ? fastest : kNone;
+  for (double theta = kSlowest; theta < std::numbers::pi; theta *= kStep) {
+    double low = theta, high = std::min(theta * kStep, std::numbers::pi * (1.0 - 1e-9));
+    const bool rising = gain_at(low).imag() < 0.0;
+    if (rising == (gain_at(high).imag() < 0.0)) continue;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (rising == (gain_at(middle).imag() < 0.0) ? low : high) = middle;
+    }
+    if (const double gain = gain_at(low).real(); gain > 0.0) smallest = std::min(smallest, gain);
+  }
+  return Frequency(smallest == kNone ? 0.0 : smallest / tick_s_);
 }
 
 void ScanLoop::engage(double height_m) noexcept {

@@ -99,16 +99,18 @@ void Scanner::scan_segment(double x_m, double y_m, ScanPixel& pixel) {
   const Below there = below(x_m, y_m);
   height_m_ = there.height_m;
   const double rise_m = (height_m_ - from_m) / static_cast<double>(ticks_of_segment_);
-  const double share = 1.0 / static_cast<double>(segments_ * ticks_of_segment_);
+  double lowest_n = pixel.lowest_force_n, highest_n = pixel.highest_force_n, noise_m = 0.0;
   std::size_t off = 0;
-  double noise_m = 0.0;
   for (std::size_t i = 1; i <= ticks_of_segment_; ++i) {
-    loop_.tick(i == ticks_of_segment_ ? height_m_ : from_m + rise_m * static_cast<double>(i));
-    pixel.lowest_force_n = std::min(pixel.lowest_force_n, loop_.force_n());
-    pixel.highest_force_n = std::max(pixel.highest_force_n, loop_.force_n());
+    loop_.tick(from_m + rise_m * static_cast<double>(i));
+    lowest_n = std::min(lowest_n, loop_.force_n());
+    highest_n = std::max(highest_n, loop_.force_n());
     noise_m += loop_.noise_m();
     if (!loop_.touching()) ++off;
   }
+  pixel.lowest_force_n = lowest_n;
+  pixel.highest_force_n = highest_n;
+  const double share = 1.0 / static_cast<double>(segments_ * ticks_of_segment_);
   pixel.error_n += noise_m * share * settings_.spring_constant.si;
   pixel.off_surface += static_cast<double>(off) * share;
   if (there.second_apex) pixel.on_second_apex += static_cast<double>(ticks_of_segment_ - off) * share;
