@@ -419,9 +419,16 @@ TEST(Scanner, StaysWithinItsRangeWhateverTheLoopDoes) {
 
 TEST(Scanner, EndsAFrameWhereItIsToldTo) {
   Scanner scanner(ScanArea(), ScanSettings(), bumps);
-  int lines = 0;
-  EXPECT_TRUE(scan_frame(scanner, [&] { return ++lines < 4; }).channels.empty());
+  std::vector<std::size_t> rows;
+  const ScanImage image = scan_frame(scanner, [&](const ScanLine& line) {
+    rows.push_back(line.row);
+    return rows.size() < 3;
+  });
+  EXPECT_EQ(rows, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(scanner.row(), 3U);
+  const std::vector<double>& height = image.channels.front().values;
+  EXPECT_FALSE(std::isnan(height[3 * 256 - 1]));
+  EXPECT_TRUE(std::isnan(height[3 * 256]));
 }
 
 }  // namespace

@@ -55,6 +55,9 @@ struct ScanSettings {
 // The bandwidth in which `noise` is given; its one-sided power density is noise^2/kNoiseBandwidth.
 inline constexpr Frequency kNoiseBandwidth{1e3};
 
+// The rms that the detector's noise has in the height, on a rigid contact: sqrt(S/(4 tau)), S its power density.
+Length noise_of_height(const ScanSettings& settings) noexcept;
+
 // One number of ScanSettings as options, files, panels and checks know it.
 struct ScanField {
   std::string_view name;                        // of the member; with blanks for underscores it is what messages say

@@ -124,8 +124,8 @@ class Scanner {
 // Gwyddion 2.62's latsim stores the value of the retrace with the other sign. `slope` is dh/dx = tan(theta).
 Force lateral_force(Force normal, Force adhesion, double slope, double mu, ScanPass pass) noexcept;
 
-// A whole frame as channels "Height", "Error", "Lateral force", each with its " (retrace)"; without metadata.
-// `keep_going` is asked before each line; where it says no, the image is empty.
-ScanImage scan_frame(Scanner& scanner, const std::function<bool()>& keep_going = nullptr);
+// The rest of a frame as channels "Height", "Error", "Lateral force", each with its " (retrace)"; without metadata, NaN
+// where it was not scanned. `taken` sees each line; where it says no, the scan ends.
+ScanImage scan_frame(Scanner& scanner, const std::function<bool(const ScanLine&)>& taken = nullptr);
 
 }  // namespace afm::physics

@@ -36,12 +36,6 @@ bool rings(const Scanner& scanner) {
          settings.integral_gain.si > kShareOfLimit * scanner.loop().largest_integral_gain().si;
 }
 
-// The detector's noise in the height: sqrt(S/4 tau).
-double height_noise_m(const ScanSettings& settings) {
-  if (settings.feedback == Feedback::Off) return 0.0;
-  return settings.noise.si * std::sqrt(settings.integral_gain.si / (4.0 * kNoiseBandwidth.si));
-}
-
 }  // namespace
 
 std::string_view name_of(ScanArtefact artefact) {
@@ -64,7 +58,7 @@ ScanArtefact main_artefact(const Scanner& scanner, const ScanLine& line) {
   }
   if (drifts(scanner.area(), settings)) return ScanArtefact::Drift;
   const double relief_m = rms_about_mean(line.trace.height_m);
-  if (height_noise_m(settings) > kShareOfNoise * relief_m) return ScanArtefact::Noise;
+  if (noise_of_height(settings).si > kShareOfNoise * relief_m) return ScanArtefact::Noise;
   const double error_m = rms_about_mean(line.trace.error_n) / settings.spring_constant.si;
   const bool follows = settings.feedback == Feedback::On;
   return follows && error_m > kShareOfError * relief_m ? ScanArtefact::Blur : ScanArtefact::None;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/scan_settings.h"
 
+#include <cmath>
+
 #include "physics/contact_parameters.h"
 #include "require_range.h"
 
@@ -9,7 +11,7 @@ namespace {
 
 constexpr std::array kDrifts{Unit{"um/s", 1e6, true}, Unit{"\u00b5m/s", 1e6, false}, Unit{"nm/s", 1e9, true},
                              Unit{"pm/s", 1e12, true}};
-constexpr std::array kGains{Unit{"1/ms", 1e-3, true}, Unit{"1/s", 1.0, true}};
+constexpr std::array kGains{Unit{"/ms", 1e-3, true}, Unit{"/s", 1.0, true}};
 
 constinit const Units kDriftUnits{"a velocity", kDrifts};
 constinit const Units kGainUnits{"a gain", kGains};
@@ -87,6 +89,11 @@ void validate(const ScanSettings& settings) {
   for (const ScanField& field : kScanFields) {
     require_range(std::string(field.name), field.get(settings), field.smallest, field.largest, *field.units);
   }
+}
+
+Length noise_of_height(const ScanSettings& settings) noexcept {
+  if (settings.feedback == Feedback::Off) return Length();
+  return settings.noise * std::sqrt(settings.integral_gain / (4.0 * kNoiseBandwidth));
 }
 
 void validate(const ScanArea& area) {

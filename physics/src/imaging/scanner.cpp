@@ -180,7 +180,7 @@ bool Scanner::next_line(ScanLine& line) {
   return true;
 }
 
-ScanImage scan_frame(Scanner& scanner, const std::function<bool()>& keep_going) {
+ScanImage scan_frame(Scanner& scanner, const std::function<bool(const ScanLine&)>& taken) {
   struct Recorded {
     const char* name;
     const char* unit;
@@ -204,8 +204,7 @@ ScanImage scan_frame(Scanner& scanner, const std::function<bool()>& keep_going) 
            std::vector<double>(area.columns * area.rows, std::numeric_limits<double>::quiet_NaN())});
     }
   }
-  for (ScanLine line; !keep_going || keep_going();) {
-    if (!scanner.next_line(line)) return image;
+  for (ScanLine line; scanner.next_line(line);) {
     std::size_t channel = 0;
     for (const Recorded& recorded : kRecorded) {
       for (const ScanTrack* track : {&line.trace, &line.retrace}) {
@@ -213,8 +212,9 @@ ScanImage scan_frame(Scanner& scanner, const std::function<bool()>& keep_going) 
                   image.channels[channel++].values.begin() + static_cast<std::ptrdiff_t>(line.row * area.columns));
       }
     }
+    if (taken && !taken(line)) break;
   }
-  return {};
+  return image;
 }
 
 }  // namespace afm::physics
