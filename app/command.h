@@ -24,6 +24,7 @@ struct CommandContext {
   COMMAND(demo)                       \
   COMMAND(view)                       \
   COMMAND(curve)                      \
+  COMMAND(scan)                       \
   COMMAND(analyse)                    \
   COMMAND(material)                   \
   COMMAND(paper)                      \

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/check.h"
-#include "core/log.h"
+#include "exhibit/drawn_surface.h"
 #include "exhibit/model_builder.h"
 #include "physics/contact.h"
 #include "scene/graph/height_field.h"
@@ -19,21 +18,8 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr const char* kNeutralLook = "si3n4";
-
 using glm::dmat4;
 using glm::dvec3;
-
-// Whose models stand for a material: its own, those of its look, or, with a line on stderr, the plain grey ones.
-std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& material) {
-  for (const std::string& name : {material.name, material.look}) {
-    std::error_code ignored;
-    if (std::filesystem::exists(fmt::format("{}/models/sample-{}.glb", assets_dir, name), ignored)) return name;
-  }
-  core::log_line(fmt::format("material {}: {}/models/sample-{}.glb is missing; it is shown in plain grey",
-                             material.name, assets_dir, material.look));
-  return kNeutralLook;
-}
 
 }  // namespace
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/scan_loop.h"
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+namespace afm::physics {
+
+ScanLoop::ScanLoop(const ScanSettings& settings, Time tick, std::uint64_t seed) : normal_(seed) {
+  change(settings, tick);
+  engage(0.0);
+}
+
+void ScanLoop::change(const ScanSettings& settings, Time tick) {
+  validate(settings);
+  tick_s_ = tick.si;
+  spring_ = settings.spring_constant.si;
+  setpoint_m_ = settings.setpoint.si / spring_;
+  pull_off_m_ = settings.adhesion.si / spring_;
+  snap_in_m_ = settings.snap_in.si;
+  integral_ = settings.integral_gain.si * tick.si;
+  proportional_ = settings.proportional_gain;
+  // white noise of one-sided density S has the variance S/(2 dt) when it is sampled every dt
+  noise_of_tick_m_ = settings.noise.si / std::sqrt(2.0 * tick.si * kNoiseBandwidth.si);
+  reach_m_ = 0.5 * settings.z_range.si;
+  feedback_ = settings.feedback == Feedback::On;
+  delay_ticks_ = static_cast<std::size_t>(
+      std::clamp(std::round(settings.detector_delay.si / tick.si), 0.0, static_cast<double>(kMostDelayTicks)));
+
+  resonant_ = settings.z_resonance.si > 0.0;
+  if (!resonant_) return;
+  const double w0 = 2.0 * std::numbers::pi * settings.z_resonance.si, damping = 0.5 * w0 / settings.z_quality_factor;
+  const std::complex<double> rate = std::sqrt(std::complex<double>(damping * damping - w0 * w0));
+  const double decay = std::exp(-damping * tick.si);
+  const double c = decay * std::cosh(rate * tick.si).real();
+  const double s = decay * (rate == 0.0 ? tick.si : (std::sinh(rate * tick.si) / rate).real());
+  swing_ = {.zz = c + damping * s, .zv = s, .vz = -w0 * w0 * s, .vv = c - damping * s};
+}
+
+// The loop swings by itself with z = exp(i theta) a tick where (z - 1) + (Kp (1 - 1/z) + g) z^-delay G(z) = 0, g = Ki
+// dt and G what the z scanner does with its command.
+Frequency ScanLoop::largest_integral_gain() const {
+  const auto gain_at = [this](double theta) {
+    const std::complex<double> z = std::polar(1.0, theta);
+    std::complex<double> scanner = 1.0;
+    if (resonant_) {
+      const double cross = swing_.zv * swing_.vz;
+      scanner = z * ((1.0 - swing_.zz) * (z - swing_.vv) - cross) / ((z - swing_.zz) * (z - swing_.vv) - cross);
+    }
+    return -((z - 1.0) * std::pow(z, static_cast<double>(delay_ticks_)) / scanner + proportional_ * (1.0 - 1.0 / z));
+  };
+  constexpr double kSlowest = 1e-6, kStep = 1.002;
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  // at half the rate of the ticks the gain is real
+  const double fastest = gain_at(std::numbers::pi).real();
+  double smallest = fastest > 0.0 ? fastest : kNone;
+  for (double theta = kSlowest; theta < std::numbers::pi; theta *= kStep) {
+    double low = theta, high = std::min(theta * kStep, std::numbers::pi * (1.0 - 1e-9));
+    const bool rising = gain_at(low).imag() < 0.0;
+    if (rising == (gain_at(high).imag() < 0.0)) continue;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (rising == (gain_at(middle).imag() < 0.0) ? low : high) = middle;
+    }
+    if (const double gain = gain_at(low).real(); gain > 0.0) smallest = std::min(smallest, gain);
+  }
+  return Frequency(smallest == kNone ? 0.0 : smallest / tick_s_);
+}
+
+void ScanLoop::engage(double height_m) noexcept {
+  command(height_m - setpoint_m_);
+  z_m_ = command_m_;
+  velocity_ = 0.0;
+  touching_ = true;
+  deflection_m_ = height_m - z_m_;
+  error_m_ = deflection_m_ - setpoint_m_;
+  noise_now_m_ = 0.0;
+  detected_m_.fill(deflection_m_);
+}
+
+}  // namespace afm::physics
