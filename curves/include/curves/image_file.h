@@ -27,6 +27,9 @@ std::string_view name_of(ImageFormat format);
 // The format that a file has by its first bytes, 512 of which are enough; none: it is no image.
 std::optional<ImageFormat> image_format_of(std::string_view bytes);
 
+// Whether the first bytes of a regular file are those of an image.
+bool is_image_file(const std::string& path);
+
 struct ImageReading {
   std::string channel;   // by its name, in any case of letters; empty: the first height, the trace before the retrace
   bool confined = true;  // in a process that can open nothing; false: here, so that a fuzzer sees it

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -32,6 +33,7 @@ namespace afm::curves {
 namespace {
 
 constexpr std::uintmax_t kLargestImageBytes = std::uintmax_t{256} << 20U;
+constexpr std::size_t kLongestBeginning = 512;
 constexpr std::size_t kMostChannels = 256;
 constexpr std::size_t kMostTextBytes = 4096;  // of a name, a key or a value
 
@@ -259,6 +261,16 @@ std::string_view name_of(ImageFormat format) { return kFormats[static_cast<std::
 std::optional<ImageFormat> image_format_of(std::string_view bytes) {
   const FormatRow* row = row_of(bytes);
   return row != nullptr ? std::optional(row->format) : std::nullopt;
+}
+
+bool is_image_file(const std::string& path) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing)) return false;
+  std::string beginning(kLongestBeginning, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<std::size_t>(file.gcount()));
+  return image_format_of(beginning).has_value();
 }
 
 core::Result<LoadedImage> load_image(const std::string& path, const ImageReading& reading) {
