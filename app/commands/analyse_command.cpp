@@ -11,6 +11,8 @@
 #include <optional>
 
 #include "app/command.h"
+#include "app/commands/analyse_image.h"
+#include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
@@ -53,6 +55,9 @@ core::Result<double> parse_sensitivity(std::string_view text) {
 }
 
 core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
+  if (curves::is_image_file(options.file)) {
+    return analyse_image_file(options.file, {{.channel = options.channel}, options.levelling}, options.json);
+  }
   const auto measured = load_analysed(options.file, options.reading, options.contact_method);
   if (!measured) return tl::unexpected(measured.error());
   std::optional<curves::AnalysedCurve> beside;
@@ -76,13 +81,14 @@ core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
 }
 
 void add_analyse_command(OptionList& program, const CommandContext&) {
-  OptionList command =
-      program.add_command("analyse", "analyse a measured or computed curve, alone or compared with another");
+  OptionList command = program.add_command(
+      "analyse", "analyse a measured or computed curve, alone or compared with another, or an image");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<AnalyseOptions>();
   command
       .add_option("file", options->file,
-                  "TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw")
+                  "curve: TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw; image: "
+                  "Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, JPK .jpk")
       .required()
       .type_name("FILE");
   command
@@ -119,11 +125,13 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
   command.add_option("--curve", reading.index, "number of the curve in an .h5 file, from 0")
       .show_default()
       .type_name("INDEX");
+  add_channel_options(command, options->channel, options->levelling);
   command.add_flag("--json", options->json, "print JSON in SI units; null marks a figure that was not found");
   command.add_option("--out", options->out, "write a plot of the curve (SVG) to FILE").type_name("FILE");
   command.footer(
       "docs/curves.md defines each figure.\n"
-      "example: touchafm analyse gold.jpk-force --beside model.csv --out gold.svg");
+      "example: touchafm analyse gold.jpk-force --beside model.csv --out gold.svg\n"
+      "         touchafm analyse mica.spm --channel \"Height Sensor\" --json");
   command.when_chosen([options] { return analyse_curve_file(*options); });
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/result.h"
 #include "curves/curve_file.h"
+#include "physics/levelling.h"
 
 namespace afm::app {
 
@@ -16,13 +17,16 @@ struct AnalyseOptions {
   std::optional<physics::ContactMethod> contact_method;  // none: by the curve
   std::string beside;                                    // another curve to compare with, measured or computed
   bool json = false;
-  std::string out;  // an SVG of the curve, beside the text
+  std::string out;      // an SVG of the curve, beside the text
+  std::string channel;  // of an image
+  physics::Levelling levelling = physics::Levelling::Plane;
 };
 
 // "70nm/V" in metres per volt. WrongUsage: another text, or not positive.
 core::Result<double> parse_sensitivity(std::string_view text);
 
-// Reads, analyses, compares; prints the figures to stdout.
+// Reads, analyses, compares; prints the figures to stdout. Of an image, by the file's first bytes: size, channels and
+// statistics.
 core::Result<void> analyse_curve_file(const AnalyseOptions& options);
 
 }  // namespace afm::app

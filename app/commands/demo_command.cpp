@@ -124,7 +124,7 @@ core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optiona
     if (measured && entry.name == measured->entry.name) {
       auto model = curves::make_sample_model(entry, plan.curves, 0);
       if (!model) return tl::unexpected(model.error());
-      model->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
+      stage.wall_scene.lay_surface_on(model->parameters, plan.materials.size());
       plan.materials.push_back(std::move(*model));
       plan.variations.emplace_back();
       continue;
@@ -133,7 +133,7 @@ core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optiona
     if (!setup) return tl::unexpected(setup.error());
     auto model = curves::make_sample_model(*setup);
     if (!model) return tl::unexpected(model.error());
-    model->parameters.height_field = stage.wall_scene.height_field(plan.materials.size());
+    stage.wall_scene.lay_surface_on(model->parameters, plan.materials.size());
     auto variations = variations_of(*model, options);
     if (!variations) return tl::unexpected(variations.error());
     plan.materials.push_back(std::move(*model));
@@ -275,10 +275,12 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
 
   std::vector<ReportPicture> pictures;
   {
-    const auto model = exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(),
-                                             plan->materials, stage->wall_scene.height_fields(), plan->curves);
+    const auto model =
+        exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), plan->materials,
+                              stage->wall_scene.height_fields(), plan->curves, stage->wall_scene.topography().size());
     if (!model) return tl::unexpected(model.error());
-    auto servo = servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program);
+    auto servo = servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program,
+                                           stage->wall_scene.topography());
     if (!servo) return tl::unexpected(servo.error());
     ReportPictures live_pictures(*context, *renderer, *out);
     Demonstration live(*stage, *plan, *renderer, **servo, clock, on_scale(options.scale, options.hand),

@@ -112,7 +112,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   for (const scene::MaterialEntry& entry : stage->materials.materials) {
     auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
     if (!model) return tl::unexpected(model.error());
-    model->parameters.height_field = stage->wall_scene.height_field(materials.size());
+    stage->wall_scene.lay_surface_on(model->parameters, materials.size());
     materials.push_back(std::move(*model));
   }
   ViewSettings settings = options.settings;
@@ -122,8 +122,9 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
   auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
   if (!wand) return tl::unexpected(wand.error());
-  const auto model = exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
-                                           stage->wall_scene.height_fields());
+  const auto model =
+      exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
+                            stage->wall_scene.height_fields(), {}, stage->wall_scene.topography().size());
   if (!model) return tl::unexpected(model.error());
 
   auto display = ViewDisplay::open(*stage, options.display);
@@ -134,7 +135,8 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   servo.settings.spin_ns = 1000 * options.spin_us;
   if (servo.mode == servo::ServoMode::Thread) servo.settings.linger_s = 0;  // it ends with this program
   const auto start_servo = [&] {
-    return servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), servo, program);
+    return servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), servo, program,
+                                     stage->wall_scene.topography());
   };
   LiveView live(*stage, materials, windows, (*display)->picture(), start_servo, **wand, clock, settings);
   if (auto ran = live.run(); !ran) return ran;

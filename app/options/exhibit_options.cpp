@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/options/enum_option.h"
+#include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
 
 namespace afm::app {
@@ -39,8 +40,10 @@ void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files) {
 void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files) {
   command
       .add_option("--sample", files.sample,
-                  "glTF model of your own sample, with a node for the role surface; the drawn surface is also felt")
+                  "your own sample, drawn and felt: a glTF model with a node for the role surface, or a measured image "
+                  "(Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, JPK .jpk); the file's first bytes decide")
       .type_name("FILE");
+  add_channel_options(command, files.sample_channel, files.sample_levelling);
 }
 
 void add_scale_option(OptionList& command, scene::ScaleMode& mode) {

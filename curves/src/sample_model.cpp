@@ -63,6 +63,7 @@ core::Result<SampleModel> make_sample_model(const SampleModel& material, const C
   if (!felt) return felt;
   felt->setup = material.setup;
   felt->parameters.height_field = material.parameters.height_field;
+  felt->parameters.topography = material.parameters.topography;
   return felt;
 }
 

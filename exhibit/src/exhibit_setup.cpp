@@ -112,7 +112,8 @@ core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
   const StagePlace place = stage_place(*wall);
   const auto eyes = eyes_before(place.main, wall->viewers.front().sweet_spot, place.ipd_m);
   if (!eyes) return tl::unexpected(eyes.error());
-  const auto own = load_own_models(files.probe, files.sample);
+  const auto own =
+      load_own_models(files.probe, files.sample, {{.channel = files.sample_channel}, files.sample_levelling});
   if (!own) return tl::unexpected(own.error());
   auto wall_scene = WallScene::load(files.assets_dir, *materials, place, phrases->wall, *own);
   if (!wall_scene) return tl::unexpected(wall_scene.error());

@@ -26,7 +26,8 @@ std::array<double, 16> shared_matrix(const glm::dmat4& matrix) {
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
                                               std::span<const curves::SampleModel> materials,
                                               std::span<const scene::SharedHeightField> surfaces,
-                                              std::span<const scene::SharedMeasuredCurve> curves) {
+                                              std::span<const scene::SharedMeasuredCurve> curves,
+                                              const scene::SharedTopography& topography) {
   if (scene.nodes.size() > scene::kMaxNodes || materials.size() > scene::kMaxMaterials ||
       surfaces.size() > scene::kMaxHeightFields || curves.size() > scene::kMaxMeasuredCurves) {
     return core::failure(
@@ -42,6 +43,7 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
   model.height_field_count = static_cast<std::uint32_t>(surfaces.size());
   model.curve_count = static_cast<std::uint32_t>(curves.size());
   model.sample_node = sample_node;
+  model.topography = topography;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     scene::SharedNode& node = model.nodes[i];
     node.name = scene::to_name(scene.nodes[i].name);

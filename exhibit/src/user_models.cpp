@@ -143,14 +143,19 @@ std::string lower(std::string text) {
 
 }  // namespace
 
-core::Result<UserModels> load_own_models(const std::string& probe_file, const std::string& sample_file) {
+core::Result<UserModels> load_own_models(const std::string& probe_file, const std::string& sample_file,
+                                         const curves::TopographyReading& reading) {
   UserModels own;
   if (!probe_file.empty()) {
     auto probe = load_probe(probe_file);
     if (!probe) return tl::unexpected(probe.error());
     own.probe = std::move(*probe);
   }
-  if (!sample_file.empty()) {
+  if (curves::is_image_file(sample_file)) {
+    auto topography = load_topography_model(sample_file, reading);
+    if (!topography) return tl::unexpected(topography.error());
+    own.topography = std::move(*topography);
+  } else if (!sample_file.empty()) {
     auto sample = load_sample(sample_file);
     if (!sample) return tl::unexpected(sample.error());
     own.sample = std::move(*sample);

@@ -52,16 +52,20 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
   MaterialLook look{};
   const std::string model = model_of(assets_dir, material);
   const std::string sample = "sample-" + material.name;
-  look.sample = own.sample ? build.part(sample_as(*own.sample, material), sample, sample_frame_)
-                           : build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, sample_frame_);
-  const scene::NodeIndex surface = build.node(sample + "/surface");
+  look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
+  if (own.topography) {
+    add_topography(build, sample, own, look);
+  } else {
+    look.sample = own.sample ? build.part(sample_as(*own.sample, material), sample, sample_frame_)
+                             : build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, sample_frame_);
+    const scene::NodeIndex surface = build.node(sample + "/surface");
+    look.height_field = build.error() ? scene::kNoHeightField : height_field_of(own.sample ? "own" : model, surface);
+    look.thickness_m = build.error() ? 0.0 : -bounds_below(scene_, surface).low.z;
+  }
   look.ground = journey_.add_ground(build, scene_, model);
-  look.height_field = build.error() ? scene::kNoHeightField : height_field_of(own.sample ? "own" : model, surface);
   const std::string swatch = "swatch-" + material.name;
   look.swatch = build.model("swatch-" + model + ".glb", swatch, layout_);
   look.label = build.node(swatch + "/label");
-  look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
-  look.thickness_m = build.error() ? 0.0 : -bounds_below(scene_, surface).low.z;
   look.full_deflection_m = events.f_ad.si / material.contact.spring_constant.si;
   looks_.push_back(look);
 }
@@ -95,6 +99,28 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   const Bounds stage = bounds_below(w.scene_, build.node("stage/stage"));
   w.stage_scale_ = kStageDrawnDiameter / (stage.high.x - stage.low.x);
   return w;
+}
+
+// One mesh for all materials, in metres as they were measured; the node of each says how large it is shown.
+void WallScene::add_topography(ModelBuilder& build, const std::string& sample, const UserModels& own,
+                               MaterialLook& look) {
+  const TopographyModel& model = *own.topography;
+  look.height_field = scene::kTopography;
+  look.topography = exhibit::topography_scale(model, look.stroke_m);
+  const dmat4 shown =
+      glm::scale(dmat4(1.0), dvec3(look.topography.lateral, look.topography.lateral, look.topography.vertical));
+  if (!topography_mesh_) {
+    topography_ = model.topography;
+    look.sample = build.part(model.sample, sample, sample_frame_);
+    topography_mesh_ = scene_.nodes[build.node(sample + "/surface")].mesh;
+  } else {
+    look.sample = build.frame(sample, sample_frame_, dmat4(1.0));
+    build.frame(sample + "/surface", look.sample, dmat4(1.0));
+  }
+  scene::Node& surface = scene_.nodes[build.node(sample + "/surface")];
+  surface.mesh = topography_mesh_;
+  surface.parent_from_node = shown;
+  look.thickness_m = -bounds_below(scene_, look.sample).low.z;
 }
 
 // Materials that share a model share its surface. More surfaces than the servo has room for are felt as planes.

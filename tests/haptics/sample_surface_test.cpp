@@ -13,6 +13,7 @@
 #include "places.h"
 #include "scene/gltf/gltf_loader.h"
 #include "scene/graph/height_field.h"
+#include "support/measured_surface.h"
 #include "support/rough_surface.h"
 
 namespace {
@@ -182,6 +183,62 @@ TEST(SampleSurface, OfTheDrawnSamplesFollowsThemAsATipDoes) {
     EXPECT_GT(lowest, -0.03e-9) << expected.model << ": the apex stands in the drawn surface";
     EXPECT_NEAR(felt.at({0.0, 0.0}).height_m, 0.0, 1e-20) << expected.model;
   }
+}
+
+// ---- a topography of the most points ----
+
+class FeltTopography : public testing::Test {
+ protected:
+  const afm::scene::Topography measured_ = afm::test::measured_surface();
+  const afm::scene::HeightGrid shown_{measured_, afm::test::kMeasuredScale};
+  const SampleSurface felt_{shown_, kRadius, kGentle};
+  std::mt19937 random_{7};
+};
+
+TEST_F(FeltTopography, StaysWithinItsSlopeAndItsCurvature) {
+  EXPECT_LE(felt_.steepest_slope(), SampleSurface::kSteepestSlope);
+  EXPECT_LE(felt_.largest_curvature_per_m(), kGentle);
+  // and is smoothed no further than that asks for
+  EXPECT_GT(std::max(felt_.steepest_slope() / SampleSurface::kSteepestSlope, felt_.largest_curvature_per_m() / kGentle),
+            0.8);
+}
+
+TEST_F(FeltTopography, HasTheSlopeOfItsHeight) {
+  const double half = 0.6 * shown_.spacing_m * shown_.columns, step = 1e-3 * shown_.spacing_m;
+  std::uniform_real_distribution<double> place(-half, half);
+  for (int i = 0; i < 20'000; ++i) {
+    const glm::dvec2 xy(place(random_), place(random_));
+    const auto difference = [&](const glm::dvec2& d) {
+      return (felt_.at(xy + d).height_m - felt_.at(xy - d).height_m) / (2.0 * step);
+    };
+    ASSERT_NEAR(felt_.at(xy).slope.x, difference({step, 0.0}), kGentle * step + 1e-7);
+    ASSERT_NEAR(felt_.at(xy).slope.y, difference({0.0, step}), kGentle * step + 1e-7);
+  }
+}
+
+TEST_F(FeltTopography, FollowsTheMeasuredHeightsAsFarAsItIsGentle) {
+  const SampleSurface::Change change = felt_.change_of(shown_);
+  const double relief_m = 1.5e-6 * afm::test::kMeasuredScale.vertical;
+  EXPECT_LT(change.rms_m, 0.1 * relief_m);
+  EXPECT_LT(change.rms_m, change.largest_m);
+  EXPECT_NEAR(felt_.at({0.0, 0.0}).height_m, 0.0, 1e-15);
+}
+
+TEST(SampleSurface, OfAGentleTopographyIsTheMeasuredOnePointByPoint) {
+  afm::scene::Topography hill{.columns = 65, .rows = 65, .spacing_m = 2e-9, .height_m = {}};
+  for (std::uint32_t i = 0; i < 65 * 65; ++i) {
+    const double x = (i % 65 - 32.0) / 32.0, y = (i / 65 - 32.0) / 32.0;
+    hill.height_m.push_back(static_cast<float>(1e-9 * (std::cos(3.0 * x) * std::cos(3.0 * y) - 1.0)));
+  }
+  const afm::scene::HeightGrid shown(hill, {1.0, 1.0});
+  const SampleSurface felt(shown, kRadius, kGentle);
+  // a quadratic spline rounds by an eighth of the second differences
+  const double rounding_m = 0.25 * 1e-9 * 9.0 / (32.0 * 32.0);
+  EXPECT_LT(felt.change_of(shown).largest_m, 2.0 * rounding_m) << "the tip's radius dilates no image";
+  afm::scene::Topography cliff = hill;
+  for (std::uint32_t i = 0; i < 65 * 65; ++i) cliff.height_m[i] = i % 65 > 32 ? 1e-3F : 0.0F;
+  const SampleSurface smoothed(afm::scene::HeightGrid(cliff, {1.0, 1.0}), kRadius, kGentle);
+  EXPECT_LE(smoothed.steepest_slope(), SampleSurface::kSteepestSlope) << "whatever it takes";
 }
 
 }  // namespace

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "servo_bench.h"
+#include "support/measured_surface.h"
 #include "support/no_alloc.h"
 #include "support/no_lock.h"
 #include "support/rough_surface.h"
@@ -161,6 +166,32 @@ TEST(ServoTickDeathTest, TheTrapItselfCatchesAnExceptionThatIsCaught) {
         }
       },
       "__cxa_allocate_exception where nothing may lock or throw");
+}
+
+TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsOverATopographyOfTheMostPoints) {
+  const afm::scene::Topography topography = afm::test::measured_surface();
+  ServoBench bench(afm::test::measured_model(topography), 1000.0, {}, HUGE_VAL, topography);
+  bench.hold_attached(afm::test::kMica);
+  std::vector<double> work_us;
+  work_us.reserve(4000);
+  const NoAllocation no_allocation;
+  const NoLock no_lock;
+  for (int tick = 0; tick < 4000; ++tick) {
+    const double angle = 0.01 * tick;
+    bench.renderer.store(afm::scene::RendererHeartbeat{.time_ns = bench.now_ns});
+    bench.renderer.store(afm::scene::HandScript{.target_m = {0.03 * std::cos(angle), -0.005, 0.03 * std::sin(angle)},
+                                                .duration_s = 0.001,
+                                                .revision = ++bench.script,
+                                                .turn_on_pressed = 0});
+    bench.now_ns += bench.loop->period_ns();
+    const auto begin = std::chrono::steady_clock::now();
+    bench.loop->tick(bench.now_ns, 0);
+    work_us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+  }
+  EXPECT_EQ(bench.state().servo_state, afm::scene::ServoState::Running);
+  EXPECT_NE(bench.state().surface.height_m, 0.0);
+  std::sort(work_us.begin(), work_us.end());
+  RecordProperty("p99_us", std::to_string(work_us[work_us.size() * 99 / 100]));
 }
 
 }  // namespace

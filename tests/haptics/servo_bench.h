@@ -31,7 +31,7 @@ inline physics::ApproachRetractEvents calculated(std::int32_t material) {
 
 // A contact model as the servo makes it, with a scale to itself; `drawn` null for a plane. Throws as required() does.
 inline std::unique_ptr<haptics::ContactModel> model_of(const scene::SharedContact& material,
-                                                       const scene::SharedHeightField* drawn = nullptr,
+                                                       const scene::HeightGrid& drawn = {},
                                                        std::int64_t period_ns = 1'000'000) {
   const auto omni = haptics::omni_like("hand");
   const auto tables = required(haptics::build_tables(material, {}));
@@ -43,8 +43,9 @@ inline std::unique_ptr<haptics::ContactModel> model_of(const scene::SharedContac
 class ServoBench {
  public:
   explicit ServoBench(const scene::SharedModel& model = paper_model(), double rate_hz = 1000.0,
-                      const haptics::DeviceFlaws& flaws = {}, double max_force_n = HUGE_VAL)
-      : segment(required(scene::SharedSegment::create(model, 0))),
+                      const haptics::DeviceFlaws& flaws = {}, double max_force_n = HUGE_VAL,
+                      const scene::Topography& topography = {})
+      : segment(required(scene::SharedSegment::create(model, 0, topography))),
         renderer(segment.renderer_side()),
         device(glm::dvec3(0.0, kTop, 0.0), {}, flaws),
         loop(required(haptics::ServoLoop::create(segment, device, {.rate_hz = rate_hz, .max_force_n = max_force_n}))) {}

@@ -14,6 +14,7 @@
 #include "haptics/sample_axes.h"
 #include "physics/contact.h"
 #include "servo_bench.h"
+#include "support/measured_surface.h"
 #include "support/rough_surface.h"
 
 namespace {
@@ -158,6 +159,39 @@ TEST_P(Topography, GivesAForceThatNeverJumpsOnABranch) {
 INSTANTIATE_TEST_SUITE_P(Papers, Topography,
                          testing::Combine(testing::Values(kMica, kGold, kSiliconNitride),
                                           testing::Values(ScaleMode::Common, ScaleMode::Fit, ScaleMode::Compressed)));
+
+TEST(TopographyOfTheMostPoints, TakesAndGivesNoEnergyOnClosedPathsOfOneBranch) {
+  const afm::scene::Topography measured = afm::test::measured_surface();
+  const auto model = std::make_unique<afm::scene::SharedModel>(afm::test::measured_model(measured));
+  const auto contact =
+      afm::test::model_of(model->materials[kMica], afm::scene::HeightGrid(measured, afm::test::kMeasuredScale));
+  const auto height = [&](double z_m) { return contact->scaling().hand_height_m(z_m); };
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(-1.0, 1.0), turn_of(0.0, 6.28);
+  for (int path = 0; path < 40; ++path) {
+    const glm::dvec3 middle(0.03 * part(random), 0.03 * part(random), height(-8e-9));
+    const glm::dvec3 amplitude(0.02 * part(random), 0.02 * part(random), 0.001 * part(random));
+    const glm::dvec3 phase(turn_of(random), turn_of(random), turn_of(random));
+    const auto at = [&](double turn) {
+      return middle + amplitude * glm::sin(glm::dvec3(1.0, 2.0, 3.0) * 6.283185307179586 * turn + phase);
+    };
+    for (const double z : {height(60e-9), height(-30e-9), at(0.0).z})
+      contact->step(glm::dvec3(at(0.0).x, at(0.0).y, z));
+    constexpr int kSteps = 8000;
+    double work_j = 0, moved_j = 0;
+    Touch before = contact->step(at(0.0));
+    for (int i = 1; i <= kSteps; ++i) {
+      const glm::dvec3 here_m = at(static_cast<double>(i) / kSteps), step = here_m - at((i - 1.0) / kSteps);
+      const Touch here = contact->step(here_m);
+      ASSERT_EQ(here.response.phase, Phase::Attached);
+      const double part_j = glm::dot(0.5 * (before.hand_force_n + here.hand_force_n), step);
+      work_j += part_j;
+      moved_j += std::abs(part_j);
+      before = here;
+    }
+    ASSERT_LE(std::abs(work_j), 1e-4 * moved_j + 1e-9);
+  }
+}
 
 // ---- the whole servo ----
 

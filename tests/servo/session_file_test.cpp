@@ -259,6 +259,31 @@ TEST(SessionFile, CarriesTheSurfaceThatWasFelt) {
   EXPECT_THAT(error_of(folder.file("t.afms")), HasSubstr("not a grid of heights"));
 }
 
+TEST(SessionFile, CarriesTheTopographyThatWasFelt) {
+  const support::ScratchFolder folder;
+  RecordedSession session = example();
+  session.topography = {
+      .columns = 3, .rows = 2, .spacing_m = 10e-9, .height_m = {0, 1e-9F, 2e-9F, 3e-9F, 4e-9F, 5e-9F}};
+  session.parameters.height_field = scene::kTopography;
+  session.parameters.topography = {.lateral = 0.25, .vertical = 0.5};
+  ASSERT_TRUE(save_session(session, folder.file("t.afms")).has_value());
+  const auto loaded = load_session(folder.file("t.afms"));
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().message;
+  EXPECT_EQ(loaded->topography.columns, 3U);
+  EXPECT_EQ(loaded->topography.rows, 2U);
+  EXPECT_EQ(loaded->topography.spacing_m, 10e-9);
+  EXPECT_EQ(loaded->topography.height_m, session.topography.height_m);
+  EXPECT_EQ(loaded->parameters.height_field, scene::kTopography);
+  EXPECT_EQ(loaded->parameters.topography.vertical, 0.5);
+
+  session.topography.height_m[2] = std::nanf("");
+  ASSERT_TRUE(save_session(session, folder.file("t.afms")).has_value());
+  EXPECT_THAT(error_of(folder.file("t.afms")), HasSubstr("not a grid of heights"));
+  session.topography.height_m.pop_back();
+  ASSERT_TRUE(save_session(session, folder.file("t.afms")).has_value());
+  EXPECT_THAT(error_of(folder.file("t.afms")), HasSubstr("not a grid of heights"));
+}
+
 TEST(SessionFile, OfADeviceThatCannotBeIsRefused) {
   const support::ScratchFolder folder;
   RecordedSession session = example();

@@ -12,6 +12,7 @@
 #include "curves/curve_error.h"
 #include "formats/confined_child.h"
 #include "formats/igor_file.h"
+#include "formats/igor_wave.h"
 #include "formats/jpk_file.h"
 #include "formats/tab_file.h"
 #include "formats/touchafm_csv_file.h"

@@ -12,7 +12,4 @@ namespace afm::curves {
 // left as NaN are passed over; the cycle turns at its deepest point. Throws CurveError.
 RecordedCurve read_igor(std::string_view bytes);
 
-// Whether the bytes begin as an Igor wave of this or another version or byte order does.
-bool looks_like_igor(std::string_view bytes);
-
 }  // namespace afm::curves

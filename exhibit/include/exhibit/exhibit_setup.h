@@ -13,6 +13,7 @@
 #include "exhibit/phrases.h"
 #include "exhibit/wall_pictures.h"
 #include "exhibit/wall_scene.h"
+#include "physics/levelling.h"
 #include "render/renderer.h"
 #include "scene/display/wall.h"
 #include "scene/samples/material_library.h"
@@ -36,13 +37,15 @@ std::string language_of_locale(std::span<const std::string> values);
 // The files that a picture of the wall is made of.
 struct ExhibitFiles {
   std::string assets_dir;
-  std::string wall;                         // empty: the paper's wall in the assets
-  std::optional<double> aspect{};           // width to height of the picture, which the paper's wall takes on
-  std::string language = "en";              // a row of kLanguages
-  std::string guidance;                     // a phrase file of the user's own on top of it; empty: none
-  std::string materials;                    // a file of the user's own; empty: none
-  std::string probe;                        // a glTF model of the user's own instead of the assets'; empty: none
-  std::string sample;                       // the same, of all materials
+  std::string wall;                // empty: the paper's wall in the assets
+  std::optional<double> aspect{};  // width to height of the picture, which the paper's wall takes on
+  std::string language = "en";     // a row of kLanguages
+  std::string guidance;            // a phrase file of the user's own on top of it; empty: none
+  std::string materials;           // a file of the user's own; empty: none
+  std::string probe;               // a glTF model of the user's own instead of the assets'; empty: none
+  std::string sample;              // the same, of all materials; or an image that an instrument measured
+  std::string sample_channel;      // of the image; empty: its height
+  physics::Levelling sample_levelling = physics::Levelling::Plane;
   std::vector<std::string> shown;           // names; empty: those of the user's file, or the paper's three
   std::vector<scene::MaterialEntry> added;  // shown behind those
 };

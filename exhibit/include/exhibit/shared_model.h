@@ -12,11 +12,12 @@
 namespace afm::exhibit {
 
 // The shared model of a scene: its nodes at rest and what is felt. Fails if there are more of either than the segment
-// holds. `curves` and `surfaces` are those that the materials refer to.
+// holds. `curves`, `surfaces` and `topography` are those that the materials refer to.
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
                                               std::span<const curves::SampleModel> materials,
                                               std::span<const scene::SharedHeightField> surfaces,
-                                              std::span<const scene::SharedMeasuredCurve> curves = {});
+                                              std::span<const scene::SharedMeasuredCurve> curves = {},
+                                              const scene::SharedTopography& topography = {});
 
 // The transforms of a frame for the servo: room from node. At most scene::kMaxNodes.
 scene::SceneTransforms shared_transforms(std::span<const glm::dmat4> room_from_node);

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "core/result.h"
+#include "curves/measured_topography.h"
+#include "exhibit/topography_model.h"
 #include "scene/graph/scene.h"
 #include "scene/samples/material_library.h"
 
@@ -15,10 +17,13 @@ namespace afm::exhibit {
 struct UserModels {
   std::optional<scene::Scene> probe;   // "cantilever", below it "tip", below that "apex", as in the assets' probe.glb
   std::optional<scene::Scene> sample;  // a node "surface", as in the assets' sample-*.glb
+  std::optional<TopographyModel> topography;  // instead of a sample: one that an instrument measured
 };
 
-// Empty names are of no model. Errors name the file and what is missing in it.
-core::Result<UserModels> load_own_models(const std::string& probe_file, const std::string& sample_file);
+// Empty names are of no model; the first bytes of the sample's file say whether it is an image. Errors name the file
+// and what is missing in it.
+core::Result<UserModels> load_own_models(const std::string& probe_file, const std::string& sample_file,
+                                         const curves::TopographyReading& reading = {});
 
 // The sample in the variant that is named like the material or its look, in any case of letters, if there is one.
 scene::Scene sample_as(const scene::Scene& sample, const scene::MaterialEntry& material);

@@ -55,6 +55,16 @@ class WallScene {
   std::span<const scene::SharedHeightField> height_fields() const { return height_fields_; }
   std::uint32_t height_field(std::size_t material) const { return looks_[material].height_field; }
 
+  // The topography that is drawn instead of them; without columns for none. And its scale on a material.
+  const scene::Topography& topography() const { return topography_; }
+  scene::TopographyScale topography_scale(std::size_t material) const { return looks_[material].topography; }
+
+  // Says in a material's parameters which of these it is felt with.
+  void lay_surface_on(scene::SharedContact& parameters, std::size_t material) const {
+    parameters.height_field = looks_[material].height_field;
+    parameters.topography = looks_[material].topography;
+  }
+
   // The contact point, in the wall's plane as long as nothing has been moved.
   glm::dvec3 contact_m() const { return glm::dvec3(room_from_layout_[3]); }
 
@@ -97,6 +107,7 @@ class WallScene {
     double full_deflection_m;  // at pull-off
     double thickness_m;        // of the slab
     std::uint32_t height_field;
+    scene::TopographyScale topography;
   };
 
   // The lever's pose in the sample's frame, layout units.
@@ -112,6 +123,7 @@ class WallScene {
   void add_instrument(ModelBuilder& build, const UserModels& own);
   void add_material(ModelBuilder& build, const std::string& assets_dir, const scene::MaterialEntry& material,
                     const UserModels& own);
+  void add_topography(ModelBuilder& build, const std::string& sample, const UserModels& own, MaterialLook& look);
   std::uint32_t height_field_of(const std::string& model, scene::NodeIndex surface);
   LeverPose lever_pose(const WallState& state) const;
   void place_probe(const WallState& state, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
@@ -142,6 +154,8 @@ class WallScene {
   std::vector<std::string> titles_;  // of the swatches, in that language
   std::vector<MaterialLook> looks_;
   std::vector<scene::SharedHeightField> height_fields_;
+  scene::Topography topography_;
+  std::optional<std::uint32_t> topography_mesh_;
   std::vector<std::string> surface_models_;  // of which model each of them is
   // origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre
   glm::dmat4 room_from_layout_{1.0};

@@ -19,9 +19,14 @@
 #include "physics/dynamic_model.h"
 #include "physics/force_model.h"
 #include "physics/law_tables.h"
+#include "scene/shared/height_grid.h"
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::haptics {
+
+// The most bent place that a surface of this material may have on this device, as create() has it: where it bends, a
+// force on it is a stiffness sideways. `fit` is the scale of Fit.
+double largest_curvature_per_m(const Scaling& fit, const DeviceSpec& device);
 
 // The tables of what is felt, and shown: of a dynamic lever those of the same lever at rest. Believes nothing of
 // `material`; `curves` are those of its SharedModel. Fails with a line that begins with the material's name if its
@@ -46,18 +51,17 @@ struct Touch {
 // on a branch of the law, and the jumps have the law's forces wherever they happen. Sideways a hand's metre is as many
 // metres of the nanoworld as along z.
 //
-// create() takes milliseconds and allocates; the rest is for a tick of the servo.
+// create() takes milliseconds (on a topography, tenths of a second) and allocates; the rest is for a tick of the servo.
 class ContactModel {
  public:
-  // `tables` are build_tables() of `material`, `drawn` is its surface, null for a plane; `common` is the scale that all
-  // materials share. Fails if the device cannot show it at this tick period. `edit_revision` is of the MaterialEdit
+  // `tables` are build_tables() of `material`, `drawn` is its surface (scene::surface_of); `common` is the scale that
+  // all materials share. Fails if the device cannot show it at this tick period. `edit_revision` is of the MaterialEdit
   // that the material came with, 0 for none.
   static core::Result<std::unique_ptr<ContactModel>> create(const scene::SharedContact& material,
                                                             std::uint32_t edit_revision,
                                                             std::shared_ptr<const physics::LawTables> tables,
-                                                            const scene::SharedHeightField* drawn,
-                                                            const CommonScale& common, const DeviceSpec& device,
-                                                            std::int64_t period_ns);
+                                                            const scene::HeightGrid& drawn, const CommonScale& common,
+                                                            const DeviceSpec& device, std::int64_t period_ns);
 
   // `hand_m`: from the device's contact point, along the sample's axes.
   Touch step(const glm::dvec3& hand_m) noexcept;

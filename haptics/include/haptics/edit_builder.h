@@ -18,14 +18,15 @@ namespace afm::haptics {
 // the servo's: building allocates and takes milliseconds.
 class EditBuilder {
  public:
-  // Curves and surfaces as in SharedModel; `common` as for the contact models that are there; `exchange` must outlive
-  // it.
+  // Curves, surfaces and the topography as those of the segment; `common` as for the contact models that are there;
+  // `exchange` must outlive it.
   EditBuilder(scene::EditSide edits, std::vector<scene::SharedMeasuredCurve> curves,
-              std::vector<scene::SharedHeightField> surfaces, const CommonScale& common, const DeviceSpec& device,
-              std::int64_t period_ns, ModelSwap& exchange)
+              std::vector<scene::SharedHeightField> surfaces, scene::Topography topography, const CommonScale& common,
+              const DeviceSpec& device, std::int64_t period_ns, ModelSwap& exchange)
       : edits_(edits),
         curves_(std::move(curves)),
         surfaces_(std::move(surfaces)),
+        topography_(std::move(topography)),
         common_(common),
         device_(device),
         period_ns_(period_ns),
@@ -43,6 +44,7 @@ class EditBuilder {
   scene::EditSide edits_;
   std::vector<scene::SharedMeasuredCurve> curves_;
   std::vector<scene::SharedHeightField> surfaces_;
+  scene::Topography topography_;
   CommonScale common_;
   DeviceSpec device_;
   std::int64_t period_ns_;

@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "scene/shared/shared_blocks.h"
+#include "scene/shared/height_grid.h"
 
 namespace afm::haptics {
 
@@ -19,6 +19,8 @@ namespace afm::haptics {
 //   heights around it, nine of which are looked at whatever the size of the grid.
 // - It is smoothed (binomial, as often as is needed) until its slope stays below kSteepestSlope and its curvature below
 //   what the caller asks for: where the tip would touch two slopes at once, the dilated surface has a crease.
+// - A topography that an instrument measured is not dilated: its heights are those of an apex already. Smoothed it is
+//   just as far as those bounds ask for, by a bell curve, however many points it has.
 // - It is shifted along z, so that it has the height of the drawn one at the origin, where events are compared.
 // - Beyond the rim it goes on level, as high as the rim is.
 class SampleSurface {
@@ -35,9 +37,9 @@ class SampleSurface {
   // The plane z = 0.
   SampleSurface() = default;
 
-  // `drawn` is valid (scene::validate), the other two are above zero. Takes some milliseconds for the largest grid, and
-  // allocates.
-  SampleSurface(const scene::SharedHeightField& drawn, double tip_radius_m, double largest_curvature_per_m);
+  // `drawn` is valid (scene::validate), the other two are above zero. Takes some milliseconds for the largest height
+  // field, some tenths of a second for the largest topography, and allocates.
+  SampleSurface(const scene::HeightGrid& drawn, double tip_radius_m, double largest_curvature_per_m);
 
   // Wait-free, for a tick of the servo, wherever the tip is.
   Place at(const glm::dvec2& xy_m) const noexcept;
@@ -46,7 +48,17 @@ class SampleSurface {
   double steepest_slope() const noexcept;
   double largest_curvature_per_m() const noexcept;
 
+  // Of the heights that it was made of: the largest change by smoothing, and the root of its mean square.
+  struct Change {
+    double largest_m = 0;
+    double rms_m = 0;
+  };
+  Change change_of(const scene::HeightGrid& drawn) const;
+
  private:
+  void trace(double tip_radius_m, double largest_curvature_per_m);
+  void smooth_widely(double largest_curvature_per_m);
+  bool is_gentle(double largest_curvature_per_m) const;
   double control_m(int column, int row) const noexcept;  // clamped to the grid
 
   int columns_ = 0;

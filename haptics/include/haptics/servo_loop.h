@@ -74,8 +74,8 @@ class ServoLoop {
   const scene::ServoTiming& timing() const noexcept { return timing_; }
 
  private:
-  ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
-            const ServoSettings& settings, std::vector<std::unique_ptr<ContactModel>> models,
+  ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, scene::Topography topography,
+            HapticDevice& device, const ServoSettings& settings, std::vector<std::unique_ptr<ContactModel>> models,
             const CommonScale& common);
 
   void read_shared_blocks(std::int64_t now_ns) noexcept;

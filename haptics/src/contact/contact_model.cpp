@@ -60,10 +60,8 @@ PotentialEnergy stored_energy_of(const physics::LawTables& tables, const Scaling
 // softer.
 constexpr double kShareOfStiffness = 0.5;
 
-double largest_curvature_per_m(const Scaling& fit, const DeviceSpec& device) {
-  const double stands_n_per_m = std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
-  return kShareOfStiffness * stands_n_per_m / force_cap_n(device) * fit.hand_m_per_m();
-}
+// For a validation that knows no segment: there is a topography.
+constexpr scene::SharedTopography kAnyTopography{.columns = 2, .rows = 2, .spacing_m = 1};
 
 // What a recorded contact that was pressed down to `lowest` gives the hand on its way up from z beyond what the
 // attached branch gives, until it has gone over to that branch or lets go.
@@ -86,9 +84,15 @@ double slow_motion_of(const physics::DynamicModel& model) { return model.slow_mo
 
 }  // namespace
 
+double largest_curvature_per_m(const Scaling& fit, const DeviceSpec& device) {
+  const double stands_n_per_m = std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
+  return kShareOfStiffness * stands_n_per_m / force_cap_n(device) * fit.hand_m_per_m();
+}
+
 core::Result<std::shared_ptr<const physics::LawTables>> build_tables(
     const scene::SharedContact& material, std::span<const scene::SharedMeasuredCurve> curves) {
-  if (auto valid = scene::validate(material, static_cast<std::uint32_t>(curves.size()), scene::kMaxHeightFields);
+  if (auto valid =
+          scene::validate(material, static_cast<std::uint32_t>(curves.size()), scene::kMaxHeightFields, kAnyTopography);
       !valid) {
     return refusal(material, valid.error().category, valid.error().message);
   }
@@ -99,12 +103,9 @@ core::Result<std::shared_ptr<const physics::LawTables>> build_tables(
   }
 }
 
-core::Result<std::unique_ptr<ContactModel>> ContactModel::create(const scene::SharedContact& material,
-                                                                 std::uint32_t edit_revision,
-                                                                 std::shared_ptr<const physics::LawTables> tables,
-                                                                 const scene::SharedHeightField* drawn,
-                                                                 const CommonScale& common, const DeviceSpec& device,
-                                                                 std::int64_t period_ns) {
+core::Result<std::unique_ptr<ContactModel>> ContactModel::create(
+    const scene::SharedContact& material, std::uint32_t edit_revision, std::shared_ptr<const physics::LawTables> tables,
+    const scene::HeightGrid& drawn, const CommonScale& common, const DeviceSpec& device, std::int64_t period_ns) {
   const auto common_scaling = Scaling::common(*tables, device, common);
   const auto fit = Scaling::fit(*tables, device);
   const auto compressed = Scaling::compressed(*tables, device);
@@ -115,10 +116,7 @@ core::Result<std::unique_ptr<ContactModel>> ContactModel::create(const scene::Sh
     Model model(std::in_place_type<physics::ApproachRetractModel>, tables);
     if (material.dynamic != 0) model = dynamic_model(material, period_ns);
     const Scalings scalings{*common_scaling, *fit, *compressed};
-    SampleSurface surface;
-    if (drawn != nullptr) {
-      surface = SampleSurface(*drawn, material.contact.tip_radius.si, largest_curvature_per_m(*fit, device));
-    }
+    SampleSurface surface(drawn, material.contact.tip_radius.si, largest_curvature_per_m(*fit, device));
     StoredEnergies stored_energies;
     for (const Scaling& scaling : scalings) stored_energies.push_back(stored_energy_of(*tables, scaling, device));
     return std::unique_ptr<ContactModel>(new ContactModel(std::move(model), std::move(surface), scalings,

@@ -18,9 +18,8 @@ constexpr auto kLookEvery = std::chrono::milliseconds(5);
 core::Result<std::unique_ptr<ContactModel>> EditBuilder::model_of(const scene::MaterialEdit& edit) const {
   auto tables = build_tables(edit.material, curves_);
   if (!tables) return tl::unexpected(tables.error());
-  const std::uint32_t surface = edit.material.height_field;
   return ContactModel::create(edit.material, edit.revision, std::move(*tables),
-                              surface < surfaces_.size() ? &surfaces_[surface] : nullptr, common_, device_, period_ns_);
+                              scene::surface_of(edit.material, surfaces_, topography_), common_, device_, period_ns_);
 }
 
 void EditBuilder::build() {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "physics/morphology.h"
@@ -40,6 +41,57 @@ void smooth(const Line& line) {
   }
 }
 
+// The mean over `half_width` rows to either side; what lies beyond the rim is as high as the rim.
+void box_over_rows(std::span<const double> from, std::size_t columns, std::size_t rows, std::size_t half_width,
+                   std::vector<double>& sums, std::span<double> to) {
+  const auto row_at = [&](std::ptrdiff_t row) {
+    const auto within = std::clamp<std::ptrdiff_t>(row, 0, static_cast<std::ptrdiff_t>(rows) - 1);
+    return from.subspan(static_cast<std::size_t>(within) * columns, columns);
+  };
+  const auto half = static_cast<std::ptrdiff_t>(half_width);
+  const double share = 1.0 / static_cast<double>(2 * half_width + 1);
+  sums.assign(columns, 0.0);
+  for (std::ptrdiff_t row = -half; row <= half; ++row) {
+    const std::span<const double> line = row_at(row);
+    for (std::size_t i = 0; i < columns; ++i) sums[i] += line[i];
+  }
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto here = static_cast<std::ptrdiff_t>(row);
+    const std::span<const double> entering = row_at(here + half + 1), leaving = row_at(here - half);
+    const std::span<double> target = to.subspan(row * columns, columns);
+    for (std::size_t i = 0; i < columns; ++i) {
+      target[i] = share * sums[i];
+      sums[i] += entering[i] - leaving[i];
+    }
+  }
+}
+
+// Rows become columns, by squares that stay in the cache.
+void transpose(std::span<const double> from, std::size_t columns, std::size_t rows, std::span<double> to) {
+  constexpr std::size_t kSquare = 32;
+  for (std::size_t top = 0; top < rows; top += kSquare) {
+    for (std::size_t left = 0; left < columns; left += kSquare) {
+      for (std::size_t row = top; row < std::min(top + kSquare, rows); ++row) {
+        for (std::size_t column = left; column < std::min(left + kSquare, columns); ++column) {
+          to[column * rows + row] = from[row * columns + column];
+        }
+      }
+    }
+  }
+}
+
+// Three means over a box, along both axes, are nearly a bell curve and cost the same for every width.
+void smooth_by_boxes(std::vector<double>& heights_m, std::size_t columns, std::size_t rows, std::size_t half_width) {
+  std::vector<double> other(heights_m.size()), sums;
+  for (int axis = 0; axis < 2; ++axis) {
+    box_over_rows(heights_m, columns, rows, half_width, sums, other);
+    box_over_rows(other, columns, rows, half_width, sums, heights_m);
+    box_over_rows(heights_m, columns, rows, half_width, sums, other);
+    transpose(other, columns, rows, heights_m);
+    std::swap(columns, rows);
+  }
+}
+
 // Of a uniform quadratic B-spline, at `offset` from the middle control point, in spacings, in [-0.5, 0.5].
 struct Weights {
   std::array<double, 3> value;
@@ -53,15 +105,31 @@ Weights weights_at(double offset) {
 
 }  // namespace
 
-SampleSurface::SampleSurface(const scene::SharedHeightField& drawn, double tip_radius_m, double largest_curvature_per_m)
+SampleSurface::SampleSurface(const scene::HeightGrid& drawn, double tip_radius_m, double largest_curvature_per_m)
     : columns_(static_cast<int>(drawn.columns)), rows_(static_cast<int>(drawn.rows)), spacing_m_(drawn.spacing_m) {
-  const std::size_t columns = drawn.columns, rows = drawn.rows;
-  controls_m_.assign(drawn.height_m.begin(), drawn.height_m.begin() + static_cast<std::ptrdiff_t>(columns * rows));
+  if (columns_ == 0) return;
+  controls_m_.assign(drawn.height_m.begin(), drawn.height_m.end());
+  for (double& control_m : controls_m_) control_m *= drawn.height_factor;
   // the origin lies on a grid point, or in the middle between some
   const int left = (columns_ - 1) / 2, right = columns_ / 2, below = (rows_ - 1) / 2, above = rows_ / 2;
   const double drawn_m =
       0.25 * (control_m(left, below) + control_m(right, below) + control_m(left, above) + control_m(right, above));
 
+  if (drawn.heights == scene::Heights::Traced) {
+    smooth_widely(largest_curvature_per_m);
+  } else {
+    trace(tip_radius_m, largest_curvature_per_m);
+  }
+  const double shift_m = drawn_m - at({0.0, 0.0}).height_m;
+  for (double& control_m : controls_m_) control_m += shift_m;
+}
+
+bool SampleSurface::is_gentle(double largest_curvature_per_m) const {
+  return steepest_slope() <= kSteepestSlope && this->largest_curvature_per_m() <= largest_curvature_per_m;
+}
+
+void SampleSurface::trace(double tip_radius_m, double largest_curvature_per_m) {
+  const auto columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_);
   physics::HeightGrid traced{.columns = columns,
                              .rows = rows,
                              .column_step_m = spacing_m_,
@@ -69,12 +137,49 @@ SampleSurface::SampleSurface(const scene::SharedHeightField& drawn, double tip_r
                              .height_m = std::move(controls_m_)};
   physics::dilate_by_paraboloid(traced, physics::Length(tip_radius_m));
   controls_m_ = std::move(traced.height_m);
-  for (int i = 0; i < kMostSmoothings; ++i) {
-    if (steepest_slope() <= kSteepestSlope && this->largest_curvature_per_m() <= largest_curvature_per_m) break;
+  for (int i = 0; i < kMostSmoothings && !is_gentle(largest_curvature_per_m); ++i) {
     change_lines(controls_m_, columns, rows, smooth);
   }
-  const double shift_m = drawn_m - at({0.0, 0.0}).height_m;
-  for (double& control_m : controls_m_) control_m += shift_m;
+}
+
+// The narrowest bell curve that does: half widths that double, then the interval halved.
+void SampleSurface::smooth_widely(double largest_curvature_per_m) {
+  if (is_gentle(largest_curvature_per_m)) return;
+  const auto columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_);
+  const std::vector<double> heights_m = controls_m_;
+  const auto is_gentle_with = [&](std::size_t half_width) {
+    controls_m_ = heights_m;
+    smooth_by_boxes(controls_m_, columns, rows, half_width);
+    return is_gentle(largest_curvature_per_m);
+  };
+  // three boxes that are wider than the grid leave a plane
+  const std::size_t widest = 2 * std::max(columns, rows);
+  std::size_t enough = 1;
+  while (enough < widest && !is_gentle_with(enough)) enough *= 2;
+  std::size_t too_narrow = enough / 2;
+  while (enough - too_narrow > 1 + too_narrow / 16) {
+    const std::size_t middle = too_narrow + (enough - too_narrow) / 2;
+    (is_gentle_with(middle) ? enough : too_narrow) = middle;
+  }
+  if (!is_gentle_with(enough)) std::fill(controls_m_.begin(), controls_m_.end(), controls_m_.front());
+}
+
+SampleSurface::Change SampleSurface::change_of(const scene::HeightGrid& drawn) const {
+  Change change;
+  if (columns_ == 0) return change;
+  for (std::uint32_t row = 0; row < drawn.rows; ++row) {
+    for (std::uint32_t column = 0; column < drawn.columns; ++column) {
+      const glm::dvec2 place_m((column - 0.5 * (drawn.columns - 1)) * drawn.spacing_m,
+                               (row - 0.5 * (drawn.rows - 1)) * drawn.spacing_m);
+      const double drawn_m =
+          drawn.height_factor * static_cast<double>(drawn.height_m[std::size_t{row} * drawn.columns + column]);
+      const double by_m = std::abs(at(place_m).height_m - drawn_m);
+      change.largest_m = std::max(change.largest_m, by_m);
+      change.rms_m += by_m * by_m;
+    }
+  }
+  change.rms_m = std::sqrt(change.rms_m / static_cast<double>(drawn.height_m.size()));
+  return change;
 }
 
 double SampleSurface::control_m(int column, int row) const noexcept {

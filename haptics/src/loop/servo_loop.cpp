@@ -65,6 +65,10 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
   const auto copy = std::make_unique<const scene::SharedModel>(segment.model());
   const scene::SharedModel& shared = *copy;
   if (auto valid = scene::validate(shared); !valid) return tl::unexpected(valid.error());
+  scene::Topography topography = segment.topography();
+  if (!scene::is_valid(topography, shared.topography)) {
+    return core::failure(core::ErrorCategory::Failed, "the topography of the shared scene is not a grid of heights");
+  }
   std::vector<std::shared_ptr<const physics::LawTables>> tables;
   for (std::uint32_t i = 0; i < shared.material_count; ++i) {
     auto felt = build_tables(shared.materials[i], std::span(shared.curves).first(shared.curve_count));
@@ -76,19 +80,20 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
   if (shared.common_hand_m_per_m > 0) common = CommonScale{shared.common_hand_m_per_m, shared.common_hand_n_per_n};
   std::vector<std::unique_ptr<ContactModel>> models;
   for (std::uint32_t i = 0; i < shared.material_count; ++i) {
-    const std::uint32_t surface = shared.materials[i].height_field;
-    auto model = ContactModel::create(shared.materials[i], 0, tables[i],
-                                      surface < shared.height_field_count ? &shared.height_fields[surface] : nullptr,
-                                      *common, spec, period_ns);
+    const auto fields = std::span(shared.height_fields).first(shared.height_field_count);
+    auto model =
+        ContactModel::create(shared.materials[i], 0, tables[i],
+                             scene::surface_of(shared.materials[i], fields, topography), *common, spec, period_ns);
     if (!model) return tl::unexpected(model.error());
     models.push_back(std::move(*model));
   }
-  return std::unique_ptr<ServoLoop>(new ServoLoop(segment, shared, device, settings, std::move(models), *common));
+  return std::unique_ptr<ServoLoop>(
+      new ServoLoop(segment, shared, std::move(topography), device, settings, std::move(models), *common));
 }
 
-ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, HapticDevice& device,
-                     const ServoSettings& settings, std::vector<std::unique_ptr<ContactModel>> models,
-                     const CommonScale& common)
+ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, scene::Topography topography,
+                     HapticDevice& device, const ServoSettings& settings,
+                     std::vector<std::unique_ptr<ContactModel>> models, const CommonScale& common)
     : shared_(segment.servo_side()),
       device_(device),
       spec_(limited_to(device.spec(), settings.max_force_n)),
@@ -97,8 +102,8 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       sample_node_(model.sample_node),
       exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
-             {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count}, common, spec_,
-             period_ns_, exchange_),
+             {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count},
+             std::move(topography), common, spec_, period_ns_, exchange_),
       governor_(safety_limits(spec_, period_ns_, Scaling::kStrokeM, settings.dead_man)),
       position_check_(spec_.measures),
       hand_position_m_(spec_.contact_point_m) {

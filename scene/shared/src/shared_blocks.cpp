@@ -88,7 +88,27 @@ bool is_valid(const SharedHeightField& field) {
                      [](float h) { return sane(static_cast<double>(h)); });
 }
 
+bool is_valid(const SharedTopography& size) {
+  const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxTopographySide; };
+  const bool none = size.columns == 0 && size.rows == 0 && size.spacing_m == 0;
+  return none || (counted(size.columns) && counted(size.rows) && positive(size.spacing_m));
+}
+
 }  // namespace
+
+HeightGrid surface_of(const SharedContact& material, std::span<const SharedHeightField> fields,
+                      const Topography& topography) {
+  if (material.height_field == kTopography && topography.columns > 0) return {topography, material.topography};
+  return material.height_field < fields.size() ? HeightGrid(fields[material.height_field]) : HeightGrid();
+}
+
+bool is_valid(const Topography& topography, const SharedTopography& size) {
+  return is_valid(size) && topography.columns == size.columns && topography.rows == size.rows &&
+         topography.spacing_m == size.spacing_m &&
+         topography.height_m.size() == std::size_t{size.columns} * size.rows &&
+         std::all_of(topography.height_m.begin(), topography.height_m.end(),
+                     [](float h) { return sane(static_cast<double>(h)); });
+}
 
 Name to_name(std::string_view text) {
   Name name{};
@@ -106,8 +126,8 @@ physics::LawOptions law_options(const SharedContact& material) {
   return options;
 }
 
-core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count,
-                            std::uint32_t height_field_count) {
+core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count, std::uint32_t height_field_count,
+                            const SharedTopography& topography) {
   if (!terminated(material.name)) return model_refused("its name is not terminated");
   if (!physics::is_known(material.law) || material.exact_hamaker_sphere > 1 || material.has_meniscus > 1 ||
       material.dynamic > 1) {
@@ -119,8 +139,12 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
   if (material.dynamic != 0 && !physics::has_dynamics(material.law)) {
     return model_refused(fmt::format("the law {} has no dynamics", physics::name_of(material.law)));
   }
-  if (material.height_field != kNoHeightField && material.height_field >= height_field_count) {
+  const bool traced = material.height_field == kTopography && topography.columns > 0;
+  if (material.height_field != kNoHeightField && material.height_field >= height_field_count && !traced) {
     return model_refused("its surface does not exist");
+  }
+  if (!positive(material.topography.lateral) || !positive(material.topography.vertical)) {
+    return model_refused("the scale of its topography is not a valid one");
   }
   if (!(material.retardation_wavelength_m >= 0))
     return model_refused("its retardation wavelength is not a valid length");
@@ -176,8 +200,10 @@ core::Result<void> validate(const SharedModel& model) {
   for (std::uint32_t i = 0; i < model.height_field_count; ++i) {
     if (!is_valid(model.height_fields[i])) return model_refused(fmt::format("surface {} is not a grid of heights", i));
   }
+  if (!is_valid(model.topography)) return model_refused("its topography is not a grid of heights");
   for (std::uint32_t i = 0; i < model.material_count; ++i) {
-    if (auto valid = validate(model.materials[i], model.curve_count, model.height_field_count); !valid) {
+    if (auto valid = validate(model.materials[i], model.curve_count, model.height_field_count, model.topography);
+        !valid) {
       return model_refused(fmt::format("material {} of the shared scene: {}", i, valid.error().message));
     }
   }

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <new>
 #include <utility>
@@ -19,15 +20,24 @@ namespace afm::scene {
 
 namespace {
 
+constexpr std::uint64_t kMostSegmentBytes =
+    sizeof(SegmentLayout) + std::uint64_t{kMaxTopographySide} * kMaxTopographySide * sizeof(float);
+
 // Without the shrink seal the other process could cut the file under our mapping, and the next access would be a
 // SIGBUS.
 constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
 
 auto segment_refused(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
 
-void* map_whole(int descriptor) {
-  return ::mmap(nullptr, sizeof(SegmentLayout), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+void* map_whole(int descriptor, std::size_t bytes) {
+  return ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
 }
+
+// Of the heights behind the blocks; the size is valid.
+std::size_t bytes_of(const SharedTopography& size) { return std::size_t{size.columns} * size.rows * sizeof(float); }
+
+// Where they lie: the layout is a whole number of pages long.
+float* heights_behind(SegmentLayout& layout) { return reinterpret_cast<float*>(&layout + 1); }
 
 core::Result<void> validate(const SegmentHeader& header) {
   if (header.magic != kSegmentMagic) {
@@ -39,7 +49,8 @@ core::Result<void> validate(const SegmentHeader& header) {
                     "touchafm-servo from the same build",
                     header.version, kSegmentVersion));
   }
-  if (header.total_bytes != sizeof(SegmentLayout) || header.block_bytes != kBlockSizes) {
+  if (header.total_bytes < sizeof(SegmentLayout) || header.total_bytes > kMostSegmentBytes ||
+      header.block_bytes != kBlockSizes) {
     return segment_refused(
         fmt::format("cannot use the shared segment: its blocks differ from this program's ({} and {} bytes); start "
                     "touchafm and touchafm-servo from the same build",
@@ -50,26 +61,32 @@ core::Result<void> validate(const SegmentHeader& header) {
 
 }  // namespace
 
-void SharedSegment::Unmap::operator()(SegmentLayout* layout) const noexcept { ::munmap(layout, sizeof(SegmentLayout)); }
+void SharedSegment::Unmap::operator()(SegmentLayout* layout) const noexcept { ::munmap(layout, bytes); }
 
-core::Result<SharedSegment> SharedSegment::create(const SharedModel& model, std::uint64_t scene_digest) {
+core::Result<SharedSegment> SharedSegment::create(const SharedModel& model, std::uint64_t scene_digest,
+                                                  const Topography& topography) {
   if (auto valid = scene::validate(model); !valid) return tl::unexpected(valid.error());
+  if (!is_valid(topography, model.topography)) {
+    return segment_refused("cannot create a shared segment: its topography is not the one that its scene has");
+  }
+  const std::size_t bytes = sizeof(SegmentLayout) + bytes_of(model.topography);
 
   core::FileDescriptor descriptor(::memfd_create("touchafm", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-  if (!descriptor.is_open() || ::ftruncate(descriptor.get(), sizeof(SegmentLayout)) != 0 ||
+  if (!descriptor.is_open() || ::ftruncate(descriptor.get(), static_cast<off_t>(bytes)) != 0 ||
       ::fcntl(descriptor.get(), F_ADD_SEALS, kSeals) != 0) {
-    return segment_refused(fmt::format("cannot create a shared segment of {} bytes: {}", sizeof(SegmentLayout),
-                                       core::system_error(errno)));
+    return segment_refused(
+        fmt::format("cannot create a shared segment of {} bytes: {}", bytes, core::system_error(errno)));
   }
-  void* memory = map_whole(descriptor.get());
+  void* memory = map_whole(descriptor.get(), bytes);
   if (memory == MAP_FAILED)
     return segment_refused(fmt::format("cannot map the shared segment: {}", core::system_error(errno)));
 
   auto* layout = new (memory) SegmentLayout;
-  layout->header.total_bytes = sizeof(SegmentLayout);
+  layout->header.total_bytes = bytes;
   layout->header.scene_digest = scene_digest;
   layout->model = model;
-  return SharedSegment(std::move(descriptor), layout);
+  std::copy(topography.height_m.begin(), topography.height_m.end(), heights_behind(*layout));
+  return SharedSegment(std::move(descriptor), layout, bytes);
 }
 
 core::Result<SharedSegment> SharedSegment::attach(core::FileDescriptor descriptor) {
@@ -85,21 +102,34 @@ core::Result<SharedSegment> SharedSegment::attach(core::FileDescriptor descripto
     return segment_refused("cannot use the shared segment: it is shorter than its header");
   }
   if (auto valid = validate(header); !valid) return tl::unexpected(valid.error());
-  if (status.st_size != static_cast<off_t>(sizeof(SegmentLayout))) {
+  if (status.st_size != static_cast<off_t>(header.total_bytes)) {
     return segment_refused(fmt::format("cannot use the shared segment: it has {} bytes instead of {}", status.st_size,
-                                       sizeof(SegmentLayout)));
+                                       header.total_bytes));
   }
   const int seals = ::fcntl(descriptor.get(), F_GET_SEALS);
   if (seals < 0 || (seals & F_SEAL_SHRINK) == 0) {
     return segment_refused("cannot use the shared segment: it is not sealed against shrinking");
   }
 
-  void* memory = map_whole(descriptor.get());
+  const std::size_t bytes = header.total_bytes;
+  void* memory = map_whole(descriptor.get(), bytes);
   if (memory == MAP_FAILED)
     return segment_refused(fmt::format("cannot map the shared segment: {}", core::system_error(errno)));
-  SharedSegment segment(std::move(descriptor), std::launder(static_cast<SegmentLayout*>(memory)));
+  SharedSegment segment(std::move(descriptor), std::launder(static_cast<SegmentLayout*>(memory)), bytes);
   if (auto valid = scene::validate(segment.model()); !valid) return tl::unexpected(valid.error());
+  if (bytes != sizeof(SegmentLayout) + bytes_of(segment.model().topography)) {
+    return segment_refused("cannot use the shared segment: its topography does not fill it");
+  }
   return segment;
+}
+
+Topography SharedSegment::topography() const {
+  // the size once: what has been checked in shared memory may change there
+  const SharedTopography size = layout_->model.topography;
+  const std::size_t held = layout_.get_deleter().bytes - sizeof(SegmentLayout);
+  Topography copy{.columns = size.columns, .rows = size.rows, .spacing_m = size.spacing_m, .height_m = {}};
+  copy.height_m.assign(heights_behind(*layout_), heights_behind(*layout_) + held / sizeof(float));
+  return copy;
 }
 
 const SharedModel& SharedSegment::model() const noexcept { return layout_->model; }

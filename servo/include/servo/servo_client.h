@@ -33,9 +33,11 @@ class ServoClient {
  public:
   // `program` is the running touchafm, with touchafm-servo in the same folder. Takes over a servo that waits because
   // its renderer died, if its scene, device and settings are the same and if settings.linger_s, the time that this one
-  // would wait, is not zero; otherwise asks it to exit first.
+  // would wait, is not zero; otherwise asks it to exit first. `topography` is the one that the model promises; the
+  // scene that draws it is known by its digest.
   static core::Result<std::unique_ptr<ServoClient>> start(const scene::SharedModel& model, std::uint64_t scene_digest,
-                                                          const ServoChoice& choice, const std::string& program);
+                                                          const ServoChoice& choice, const std::string& program,
+                                                          const scene::Topography& topography = {});
 
   struct Update {
     std::vector<scene::TipSample> samples;
@@ -59,6 +61,7 @@ class ServoClient {
   const haptics::ServoSettings& settings() const { return settings_; }
   const scene::SharedDevice& device() const { return device_; }  // what the servo holds, once poll() has seen its state
   const scene::SharedModel& model() const { return segment_.model(); }
+  scene::Topography topography() const { return segment_.topography(); }
   const std::array<double, 16>& room_from_sample() const { return room_from_sample_; }  // as placed last
 
   // Parameters of a material after this edit; edit 0: as loaded.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "scene/shared/height_grid.h"
 #include "scene/shared/tip_blocks.h"
 #include "servo/wall_frame.h"
 
@@ -21,7 +22,8 @@ struct RecordedSession {
   std::string material;                             // name in the material file
   scene::SharedContact parameters;                  // what was felt; curve and surface are the only ones of a replay
   std::optional<scene::SharedMeasuredCurve> curve;  // of Law::Measured
-  std::optional<scene::SharedHeightField> surface;  // none: a plane
+  std::optional<scene::SharedHeightField> surface;  // none: a topography, or a plane
+  scene::Topography topography;                     // without columns: none
   std::array<double, 16> room_from_sample{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // as in SceneTransforms
   scene::SharedDevice device;
   double rate_hz = 0;

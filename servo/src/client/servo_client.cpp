@@ -41,7 +41,8 @@ core::Error ended(int status) {
 
 core::Result<std::unique_ptr<ServoClient>> ServoClient::start(const scene::SharedModel& model,
                                                               std::uint64_t scene_digest, const ServoChoice& choice,
-                                                              const std::string& program) {
+                                                              const std::string& program,
+                                                              const scene::Topography& topography) {
   const auto device = parse_haptic_choice(choice.haptic_device);
   if (!device) return tl::unexpected(device.error());
   const std::string servo = std::filesystem::path(program).replace_filename("touchafm-servo").string();
@@ -51,7 +52,7 @@ core::Result<std::unique_ptr<ServoClient>> ServoClient::start(const scene::Share
     link->servo_ = AdoptedServo::adopt(std::move(taken->servo), link->side_);
     return link;
   }
-  auto segment = scene::SharedSegment::create(model, scene_digest);
+  auto segment = scene::SharedSegment::create(model, scene_digest, topography);
   if (!segment) return tl::unexpected(segment.error());
   std::unique_ptr<ServoClient> link(new ServoClient(std::move(*segment), choice.settings));
 

@@ -90,7 +90,7 @@ bool beats(std::span<const TipSample> from_here) {
 class Player {
  public:
   static core::Result<std::unique_ptr<Player>> create(const RecordedSession& session) {
-    auto segment = scene::SharedSegment::create(*model_of(session), 0);
+    auto segment = scene::SharedSegment::create(*model_of(session), 0, session.topography);
     if (!segment) return tl::unexpected(segment.error());
     std::unique_ptr<Player> player(new Player(session, std::move(*segment)));
     auto loop = haptics::ServoLoop::create(player->segment_, player->hand_,

@@ -25,10 +25,17 @@ SessionEncoder::SessionEncoder() {
 
 void SessionEncoder::head(const RecordedSession& session) {
   chunk(kHeadChunk, text_of(header_of(session)));
-  if (!session.surface) return;
-  std::string surface;
-  put(surface, *session.surface);
-  chunk(kSurfaceChunk, surface);
+  if (session.surface) {
+    std::string surface;
+    put(surface, *session.surface);
+    chunk(kSurfaceChunk, surface);
+  }
+  if (session.topography.columns > 0) {
+    std::string topography;
+    put(topography, session.topography.size());
+    put_all(topography, session.topography.height_m);
+    chunk(kTopographyChunk, topography);
+  }
 }
 
 void SessionEncoder::part(const RecordedSession& session) {

@@ -18,10 +18,11 @@ namespace afm::servo {
 inline constexpr std::string_view kSessionMagic = "AFMS";
 inline constexpr std::uint32_t kSessionVersion = 4;
 
-inline constexpr std::string_view kHeadChunk = "HEAD";     // JSON: header_of()
-inline constexpr std::string_view kSurfaceChunk = "SURF";  // one SharedHeightField, if the sample has one
-inline constexpr std::string_view kPartChunk = "PART";     // samples and events up to one moment, and the wall's frames
-inline constexpr std::string_view kEndChunk = "DONE";      // the last one, without a payload
+inline constexpr std::string_view kHeadChunk = "HEAD";        // JSON: header_of()
+inline constexpr std::string_view kSurfaceChunk = "SURF";     // one SharedHeightField, if the sample has one
+inline constexpr std::string_view kTopographyChunk = "TOPO";  // size, spacing and heights, if it has a topography
+inline constexpr std::string_view kPartChunk = "PART";  // samples and events up to one moment, and the wall's frames
+inline constexpr std::string_view kEndChunk = "DONE";   // the last one, without a payload
 
 // Makes the bytes of a session, chunk by chunk.
 class SessionEncoder {

@@ -78,6 +78,16 @@ std::string read_records(std::string_view file, RecordedSession& session) {
   return {};
 }
 
+// Of the topography's chunk: whether all of it is there, and no more. Its numbers are checked with those of the scene.
+bool read_topography(std::string_view payload, scene::Topography& topography) {
+  scene::SharedTopography size;
+  if (!take(payload, size) || !take_all(payload, topography.height_m) || !payload.empty()) return false;
+  topography.columns = size.columns;
+  topography.rows = size.rows;
+  topography.spacing_m = size.spacing_m;
+  return true;
+}
+
 // What is wrong with a part, or nothing.
 std::string read_part(std::string_view payload, RecordedSession& session, nlohmann::json& last_frame) {
   if (!take_all(payload, session.samples) || !take_all(payload, session.events)) return "a part of it is damaged";
@@ -106,6 +116,8 @@ std::string read_chunks(std::string_view file, RecordedSession& session) {
       if (payload.size() != sizeof(SharedHeightField) || !take(payload, session.surface.emplace())) {
         return "the size of its surface differs from this program's";
       }
+    } else if (decoder.name() == kTopographyChunk) {
+      if (!read_topography(payload, session.topography)) return "its topography is damaged";
     } else if (decoder.name() == kPartChunk) {
       if (std::string wrong = read_part(payload, session, last_frame); !wrong.empty()) return wrong;
     } else if (decoder.name() == kEndChunk) {
@@ -138,6 +150,7 @@ bool can_be_a_name(const std::string& name) { return !name.empty() && name.size(
 // What cannot be in a session that was read, or nothing.
 std::string what_cannot_be(const RecordedSession& session) {
   if (const auto valid = scene::validate(*model_of(session)); !valid) return valid.error().message;
+  if (!scene::is_valid(session.topography, session.topography.size())) return "its topography is not a grid of heights";
   if (!scene::is_valid(session.device)) return "the limits of its device are impossible";
   if (!(session.rate_hz > 0 && std::isfinite(session.hand_m_per_m) && std::isfinite(session.hand_n_per_n))) {
     return "its rate or its scale is impossible";
@@ -185,6 +198,7 @@ std::unique_ptr<scene::SharedModel> model_of(const RecordedSession& session) {
     model->common_hand_m_per_m = session.hand_m_per_m;  // what other materials asked for as well
     model->common_hand_n_per_n = session.hand_n_per_n;
   }
+  model->topography = session.topography.size();
   if (session.surface) {
     model->height_field_count = 1;
     model->height_fields[0] = *session.surface;
@@ -226,7 +240,8 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   } catch (const nlohmann::json::exception& error) {
     return bad(fmt::format("its header is damaged ({})", error.what()));
   }
-  session.parameters.height_field = session.surface ? 0 : scene::kNoHeightField;
+  const std::uint32_t traced = session.topography.columns > 0 ? scene::kTopography : scene::kNoHeightField;
+  session.parameters.height_field = session.surface ? 0 : traced;
   const std::string wrong = what_cannot_be(session);
   if (!wrong.empty()) return bad(wrong);
   return session;

@@ -38,6 +38,9 @@ nlohmann::json json_of(const scene::SharedContact& m) {
                         {"contact_angle_rad", m.meniscus.contact_angle_rad},
                         {"relative_humidity", m.meniscus.relative_humidity}};
   }
+  if (m.height_field == scene::kTopography) {
+    json["topography"] = {{"lateral", m.topography.lateral}, {"vertical", m.topography.vertical}};
+  }
   if (m.dynamic != 0) {
     json["dynamics"] = {{"resonance_Hz", m.lever.resonance.si},
                         {"quality_factor", m.lever.quality_factor},
@@ -59,6 +62,10 @@ scene::SharedContact parameters_of(const nlohmann::json& json, const std::string
     m.meniscus = {.surface_tension = physics::SurfaceEnergy(meniscus->at("surface_tension_N_per_m").get<double>()),
                   .contact_angle_rad = meniscus->at("contact_angle_rad").get<double>(),
                   .relative_humidity = meniscus->at("relative_humidity").get<double>()};
+  }
+  if (const auto topography = json.find("topography"); topography != json.end()) {
+    m.topography = {.lateral = topography->at("lateral").get<double>(),
+                    .vertical = topography->at("vertical").get<double>()};
   }
   if (const auto dynamics = json.find("dynamics"); dynamics != json.end()) {
     m.dynamic = 1;
@@ -111,6 +118,14 @@ scene::SharedDevice device_of(const nlohmann::json& json) {
   return device;
 }
 
+// Instead of the size of a height field where the sample has a topography, so that a TouchAFM that knows of none
+// refuses the session and does not feel a plane.
+constexpr std::size_t kTopographyBytes = 0;
+
+std::size_t surface_bytes_of(const RecordedSession& session) {
+  return session.topography.columns > 0 ? kTopographyBytes : sizeof(scene::SharedHeightField);
+}
+
 }  // namespace
 
 nlohmann::json header_of(const RecordedSession& session) {
@@ -126,7 +141,7 @@ nlohmann::json header_of(const RecordedSession& session) {
                         {"dead_man", session.dead_man},
                         {"sample_bytes", sizeof(scene::TipSample)},
                         {"event_bytes", sizeof(scene::TipEvent)},
-                        {"surface_bytes", sizeof(scene::SharedHeightField)}};
+                        {"surface_bytes", surface_bytes_of(session)}};
   if (const auto& curve = session.curve) {
     header["measured"] = {{"approach", json_of(std::span(curve->approach).first(curve->approach_count))},
                           {"retract", json_of(std::span(curve->retract).first(curve->retract_count))},
@@ -138,8 +153,9 @@ nlohmann::json header_of(const RecordedSession& session) {
 }
 
 bool fits_records(const nlohmann::json& header) {
+  const auto surface_bytes = header.at("surface_bytes").get<std::size_t>();
   return header.at("sample_bytes") == sizeof(scene::TipSample) && header.at("event_bytes") == sizeof(scene::TipEvent) &&
-         header.at("surface_bytes") == sizeof(scene::SharedHeightField);
+         (surface_bytes == sizeof(scene::SharedHeightField) || surface_bytes == kTopographyBytes);
 }
 
 RecordedSession session_of(const nlohmann::json& header) {

@@ -83,7 +83,9 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo) {
   if (session_.parameters.measured_curve != scene::kNoMeasuredCurve) {
     session_.curve = model.curves[std::exchange(session_.parameters.measured_curve, 0)];
   }
-  if (session_.parameters.height_field != scene::kNoHeightField) {
+  if (session_.parameters.height_field == scene::kTopography) {
+    session_.topography = servo.topography();
+  } else if (session_.parameters.height_field != scene::kNoHeightField) {
     session_.surface = model.height_fields[std::exchange(session_.parameters.height_field, 0)];
   }
   session_.room_from_sample = servo.room_from_sample();

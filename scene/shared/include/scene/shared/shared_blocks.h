@@ -24,10 +24,12 @@ inline constexpr std::uint32_t kMaxMeasuredCurves = 4;
 inline constexpr std::uint32_t kMaxMeasuredPoints = 512;  // of one branch
 inline constexpr std::uint32_t kMaxHeightFields = 8;
 inline constexpr std::uint32_t kMaxHeightFieldSide = 129;  // vertices
+inline constexpr std::uint32_t kMaxTopographySide = 1024;  // points
 inline constexpr std::uint32_t kNameLength = 48;
 inline constexpr std::uint32_t kNoParent = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kNoMeasuredCurve = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kNoHeightField = 0xFFFFFFFFU;
+inline constexpr std::uint32_t kTopography = 0xFFFFFFFEU;  // instead of a height field: the segment's topography
 
 using Name = std::array<char, kNameLength>;  // zero-terminated UTF-8
 
@@ -43,6 +45,12 @@ struct SharedNode {
   std::array<double, 16> parent_from_node{};  // column-major rest transform
 };
 
+// Metres of the nanoworld, drawn and felt, for a metre that an instrument measured: along the sample and upwards.
+struct TopographyScale {
+  double lateral = 1;
+  double vertical = 1;
+};
+
 // Parameters of a contact: one combination of tip, lever, sample and medium, and its law of force. The options of the
 // law lie flat, because nobody can check the bytes of a std::optional.
 struct SharedContact {
@@ -55,8 +63,9 @@ struct SharedContact {
   double retardation_wavelength_m = 0;              // 0: not retarded
   physics::Meniscus meniscus{};
   std::uint32_t dynamic = 0;                    // 1: with the inertia, damping and thermal noise of the lever
-  std::uint32_t height_field = kNoHeightField;  // index into SharedModel::height_fields; none: a plane
+  std::uint32_t height_field = kNoHeightField;  // index into SharedModel::height_fields, or kTopography; none: a plane
   physics::LeverDynamics lever{};
+  TopographyScale topography{};  // of kTopography alone
 };
 
 // A curve that an instrument recorded, to be felt: each branch along rising Z.
@@ -77,6 +86,13 @@ struct SharedHeightField {
   std::array<float, kMaxHeightFieldSide * kMaxHeightFieldSide> height_m{};
 };
 
+// The topography that a segment holds behind its blocks (scene/shared/height_grid.h); without columns it has none.
+struct SharedTopography {
+  std::uint32_t columns = 0;
+  std::uint32_t rows = 0;
+  double spacing_m = 0;
+};
+
 struct SharedModel {
   std::uint32_t node_count = 0;
   std::uint32_t material_count = 0;
@@ -89,6 +105,7 @@ struct SharedModel {
   // on.
   double common_hand_m_per_m = 0;
   double common_hand_n_per_n = 0;
+  SharedTopography topography{};
   std::array<SharedNode, kMaxNodes> nodes{};
   std::array<SharedContact, kMaxMaterials> materials{};
   std::array<SharedMeasuredCurve, kMaxMeasuredCurves> curves{};

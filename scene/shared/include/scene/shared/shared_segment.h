@@ -10,6 +10,7 @@
 #include "core/file_descriptor.h"
 #include "core/result.h"
 #include "physics/law.h"
+#include "scene/shared/height_grid.h"
 #include "scene/shared/tip_blocks.h"
 
 // The memory that touchafm and touchafm-servo share: a header page, the constant SharedModel, and one channel per
@@ -17,7 +18,7 @@
 namespace afm::scene {
 
 // Raised whenever the meaning of a block changes; a change of a block's size is noticed by itself.
-inline constexpr std::uint32_t kSegmentVersion = 5;
+inline constexpr std::uint32_t kSegmentVersion = 6;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;
@@ -29,7 +30,8 @@ core::Result<void> validate(const SharedModel& model);
 
 // A material that physics::validate() accepts, of a law and with options that are known; the counts are those of its
 // SharedModel. Whether it can be felt as well, only building it can tell.
-core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count, std::uint32_t height_field_count);
+core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count, std::uint32_t height_field_count,
+                            const SharedTopography& topography = {});
 
 physics::LawOptions law_options(const SharedContact& material);
 
@@ -132,8 +134,10 @@ class EditSide {
 // descriptor, and it is gone when the last of them ends, in whatever way. Also serves two threads of one process.
 class SharedSegment {
  public:
-  // `model` must be valid (see validate); `scene_digest` is digest(Scene) of the scene that it describes.
-  static core::Result<SharedSegment> create(const SharedModel& model, std::uint64_t scene_digest);
+  // `model` must be valid (see validate); `scene_digest` is digest(Scene) of the scene that it describes; `topography`
+  // is the one that the model promises. A segment without one is no longer than its blocks.
+  static core::Result<SharedSegment> create(const SharedModel& model, std::uint64_t scene_digest,
+                                            const Topography& topography = {});
 
   // Maps what another process created. The error names both versions if they differ.
   static core::Result<SharedSegment> attach(core::FileDescriptor descriptor);
@@ -142,6 +146,9 @@ class SharedSegment {
   const SharedModel& model() const noexcept;
   std::uint64_t scene_digest() const noexcept;
 
+  // A copy of the topography as it is now; without columns if there is none. Unchecked: see is_valid.
+  Topography topography() const;
+
   // Call each once per process that plays the side; the segment must outlive it (moving the segment is harmless).
   RendererSide renderer_side() noexcept { return RendererSide(*layout_); }
   ServoSide servo_side() noexcept { return ServoSide(*layout_); }
@@ -149,11 +156,12 @@ class SharedSegment {
 
  private:
   struct Unmap {
+    std::size_t bytes = 0;
     void operator()(SegmentLayout* layout) const noexcept;
   };
 
-  SharedSegment(core::FileDescriptor descriptor, SegmentLayout* layout)
-      : descriptor_(std::move(descriptor)), layout_(layout) {}
+  SharedSegment(core::FileDescriptor descriptor, SegmentLayout* layout, std::size_t bytes)
+      : descriptor_(std::move(descriptor)), layout_(layout, Unmap{bytes}) {}
 
   core::FileDescriptor descriptor_;
   std::unique_ptr<SegmentLayout, Unmap> layout_;

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands/analyse_image.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands/standard_output.h"
+
+namespace afm::app {
+
+core::Result<void> analyse_image_file(const std::string& file, const curves::TopographyReading& reading, bool json) {
+  const auto topography = curves::load_topography(file, reading);
+  if (!topography) return tl::unexpected(topography.error());
+  return write_stdout(json ? curves::topography_json(*topography).dump(2) + "\n"
+                           : curves::topography_text(*topography));
+}
+
+}  // namespace afm::app

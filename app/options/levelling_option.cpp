@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/options/levelling_option.h"
+
+#include <fmt/format.h>
+
+#include "app/options/enum_option.h"
+
+namespace afm::app {
+
+void add_channel_options(OptionList& command, std::string& channel, physics::Levelling& levelling) {
+  command
+      .add_option("--channel", channel,
+                  "channel of a measured image, by its name; default: its height, trace before retrace")
+      .type_name("NAME");
+  std::string meanings;
+  for (const physics::LevellingText& row : physics::kLevellings) {
+    meanings += fmt::format("{}{} ({})", meanings.empty() ? "" : ", ", row.word, row.meaning);
+  }
+  enum_option(
+      command, "--level", levelling, "a way of levelling", physics::kLevellings, &physics::LevellingText::word,
+      &physics::LevellingText::levelling,
+      fmt::format("what is taken off a measured image: {}; default: {}", meanings, physics::text_of(levelling).word));
+}
+
+}  // namespace afm::app

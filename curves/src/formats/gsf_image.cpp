@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/gsf_image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "curves/curve_error.h"
+#include "formats/file_bytes.h"
+#include "formats/text_table.h"
+
+namespace afm::curves {
+
+namespace {
+
+constexpr std::size_t kAlignment = 4;
+constexpr std::size_t kMostHeaderBytes = std::size_t{1} << 20U;
+
+struct GsfHeader {
+  double columns = 0, rows = 0;
+  double width = 1, height = 1, x_offset = 0, y_offset = 0;  // in xy_unit
+  ScaledUnit xy_unit, z_unit;
+  std::string title = "Height";
+};
+
+// False for a name that is no field of the format.
+bool set_field(std::string_view name, std::string_view value, const Lines& lines, GsfHeader& header) {
+  constexpr std::pair<std::string_view, double GsfHeader::*> kNumbers[]{
+      {"XRes", &GsfHeader::columns}, {"YRes", &GsfHeader::rows},        {"XReal", &GsfHeader::width},
+      {"YReal", &GsfHeader::height}, {"XOffset", &GsfHeader::x_offset}, {"YOffset", &GsfHeader::y_offset}};
+  for (const auto& [known, field] : kNumbers) {
+    if (name != known) continue;
+    header.*field = number_in(value, name, lines);
+    return true;
+  }
+  if (name == "XYUnits") {
+    header.xy_unit = scaled_unit(value);
+  } else if (name == "ZUnits") {
+    header.z_unit = scaled_unit(value);
+  } else if (name == "Title") {
+    header.title = value;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ImagePages read_gsf(std::string_view bytes) {
+  const std::size_t end = bytes.substr(0, kMostHeaderBytes).find('\0');
+  if (end == std::string_view::npos) throw CurveError("the text at its beginning has no end");
+  GsfHeader header;
+  ImagePages found;
+  std::string_view line;
+  Lines lines(bytes.substr(0, end));
+  lines.next(line);  // the magic
+  while (lines.next(line)) {
+    const std::size_t equals = line.find('=');
+    if (trimmed(line).empty()) continue;
+    if (equals == std::string_view::npos) {
+      throw CurveError(fmt::format("line {}: \"{}\" is no \"name = value\"", lines.number(), line.substr(0, 40)));
+    }
+    const std::string_view name = trimmed(line.substr(0, equals)), value = trimmed(line.substr(equals + 1));
+    if (!set_field(name, value, lines, header)) found.metadata.emplace_back(name, value);
+  }
+  if (header.columns == 0 || header.rows == 0) throw CurveError("it has no XRes or no YRes");
+  const std::size_t columns = image_side(header.columns), rows = image_side(header.rows);
+  const std::size_t data = (end / kAlignment + 1) * kAlignment;
+  const std::string_view padding = part(bytes, end, data - end);
+  if (padding.find_first_not_of('\0') != std::string_view::npos) {
+    throw CurveError("its data do not begin at a multiple of 4 bytes");
+  }
+  const std::string_view numbers = part(bytes, data, columns * rows * sizeof(float));
+  if (data + numbers.size() != bytes.size()) throw CurveError("it is longer than its XRes and YRes say");
+  const double xy = header.xy_unit.factor, z = header.z_unit.factor;
+  found.pages.push_back({.name = header.title,
+                         .unit = header.z_unit.unit,
+                         .columns = columns,
+                         .rows = rows,
+                         .width_m = image_length_m(header.width * xy),
+                         .height_m = image_length_m(header.height * xy),
+                         .x_offset_m = header.x_offset * xy,
+                         .y_offset_m = header.y_offset * xy,
+                         .values = [=] {
+                           return grid_values(columns, rows, false, [=](std::size_t i) {
+                             return z * static_cast<double>(number_at<float>(numbers, i * sizeof(float)));
+                           });
+                         }});
+  return found;
+}
+
+}  // namespace afm::curves

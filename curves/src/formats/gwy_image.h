@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "formats/image_pages.h"
+
+namespace afm::curves {
+
+inline constexpr std::string_view kGwyMagic = "GWYP";
+
+// Gwyddion's native format (Gwyddion user guide, "Gwyddion native format"): a container of objects, of which the data
+// fields "/N/data" are the channels, with "/N/data/title" and the strings of "/N/meta". Masks, which say what a person
+// marked and not what was measured, are passed over, as is everything else. Throws CurveError.
+ImagePages read_gwy(std::string_view bytes);
+
+}  // namespace afm::curves

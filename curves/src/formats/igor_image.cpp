@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/igor_image.h"
+
+#include <array>
+#include <string>
+
+#include "curves/curve_error.h"
+#include "formats/igor_wave.h"
+#include "formats/text_table.h"
+
+namespace afm::curves {
+
+namespace {
+
+// By the beginning of a channel's name; as Gwyddion 2.62 has them.
+constexpr std::pair<std::string_view, std::string_view> kIgorUnits[]{
+    {"Height", "m"},    {"ZSensor", "m"}, {"ZSnsr", "m"},   {"Deflection", "m"},
+    {"Amplitude", "m"}, {"Phase", "deg"}, {"Current", "A"}, {"Frequency", "Hz"}};
+
+std::string igor_unit(std::string_view channel) {
+  for (const auto& [beginning, unit] : kIgorUnits) {
+    if (channel.starts_with(beginning)) return std::string(unit);
+  }
+  return "V";
+}
+
+double igor_side_m(const IgorWave& wave, std::size_t dimension, std::size_t count) {
+  const ScaledUnit unit = scaled_unit(wave.units[dimension]);
+  return image_length_m(wave.spacing[dimension] * unit.factor * static_cast<double>(count));
+}
+
+}  // namespace
+
+ImagePages read_igor_image(std::string_view bytes) {
+  const IgorWave wave = read_igor_wave(bytes);
+  const std::size_t columns = image_side(static_cast<double>(wave.rows)),
+                    rows = image_side(static_cast<double>(wave.columns));
+  const double width_m = igor_side_m(wave, 0, columns), height_m = igor_side_m(wave, 1, rows);
+  ImagePages found;
+  for (std::size_t layer = 0; layer < wave.layers; ++layer) {
+    const ScaledUnit data_unit = scaled_unit(wave.data_unit);
+    found.pages.push_back({.name = std::string(wave.labels[layer]),
+                           .unit = data_unit.unit.empty() ? igor_unit(wave.labels[layer]) : data_unit.unit,
+                           .columns = columns,
+                           .rows = rows,
+                           .width_m = width_m,
+                           .height_m = height_m,
+                           .values = [wave, layer, columns, rows, factor = data_unit.factor] {
+                             return grid_values(columns, rows, true, [&](std::size_t i) {
+                               return factor * wave.value(i % columns, i / columns, layer);
+                             });
+                           }});
+  }
+  std::string_view line;
+  for (Lines lines(wave.note); lines.next(line) && found.metadata.size() < kMostImageMetadata;) {
+    const std::size_t colon = line.find(':');
+    if (colon == std::string_view::npos || colon == 0) continue;
+    found.metadata.emplace_back(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
+  }
+  return found;
+}
+
+}  // namespace afm::curves

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/igor_wave.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "formats/text_table.h"
+
+namespace afm::curves {
+
+namespace {
+
+// Offsets in the file: BinHeader5 (64 bytes), WaveHeader5 (320), the data.
+constexpr std::size_t kWaveSize = 4, kFormulaSize = 8, kNoteSize = 12, kDataUnitsSize = 16, kDimUnitsSizes = 20,
+                      kDimLabelsSizes = 36, kDataType = 80, kDimensions = 132, kSpacings = 148, kOrigins = 180,
+                      kDataUnit = 212, kDimensionUnits = 216, kData = 384, kWaveHeaderSize = 320, kLabelSize = 32,
+                      kUnitSize = 4;
+
+// A length in the file, which Igor holds as a signed number.
+std::size_t length_at(std::string_view bytes, std::size_t offset) {
+  const auto value = number_at<std::int32_t>(bytes, offset);
+  if (value < 0) throw CurveError("it is damaged: a length in its header is negative");
+  return static_cast<std::size_t>(value);
+}
+
+std::string_view unit_at(std::string_view bytes, std::size_t offset) {
+  const std::string_view unit = part(bytes, offset, kUnitSize);
+  return unit.substr(0, unit.find('\0'));
+}
+
+void check_header(std::string_view bytes) {
+  if (const auto version = number_at<std::int16_t>(bytes, 0); version != 5) {
+    throw CurveError("it is an Igor wave of another version or byte order; only version 5, little-endian, is read");
+  }
+  std::uint16_t sum = 0;
+  for (std::size_t i = 0; i < kData; i += 2) {
+    sum = static_cast<std::uint16_t>(sum + number_at<std::uint16_t>(bytes, i));
+  }
+  if (sum != 0) throw CurveError("the checksum of its header is wrong");
+}
+
+void read_data(std::string_view bytes, IgorWave& wave) {
+  wave.rows = length_at(bytes, kDimensions);
+  wave.columns = length_at(bytes, kDimensions + 4);
+  wave.layers = length_at(bytes, kDimensions + 8);
+  if (!looks_like_igor_image(bytes)) wave.layers = 0;
+  if (wave.rows == 0 || wave.columns == 0) {
+    throw CurveError("its wave is no table of channels: an image or a volume");
+  }
+  switch (number_at<std::int16_t>(bytes, kDataType)) {
+    case 2:
+      wave.number_size = sizeof(float);
+      break;
+    case 4:
+      wave.number_size = sizeof(double);
+      break;
+    default:
+      throw CurveError("its numbers are neither 32-bit nor 64-bit floats");
+  }
+  // the file itself bounds them, so that the products below cannot overflow
+  const std::size_t layers = std::max<std::size_t>(wave.layers, 1);
+  if (wave.rows > bytes.size() || wave.columns > bytes.size() / wave.rows ||
+      layers > bytes.size() / (wave.rows * wave.columns)) {
+    throw CurveError("it is cut short");
+  }
+  const std::size_t data_size = wave.rows * wave.columns * layers * wave.number_size;
+  if (length_at(bytes, kWaveSize) != kWaveHeaderSize + data_size) {
+    throw CurveError("it is damaged: the wave's size does not fit its dimensions");
+  }
+  wave.data = part(bytes, kData, data_size);
+}
+
+}  // namespace
+
+IgorWave read_igor_wave(std::string_view bytes) {
+  check_header(bytes);
+  IgorWave wave;
+  read_data(bytes, wave);
+  for (std::size_t i = 0; i < 2; ++i) {
+    wave.spacing[i] = number_at<double>(bytes, kSpacings + i * sizeof(double));
+    wave.origin[i] = number_at<double>(bytes, kOrigins + i * sizeof(double));
+    wave.units[i] = unit_at(bytes, kDimensionUnits + i * kUnitSize);
+  }
+  wave.data_unit = unit_at(bytes, kDataUnit);
+
+  std::size_t offset = kData + wave.data.size() + length_at(bytes, kFormulaSize);
+  const std::size_t note_size = length_at(bytes, kNoteSize);
+  wave.note = part(bytes, offset, note_size);
+  offset += note_size + length_at(bytes, kDataUnitsSize);
+  for (std::size_t i = 0; i < 4; ++i) offset += length_at(bytes, kDimUnitsSizes + 4 * i);
+  // the labels of the channels' dimension, behind those of the dimensions before it
+  const std::size_t dimension = wave.layers > 0 ? 2 : 1;
+  for (std::size_t i = 0; i < dimension; ++i) offset += length_at(bytes, kDimLabelsSizes + 4 * i);
+  const std::string_view labels = part(bytes, offset, length_at(bytes, kDimLabelsSizes + 4 * dimension));
+  // the first label is the dimension's own
+  for (std::size_t i = kLabelSize; i + kLabelSize <= labels.size(); i += kLabelSize) {
+    const std::string_view label = labels.substr(i, kLabelSize);
+    wave.labels.push_back(label.substr(0, label.find('\0')));
+  }
+  if (wave.labels.size() != (wave.layers > 0 ? wave.layers : wave.columns)) {
+    throw CurveError("its columns have no labels, so that their channels are unknown");
+  }
+  wave.trailer = bytes.substr(offset + labels.size());
+  return wave;
+}
+
+bool looks_like_igor(std::string_view bytes) {
+  if (bytes.size() < 2) return false;
+  const auto version = number_at<std::uint16_t>(bytes, 0);
+  return version == 5 || version == 2 || version == 0x0500 || version == 0x0200;
+}
+
+bool looks_like_igor_image(std::string_view bytes) {
+  if (bytes.size() < kData || number_at<std::uint16_t>(bytes, 0) != 5) return false;
+  const auto layers = number_at<std::int32_t>(bytes, kDimensions + 8);
+  return layers > 1 || (layers == 1 && number_at<std::int32_t>(bytes, kDimLabelsSizes + 8) > 0);
+}
+
+std::string_view note_value(std::string_view note, std::string_view key) {
+  std::string_view line;
+  for (Lines lines(note); lines.next(line);) {
+    if (line.size() > key.size() && line.starts_with(key) && line[key.size()] == ':') {
+      return trimmed(line.substr(key.size() + 1));
+    }
+  }
+  return {};
+}
+
+std::optional<double> note_number(std::string_view note, std::string_view key) {
+  const std::string_view text = note_value(note, key);
+  if (text.empty()) return std::nullopt;
+  return number_in(text, key, Lines({}));
+}
+
+}  // namespace afm::curves

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves/image_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include "core/whole_file.h"
+#include "curves/curve_error.h"
+#include "formats/confined_child.h"
+#include "formats/file_bytes.h"
+#include "formats/gsf_image.h"
+#include "formats/gwy_image.h"
+#include "formats/igor_image.h"
+#include "formats/igor_wave.h"
+#include "formats/image_pages.h"
+#include "formats/jpk_image.h"
+#include "formats/nanoscope_image.h"
+
+namespace afm::curves {
+
+namespace {
+
+constexpr std::uintmax_t kLargestImageBytes = std::uintmax_t{256} << 20U;
+constexpr std::size_t kLongestBeginning = 512;
+constexpr std::size_t kMostChannels = 256;
+constexpr std::size_t kMostTextBytes = 4096;  // of a name, a key or a value
+
+struct FormatRow {
+  ImageFormat format;
+  std::string_view name;
+  bool (*begins)(std::string_view bytes);
+  ImagePages (*read)(std::string_view bytes);
+};
+
+constexpr std::array kFormats{
+    FormatRow{ImageFormat::Gsf, "Gwyddion simple field", [](std::string_view b) { return b.starts_with(kGsfMagic); },
+              read_gsf},
+    FormatRow{ImageFormat::Gwy, "Gwyddion", [](std::string_view b) { return b.starts_with(kGwyMagic); }, read_gwy},
+    FormatRow{ImageFormat::Nanoscope, "Nanoscope", [](std::string_view b) { return b.starts_with(kNanoscopeMagic); },
+              read_nanoscope},
+    FormatRow{ImageFormat::Igor, "Igor", looks_like_igor_image, read_igor_image},
+    FormatRow{ImageFormat::Jpk, "JPK", looks_like_tiff, read_jpk_image}};
+
+const FormatRow* row_of(std::string_view bytes) {
+  const auto found =
+      std::find_if(kFormats.begin(), kFormats.end(), [&](const FormatRow& row) { return row.begins(bytes); });
+  return found != kFormats.end() ? &*found : nullptr;
+}
+
+std::string lower(std::string_view text) {
+  std::string small(text);
+  std::transform(small.begin(), small.end(), small.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return small;
+}
+
+// Names that a file gives twice get a number, so that each can be asked for.
+void number_names(std::vector<ImagePage>& pages) {
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    const auto same = [&](const ImagePage& page) { return lower(page.name) == lower(pages[i].name); };
+    const auto before = std::count_if(pages.begin(), pages.begin() + static_cast<std::ptrdiff_t>(i), same);
+    if (before > 0) pages[i].name += fmt::format(" ({})", before + 1);
+  }
+}
+
+std::string names_of(const std::vector<ImagePage>& pages) {
+  std::vector<std::string> names;
+  for (const ImagePage& page : pages) names.push_back(page.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// A height by its name and its unit; the smaller, the sooner it is taken.
+int rank_as_height(const ImagePage& page) {
+  const std::string name = lower(page.name);
+  const auto begins = [&](std::string_view word) { return name.starts_with(word); };
+  if (page.unit != "m") return 4;
+  const int way = name.find("retrace") != std::string::npos ? 1 : 0;
+  if (begins("height") || begins("topography") || begins("z ") || begins("zsens") || name == "z") return way;
+  if (begins("defl") || begins("amplitude") || begins("lock-in") || begins("peak force")) return 4;
+  return 2 + way;
+}
+
+std::size_t chosen_page(const std::vector<ImagePage>& pages, const std::string& wanted) {
+  if (pages.empty()) throw CurveError("it has no image");
+  if (!wanted.empty()) {
+    const auto named = [&](const ImagePage& page) { return lower(page.name) == lower(wanted); };
+    const auto found = std::find_if(pages.begin(), pages.end(), named);
+    if (found == pages.end()) {
+      throw CurveError(fmt::format("it has no channel \"{}\"; it has {}", wanted, names_of(pages)));
+    }
+    return static_cast<std::size_t>(found - pages.begin());
+  }
+  const auto lower_rank = [](const ImagePage& a, const ImagePage& b) { return rank_as_height(a) < rank_as_height(b); };
+  return static_cast<std::size_t>(std::min_element(pages.begin(), pages.end(), lower_rank) - pages.begin());
+}
+
+bool same_grid(const ImagePage& a, const ImagePage& b) {
+  return a.columns == b.columns && a.rows == b.rows && a.width_m == b.width_m && a.height_m == b.height_m;
+}
+
+LoadedImage assembled(ImagePages found, const std::string& wanted, ImageFormat format) {
+  if (found.pages.size() > kMostChannels) throw CurveError(fmt::format("it has {} channels", found.pages.size()));
+  number_names(found.pages);
+  const std::size_t chosen = chosen_page(found.pages, wanted);
+  const ImagePage& grid = found.pages[chosen];
+  LoadedImage loaded{.format = format, .image = {}, .chosen = 0, .left_out = {}};
+  physics::ScanImage& image = loaded.image;
+  image.columns = grid.columns;
+  image.rows = grid.rows;
+  image.width_m = grid.width_m;
+  image.height_m = grid.height_m;
+  image.x_offset_m = std::isfinite(grid.x_offset_m) ? grid.x_offset_m : 0.0;
+  image.y_offset_m = std::isfinite(grid.y_offset_m) ? grid.y_offset_m : 0.0;
+  image.metadata = std::move(found.metadata);
+  const auto on_grid = static_cast<std::size_t>(std::count_if(
+      found.pages.begin(), found.pages.end(), [&](const ImagePage& page) { return same_grid(page, grid); }));
+  if (on_grid * grid.columns * grid.rows > kMostImageValues) {
+    throw CurveError(
+        fmt::format("its {} channels of {} x {} points are more than are read", on_grid, grid.columns, grid.rows));
+  }
+  for (std::size_t i = 0; i < found.pages.size(); ++i) {
+    const ImagePage& page = found.pages[i];
+    if (!same_grid(page, grid)) {
+      loaded.left_out.push_back(page.name);
+      continue;
+    }
+    if (i == chosen) loaded.chosen = image.channels.size();
+    physics::ImageChannel& channel = image.channels.emplace_back(page.name, page.unit, page.values());
+    std::replace_if(
+        channel.values.begin(), channel.values.end(), [](double value) { return !std::isfinite(value); },
+        std::numeric_limits<double>::quiet_NaN());
+  }
+  return loaded;
+}
+
+LoadedImage read_image(std::string_view bytes, const std::string& wanted) {
+  const FormatRow* row = row_of(bytes);
+  return assembled(row->read(bytes), wanted, row->format);
+}
+
+// ---- from the child that read it: numbers and texts one behind the other, which are believed no more than a file ----
+
+template <class T>
+void put(std::string& bytes, const T& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
+}
+
+void put_text(std::string& bytes, std::string_view text) {
+  text = text.substr(0, kMostTextBytes);
+  put(bytes, std::uint64_t{text.size()});
+  bytes += text;
+}
+
+std::string handed_over(LoadedImage loaded) {
+  physics::ScanImage& image = loaded.image;
+  std::string bytes;
+  bytes.reserve(image.channels.size() * (image.columns * image.rows * sizeof(double) + 2 * kMostTextBytes));
+  put(bytes, static_cast<std::uint64_t>(loaded.format));
+  for (const std::size_t count : {loaded.chosen, image.columns, image.rows}) put(bytes, std::uint64_t{count});
+  for (const double m : {image.width_m, image.height_m, image.x_offset_m, image.y_offset_m}) put(bytes, m);
+  put(bytes, std::uint64_t{image.channels.size()});
+  for (physics::ImageChannel& channel : image.channels) {
+    put_text(bytes, channel.name);
+    put_text(bytes, channel.unit);
+    bytes.append(reinterpret_cast<const char*>(channel.values.data()), channel.values.size() * sizeof(double));
+    channel.values = {};
+  }
+  put(bytes, std::uint64_t{image.metadata.size()});
+  for (const auto& [key, value] : image.metadata) {
+    put_text(bytes, key);
+    put_text(bytes, value);
+  }
+  put(bytes, std::uint64_t{loaded.left_out.size()});
+  for (const std::string& name : loaded.left_out) put_text(bytes, name);
+  return bytes;
+}
+
+class Taker {
+ public:
+  explicit Taker(std::string_view bytes) : rest_(bytes) {}
+
+  template <class T>
+  T number() {
+    return number_at<T>(take(sizeof(T)), 0);
+  }
+
+  std::size_t count(std::size_t most) {
+    const auto value = number<std::uint64_t>();
+    if (value > most) throw CurveError("its reader gave more than an image has");
+    return static_cast<std::size_t>(value);
+  }
+
+  std::string text() { return std::string(take(count(kMostTextBytes))); }
+  std::string_view take(std::size_t size) {
+    const std::string_view taken = part(rest_, 0, size);
+    rest_.remove_prefix(size);
+    return taken;
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+LoadedImage taken_over(std::string_view bytes) {
+  Taker taker(bytes);
+  LoadedImage loaded;
+  physics::ScanImage& image = loaded.image;
+  loaded.format = kFormats[taker.count(kFormats.size() - 1)].format;
+  loaded.chosen = taker.count(kMostChannels - 1);
+  image.columns = taker.count(kMostImageSide);
+  image.rows = taker.count(kMostImageSide);
+  for (double* m : {&image.width_m, &image.height_m, &image.x_offset_m, &image.y_offset_m}) *m = taker.number<double>();
+  image.channels.resize(taker.count(kMostChannels));
+  for (physics::ImageChannel& channel : image.channels) {
+    channel.name = taker.text();
+    channel.unit = taker.text();
+    const std::string_view numbers = taker.take(image.columns * image.rows * sizeof(double));
+    channel.values.resize(image.columns * image.rows);
+    std::copy(numbers.begin(), numbers.end(), reinterpret_cast<char*>(channel.values.data()));
+  }
+  image.metadata.resize(taker.count(bytes.size()));
+  for (auto& [key, value] : image.metadata) {
+    key = taker.text();
+    value = taker.text();
+  }
+  loaded.left_out.resize(taker.count(kMostChannels));
+  for (std::string& name : loaded.left_out) name = taker.text();
+  return loaded;
+}
+
+// What every image is, wherever it came from.
+void check_image(const LoadedImage& loaded) {
+  const physics::ScanImage& image = loaded.image;
+  if (loaded.chosen >= image.channels.size() || image.columns < 2 || image.rows < 2 ||
+      !(image.width_m > 0 && image.width_m <= 1.0 && image.height_m > 0 && image.height_m <= 1.0)) {
+    throw CurveError("its reader gave no image");
+  }
+  for (const physics::ImageChannel& channel : image.channels) {
+    if (std::any_of(channel.values.begin(), channel.values.end(), [](double v) { return std::isinf(v); })) {
+      throw CurveError("its reader gave a number that is not finite");
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(ImageFormat format) { return kFormats[static_cast<std::size_t>(format)].name; }
+
+std::optional<ImageFormat> image_format_of(std::string_view bytes) {
+  const FormatRow* row = row_of(bytes);
+  return row != nullptr ? std::optional(row->format) : std::nullopt;
+}
+
+bool is_image_file(const std::string& path) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing)) return false;
+  std::string beginning(kLongestBeginning, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<std::size_t>(file.gcount()));
+  return image_format_of(beginning).has_value();
+}
+
+core::Result<LoadedImage> load_image(const std::string& path, const ImageReading& reading) {
+  std::error_code missing;
+  if (const auto size = std::filesystem::file_size(path, missing); !missing && size > kLargestImageBytes) {
+    return core::failure(core::ErrorCategory::BadInputFile,
+                         fmt::format("cannot read {}: it is larger than {} MiB", path, kLargestImageBytes >> 20U));
+  }
+  const auto bytes = core::read_file(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return parse_image(*bytes, path, reading);
+}
+
+core::Result<LoadedImage> parse_image(std::string_view bytes, const std::string& name, const ImageReading& reading) {
+  const auto bad = [&](const char* why) {
+    return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot read the image {}: {}", name, why));
+  };
+  if (!image_format_of(bytes)) {
+    return bad(
+        "it is no image of a known kind; known are Gwyddion .gwy and .gsf, Nanoscope .spm and .001, Igor .ibw and "
+        "JPK .jpk");
+  }
+  try {
+    LoadedImage loaded =
+        reading.confined ? taken_over(in_confined_child([&] { return handed_over(read_image(bytes, reading.channel)); },
+                                                        "it is damaged: its reader could not survive it"))
+                         : read_image(bytes, reading.channel);
+    check_image(loaded);
+    return loaded;
+  } catch (const std::bad_alloc&) {
+    return bad("there is too little memory for it");
+  } catch (const std::runtime_error& fault) {
+    return bad(fault.what());
+  }
+}
+
+}  // namespace afm::curves

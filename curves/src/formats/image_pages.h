@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace afm::curves {
+
+// One channel of an image file as its reader found it: checked, but its numbers not yet read.
+struct ImagePage {
+  std::string name;
+  std::string unit;  // SI, as in physics::ImageChannel
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+  double width_m = 0;
+  double height_m = 0;
+  double x_offset_m = 0;
+  double y_offset_m = 0;
+  std::function<std::vector<double>()> values;  // row 0 at the top; refers to the file's bytes, which must live
+};
+
+struct ImagePages {
+  std::vector<ImagePage> pages;
+  std::vector<std::pair<std::string, std::string>> metadata;
+};
+
+// A side of an image, and the values of all channels together.
+inline constexpr std::size_t kMostImageSide = 8192;
+inline constexpr std::size_t kMostImageValues = std::size_t{32} << 20U;
+
+// `columns` x `rows` numbers of one size from `data`, scaled: value = factor * number + offset. `at` gives the number
+// in the row and the column of the file.
+template <class NumberAt>
+std::vector<double> grid_values(std::size_t columns, std::size_t rows, bool bottom_up, const NumberAt& number) {
+  std::vector<double> values;
+  values.reserve(columns * rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::size_t in_file = bottom_up ? rows - 1 - row : row;
+    for (std::size_t column = 0; column < columns; ++column) values.push_back(number(in_file * columns + column));
+  }
+  return values;
+}
+
+inline constexpr std::size_t kMostImageMetadata = 2000;
+
+// Throws CurveError if no image has such a side.
+std::size_t image_side(double count);
+
+// A length on the sample: its absolute value. Throws CurveError unless it is above zero and at most 1 m.
+double image_length_m(double length_m);
+
+// A unit with its prefix: "nm" is 1e-9 and "m"; what is not known has the factor 1 and stays as it is.
+struct ScaledUnit {
+  double factor = 1.0;
+  std::string unit;
+};
+ScaledUnit scaled_unit(std::string_view text);
+
+}  // namespace afm::curves

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace afm::physics {
+
+// What is taken off a measured topography before it is shown or felt: the sample's tilt, and the steps that the
+// instrument makes between one line and the next.
+enum class Levelling { None, Plane, Lines };
+
+struct LevellingText {
+  Levelling levelling;
+  std::string_view word;     // on the command line
+  std::string_view meaning;  // what it takes off
+};
+
+inline constexpr std::array kLevellings{
+    LevellingText{Levelling::None, "none", "nothing"},
+    LevellingText{Levelling::Plane, "plane", "the plane of least squares"},
+    LevellingText{Levelling::Lines, "lines",
+                  "the median of the differences line by line, then the plane of least squares"}};
+
+constexpr const LevellingText& text_of(Levelling levelling) { return kLevellings[static_cast<std::size_t>(levelling)]; }
+
+// Of the points that were measured: NaN is none. Sq is the root of the mean square of the distance from the mean
+// (ISO 25178-2, 4.2.1).
+struct HeightStatistics {
+  std::size_t measured = 0;
+  double mean = 0;
+  double sq = 0;
+  double lowest = 0;
+  double highest = 0;
+};
+HeightStatistics height_statistics(std::span<const double> heights);
+
+struct LevelledHeights {
+  std::vector<double> heights;  // all finite; row 0 at the top, as in ScanImage
+  double slope_x = 0;           // of the plane that was taken off: per column, to the right
+  double slope_y = 0;           // per row, upwards
+  std::size_t filled = 0;       // points that were not measured
+};
+
+// `heights` row by row. Points that were not measured take no part; then they are filled from their neighbours, ring by
+// ring, each with the mean of those of the eight around it that are known. The mean height stays as it was measured.
+// Throws std::invalid_argument unless the sizes fit and a point was measured.
+LevelledHeights levelled(std::span<const double> heights, std::size_t columns, std::size_t rows, Levelling levelling);
+
+}  // namespace afm::physics

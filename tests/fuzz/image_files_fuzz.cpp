@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <stdexcept>
+#include <string_view>
+
+#include "curves/image_file.h"
+#include "physics/levelling.h"
+
+// Whatever the bytes, and whichever format they claim: an image whose channels fill its grid, and which can be levelled
+// if a point was measured, or an error.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes), size);
+  const auto loaded = afm::curves::parse_image(text, "fuzz", {.channel = {}, .confined = false});
+  if (!loaded) return 0;
+  const auto& image = loaded->image;
+  if (loaded->chosen >= image.channels.size()) std::abort();
+  for (const auto& channel : image.channels) {
+    if (channel.values.size() != image.columns * image.rows) std::abort();
+  }
+  const auto& heights = image.channels[loaded->chosen].values;
+  if (afm::physics::height_statistics(heights).measured == 0) return 0;
+  const auto level = afm::physics::levelled(heights, image.columns, image.rows, afm::physics::Levelling::Lines);
+  for (const double height : level.heights) {
+    // of numbers beyond any length the sums may have no value
+    if (std::isnan(height) && afm::physics::height_statistics(heights).highest < 1e100 &&
+        afm::physics::height_statistics(heights).lowest > -1e100) {
+      std::abort();
+    }
+  }
+  return 0;
+}
