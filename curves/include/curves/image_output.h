@@ -6,17 +6,15 @@
 #include <string>
 #include <string_view>
 
+#include "curves/image_file.h"
 #include "physics/scan_image.h"
 
 // Images as files of Gwyddion, from its published layouts. Every channel has columns times rows values.
 namespace afm::curves {
 
-enum class ImageFormat {
-  Gwy,  // every channel with its title, double precision, the metadata with each
-  Gsf,  // Gwyddion Simple Field: one channel, single precision, the metadata in its header
-};
-
-// By the ending of a file's name, ".gwy" or ".gsf".
+// The format to write, by the ending of a file's name: ".gwy" holds every channel with its title in double precision
+// and the metadata with each; ".gsf" holds one channel in single precision, with the metadata in its header. None: no
+// other.
 std::optional<ImageFormat> image_format(std::string_view path);
 
 std::string gwy_bytes(const physics::ScanImage& image);
