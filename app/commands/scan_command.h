@@ -32,7 +32,7 @@ struct ScanOptions {
   std::string picture;
 };
 
-// Scans and writes; nothing is written if anything fails.
+// Scans, then writes. Each file is whole or absent.
 core::Result<void> write_scan_command(const ScanOptions& options);
 
 }  // namespace afm::app

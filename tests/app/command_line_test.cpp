@@ -69,6 +69,15 @@ TEST(CommandLine, RefusesABareNumberByListingTheUnits) {
   expect_refusal(touchafm("curve --material mica --tip-radius 50"), 2, "nm");
 }
 
+TEST(CommandLine, RefusesSettingsOfAScanByListingWhatIsLegal) {
+  expect_refusal(touchafm("scan --out x.gwy"), 2, "--material");
+  expect_refusal(touchafm("scan --material mica --json --rate 2"), 2, "MHz, kHz, Hz");
+  expect_refusal(touchafm("scan --material mica --json --setpoint 1N"), 2, "-10uN to 10uN");
+  expect_refusal(touchafm("scan --material mica --json --pixels 5000"), 2, "4096");
+  expect_refusal(touchafm("scan --material mica --json --tip spoon"), 2, "pyramid-3");
+  expect_refusal(touchafm("scan --material mica --out x.tif"), 2, ".gwy or .gsf");
+}
+
 TEST(CommandLine, RefusesAWallWithCollinearCorners) {
   const support::ScratchFolder folder;
   const std::string wall =

@@ -59,6 +59,19 @@ TEST(Interruption, OfASweepLeavesNoFile) {
 }
 
 // While it loads, starts its servo, lets a cycle be felt, and draws the pictures of the report.
+TEST(Interruption, OfAScanLeavesNoFile) {
+  const support::ScratchFolder folder;
+  support::LiveProgram scan({AFM_PROGRAM, "scan", "--material", "mica", "--size", "500nm", "--pixels", "4096", "--rate",
+                             "0.01Hz", "--out", folder.file("image.gwy")},
+                            "");
+  ASSERT_TRUE(scan.says("mirror images"));
+  const Ended ended = interrupt(scan, SIGINT);
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.said, EndsWith("touchafm: interrupted\n"));
+  EXPECT_LT(ended.after, kBound);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
 TEST_P(InterruptedDemonstration, LeavesNoFile) {
   const support::ScratchFolder folder;
   support::LiveProgram demo({AFM_PROGRAM, "demo", "--out", folder.file("out"), "--material", "mica"}, "");

@@ -58,8 +58,8 @@ class ScanLoop {
 
   // The integral gain at which the loop, in contact, begins to swing by itself: with its ticks, delay, proportional
   // gain and z resonance. Without delay Ki dt = 2 (1 - Kp) for an ideal z scanner (Jury), and Ki = (1 + Kp) w0/Q for
-  // slow ones. Zero where the proportional gain alone is too large. Takes below a millisecond.
-  Frequency largest_integral_gain() const;
+  // slow ones. Zero where the proportional gain alone is too large.
+  Frequency largest_integral_gain() const noexcept { return largest_gain_; }
 
   double z_m() const noexcept { return z_m_; }
   double deflection_m() const noexcept { return deflection_m_; }       // of the lever, without noise
@@ -71,6 +71,8 @@ class ScanLoop {
   bool at_end_of_range() const noexcept { return at_end_; }
 
  private:
+  void set_swing(const ScanSettings& settings) noexcept;
+  double swinging_gain() const;  // a tick
   void follow_command() noexcept {
     if (!resonant_) {
       z_m_ = command_m_;
@@ -92,6 +94,7 @@ class ScanLoop {
   double integral_ = 0, proportional_ = 0;  // a tick
   double noise_of_tick_m_ = 0;
   double reach_m_ = 0;
+  Frequency largest_gain_;
   bool feedback_ = true, resonant_ = false;
   std::size_t delay_ticks_ = 0;
   // z - u and z' after a tick, from those before it

@@ -2,14 +2,10 @@
 #include "physics/morphology.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 
 namespace afm::physics {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Part of one line of a grid: [first, last) of those pixels whose partner `shift` away exists.
 struct Overlap {

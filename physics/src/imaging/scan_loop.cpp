@@ -5,6 +5,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace afm::physics {
 
@@ -20,28 +21,32 @@ void ScanLoop::change(const ScanSettings& settings, Time tick) {
   setpoint_m_ = settings.setpoint.si / spring_;
   pull_off_m_ = settings.adhesion.si / spring_;
   snap_in_m_ = settings.snap_in.si;
-  integral_ = settings.integral_gain.si * tick.si;
+  integral_ = settings.integral_gain.si * tick_s_;
   proportional_ = settings.proportional_gain;
   // white noise of one-sided density S has the variance S/(2 dt) when it is sampled every dt
-  noise_of_tick_m_ = settings.noise.si / std::sqrt(2.0 * tick.si * kNoiseBandwidth.si);
+  noise_of_tick_m_ = settings.noise.si / std::sqrt(2.0 * tick_s_ * kNoiseBandwidth.si);
   reach_m_ = 0.5 * settings.z_range.si;
   feedback_ = settings.feedback == Feedback::On;
   delay_ticks_ = static_cast<std::size_t>(
-      std::clamp(std::round(settings.detector_delay.si / tick.si), 0.0, static_cast<double>(kMostDelayTicks)));
+      std::clamp(std::round(settings.detector_delay.si / tick_s_), 0.0, static_cast<double>(kMostDelayTicks)));
 
   resonant_ = settings.z_resonance.si > 0.0;
-  if (!resonant_) return;
+  if (resonant_) set_swing(settings);
+  largest_gain_ = Frequency(swinging_gain() / tick_s_);
+}
+
+void ScanLoop::set_swing(const ScanSettings& settings) noexcept {
   const double w0 = 2.0 * std::numbers::pi * settings.z_resonance.si, damping = 0.5 * w0 / settings.z_quality_factor;
   const std::complex<double> rate = std::sqrt(std::complex<double>(damping * damping - w0 * w0));
-  const double decay = std::exp(-damping * tick.si);
-  const double c = decay * std::cosh(rate * tick.si).real();
-  const double s = decay * (rate == 0.0 ? tick.si : (std::sinh(rate * tick.si) / rate).real());
+  const double decay = std::exp(-damping * tick_s_);
+  const double c = decay * std::cosh(rate * tick_s_).real();
+  const double s = decay * (rate == 0.0 ? tick_s_ : (std::sinh(rate * tick_s_) / rate).real());
   swing_ = {.zz = c + damping * s, .zv = s, .vz = -w0 * w0 * s, .vv = c - damping * s};
 }
 
 // The loop swings by itself with z = exp(i theta) a tick where (z - 1) + (Kp (1 - 1/z) + g) z^-delay G(z) = 0, g = Ki
 // dt and G what the z scanner does with its command.
-Frequency ScanLoop::largest_integral_gain() const {
+double ScanLoop::swinging_gain() const {
   const auto gain_at = [this](double theta) {
     const std::complex<double> z = std::polar(1.0, theta);
     std::complex<double> scanner = 1.0;
@@ -49,24 +54,26 @@ Frequency ScanLoop::largest_integral_gain() const {
       const double cross = swing_.zv * swing_.vz;
       scanner = z * ((1.0 - swing_.zz) * (z - swing_.vv) - cross) / ((z - swing_.zz) * (z - swing_.vv) - cross);
     }
-    return -((z - 1.0) * std::pow(z, static_cast<double>(delay_ticks_)) / scanner + proportional_ * (1.0 - 1.0 / z));
+    const std::complex<double> delay = std::polar(1.0, theta * static_cast<double>(delay_ticks_));
+    return -((z - 1.0) * delay / scanner + proportional_ * (1.0 - 1.0 / z));
   };
-  constexpr double kSlowest = 1e-6, kStep = 1.002;
+  constexpr double kSlowest = 1e-6, kStep = 1.01, kFastest = std::numbers::pi * (1.0 - 1e-9);
   constexpr double kNone = std::numeric_limits<double>::infinity();
   // at half the rate of the ticks the gain is real
   const double fastest = gain_at(std::numbers::pi).real();
   double smallest = fastest > 0.0 ? fastest : kNone;
-  for (double theta = kSlowest; theta < std::numbers::pi; theta *= kStep) {
-    double low = theta, high = std::min(theta * kStep, std::numbers::pi * (1.0 - 1e-9));
-    const bool rising = gain_at(low).imag() < 0.0;
-    if (rising == (gain_at(high).imag() < 0.0)) continue;
+  bool before = gain_at(kSlowest).imag() < 0.0;
+  for (double theta = kSlowest; theta < kFastest; theta *= kStep) {
+    double low = theta, high = std::min(theta * kStep, kFastest);
+    const bool after = gain_at(high).imag() < 0.0;
+    if (std::exchange(before, after) == after) continue;
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
-      (rising == (gain_at(middle).imag() < 0.0) ? low : high) = middle;
+      (after != (gain_at(middle).imag() < 0.0) ? low : high) = middle;
     }
     if (const double gain = gain_at(low).real(); gain > 0.0) smallest = std::min(smallest, gain);
   }
-  return Frequency(smallest == kNone ? 0.0 : smallest / tick_s_);
+  return smallest == kNone ? 0.0 : smallest;
 }
 
 void ScanLoop::engage(double height_m) noexcept {

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands/scan_command.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/commands/scan_surface.h"
+#include "core/whole_file.h"
+#include "curves/sample_model.h"
+#include "haptics/contact_model.h"
+#include "haptics/simulated_device.h"
+#include "places.h"
+#include "scene/gltf/gltf_loader.h"
+#include "scene/graph/height_field.h"
+#include "support/scratch_folder.h"
+
+namespace afm::app {
+namespace {
+
+using testing::HasSubstr;
+
+ScanOptions options_for(const std::string& material) {
+  ScanOptions options;
+  options.contact.assets_dir = AFM_SOURCE_DIR "/assets";
+  options.contact.material = material;
+  options.pixels = 16;
+  return options;
+}
+
+void set(ScanOptions& options, std::string_view name, double si) {
+  const auto field = std::find_if(physics::kScanFields.begin(), physics::kScanFields.end(),
+                                  [&](const physics::ScanField& each) { return each.name == name; });
+  ASSERT_NE(field, physics::kScanFields.end());
+  options.settings.emplace_back(&*field, si);
+}
+
+// The values of a channel in a .gwy file.
+std::vector<double> values_of(const std::string& gwy, int channel) {
+  const std::size_t field = gwy.find("/" + std::to_string(channel) + "/data");
+  const std::size_t data = gwy.find(std::string("\0data\0D", 7).substr(1), field);
+  std::uint32_t count = 0;
+  std::memcpy(&count, gwy.data() + data + 6, sizeof count);
+  std::vector<double> values(count);
+  std::memcpy(values.data(), gwy.data() + data + 10, count * sizeof(double));
+  return values;
+}
+
+// What the servo renders for this material, made as the servo does.
+haptics::SampleSurface felt_surface(const ScanOptions& options) {
+  const auto setup = contact_setup(options.contact);
+  const auto material = curves::make_sample_model(*setup);
+  const auto model = scene::load_gltf(AFM_SOURCE_DIR "/assets/models/sample-" + options.contact.material + ".glb");
+  const auto drawn = scene::height_field_below(*model, model->find_node("surface").value());
+  const haptics::DeviceSpec device = haptics::SimulatedDevice().spec();
+  const auto common = haptics::Scaling::common_scale(std::array{material->tables}, device);
+  return (*haptics::ContactModel::create(material->parameters, 0, material->tables, &*drawn, *common, device,
+                                         1'000'000))
+      ->surface();
+}
+
+TEST(ScanCommand, ShowsAtZeroSpeedWhatAHandFeels) {
+  for (const char* material : {"mica", "gold", "si3n4"}) {
+    const support::ScratchFolder folder;
+    ScanOptions options = options_for(material);
+    options.out = folder.file("image.gwy");
+    options.size = physics::Length(30e-9);
+    set(options, "line_rate", 0.01);
+    set(options, "loop_rate", 20e3);
+    ASSERT_TRUE(write_scan_command(options));
+    const std::vector<double> height = values_of(core::read_file(options.out).value(), 0);
+    ASSERT_EQ(height.size(), 256U);
+    const haptics::SampleSurface felt = felt_surface(options);
+    double relief_m = 0.0;
+    for (std::size_t i = 0; i < height.size(); ++i) {
+      const double x_m = (static_cast<double>(i % 16) + 0.5) / 16.0 * 30e-9 - 15e-9;
+      const double y_m = 15e-9 - (static_cast<double>(i / 16) + 0.5) / 16.0 * 30e-9;
+      ASSERT_NEAR(height[i], felt.at({x_m, y_m}).height_m, 1e-12) << material;
+      relief_m = std::max(relief_m, std::abs(height[i]));
+    }
+    EXPECT_GT(relief_m, 0.1e-9) << material;
+  }
+}
+
+TEST(ScanCommand, ContinuesASampleBeyondItsRimAsInAMirror) {
+  const ScanOptions options = options_for("mica");
+  const auto surface = scan_surface(*contact_setup(options.contact), {}, options.contact.assets_dir);
+  ASSERT_TRUE(surface);
+  const double half_m = 0.5 * surface->width_m;
+  for (const double beyond_m : {1e-9, 13e-9, 1.99 * half_m}) {
+    EXPECT_NEAR(surface->height_m(half_m + beyond_m, 3e-9), surface->height_m(half_m - beyond_m, 3e-9), 1e-18);
+    EXPECT_NEAR(surface->height_m(3e-9, -half_m - beyond_m), surface->height_m(3e-9, beyond_m - half_m), 1e-18);
+    EXPECT_NEAR(surface->height_m(beyond_m + 4.0 * half_m, 0.0), surface->height_m(beyond_m, 0.0), 1e-18);
+  }
+}
+
+TEST(ScanCommand, MakesTheImageOfABluntTipHigherOrEqual) {
+  ScanOptions options = options_for("gold");
+  physics::TipShape ball{.kind = physics::TipKind::Sphere, .radius = physics::Length(5e-9)};
+  const auto setup = *contact_setup(options.contact);
+  const auto sharp = scan_surface(setup, ball, options.contact.assets_dir);
+  ball.radius = physics::Length(80e-9);
+  const auto blunt = scan_surface(setup, ball, options.contact.assets_dir);
+  ASSERT_TRUE(sharp && blunt);
+  double lift_m = 0.0;
+  for (int i = -50; i <= 50; ++i) {
+    const double difference_m = blunt->height_m(2e-9 * i, 1e-9 * i) - sharp->height_m(2e-9 * i, 1e-9 * i);
+    EXPECT_GE(difference_m, -1e-18);
+    lift_m = std::max(lift_m, difference_m);
+  }
+  EXPECT_GT(lift_m, 0.1e-9);
+}
+
+TEST(ScanCommand, WritesEveryChannelAndEveryParameter) {
+  const support::ScratchFolder folder;
+  ScanOptions options = options_for("mica");
+  options.out = folder.file("image.gwy");
+  options.show_truth = true;
+  set(options, "setpoint", 0.75e-9);
+  ASSERT_TRUE(write_scan_command(options));
+  const std::string bytes = core::read_file(options.out).value();
+  for (const char* part :
+       {"Height", "Height (retrace)", "Error", "Error (retrace)", "Lateral force", "Lateral force (retrace)",
+        "Reconstruction", "Certainty", "Tip from the image", "/8/meta", "750 pN", "Tip radius", "50 nm"}) {
+    EXPECT_THAT(bytes, HasSubstr(std::string(part) + '\0')) << part;
+  }
+  for (const physics::ScanField& field : physics::kScanFields) {
+    std::string key(field.name.substr(1));
+    std::replace(key.begin(), key.end(), '_', ' ');
+    EXPECT_THAT(bytes, HasSubstr(key + '\0')) << field.name;
+  }
+}
+
+TEST(ScanCommand, WritesOneChannelAsAFieldAndAPicture) {
+  const support::ScratchFolder folder;
+  ScanOptions options = options_for("mica");
+  options.out = folder.file("image.gsf");
+  options.picture = folder.file("image.png");
+  options.channel = "Lateral force";
+  ASSERT_TRUE(write_scan_command(options));
+  EXPECT_THAT(core::read_file(options.out).value(), HasSubstr("ZUnits = N\nTitle = Lateral force\nMaterial = mica\n"));
+  EXPECT_GT(core::read_file(options.picture).value().size(), 1000U);
+}
+
+TEST(ScanCommand, RefusesBeforeItScansAndWritesNothing) {
+  const support::ScratchFolder folder;
+  const auto refusal = [&](auto change) {
+    ScanOptions options = options_for("mica");
+    options.out = folder.file("image.gwy");
+    change(options);
+    const auto written = write_scan_command(options);
+    EXPECT_FALSE(written);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    EXPECT_EQ(written.error().category, core::ErrorCategory::WrongUsage) << written.error().message;
+    return written.error().message;
+  };
+  EXPECT_THAT(refusal([](ScanOptions& options) { options.out.clear(); }), HasSubstr("--out"));
+  EXPECT_THAT(refusal([&](ScanOptions& options) { options.out = folder.file("image.tif"); }),
+              HasSubstr(".gwy or .gsf"));
+  EXPECT_THAT(refusal([](ScanOptions& options) { options.picture = "image.jpg"; }), HasSubstr(".png"));
+  EXPECT_THAT(refusal([](ScanOptions& options) { options.channel = "Phase"; }), HasSubstr("Lateral force (retrace)"));
+  EXPECT_THAT(refusal([](ScanOptions& options) { options.contact.material = "granite"; }), HasSubstr("mica"));
+}
+
+}  // namespace
+}  // namespace afm::app

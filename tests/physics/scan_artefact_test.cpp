@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/scan_artefact.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <tuple>
+
+#include "physics/morphology.h"
+#include "physics/scan_truth.h"
+
+namespace {
+
+using namespace afm::physics;
+
+// A slow scan of steps as high as an image shows without any artefact; lever of 0.1 N/m, 5 nm of setpoint.
+ScanSettings good_settings() {
+  ScanSettings settings;
+  settings.line_rate = Frequency(1.0);
+  return settings;
+}
+
+double hills(double x, double) { return 3e-9 * std::sin(x / 20e-9); }
+double steps_down(double x, double) { return x < 0.0 ? 30e-9 : 0.0; }
+
+ScanArtefact artefact_of(const ScanSettings& settings, const Scanner::Surface& surface) {
+  ScanArea area;
+  area.rows = 4;
+  Scanner scanner(area, settings, surface);
+  ScanLine line;
+  EXPECT_TRUE(scanner.next_line(line));
+  EXPECT_TRUE(scanner.next_line(line));
+  return main_artefact(scanner, line);
+}
+
+// One change of the settings brings the artefact, and taking it back removes it.
+struct Cause {
+  ScanArtefact artefact;
+  std::function<void(ScanSettings&)> worsen;
+  Scanner::Surface surface = hills;
+};
+
+TEST(ScanArtefact, ComesWithItsCauseAndGoesWithIt) {
+  const Cause causes[] = {
+      {ScanArtefact::LostContact, [](ScanSettings& s) { s.setpoint = Force(-1e-9); }},
+      {ScanArtefact::Ringing, [](ScanSettings& s) { s.integral_gain = Frequency(4e3); }},
+      {ScanArtefact::Parachuting, [](ScanSettings& s) { s.line_rate = Frequency(30.0); },
+       [](double x, double) { return x < 0.0 ? -20e-9 * std::clamp(x / 40e-9, -1.0, 0.0) : 0.0; }},
+      {ScanArtefact::Overload, [](ScanSettings& s) { s.setpoint = Force(0.02e-9); },
+       [](double x, double) { return 6e-9 * std::clamp(x / 10e-9, 0.0, 1.0); }},
+      {ScanArtefact::DoubleTip,
+       [](ScanSettings& s) {
+         s.second_apex_distance = Length(60e-9);
+         s.second_apex_height = Length(1e-9);
+       }},
+      {ScanArtefact::Drift, [](ScanSettings& s) { s.drift_x = Velocity(10e-9); }},
+      {ScanArtefact::Noise, [](ScanSettings& s) { s.noise = Length(2e-9); }},
+      {ScanArtefact::Blur, [](ScanSettings& s) { s.integral_gain = Frequency(30.0); }},
+  };
+  std::set<ScanArtefact> seen{ScanArtefact::None};
+  for (const Cause& cause : causes) {
+    ScanSettings settings = good_settings();
+    EXPECT_EQ(artefact_of(settings, cause.surface), ScanArtefact::None) << name_of(cause.artefact);
+    cause.worsen(settings);
+    EXPECT_EQ(artefact_of(settings, cause.surface), cause.artefact) << name_of(cause.artefact);
+    seen.insert(cause.artefact);
+  }
+  EXPECT_EQ(seen.size(), kScanArtefacts.size());
+}
+
+TEST(ScanArtefact, OfASteepStepIsAParachuteUntilTheSetpointIsRaised) {
+  ScanSettings settings = good_settings();
+  EXPECT_EQ(artefact_of(settings, steps_down), ScanArtefact::Parachuting);
+  settings.setpoint = Force(4e-9);
+  EXPECT_EQ(artefact_of(settings, steps_down), ScanArtefact::None);
+}
+
+TEST(ScanArtefact, IsNoneWhereTheFeedbackIsOff) {
+  ScanSettings settings = good_settings();
+  settings.feedback = Feedback::Off;
+  settings.setpoint = Force(4e-9);
+  settings.integral_gain = Frequency(1e5);
+  EXPECT_EQ(artefact_of(settings, hills), ScanArtefact::None);
+}
+
+TEST(ScanTruth, AddsWhatTheTipReachedAndWhatItIs) {
+  // spikes on a plane, imaged by a parabola of 2 nm, a pixel a nanometre
+  HeightGrid surface;
+  surface.columns = surface.rows = 64;
+  surface.column_step_m = surface.row_step_m = 1e-9;
+  surface.height_m.assign(64 * 64, 0.0);
+  for (std::size_t i = 0; i < 9; ++i) surface.at(8 + 24 * (i % 3), 8 + 24 * (i / 3)) = 20e-9;
+  const TipShape tip{.kind = TipKind::Paraboloid, .radius = Length(2e-9)};
+
+  ScanImage image;
+  image.columns = image.rows = 64;
+  image.width_m = image.height_m = 64e-9;
+  image.channels = {{"Height", "m", image_of(surface, tip).height_m}};
+  add_truth(tip, Length(), image);
+  ASSERT_EQ(image.channels.size(), 4U);
+  const auto& [height, reconstruction, certainty, blind] =
+      std::tie(image.channels[0], image.channels[1], image.channels[2], image.channels[3]);
+  EXPECT_EQ(reconstruction.name, "Reconstruction");
+  std::size_t certain = 0;
+  for (std::size_t k = 0; k < surface.height_m.size(); ++k) {
+    ASSERT_GE(reconstruction.values[k], surface.height_m[k] - 1e-20);
+    ASSERT_LE(reconstruction.values[k], height.values[k]);
+    if (certainty.values[k] == 0.0) continue;
+    ASSERT_NEAR(reconstruction.values[k], surface.height_m[k], 1e-15);
+    ++certain;
+  }
+  EXPECT_GT(certain, 1000U);
+  EXPECT_LT(certain, 4000U);
+  for (int u = -4; u <= 4; ++u) {
+    const auto beside = static_cast<std::size_t>(32 * 64 + 32 + u);
+    EXPECT_NEAR(blind.values[beside], -u * u * 1e-18 / (2.0 * 2e-9), 1e-20) << "a spike shows the tip";
+  }
+}
+
+}  // namespace
