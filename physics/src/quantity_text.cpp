@@ -34,6 +34,9 @@ constexpr std::array kSurfaceEnergies{Unit{"J/m2", 1.0, true}, Unit{"J/m^2", 1.0
                                       Unit{"N/m", 1.0, false}, Unit{"mN/m", 1e3, false}};
 constexpr std::array kPressures{Unit{"TPa", 1e-12, true}, Unit{"GPa", 1e-9, true}, Unit{"MPa", 1e-6, true},
                                 Unit{"kPa", 1e-3, true}, Unit{"Pa", 1.0, true}};
+constexpr std::array kNumbers{Unit{"", 1.0, true}};
+constexpr std::array kTimes{Unit{"s", 1.0, true}, Unit{"ms", 1e3, true}, Unit{"us", 1e6, true},
+                            Unit{"\u00b5s", 1e6, false}, Unit{"\u03bcs", 1e6, false}};
 constexpr std::array kFrequencies{Unit{"MHz", 1e-6, true}, Unit{"kHz", 1e-3, true}, Unit{"Hz", 1.0, true}};
 constexpr std::array kTemperatures{Unit{"K", 1.0, true}, Unit{"\u00b0C", 1.0, false, 273.15},
                                    Unit{"\u2103", 1.0, false, 273.15}, Unit{"degC", 1.0, false, 273.15},
@@ -63,7 +66,8 @@ std::string quoted(std::string_view text) {
 
 std::string refusal(std::string_view text, std::string_view sort, std::span<const Unit> units, std::string_view why) {
   return "cannot read " + quoted(text) + " as " + std::string(sort) + ": " + std::string(why) +
-         "; write a number and one of the units " + list_units(units);
+         (units.front().symbol.empty() ? "; write a number" : "; write a number and one of the units ") +
+         list_units(units);
 }
 
 }  // namespace
@@ -75,6 +79,8 @@ constinit const UnitList<Energy> kEnergyUnits{{"an energy", kEnergies}};
 constinit const UnitList<Stiffness> kStiffnessUnits{{"a stiffness", kStiffnesses}};
 constinit const UnitList<SurfaceEnergy> kSurfaceEnergyUnits{{"a surface energy", kSurfaceEnergies}};
 constinit const UnitList<Pressure> kPressureUnits{{"a pressure", kPressures}};
+constinit const Units kPlainNumber{"a number", kNumbers};
+constinit const UnitList<Time> kTimeUnits{{"a time", kTimes}};
 constinit const UnitList<Frequency> kFrequencyUnits{{"a frequency", kFrequencies}};
 constinit const UnitList<Temperature> kTemperatureUnits{{"a temperature", kTemperatures}};
 constinit const UnitList<Density> kDensityUnits{{"a density", kDensities}};
@@ -99,8 +105,8 @@ std::variant<double, std::string> parse_si(std::string_view text, std::string_vi
   const auto [end, status] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   if (status == std::errc::invalid_argument) return refusal(text, sort, units, "it does not begin with a number");
   const std::string_view symbol = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
-  if (symbol.empty()) return refusal(text, sort, units, "it has no unit");
   const auto unit = std::find_if(units.begin(), units.end(), [&](const Unit& u) { return u.symbol == symbol; });
+  if (unit == units.end() && symbol.empty()) return refusal(text, sort, units, "it has no unit");
   if (unit == units.end()) return refusal(text, sort, units, quoted(symbol) + " is not its unit");
   if (status == std::errc::result_out_of_range) return refusal(text, sort, units, "the number is out of range");
   if (std::isnan(number)) return refusal(text, sort, units, "it is not a number");
@@ -122,7 +128,7 @@ std::string format_si(double si, std::span<const Unit> units, int digits) {
   std::array<char, 64> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), si * chosen->per_si,
                                     std::chars_format::general, precision);
-  return std::string(buffer.data(), result.ptr) + " " + std::string(chosen->symbol);
+  return std::string(buffer.data(), result.ptr) + (chosen->symbol.empty() ? "" : " ") + std::string(chosen->symbol);
 }
 
 std::string range_text(double smallest, double largest, const Units& units) {

@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "physics/morphology.h"
 
 namespace afm::haptics {
 
@@ -26,20 +29,6 @@ template <class Change>
 void change_lines(std::vector<double>& heights_m, std::size_t columns, std::size_t rows, const Change& change) {
   for (std::size_t row = 0; row < rows; ++row) change(Line{&heights_m[row * columns], 1, columns});
   for (std::size_t column = 0; column < columns; ++column) change(Line{&heights_m[column], columns, rows});
-}
-
-// The highest place of a parabola that hangs over each point and touches the line from above.
-void dilate(const Line& line, double spacing_m, double radius_m, std::vector<double>& scratch) {
-  scratch.resize(line.count);
-  for (std::size_t i = 0; i < line.count; ++i) {
-    double highest_m = line[i];
-    for (std::size_t k = 0; k < line.count; ++k) {
-      const double distance_m = (static_cast<double>(i) - static_cast<double>(k)) * spacing_m;
-      highest_m = std::max(highest_m, line[k] - distance_m * distance_m / (2.0 * radius_m));
-    }
-    scratch[i] = highest_m;
-  }
-  for (std::size_t i = 0; i < line.count; ++i) line[i] = scratch[i];
 }
 
 void smooth(const Line& line) {
@@ -73,8 +62,13 @@ SampleSurface::SampleSurface(const scene::SharedHeightField& drawn, double tip_r
   const double drawn_m =
       0.25 * (control_m(left, below) + control_m(right, below) + control_m(left, above) + control_m(right, above));
 
-  std::vector<double> scratch;
-  change_lines(controls_m_, columns, rows, [&](const Line& line) { dilate(line, spacing_m_, tip_radius_m, scratch); });
+  physics::HeightGrid traced{.columns = columns,
+                             .rows = rows,
+                             .column_step_m = spacing_m_,
+                             .row_step_m = spacing_m_,
+                             .height_m = std::move(controls_m_)};
+  physics::dilate_by_paraboloid(traced, physics::Length(tip_radius_m));
+  controls_m_ = std::move(traced.height_m);
   for (int i = 0; i < kMostSmoothings; ++i) {
     if (steepest_slope() <= kSteepestSlope && this->largest_curvature_per_m() <= largest_curvature_per_m) break;
     change_lines(controls_m_, columns, rows, smooth);

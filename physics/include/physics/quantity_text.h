@@ -37,6 +37,8 @@ extern const UnitList<Stiffness> kStiffnessUnits;          // N/m mN/m
 extern const UnitList<Velocity> kVelocityUnits;            // m/s mm/s um/s
 extern const UnitList<SurfaceEnergy> kSurfaceEnergyUnits;  // J/m2 mJ/m2, also mN/m
 extern const UnitList<Pressure> kPressureUnits;            // TPa GPa MPa kPa Pa
+extern const Units kPlainNumber;                           // without a unit
+extern const UnitList<Time> kTimeUnits;                    // s ms us
 extern const UnitList<Frequency> kFrequencyUnits;          // MHz kHz Hz
 extern const UnitList<Temperature> kTemperatureUnits;      // K
 extern const UnitList<Density> kDensityUnits;              // kg/m3

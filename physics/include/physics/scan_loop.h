@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "physics/normal_generator.h"
+#include "physics/scan_settings.h"
+#include "physics/units.h"
+
+namespace afm::physics {
+
+// Lever, controller and z scanner of a microscope in static contact mode, tick by tick of the controller.
+//
+//   lever      d = h - z while the tip touches; it leaves at d < -F_ad/k and touches again at a gap of snap_in;
+//              free: d = 0. h is the height that the apex traces, z the height of the unbent lever's apex.
+//   detector   d_m = d + white noise, `detector_delay` ago
+//   controller e = d_m - setpoint/k, u <- u + Kp (e - e of the tick before) + Ki dt e: velocity-form PI, so that no
+//              integral winds up at an end of the z range
+//   z scanner  z'' + (w0/Q) z' + w0^2 z = w0^2 u, exact for a command that is held for a tick; z = u without resonance
+//
+// - On a rigid contact and without Kp the loop is z' = (d - d_set)/tau, tau = 1/Ki, to first order in dt/tau.
+// - The same seed, settings and heights give the same path, bit for bit.
+//
+// For one thread. tick() neither allocates nor throws.
+class ScanLoop {
+ public:
+  static constexpr std::size_t kMostDelayTicks = 64;
+
+  // Starts engaged on z = 0. Throws UnphysicalValue as validate() does.
+  ScanLoop(const ScanSettings& settings, Time tick, std::uint64_t seed);
+
+  // From the next tick on; the motion goes on. Throws as the constructor does, and then changes nothing.
+  void change(const ScanSettings& settings, Time tick);
+
+  // Puts the tip on the surface with the force of the setpoint, at rest.
+  void engage(double height_m) noexcept;
+
+  // Where the z scanner is told to go, as far as it reaches; with the feedback off a hand may be the controller.
+  void command(double z_m) noexcept {
+    command_m_ = std::clamp(z_m, -reach_m_, reach_m_);
+    at_end_ = command_m_ != z_m;
+  }
+
+  // Moves the z scanner for one tick, then looks at the surface below the apex and sets the next command.
+  void tick(double height_m) noexcept {
+    follow_command();
+    const double gap_m = z_m_ - height_m;
+    touching_ = gap_m <= (touching_ ? pull_off_m_ : snap_in_m_);
+    deflection_m_ = touching_ ? -gap_m : 0.0;
+    noise_now_m_ = noise_of_tick_m_ > 0.0 ? noise_of_tick_m_ * normal_() : 0.0;
+    const double error_m = delayed(deflection_m_ + noise_now_m_) - setpoint_m_;
+    if (feedback_) command(command_m_ + proportional_ * (error_m - error_m_) + integral_ * error_m);
+    error_m_ = error_m;
+  }
+
+  double z_m() const noexcept { return z_m_; }
+  double deflection_m() const noexcept { return deflection_m_; }       // of the lever, without noise
+  double force_n() const noexcept { return spring_ * deflection_m_; }  // of the lever; negative: it holds the tip back
+  double noise_m() const noexcept { return noise_now_m_; }             // of this tick's detection
+  double setpoint_m() const noexcept { return setpoint_m_; }
+  double topography_m() const noexcept { return z_m_ + setpoint_m_; }  // what is recorded as the height
+  bool touching() const noexcept { return touching_; }
+  bool at_end_of_range() const noexcept { return at_end_; }
+
+ private:
+  void follow_command() noexcept {
+    if (!resonant_) {
+      z_m_ = command_m_;
+      return;
+    }
+    const double away_m = z_m_ - command_m_;
+    z_m_ = command_m_ + swing_.zz * away_m + swing_.zv * velocity_;
+    velocity_ = swing_.vz * away_m + swing_.vv * velocity_;
+  }
+
+  double delayed(double detected_m) noexcept {
+    if (delay_ticks_ == 0) return detected_m;
+    newest_ = (newest_ + 1) % detected_m_.size();
+    detected_m_[newest_] = detected_m;
+    return detected_m_[(newest_ + detected_m_.size() - delay_ticks_) % detected_m_.size()];
+  }
+
+  double spring_ = 0, setpoint_m_ = 0, pull_off_m_ = 0, snap_in_m_ = 0;
+  double integral_ = 0, proportional_ = 0;  // a tick
+  double noise_of_tick_m_ = 0;
+  double reach_m_ = 0;
+  bool feedback_ = true, resonant_ = false;
+  std::size_t delay_ticks_ = 0;
+  // z - u and z' after a tick, from those before it
+  struct Swing {
+    double zz = 0, zv = 0, vz = 0, vv = 0;
+  } swing_;
+
+  double command_m_ = 0, z_m_ = 0, velocity_ = 0;
+  double deflection_m_ = 0, error_m_ = 0, noise_now_m_ = 0;
+  bool touching_ = true, at_end_ = false;
+  std::array<double, kMostDelayTicks + 1> detected_m_{};
+  std::size_t newest_ = 0;
+  NormalGenerator normal_;
+};
+
+}  // namespace afm::physics

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "physics/quantity_text.h"
+#include "physics/units.h"
+
+namespace afm::physics {
+
+enum class Feedback { On, Off };
+
+// Towards which end of the slow axis a frame is taken: Down begins at the top row, Up at the bottom one.
+enum class SlowDirection { Down, Up };
+
+// The area of one frame, in the sample's frame at time zero. The fast axis is x.
+struct ScanArea {
+  Length width{500e-9};
+  Length height{500e-9};
+  Length x_centre;
+  Length y_centre;
+  std::size_t columns = 256;  // 2 to kMostScanPixels
+  std::size_t rows = 256;     // 1 to kMostScanPixels
+};
+
+inline constexpr std::size_t kMostScanPixels = 4096;
+
+// What a person may change while a scan runs: the microscope in static contact mode. The tip's shape and radius are not
+// here: they make the surface that the apex traces (physics/morphology.h).
+struct ScanSettings {
+  Frequency line_rate{2.0};          // lines a second, each there and back: tip speed 2 * width * line_rate
+  Force setpoint{0.5e-9};            // of the lever; below zero the tip is held by adhesion alone
+  Frequency integral_gain{1000.0};   // 1/s; on a rigid contact 1/tau of the closed loop
+  double proportional_gain = 0.0;    // of the velocity form, a tick: below one
+  Frequency loop_rate{250e3};        // the controller's ticks a second, at least
+  Time detector_delay;               // before the controller sees a deflection; rounded to ticks
+  Frequency z_resonance{5e3};        // of the z scanner; zero: it follows its command at once
+  double z_quality_factor = 10.0;    // of that resonance
+  Length z_range{10e-6};             // of the z scanner, half above and half below z = 0
+  Stiffness spring_constant{0.1};    // of the lever
+  Force adhesion{0.5e-9};            // magnitude of the pull at which the tip leaves the surface
+  Length snap_in;                    // gap at which a free tip touches again
+  double friction = 0.3;             // mu, of the lateral force
+  Length noise;                      // rms of the detected deflection within kNoiseBandwidth; white
+  Velocity drift_x;                  // of the sample against the scanner
+  Velocity drift_y;                  // likewise; positive: upwards, towards row 0
+  Length second_apex_distance;       // along +x from the first apex; zero: there is none
+  Length second_apex_height;         // how much higher than the first one it ends
+  Feedback feedback = Feedback::On;  // off: the z scanner stays where it is
+};
+
+// The bandwidth in which `noise` is given; its one-sided power density is noise^2/kNoiseBandwidth.
+inline constexpr Frequency kNoiseBandwidth{1e3};
+
+// One number of ScanSettings as options, files, panels and checks know it.
+struct ScanField {
+  std::string_view name;                        // of the member; with blanks for underscores it is what messages say
+  std::string_view option;                      // of the command line, without its dashes
+  std::string_view json_key;                    // of its SI value
+  std::string_view help;                        // what it is, for help texts
+  double smallest;                              // SI, legal itself
+  double largest;                               // likewise
+  const Units* units;                           // kPlainNumber where it has none
+  double (*get)(const ScanSettings& settings);  // SI
+  void (*set)(ScanSettings& settings, double si);
+
+  std::string text(double si) const { return format_si(si, units->units); }  // "500 pN", "0.3"
+};
+
+inline constexpr std::size_t kScanFieldCount = 18;
+
+// In the order of the members; without Feedback, which is no number.
+extern const std::array<ScanField, kScanFieldCount> kScanFields;
+
+// Throw UnphysicalValue unless every number lies within its range.
+void validate(const ScanSettings& settings);
+void validate(const ScanArea& area);
+
+}  // namespace afm::physics

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "physics/scan_image.h"
+#include "physics/scan_loop.h"
+#include "physics/scan_settings.h"
+#include "physics/units.h"
+
+namespace afm::physics {
+
+enum class ScanPass { Trace, Retrace };  // along +x, along -x
+
+// What is recorded at the middle of one pixel.
+struct ScanPixel {
+  std::size_t row = 0;     // 0 is the top one, with the largest y
+  std::size_t column = 0;  // 0 is the left one, on both passes
+  ScanPass pass = ScanPass::Trace;
+  double height_m = 0;   // z + d_set
+  double error_n = 0;    // k (d - d_set), with the detector's noise averaged over the pixel
+  double lateral_n = 0;  // positive along -x: against the trace
+  // of all ticks since the pixel before
+  double lowest_force_n = 0;   // of the lever
+  double highest_force_n = 0;  // likewise
+  double off_surface = 0;      // share of them without contact, 0 to 1
+  double on_second_apex = 0;   // share of them in which the second apex touched
+};
+
+// One pass, by column.
+struct ScanTrack {
+  std::vector<double> height_m;
+  std::vector<double> error_n;
+  std::vector<double> lateral_n;
+  double lowest_force_n = 0;
+  double highest_force_n = 0;
+  double off_surface = 0;
+  double on_second_apex = 0;
+};
+
+struct ScanLine {
+  std::size_t row = 0;
+  ScanTrack trace;
+  ScanTrack retrace;
+};
+
+// Takes an image of a surface, pixel by pixel, as a microscope in static contact mode does. Its own time runs with the
+// pixels: a live window calls next() until time() has caught up with the clock, a batch calls it as fast as it can.
+//
+// - A line is a trace along +x and a retrace along -x at the same speed; between lines the tip moves to the next row
+//   within one pixel's time. Pixel (column, row) lies at ((column + 1/2)/columns, (row + 1/2)/rows) of the area.
+// - Changed settings and surfaces act from the next pixel on.
+// - The surface is asked up to kSurfaceSamples times a pixel; between them its height is linear in time.
+// - The same seed and calls give the same image, bit for bit.
+//
+// For one thread. next() does not allocate.
+class Scanner {
+ public:
+  // Height that the apex traces at a place of the sample, in metres: the surface dilated by the tip. Finite everywhere.
+  using Surface = std::function<double(double x_m, double y_m)>;
+
+  static constexpr std::size_t kSurfaceSamples = 16;
+
+  // Throws UnphysicalValue as validate() does. `surface` is not empty.
+  Scanner(const ScanArea& area, const ScanSettings& settings, Surface surface, std::uint64_t seed = 1);
+
+  // Throws UnphysicalValue as validate() does, and then changes nothing.
+  void change(const ScanSettings& settings);
+  void change_surface(Surface surface);  // another sample, or another tip
+  const ScanSettings& settings() const noexcept { return settings_; }
+  const ScanArea& area() const noexcept { return area_; }
+
+  // Begins a frame: lifts the tip, moves to the first row and engages. Time and drift go on. The first frame is begun,
+  // downwards, by the constructor.
+  void begin_frame(SlowDirection direction);
+
+  // Scans on to the next pixel. None: the frame is complete.
+  std::optional<ScanPixel> next();
+
+  // Scans the rest of the current line, at most; false: the frame was complete. Vectors grow once.
+  bool next_line(ScanLine& line);
+
+  Time time() const noexcept { return Time(time_s_); }  // since the scanner was made
+  Time pixel_time() const noexcept;
+  std::size_t row() const noexcept { return row_; }  // of the next pixel
+  // The apex now, in the area's frame at time zero: for drawing it.
+  double x_m() const noexcept { return x_m_; }
+  double y_m() const noexcept { return y_m_; }
+  double z_m() const noexcept;  // with the lever's deflection: the apex's own height
+  bool touching() const noexcept { return loop_.touching(); }
+
+ private:
+  struct Below {
+    double height_m;
+    bool second_apex;
+  };
+  Below below(double x_m, double y_m) const;
+  void scan_to(double x_m, double y_m, ScanPixel& pixel);
+  void scan_segment(double x_m, double y_m, ScanPixel& pixel);
+  double row_y_m(std::size_t row) const noexcept;
+  double tick_length() noexcept;
+
+  ScanArea area_;
+  ScanSettings settings_;
+  Surface surface_;
+  std::size_t segments_ = 1, ticks_of_segment_ = 1;  // of a pixel
+  double tick_s_ = 0;
+  ScanLoop loop_;
+  SlowDirection direction_ = SlowDirection::Down;
+  std::size_t row_ = 0, lines_done_ = 0, step_ = 0;  // step: 0 to 2 * columns, the pixel within the line
+  double time_s_ = 0, x_m_ = 0, y_m_ = 0;
+  double height_m_ = 0, slope_ = 0;  // of the surface below the apex
+  bool engaged_ = false;
+};
+
+// Lateral force on a tip that slides over a slope with lever load `normal`, adhesion and friction coefficient mu,
+// positive against a motion along +x (Ogletree, Carpick & Salmeron, Rev. Sci. Instrum. 67, 3298 (1996), wedge):
+//   (N sin(theta) +- mu (N cos(theta) + A))/(cos(theta) -+ mu sin(theta)), + and upper signs along +x.
+// Gwyddion 2.62's latsim stores the value of the retrace with the other sign. `slope` is dh/dx = tan(theta).
+Force lateral_force(Force normal, Force adhesion, double slope, double mu, ScanPass pass) noexcept;
+
+// A whole frame as channels "Height", "Error", "Lateral force", each with its " (retrace)"; without metadata.
+// `keep_going` is asked before each line; where it says no, the image is empty.
+ScanImage scan_frame(Scanner& scanner, const std::function<bool()>& keep_going = nullptr);
+
+}  // namespace afm::physics

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "physics/height_grid.h"
+#include "physics/units.h"
+
+namespace afm::physics {
+
+enum class TipKind { Paraboloid, Sphere, Cone, ThreeSidedPyramid, FourSidedPyramid };
+
+struct TipKindName {
+  TipKind kind;
+  std::string_view name;  // as options have it
+};
+
+inline constexpr std::array kTipKinds{
+    TipKindName{TipKind::Paraboloid, "paraboloid"},
+    TipKindName{TipKind::Sphere, "sphere"},
+    TipKindName{TipKind::Cone, "cone"},
+    TipKindName{TipKind::ThreeSidedPyramid, "pyramid-3"},
+    TipKindName{TipKind::FourSidedPyramid, "pyramid-4"},
+};
+
+std::string_view name_of(TipKind kind);
+
+// The end of a tip. A cone and a pyramid end in a ball of the radius, which their faces touch; a sphere's shaft is as
+// wide as the ball. One edge of the three-sided pyramid points along +x, the faces of the four-sided one along x and y.
+struct TipShape {
+  TipKind kind = TipKind::Paraboloid;
+  Length radius{20e-9};           // above zero
+  double half_angle_rad = 0.3;    // of cone and pyramid, between axis and face: above 0, below pi/2
+  Length second_apex_distance{};  // along +x; zero: there is none
+  Length second_apex_height{};    // how much higher than the first it ends
+
+  // How high the tip's material begins above the apex, at a place beside it; infinite beyond a sphere's equator.
+  double height_above_apex_m(double x_m, double y_m) const noexcept;
+};
+
+// A tip on a grid: what stands how high above its apex, `reach` pixels to each side. At least 1 x 1.
+struct TipGrid {
+  std::size_t reach_columns = 0;
+  std::size_t reach_rows = 0;
+  std::vector<double> above_apex_m;  // row by row; 0 at the apex, in the middle; infinite: no material
+
+  std::size_t columns() const { return 2 * reach_columns + 1; }
+  std::size_t rows() const { return 2 * reach_rows + 1; }
+};
+
+// The tip as far up as `depth_m`, at the steps of `grid`, but never wider than it.
+TipGrid sample_tip(const TipShape& tip, const HeightGrid& grid, double depth_m);
+
+}  // namespace afm::physics
