@@ -21,6 +21,8 @@
 #include "exhibit/frame_builder.h"
 #include "exhibit/model_view.h"
 #include "exhibit/recorded_wall.h"
+#include "exhibit/scan/scan_panels.h"
+#include "exhibit/scan/scan_subject.h"
 #include "exhibit/wall_drawing.h"
 #include "render/context.h"
 #include "servo/session_file.h"
@@ -167,6 +169,19 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
   look_as(*then.frame, stage.wall, picture);
   ViewPanels panels(stage.wall_scene, models);
   panels.show(then.frame->panels);
+  std::optional<exhibit::LiveScan> scan;
+  if (then.frame->scan) {
+    const exhibit::ScanProgress progress = exhibit::scan_progress_of(*then.frame);
+    if (!exhibit::LiveScan::valid(progress)) {
+      return core::failure(
+          core::ErrorCategory::BadInputFile,
+          fmt::format("session file {}: its scan has settings that no scan can have", options.session));
+    }
+    const std::size_t scanned = then.moment.wall.material.value();
+    scan.emplace(exhibit::scan_subject(stage.wall_scene, scanned, models[scanned]), progress);
+    exhibit::show_scan(*scan, then.moment);
+    panels.set_scan(&*scan);
+  }
   const bool travels = then.moment.wall.centerpiece == exhibit::Centerpiece::Journey;
   const auto material = travels ? std::nullopt : then.moment.wall.material;
   const auto add_panels = [&](render::FrameState& frame) {

@@ -15,6 +15,7 @@
 #include "core/interruption.h"
 #include "core/log.h"
 #include "exhibit/recorded_wall.h"
+#include "exhibit/scan/scan_panels.h"
 #include "exhibit/servo_rows.h"
 #include "exhibit/shared_model.h"
 #include "exhibit/wall_layout.h"
@@ -233,6 +234,7 @@ void LiveView::travel(std::int64_t now_ns) {
 // Everything as after the start: also the way to go on after the servo has died.
 void LiveView::begin_again() {
   servo_.forget_cycles();
+  end_scan();
   hand_.lift();
   if (servo_.running()) {
     panels_.edits().reset(servo_.link());
@@ -304,6 +306,7 @@ std::string LiveView::guidance(const exhibit::Phrases& phrases) const {
   if (!servo_.running()) return exhibit::step_text(phrases, exhibit::Hint::ServoEnded, controls());
   // without a visitor it invites
   if (visitor_.away()) return exhibit::step_text(phrases, exhibit::Hint::ChooseSample, controls());
+  if (scan_ && !exhibit::hand_uses_tip(servo_.link().tip())) return exhibit::scan_guidance(*scan_, phrases);
   return exhibit::guidance_line(phrases, hint_, servo_.link().tip(), controls());
 }
 
@@ -324,6 +327,7 @@ exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) {
                                           : exhibit::Centerpiece::Instrument;
   now.wall.journey_orders = travel_.orders().value_or(0.0);
   now.wall.fade = travel_.fade();
+  if (scan_) exhibit::show_scan(*scan_, now);
   now.servo = exhibit::servo_rows(servo.tip(), servo.timing(), servo.device(), stage_.phrases());
   if (auto row = picture_.quality_row()) now.servo.push_back(std::move(*row));
   if (!servo_.running()) now.servo_state = scene::ServoState::Fault;
@@ -360,6 +364,7 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   const servo::FrameHeartbeat beat(servo_.link(), clock_);
   follow_edits();
   travel(now_ns);
+  follow_scan(now_ns);
   const Pointed pointed = wand_points() ? wand_pointed_at() : pointed_at(input.window, input.cursor_px);
   const exhibit::Moment now = moment(pointed, now_ns);
   render::FrameState frame = frames_.build(now);

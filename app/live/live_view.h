@@ -21,6 +21,7 @@
 #include "exhibit/frame_builder.h"
 #include "exhibit/journey.h"
 #include "exhibit/procedure.h"
+#include "exhibit/scan/live_scan.h"
 #include "input/idle_watch.h"
 #include "input/simulated_head.h"
 #include "input/simulated_person.h"
@@ -80,6 +81,12 @@ class LiveView {
   void move_head(double right_m, double up_m, double nearer_m);
   void turn_journey_round();
   void toggle_analogy();
+  void toggle_scan();
+  void toggle_truth();
+  void end_scan();
+  void follow_scan(std::int64_t now_ns);
+  void mark_next_setting();
+  void step_setting(int steps);
 
   double hand_m_per_px(std::size_t window) const;
   HandSource hand() const;
@@ -123,7 +130,10 @@ class LiveView {
   exhibit::JourneyTravel travel_;
   std::int64_t force_taken_ns_ = 0;  // by the journey, last
   bool analogy_ = false;
-  glm::dmat4 to_wall_{1.0};  // brings the scene to the wall, after the wand's navigation
+  std::optional<exhibit::LiveScan> scan_;
+  std::size_t scanned_ = 0;      // the material of that scan
+  std::int64_t scanned_ns_ = 0;  // until when it has been scanned
+  glm::dmat4 to_wall_{1.0};      // brings the scene to the wall, after the wand's navigation
   std::unique_ptr<servo::FrameLog> frame_log_;
   servo::ServoLateness servo_lateness_;
   input::IdleWatch visitor_;

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "core/enumerators.h"
 #include "core/log.h"
 #include "exhibit/panel_hit.h"
+#include "exhibit/scan/scan_panels.h"
 #include "render/control_layout.h"
 
 namespace afm::app {
@@ -18,6 +21,15 @@ void log_parameters(const curves::LiveParameters& parameters) {
   for (std::size_t i = 0; i < curves::LiveParameters::kRows; ++i) {
     const auto row = static_cast<curves::LiveParameters::Row>(i);
     line += fmt::format("{} {}", i == 0 ? "" : ",", parameters.value(row));
+  }
+  core::log_line(line);
+}
+
+void log_scan(const exhibit::LiveScan& scan) {
+  std::string line = "scan:";
+  for (const exhibit::ScanRow row : core::kEnumerators<exhibit::ScanRow>) {
+    const std::string value = exhibit::value_text(scan.choice(), row);
+    line += fmt::format("{} {}", row == exhibit::ScanRow::Setpoint ? "" : ",", value.empty() ? "one apex" : value);
   }
   core::log_line(line);
 }
@@ -44,9 +56,8 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
   const double millimetre_m = wall_scene_.panel_millimetre_m();
   if (const auto hit =
           material && parameters_shown_ && !hidden_ ? exhibit::hit_of(ray, panel, millimetre_m) : std::nullopt) {
-    pointed.control = render::control_at(
-        exhibit::parameter_panel(edits_.of(*material), "", exhibit::ChangeState::AsLoaded, phrases()),
-        exhibit::size_mm(panel, millimetre_m), hit->place_mm);
+    pointed.control = render::control_at(control_panel(*material, "", exhibit::ChangeState::AsLoaded),
+                                         exhibit::size_mm(panel, millimetre_m), hit->place_mm);
     return pointed;
   }
   if (!parameters_shown_ && material && exhibit::hit_of(ray, wall_scene_.parameter_tab_placement(), millimetre_m)) {
@@ -60,13 +71,49 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
 
 void ViewPanels::press(const Pointed& pointed, std::size_t material, servo::ServoClient* servo) {
   if (pointed.tab) parameters_shown_ = true;
-  if (!pointed.control || servo == nullptr) return;
-  const bool button = pointed.control->kind == render::ControlTarget::Kind::Button;
-  if (button && static_cast<exhibit::PanelButton>(pointed.control->index) == exhibit::PanelButton::Close) {
+  if (pointed.control) change(*pointed.control, material, servo);
+}
+
+render::ControlPanel ViewPanels::control_panel(std::size_t material, const std::string& title,
+                                               exhibit::ChangeState state) {
+  render::ControlPanel panel = scan_ != nullptr
+                                   ? exhibit::scan_panel(*scan_, title, phrases())
+                                   : exhibit::parameter_panel(edits_.of(material), title, state, phrases());
+  if (marking_) panel.marked = std::min(marked_, panel.rows.size() - 1);
+  return panel;
+}
+
+void ViewPanels::mark_next(std::size_t material) {
+  const std::size_t rows = control_panel(material, "", exhibit::ChangeState::AsLoaded).rows.size();
+  marked_ = marking_ ? (std::min(marked_, rows - 1) + 1) % rows : 0;
+  marking_ = parameters_shown_ = true;
+}
+
+void ViewPanels::step_marked(int steps, std::size_t material, servo::ServoClient* servo) {
+  if (!marking_) mark_next(material);
+  const std::size_t rows = control_panel(material, "", exhibit::ChangeState::AsLoaded).rows.size();
+  marked_ = std::min(marked_, rows - 1);
+  parameters_shown_ = true;
+  using Kind = render::ControlTarget::Kind;
+  change({steps > 0 ? Kind::More : Kind::Less, marked_}, material, servo);
+}
+
+void ViewPanels::change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo) {
+  const bool button = target.kind == render::ControlTarget::Kind::Button;
+  if (button && static_cast<exhibit::PanelButton>(target.index) == exhibit::PanelButton::Close) {
     parameters_shown_ = false;
     return;
   }
-  edits_.apply(*pointed.control, material, *servo);
+  if (scan_ != nullptr) {
+    if (button) scan_->reset();
+    if (!button) {
+      const int steps = target.kind == render::ControlTarget::Kind::More ? 1 : -1;
+      scan_->step(static_cast<exhibit::ScanRow>(target.index), steps);
+    }
+    return log_scan(*scan_);
+  }
+  if (servo == nullptr) return;
+  edits_.apply(target, material, *servo);
   const curves::LiveParameters& parameters = edits_.of(material);
   if (parameters.refusal().empty()) return log_parameters(parameters);
   core::log_line("parameters: not changed: " + parameters.refusal());
@@ -76,7 +123,7 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
                                 const std::string& material_title, const scene::TipState& tip) {
   const curves::LiveParameters& parameters = edits_.of(material);
   if (parameters_shown_) {
-    frame.control_panel = exhibit::parameter_panel(parameters, material_title, edits_.state(material, tip), phrases());
+    frame.control_panel = control_panel(material, material_title, edits_.state(material, tip));
     frame.control_panel.pointed = pointed.control;
     frame.control_placement = wall_scene_.parameter_placement();
     frame.data_placement = render::kNoPlacement;
@@ -102,7 +149,8 @@ void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::
                         const std::string& material_title, const scene::TipState& tip, HandSource hand) {
   if (material) add_parameters(frame, pointed, *material, material_title, tip);
   if (hidden_) {
-    frame.force_placement = frame.data_placement = frame.control_placement = render::kNoPlacement;
+    frame.force_placement = frame.image_placement = frame.data_placement = frame.control_placement =
+        render::kNoPlacement;
   }
   if (keys_shown_) {
     frame.data_panel = key_list(hand, unattended_, phrases());

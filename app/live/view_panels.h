@@ -8,6 +8,7 @@
 #include "app/live/parameter_edits.h"
 #include "app/live/view_keys.h"
 #include "exhibit/guidance.h"
+#include "exhibit/scan/live_scan.h"
 #include "exhibit/wall_scene.h"
 #include "input/wand.h"
 #include "render/frame.h"
@@ -33,6 +34,13 @@ class ViewPanels {
     keys_known_ = true;
   }
   void toggle_parameters() { parameters_shown_ = !parameters_shown_; }
+  // The settings of a scan are in the place of the parameters; null: none. It must outlive this.
+  void set_scan(exhibit::LiveScan* scan) { scan_ = scan; }
+
+  // The row that keys change: the next one; and a step of it. Both open the panel. `material` is the one under the tip.
+  void mark_next(std::size_t material);
+  void step_marked(int steps, std::size_t material, servo::ServoClient* servo);
+
   void toggle_all() { hidden_ = !hidden_; }
 
   // The list of keys leaves out those of staff.
@@ -60,12 +68,17 @@ class ViewPanels {
 
  private:
   const exhibit::Phrases& phrases() const { return wall_scene_.phrases(); }
+  render::ControlPanel control_panel(std::size_t material, const std::string& title, exhibit::ChangeState state);
+  void change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo);
   void add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material,
                       const std::string& material_title, const scene::TipState& tip);
 
   const exhibit::WallScene& wall_scene_;
   std::vector<input::Target> swatches_;
   ParameterEdits edits_;
+  exhibit::LiveScan* scan_ = nullptr;
+  std::size_t marked_ = 0;
+  bool marking_ = false;  // a row has been marked by a key
   bool hidden_ = false;
   bool keys_shown_ = false;
   bool unattended_ = false;

@@ -11,6 +11,7 @@
 #include "curves/plot_units.h"
 #include "exhibit/data_panel.h"
 #include "exhibit/journey.h"
+#include "exhibit/scan/scan_panels.h"
 #include "haptics/scaling.h"
 #include "panel_conventions.h"
 #include "physics/quantity_text.h"
@@ -137,6 +138,10 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
   frame.eyes = eyes_;
   wall_scene_->update(moment.wall, frame);
   frame.force_panel = force_panel(moment);
+  if (moment.scan != nullptr && moment.wall.material) {
+    const std::string& title = (*materials_)[*moment.wall.material].setup.material.title;
+    frame.image_panel = image_panel(*moment.scan, phrases_->word(title), *phrases_);
+  }
   if (moment.wall.centerpiece == Centerpiece::Plot) {
     frame.data_panel = results_panel(moment.results, *phrases_);
   } else if (moment.wall.material) {

@@ -112,8 +112,25 @@ servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::
   frame.guidance = moment.guidance;
   frame.retracting = moment.retracting;
   frame.release_z_m = moment.wall.release_z_m;
+  if (moment.scan != nullptr) {
+    const ScanProgress& scan = moment.scan->progress();
+    frame.scan = {.frame = scan.frame, .pixel = scan.pixel, .truth = scan.truth};
+    for (const auto& [scan_frame, pixel, c] : scan.changes) {
+      frame.scan_changes.push_back({scan_frame, pixel, c.setpoint_n, c.gain_per_s, c.line_rate_hz, c.tip_radius_m,
+                                    c.noise_m, c.drift_m_per_s, c.apex_distance_m});
+    }
+  }
   for (const render::DataRow& row : moment.servo) frame.servo_row.push_back({row.name, row.value, row.source});
   return frame;
+}
+
+ScanProgress scan_progress_of(const servo::WallFrame& frame) {
+  ScanProgress progress{
+      .frame = frame.scan->frame, .pixel = frame.scan->pixel, .truth = frame.scan->truth, .changes = {}};
+  for (const auto& [scan_frame, pixel, setpoint, gain, rate, radius, noise, drift, apex] : frame.scan_changes) {
+    progress.changes.push_back({scan_frame, pixel, {setpoint, gain, rate, radius, noise, drift, apex}});
+  }
+  return progress;
 }
 
 RecordedMoment moment_on_wall(const servo::RecordedSession& session, std::span<const std::string> materials,

@@ -52,6 +52,7 @@ WallMarks::WallMarks(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex 
   ruler_low_ = another(scene, ruler_, "marks/low", layout);
   ruler_high_ = another(scene, ruler_, "marks/high", layout);
   unbent_ = another(scene, ruler_, "marks/unbent", sample);
+  scan_line_ = another(scene, bend_, "marks/scan", sample);
 }
 
 void WallMarks::place_ruler(const ScaleBar& bar, std::vector<dmat4>& local) const {
@@ -67,6 +68,10 @@ void WallMarks::place_unbent(const dvec3& clamp, const dvec3& end, std::vector<d
 }
 
 void WallMarks::hide_unbent(std::vector<dmat4>& local) const { local[unbent_] = dmat4(0.0); }
+
+void WallMarks::place_scan_line(const dvec3& from, const dvec3& to, std::vector<dmat4>& local) const {
+  local[scan_line_] = stretched(from, to, kScanLineRadius);
+}
 
 void WallMarks::place_bend(const dvec3& unbent_end, const dvec3& end, std::vector<dmat4>& local) const {
   const bool bent = glm::distance(unbent_end, end) > kSmallestBend;

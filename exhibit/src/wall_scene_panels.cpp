@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
 #include "exhibit/wall_layout.h"
 #include "exhibit/wall_scene.h"
@@ -156,10 +157,11 @@ render::PanelPlacement WallScene::plot_placement() const {
 void WallScene::place_panels(const WallState& state, render::FrameState& frame) const {
   frame.banner_placement = panel(-half_width_ + kPanelMargin, wall_top_ - kBannerHeight - kPanelMargin,
                                  2.0 * (half_width_ - kPanelMargin), kBannerHeight);
-  frame.force_placement = frame.data_placement = render::kNoPlacement;
+  frame.force_placement = frame.image_placement = frame.data_placement = render::kNoPlacement;
   if (state.centerpiece == Centerpiece::Journey) return;
   frame.force_placement = state.centerpiece == Centerpiece::Plot ? plot_placement() : force_placement_;
   frame.data_placement = data_placement_;
+  if (state.scan && state.centerpiece != Centerpiece::Plot) std::swap(frame.image_placement, frame.force_placement);
 }
 
 }  // namespace afm::exhibit

@@ -117,6 +117,10 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, render::B
   if (const double m_per_unit = ruler_m_per_unit(state); m_per_unit > 0.0) {
     marks_.place_ruler(scale_bar(m_per_unit, kRulerLongest), local);
   }
+  if (state.scan_line) {
+    const auto over = [&](const dvec3& point) { return layout_per_m(state) * point + dvec3(0.0, 0.0, kScanLineLift); };
+    marks_.place_scan_line(over(state.scan_line->front()), over(state.scan_line->back()), local);
+  }
   if (state.centerpiece == Centerpiece::Analogy) analogy_.place(analogy_heights(state), local);
   if (state.centerpiece == Centerpiece::Journey) journey_.place(state.journey_orders, local);
   return local;
@@ -178,6 +182,7 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
   if (state.centerpiece != Journey) hide({journey_.frame()});
   if (state.centerpiece != Instrument || !state.material) hide(marks_.lever_nodes());
   if (ruler_m_per_unit(state) == 0.0) hide(marks_.ruler_nodes());
+  if (state.centerpiece != Instrument || !state.scan_line) hide({marks_.scan_line_node()});
   if (!state.wand || state.centerpiece == Journey) hide({wand_, ray_});
   return hidden;
 }

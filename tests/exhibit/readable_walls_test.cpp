@@ -25,6 +25,8 @@
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/guidance.h"
 #include "exhibit/parameter_panel.h"
+#include "exhibit/scan/scan_panels.h"
+#include "exhibit/scan/scan_subject.h"
 #include "exhibit/servo_rows.h"
 #include "panels/panel_painting.h"
 #include "places.h"
@@ -68,6 +70,7 @@ class Painter {
     int width = 0, height = 0;
     fonts_.atlas->GetTexDataAsAlpha8(&pixels, &width, &height);
     ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   }
 
   template <class Content>
@@ -147,6 +150,15 @@ render::ControlPanel full_parameters(const Stage& stage) {
   return parameter_panel(gold, stage.phrases().word("Silicon nitride"), ChangeState::Waiting, stage.phrases());
 }
 
+// With every colour, the truth, and a wide range of numbers.
+LiveScan full_scan(const Stage& stage) {
+  const auto gold = curves::make_sample_model(curves::ContactSetup{stage.materials.materials[1], {}, {}});
+  LiveScan scan(scan_subject(stage.wall_scene, 1, gold.value()));
+  scan.step(ScanRow::Rate, 3);
+  while (scan.row() < LiveScan::kPixels / 2) scan.advance(LiveScan::kMostCatchUpS);
+  return scan;
+}
+
 // What a visitor can see on one wall in one language, at one width.
 void expect_readable(const Stage& stage, const render::FrameState& frame, std::uint32_t width_px,
                      const std::string& where) {
@@ -171,6 +183,10 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   expect_whole(app::key_list(app::HandSource::Mouse, false, phrases), stage.wall_scene.parameter_placement(),
                "the list of keys");
   expect_whole(full_parameters(stage), stage.wall_scene.parameter_placement(), "the parameters");
+  const LiveScan scan = full_scan(stage);
+  expect_whole(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.force_placement, "the images");
+  expect_whole(scan_panel(scan, phrases.word("Silicon nitride"), phrases), stage.wall_scene.parameter_placement(),
+               "the settings of a scan");
   const DepthReport depth = report_depth({.nearest_m = 1.0, .farthest_m = 10.0}, 2.5, 0.063, Relief::BringToWall);
   std::vector<render::Label> labels = frame.labels;
   labels.push_back(depth_label(depth, stage.screen, phrases));

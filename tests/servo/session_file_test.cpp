@@ -188,6 +188,9 @@ TEST(SessionFile, CarriesWhatTheWallShowed) {
   frame.wand = RecordedWand{.pose = {.position_m = {0.1, 1.0 / 3.0, -2e-7}}, .connected = true, .buttons = 5};
   frame.guidance = "Dr\u00fccken";
   frame.servo_row = {{"ticks", "12 \u00b5s", "clock"}};
+  frame.scan = RecordedScan{.frame = 1, .pixel = 40, .truth = true};
+  frame.scan_changes = {{.frame = 0, .pixel = 0, .setpoint_n = 2e-9, .gain_per_s = 2000, .tip_radius_m = 1.0 / 3e8},
+                        {.frame = 1, .pixel = 7, .setpoint_n = 1e-9, .apex_distance_m = 1e-8}};
   session.wall.push_back(frame);
   frame.wand.reset();
   frame.head.position_m = {0.3, 1.7, 2.0};

@@ -23,6 +23,8 @@ struct CycleResult {
   double f_attr_n = 0, f_ad_n = 0, z_jtc_m = 0, z_joc_m = 0;
 };
 
+class LiveScan;
+
 // One moment of the demonstration, from the live servo or from a session: all that the wall shows.
 struct Moment {
   WallState wall;
@@ -35,6 +37,7 @@ struct Moment {
   std::vector<render::DataRow> servo;  // servo_rows()
   // one per material, empty while it has not been felt; the current one is drawn in front
   std::span<const CycleCurve> curves;
+  const LiveScan* scan = nullptr;    // whose images are shown in the place of the curves; none
   std::vector<CycleResult> results;  // of Centerpiece::Plot
 };
 

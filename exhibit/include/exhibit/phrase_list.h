@@ -181,6 +181,41 @@
   PHRASE(PatternOneEye, "pattern-one-eye", "", kLine)                    \
   PHRASE(PatternRuler, "pattern-ruler", "distance", kLine)
 
+// The images of a scan and its settings; what is wrong with them, in the order of ScanCause.
+#define AFM_FOR_EACH_SCAN_PHRASE(PHRASE)                               \
+  PHRASE(ScanTitle, "scan-title", "sample", kLine)                     \
+  PHRASE(ScanSubtitle, "scan-subtitle", "side rate line lines", kLine) \
+  PHRASE(ScanTrace, "scan-trace", "", kLine)                           \
+  PHRASE(ScanRetrace, "scan-retrace", "", kLine)                       \
+  PHRASE(ScanTraceShort, "scan-trace-short", "", kLine)                \
+  PHRASE(ScanRetraceShort, "scan-retrace-short", "", kLine)            \
+  PHRASE(ScanError, "scan-error", "force", kLine)                      \
+  PHRASE(ScanLateral, "scan-lateral", "force", kLine)                  \
+  PHRASE(ScanNewestLine, "scan-newest-line", "", kLine)                \
+  PHRASE(ScanSetpoint, "scan-setpoint", "", kLine)                     \
+  PHRASE(ScanGain, "scan-gain", "", kLine)                             \
+  PHRASE(ScanRate, "scan-rate", "", kLine)                             \
+  PHRASE(ScanNoise, "scan-noise", "", kLine)                           \
+  PHRASE(ScanDrift, "scan-drift", "", kLine)                           \
+  PHRASE(ScanSecondApex, "scan-second-apex", "", kLine)                \
+  PHRASE(ScanOneApex, "scan-one-apex", "", kLine)                      \
+  PHRASE(ScanNoteKeys, "scan-note-keys", "", kLine)                    \
+  PHRASE(ScanNoteTruth, "scan-note-truth", "", kLine)                  \
+  PHRASE(ScanSample, "scan-sample", "", kLine)                         \
+  PHRASE(ScanTipShape, "scan-tip-shape", "", kLine)                    \
+  PHRASE(ScanTipTrue, "scan-tip-true", "", kLine)                      \
+  PHRASE(ScanTipFound, "scan-tip-found", "", kLine)                    \
+  PHRASE(ScanTruthSubtitle, "scan-truth-subtitle", "percent", kLine)   \
+  PHRASE(CauseNone, "scan-cause-none", "", kLine)                      \
+  PHRASE(CauseBlur, "scan-cause-blur", "", kLine)                      \
+  PHRASE(CauseOverload, "scan-cause-overload", "", kLine)              \
+  PHRASE(CauseParachuting, "scan-cause-parachuting", "", kLine)        \
+  PHRASE(CauseRinging, "scan-cause-ringing", "", kLine)                \
+  PHRASE(CauseDrift, "scan-cause-drift", "", kLine)                    \
+  PHRASE(CauseDoubleTip, "scan-cause-double-tip", "", kLine)           \
+  PHRASE(CauseNoise, "scan-cause-noise", "", kLine)                    \
+  PHRASE(CauseBluntTip, "scan-cause-blunt-tip", "", kLine)
+
 // The list of keys (F1).
 #define AFM_FOR_EACH_KEY_PHRASE(PHRASE)                      \
   PHRASE(Keys, "key-list", "", kLine)                        \
@@ -193,6 +228,10 @@
   PHRASE(KeyTurnOn, "key-turn-on", "", kLine)                \
   PHRASE(KeyStop, "key-stop", "", kLine)                     \
   PHRASE(KeyParameters, "key-parameters", "", kLine)         \
+  PHRASE(KeyScan, "key-scan", "", kLine)                     \
+  PHRASE(KeyTruth, "key-truth", "", kLine)                   \
+  PHRASE(KeyNextSetting, "key-next-setting", "", kLine)      \
+  PHRASE(KeyChangeSetting, "key-change-setting", "", kLine)  \
   PHRASE(KeyScale, "key-scale", "", kLine)                   \
   PHRASE(KeyJourney, "key-journey", "", kLine)               \
   PHRASE(KeyAnalogy, "key-analogy", "", kLine)               \
@@ -269,5 +308,6 @@
   AFM_FOR_EACH_GUIDANCE_PHRASE(PHRASE)           \
   AFM_FOR_EACH_BANNER_PHRASE(PHRASE)             \
   AFM_FOR_EACH_PANEL_PHRASE(PHRASE)              \
+  AFM_FOR_EACH_SCAN_PHRASE(PHRASE)               \
   AFM_FOR_EACH_KEY_PHRASE(PHRASE)                \
   AFM_FOR_EACH_REPORT_PHRASE(PHRASE)

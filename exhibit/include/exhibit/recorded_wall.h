@@ -8,6 +8,7 @@
 
 #include "exhibit/cycle_curve.h"
 #include "exhibit/moment.h"
+#include "exhibit/scan/live_scan.h"
 #include "scene/display/wall.h"
 #include "servo/session_file.h"
 
@@ -16,6 +17,9 @@ namespace afm::exhibit {
 // A moment of the live wall as a session records it; `materials` are the names of those on it. The caller adds the
 // place of the sample, the head and the modes.
 servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::span<const std::string> materials);
+
+// The scan of a frame; WallFrame::scan must be there. It may be no valid one: LiveScan::valid().
+ScanProgress scan_progress_of(const servo::WallFrame& frame);
 
 servo::RecordedPose recorded(const scene::HeadPose& head);
 scene::HeadPose head_of(const servo::RecordedPose& pose);

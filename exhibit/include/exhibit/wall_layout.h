@@ -75,6 +75,9 @@ inline constexpr double kUnbentLowest = 0.05;  // over the sample, whose terrace
 inline constexpr double kUnbentRadius = 0.0045;
 inline constexpr double kBendRadius = 0.008;
 inline constexpr double kShadeRadius = 0.085;  // of the soft shade where the tip meets the sample
+// the line of a scan, over the sample
+inline constexpr double kScanLineRadius = 0.004;
+inline constexpr double kScanLineLift = 0.004;  // over the surface
 // the analogy's stroke is smaller than the instrument's, so that the hand stays below the banner
 inline constexpr double kAnalogyScale = 0.55;
 inline constexpr double kAnalogyLabelWidth = 0.40;

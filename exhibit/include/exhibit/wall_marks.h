@@ -40,12 +40,16 @@ class WallMarks {
   // The bend, from the unbent lever's end to the real one's.
   void place_bend(const glm::dvec3& unbent_end, const glm::dvec3& end, std::vector<glm::dmat4>& local) const;
 
+  // A line over the sample, in layout units of the sample's frame.
+  void place_scan_line(const glm::dvec3& from, const glm::dvec3& to, std::vector<glm::dmat4>& local) const;
+
   // Those that are hidden with the instrument, and the ruler's.
   std::vector<scene::NodeIndex> lever_nodes() const { return {unbent_, bend_}; }
+  scene::NodeIndex scan_line_node() const { return scan_line_; }
   std::vector<scene::NodeIndex> ruler_nodes() const { return {ruler_, ruler_low_, ruler_high_}; }
 
  private:
-  scene::NodeIndex ruler_ = 0, ruler_low_ = 0, ruler_high_ = 0, unbent_ = 0, bend_ = 0;
+  scene::NodeIndex ruler_ = 0, ruler_low_ = 0, ruler_high_ = 0, unbent_ = 0, bend_ = 0, scan_line_ = 0;
 };
 
 }  // namespace afm::exhibit

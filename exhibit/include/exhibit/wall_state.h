@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 
 #include "exhibit/jump_cue.h"
@@ -28,6 +30,9 @@ struct WallState {
   double fade = 0;             // 0..1: how much of everything has dissolved
   glm::dmat4 navigation{1.0};  // room from room: where sample and instrument have been moved, turned and scaled to
   std::optional<JumpCue> cue{};
+  bool scan = false;  // an image is taken: its panel is in the place of the curve
+  // its line, from the left to the right, as high as the highest place below it; sample's frame, metres
+  std::optional<std::array<glm::dvec3, 2>> scan_line{};
 };
 
 }  // namespace afm::exhibit

@@ -181,8 +181,60 @@ struct ControlPanel {
   std::vector<std::string> notes;  // what follows from the values, a line each
   std::string status;              // what has become of the last change
   std::optional<ControlTarget> pointed;
+  std::optional<std::size_t> marked;  // the row that keys change
 
   bool operator==(const ControlPanel&) const = default;
+};
+
+// A grid of colours, row by row from the top.
+struct ColorGrid {
+  std::uint32_t columns = 0;
+  std::uint32_t rows = 0;
+  std::vector<std::array<std::uint8_t, 4>> colors;  // sRGB and coverage; columns * rows of them
+
+  bool operator==(const ColorGrid&) const = default;
+};
+
+// One quantity of a scan as a picture: what has not been measured has no coverage.
+struct ImageMap {
+  std::string title;
+  ColorGrid grid;
+
+  bool operator==(const ImageMap&) const = default;
+};
+
+// Lines over one axis: along a line of the scan, or across a tip.
+struct ProfilePlot {
+  struct Line {
+    std::string label;
+    glm::vec3 color{1.0F};  // sRGB
+    bool dashed = false;    // so that lines differ in more than colour
+    std::vector<glm::vec2> points;
+
+    bool operator==(const Line&) const = default;
+  };
+  std::string title;
+  glm::dvec2 low{0.0}, high{1.0};  // of the axes
+  std::vector<Line> lines;
+
+  bool operator==(const ProfilePlot&) const = default;
+};
+
+// What a scan has measured so far: trace and retrace of the height large and beside each other, with axes, a scale bar
+// and a bar of colours; below or beside them smaller what else is measured, and the newest line.
+struct ImagePanel {
+  std::string title, subtitle;
+  std::array<ImageMap, 2> heights;  // trace, retrace
+  std::vector<ImageMap> smaller;    // error signal, lateral force
+  ProfilePlot profile;              // the newest line
+  double side_nm = 1;               // of the area, which is a square
+  double scale_bar_nm = 1;          // a round length
+  std::optional<double> line;       // 0 at the top to 1: where the tip scans now
+  double bar_low_nm = 0, bar_high_nm = 1;
+  std::vector<glm::vec3> bar;  // colours from the lowest height to the highest
+  char decimal_mark = '.';
+
+  bool operator==(const ImagePanel&) const = default;
 };
 
 // The picture for setting up a screen, at true scale on all of it: a grid in centimetres or decimetres, a cross in the
@@ -218,6 +270,8 @@ struct FrameState {
   std::vector<PlacedLight> lights;  // only if the scene has lights
   ForcePanel force_panel;
   PanelPlacement force_placement;
+  ImagePanel image_panel;
+  PanelPlacement image_placement = kNoPlacement;
   DataPanel data_panel;
   PanelPlacement data_placement;
   Banner banner;

@@ -9,6 +9,7 @@
 
 #include "panels/marker_layout.h"
 #include "panels/panel_fonts.h"
+#include "render/frame.h"
 
 namespace afm::render {
 
@@ -79,6 +80,10 @@ class Canvas {
   void outline(glm::vec2 from, glm::vec2 to, float width_mm, Color color, float rounding_mm = 0.0F);
   void disc(glm::vec2 center, float radius_mm, Color color);
   void polygon(std::span<const glm::vec2> convex, Color color);
+
+  // The grid's colours, one at the middle of each of its cells, blended between them; the outer half cells as their
+  // neighbours. As many vertices as the grid has points.
+  void grid(glm::vec2 from, glm::vec2 to, const ColorGrid& grid);
 
   // Nothing is drawn outside the rectangle until pop_clip().
   void push_clip(glm::vec2 from, glm::vec2 to);

@@ -45,6 +45,12 @@ void paint_row(Canvas& canvas, const ControlPanel& panel, std::size_t row, doubl
   const glm::dvec2 size(canvas.size_mm());
   const auto room = static_cast<float>(size.x - 2.0 * kControlMargin - 2.0 * kTargetWidth - 2.0 * kGap);
   const auto y = static_cast<float>(top + 0.5 * (pitch - 84.0));
+  if (panel.marked == row) {
+    const glm::vec2 corner(0.5F * static_cast<float>(kControlMargin), static_cast<float>(top + 0.25 * kGap));
+    const glm::vec2 extent(static_cast<float>(size.x) - 2.0F * corner.x, static_cast<float>(pitch - 0.5 * kGap));
+    canvas.rectangle(corner, corner + extent, Color{palette::kYellow.srgb, 0.10F}, 12.0F);
+    canvas.outline(corner, corner + extent, 3.0F, palette::kYellow, 12.0F);
+  }
   canvas.shrunk_text({kControlMargin, y}, TextStyle::Body, palette::kMuted, content.name, room);
   const float scale =
       std::min(kValueScale, room / std::max(canvas.text_width_mm(TextStyle::Title, content.value), 1.0F));

@@ -9,6 +9,7 @@ namespace afm::render {
 inline constexpr float kMargin = 34.0F;  // mm, of texts and plots
 
 void paint(Canvas& canvas, const ForcePanel& panel);
+void paint(Canvas& canvas, const ImagePanel& panel);
 void paint(Canvas& canvas, const DataPanel& panel);
 void paint(Canvas& canvas, const Banner& banner);
 void paint(Canvas& canvas, const ControlPanel& panel);

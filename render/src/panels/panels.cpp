@@ -265,6 +265,7 @@ bool Panels::update(const FrameState& frame, std::size_t slot) {
   commands_.clear();
   labels_.resize(std::max(labels_.size(), frame.labels.size()));
   update(force_, frame.force_panel, frame.force_placement);
+  update(image_, frame.image_panel, frame.image_placement);
   update(data_, frame.data_panel, frame.data_placement);
   update(banner_, frame.banner, frame.banner_placement);
   update(control_, frame.control_panel, frame.control_placement);
@@ -354,6 +355,7 @@ void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const Eye
     command.draw(4, 1, 0, 0);
   };
   show(force_);
+  show(image_);
   show(data_);
   show(control_);
   std::for_each(labels_.begin(), labels_.end(), show);

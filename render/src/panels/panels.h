@@ -53,7 +53,8 @@ class Panels {
   };
   struct Panel {
     PanelPlacement placement;
-    std::variant<std::monostate, ForcePanel, DataPanel, Banner, ControlPanel, Label, CalibrationPanel, EyeMark>
+    std::variant<std::monostate, ForcePanel, ImagePanel, DataPanel, Banner, ControlPanel, Label, CalibrationPanel,
+                 EyeMark>
         painted;  // what the texture shows
     Texture texture;
     glm::vec2 canvas_texels{1.0F};  // what is painted, which a texture of the largest size shows smaller
@@ -102,6 +103,7 @@ class Panels {
   vk::raii::DescriptorSet atlas_set_{nullptr};
   std::array<Geometry, kFramesInFlight> geometry_;
   Panel force_;
+  Panel image_;
   Panel data_;
   Panel banner_;
   Panel control_;

@@ -28,6 +28,30 @@ struct RecordedWand {
   bool operator==(const RecordedWand&) const = default;
 };
 
+// The settings of a scan, from a pixel on. SI.
+struct RecordedScanChange {
+  std::uint32_t frame = 0;
+  std::uint32_t pixel = 0;
+  double setpoint_n = 0;
+  double gain_per_s = 0;
+  double line_rate_hz = 0;
+  double tip_radius_m = 0;
+  double noise_m = 0;
+  double drift_m_per_s = 0;
+  double apex_distance_m = 0;
+
+  bool operator==(const RecordedScanChange&) const = default;
+};
+
+// A scan that is shown; with its changes it determines the images.
+struct RecordedScan {
+  std::uint32_t frame = 0;
+  std::uint32_t pixel = 0;
+  bool truth = false;
+
+  bool operator==(const RecordedScan&) const = default;
+};
+
 // State of the wall in one frame. With the servo's tick at the same time, it determines the picture. Names are those of
 // the files and of the command line; empty: none.
 struct WallFrame {
@@ -48,6 +72,8 @@ struct WallFrame {
   bool retracting = false;
   double release_z_m = 0;                               // as in ActiveContact
   std::vector<std::array<std::string, 3>> servo_row{};  // name, value, source
+  std::optional<RecordedScan> scan{};                   // absent in older sessions
+  std::vector<RecordedScanChange> scan_changes{};       // of that scan
 
   bool operator==(const WallFrame&) const = default;
 };

@@ -32,6 +32,28 @@ void visit_members(auto&& visit, auto& wand)
   visit("buttons", wand.buttons);
 }
 
+void visit_members(auto&& visit, auto& change)
+  requires std::same_as<std::remove_cvref_t<decltype(change)>, RecordedScanChange>
+{
+  visit("frame", change.frame);
+  visit("pixel", change.pixel);
+  visit("setpoint_N", change.setpoint_n);
+  visit("gain_per_s", change.gain_per_s);
+  visit("line_rate_Hz", change.line_rate_hz);
+  visit("tip_radius_m", change.tip_radius_m);
+  visit("noise_m", change.noise_m);
+  visit("drift_m_per_s", change.drift_m_per_s);
+  visit("apex_distance_m", change.apex_distance_m);
+}
+
+void visit_members(auto&& visit, auto& scan)
+  requires std::same_as<std::remove_cvref_t<decltype(scan)>, RecordedScan>
+{
+  visit("frame", scan.frame);
+  visit("pixel", scan.pixel);
+  visit("truth", scan.truth);
+}
+
 void visit_members(auto&& visit, auto& frame)
   requires std::same_as<std::remove_cvref_t<decltype(frame)>, WallFrame>
 {
@@ -52,10 +74,22 @@ void visit_members(auto&& visit, auto& frame)
   visit("retracting", frame.retracting);
   visit("release_z_m", frame.release_z_m);
   visit("servo_row", frame.servo_row);
+  visit("scan", frame.scan);
+  visit("scan_changes", frame.scan_changes);
 }
 
 template <class T>
-concept Visited = std::same_as<T, RecordedPose> || std::same_as<T, RecordedWand> || std::same_as<T, WallFrame>;
+concept Visited = std::same_as<T, RecordedPose> || std::same_as<T, RecordedWand> ||
+                  std::same_as<T, RecordedScanChange> || std::same_as<T, RecordedScan> || std::same_as<T, WallFrame>;
+
+template <class T>
+constexpr bool kIsList = false;
+template <Visited T>
+constexpr bool kIsList<std::vector<T>> = true;
+
+// What was added to the files later: absent means empty.
+template <class T>
+constexpr bool kMayBeAbsent = kIsOptional<T> || kIsList<T>;
 
 template <class T>
 json to_json_value(const T& value) {
@@ -65,6 +99,10 @@ json to_json_value(const T& value) {
     json object = json::object();
     visit_members([&](const char* key, const auto& member) { object[key] = to_json_value(member); }, value);
     return object;
+  } else if constexpr (kIsList<T>) {
+    json array = json::array();
+    for (const auto& entry : value) array.push_back(to_json_value(entry));
+    return array;
   } else {
     return value;
   }
@@ -79,7 +117,18 @@ void from_json_value(const json& value, T& to) {
       from_json_value(value, to.emplace());
     }
   } else if constexpr (Visited<T>) {
-    visit_members([&](const char* key, auto& member) { from_json_value(value.at(key), member); }, to);
+    visit_members(
+        [&]<class Member>(const char* key, Member& member) {
+          if (kMayBeAbsent<Member> && !value.contains(key)) {
+            member = {};
+          } else {
+            from_json_value(value.at(key), member);
+          }
+        },
+        to);
+  } else if constexpr (kIsList<T>) {
+    to.clear();
+    for (const json& entry : value) from_json_value(entry, to.emplace_back());
   } else {
     value.get_to(to);
   }

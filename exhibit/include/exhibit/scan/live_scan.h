@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "exhibit/scan/scan_choice.h"
+#include "exhibit/scan/scan_truth.h"
+#include "physics/scanner.h"
+
+namespace afm::exhibit {
+
+// The sample as a scan meets it. Metres, in the sample's frame.
+struct ScanSubject {
+  // The height that the apex of a tip of this radius traces, everywhere finite.
+  std::function<physics::Scanner::Surface(double tip_radius_m)> traced;
+  std::function<double(double x_m, double y_m)> drawn_m;  // the sample itself
+  double side_m = 500e-9;                                 // of the square around the origin that is scanned
+  double tip_radius_m = 0;                                // of the probe in use
+  double adhesion_n = 0;                                  // the pull-off force, a magnitude
+};
+
+// A change of the settings, from the pixel of a frame on.
+struct ScanChange {
+  std::uint32_t frame = 0;
+  std::uint32_t pixel = 0;  // of that frame in the order of time, trace and retrace counted
+  ScanChoice choice{};
+
+  bool operator==(const ScanChange&) const = default;
+};
+
+// All that the picture of a scan follows from, with the sample: what a session records.
+struct ScanProgress {
+  std::uint32_t frame = 0;          // since the scan was started; each begins at the top
+  std::uint32_t pixel = 0;          // that comes next in it
+  bool truth = false;               // shown: what the tip could not reach
+  std::vector<ScanChange> changes;  // the settings before the first frame that is still seen, and every change since
+
+  bool operator==(const ScanProgress&) const = default;
+};
+
+// A quantity of both passes, row by row from the top; NaN: not measured yet.
+struct ScanMaps {
+  std::array<std::vector<double>, 2> height_m;  // trace, retrace
+  std::array<std::vector<double>, 2> error_n;
+  std::array<std::vector<double>, 2> lateral_n;
+};
+
+// What happened to the tip along one line, both passes.
+struct LineFacts {
+  double highest_force_n = 0;  // of the lever
+  double off_surface = 0;      // mean share of the time, 0 to 1
+  double on_second_apex = 0;   // likewise
+};
+
+// What the image does not show, as far as it is known.
+struct ScanTruth {
+  std::uint32_t frame = 0;  // with which it was found
+  double tip_radius_m = 0;  // likewise
+  ReachOfTip reach;
+  TipProfile true_tip;
+  TipProfile revealed_tip;  // by the last whole image; without points before there is one
+};
+
+// The scan that the live wall shows: frame after frame, each from the top, the newest over the one before it. A pure
+// function of its subject and its progress. One thread.
+class LiveScan {
+ public:
+  static constexpr std::size_t kPixels = 128;    // a side
+  static constexpr double kMostCatchUpS = 0.25;  // of scan that one call of advance() does: some milliseconds of work
+
+  // A scan with this lever's usual settings.
+  explicit LiveScan(ScanSubject subject);
+
+  // The scan as it was: of a session. `progress` is valid().
+  LiveScan(ScanSubject subject, const ScanProgress& progress);
+
+  // True for what a session may have recorded.
+  static bool valid(const ScanProgress& progress);
+
+  // Scans on for so long; what is more than kMostCatchUpS is left out.
+  void advance(double seconds);
+
+  // One step of a row, from the next pixel on; false at the end of its series.
+  bool step(ScanRow row, int steps);
+
+  // The settings that a scan begins with.
+  void reset();
+
+  void show_truth(bool shown);
+
+  const ScanProgress& progress() const { return progress_; }
+  const ScanChoice& choice() const { return progress_.changes.back().choice; }
+  const ScanChoice& usual() const { return usual_; }
+  const ScanSubject& subject() const { return subject_; }
+  const std::optional<ScanTruth>& truth() const { return truth_; }  // there while it is shown
+  const ScanMaps& maps() const { return maps_; }
+  const std::array<LineFacts, kPixels>& facts() const { return facts_; }  // by row, of the newest line there
+  std::size_t row() const;                                                // that is scanned now, 0 is the top one
+  glm::dvec3 apex_m() const;                                              // in the sample's frame
+  double force_n() const { return force_n_; }                             // on the lever, of the newest pixel
+  double surface_m(double x_m, double y_m) const { return traced_(x_m, y_m); }
+
+  // The newest whole line of both passes, by its row; none before the first.
+  std::optional<std::size_t> newest_row() const;
+
+ private:
+  void begin_frame();
+  void take_until(std::uint32_t pixel);
+  void apply(const ScanChoice& choice);
+  void change_to(const ScanChoice& choice);
+  bool next_pixel();
+  void find_truth();
+
+  ScanSubject subject_;
+  ScanChoice usual_;
+  ScanChoice applied_;
+  ScanProgress progress_;
+  physics::Scanner::Surface traced_;
+  std::optional<physics::Scanner> scanner_;
+  ScanMaps maps_;
+  std::array<LineFacts, kPixels> facts_{};
+  std::vector<double> last_image_m_;  // the trace of the frame before the newest; empty before the second
+  double last_noise_m_ = 0;           // of its heights
+  std::optional<ScanTruth> truth_;
+  double force_n_ = 0;
+  double owed_s_ = 0;  // of scan time that the next call has to do
+};
+
+}  // namespace afm::exhibit

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "curves/sample_model.h"
+#include "exhibit/scan/live_scan.h"
+#include "exhibit/wall_scene.h"
+
+namespace afm::exhibit {
+
+// The drawn sample of a material as a scan meets it: the surface that is felt (haptics::SampleSurface) before it is
+// smoothed to the stiffness of a device; the scanned square lies within its rim. `model` gives tip and adhesion.
+// The result depends on nothing that must outlive it.
+ScanSubject scan_subject(const WallScene& wall_scene, std::size_t material, const curves::SampleModel& model);
+
+}  // namespace afm::exhibit

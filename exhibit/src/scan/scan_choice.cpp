@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/scan/scan_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/enumerators.h"
+#include "curves/live_parameters.h"
+#include "panel_conventions.h"
+#include "physics/quantity_text.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+// The lever of the scan, in air or liquid: stiff enough that no sample here holds its tip down over all of its relief,
+// so that a tip that is too slow does come off.
+constexpr double kSpring = 5.0;
+constexpr double kApexShare = 0.18;   // of the side: a second apex stands so far beside the first
+constexpr double kApexHeightM = 0.0;  // as high as the first: both are seen on every bump
+
+// A series 1, 2, 5, 10 between two ends, with a zero below it or without.
+struct Series {
+  double ScanChoice::* value;
+  double low, high;
+  bool from_zero;
+};
+
+// In the order of ScanRow; the second apex has two values.
+constexpr std::array kSeries{
+    Series{&ScanChoice::setpoint_n, 0.1e-9, 50e-9, false}, Series{&ScanChoice::gain_per_s, 20.0, 20e3, false},
+    Series{&ScanChoice::line_rate_hz, 1.0, 100.0, false},  Series{&ScanChoice::tip_radius_m, 1e-9, 200e-9, false},
+    Series{&ScanChoice::noise_m, 10e-12, 2e-9, true},      Series{&ScanChoice::drift_m_per_s, 0.1e-9, 50e-9, true}};
+static_assert(kSeries.size() + 1 == core::kEnumerators<ScanRow>.size());
+
+constexpr double kSame = 1e-6;  // relative: the same value
+
+// The member of the series above or below a value, which need not be one.
+double neighbour(double value, int direction) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value * (1.0 + kSame))));
+  if (direction > 0) {
+    for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
+      if (factor * decade > value * (1.0 + kSame)) return factor * decade;
+    }
+  }
+  for (const double factor : {5.0, 2.0, 1.0, 0.5}) {
+    if (factor * decade < value * (1.0 - kSame)) return factor * decade;
+  }
+  return value;
+}
+
+double stepped(const Series& series, double value, int direction) {
+  if (value <= 0.0) return direction > 0 ? series.low : 0.0;
+  const double next = neighbour(value, direction);
+  if (direction < 0 && next < series.low * (1.0 - kSame)) return series.from_zero ? 0.0 : value;
+  return next > series.high * (1.0 + kSame) ? value : next;
+}
+
+}  // namespace
+
+bool is_valid(const ScanChoice& choice) {
+  constexpr double kSharpest = 1e-10, kBluntest = 1e-4, kFarthest = 1e-5;  // of tips of the user's own
+  if (!(choice.apex_distance_m >= 0.0 && choice.apex_distance_m <= kFarthest)) return false;
+  return std::all_of(kSeries.begin(), kSeries.end(), [&](const Series& series) {
+    const double value = choice.*series.value;
+    const bool radius = series.value == &ScanChoice::tip_radius_m;
+    const double low = radius ? kSharpest : series.low * (1.0 - kSame);
+    const double high = radius ? kBluntest : series.high * (1.0 + kSame);
+    return (value >= low && value <= high) || (series.from_zero && value == 0.0);
+  });
+}
+
+bool step(ScanChoice& choice, ScanRow row, int steps, double side_m) {
+  const ScanChoice before = choice;
+  if (row == ScanRow::SecondApex) {
+    choice.apex_distance_m = steps > 0 ? kApexShare * side_m : 0.0;
+    return choice != before;
+  }
+  const Series& series = kSeries[core::index_of(row)];
+  for (int i = 0; i < std::abs(steps); ++i) choice.*series.value = stepped(series, choice.*series.value, steps);
+  return choice != before;
+}
+
+std::string value_text(const ScanChoice& choice, ScanRow row) {
+  const auto text = [](double value, const physics::Units& units) {
+    return curves::typographic(physics::format_si(value, units.units, kDigits));
+  };
+  switch (row) {
+    case ScanRow::Setpoint:
+      return text(choice.setpoint_n, physics::kForceUnits);
+    case ScanRow::Gain:
+      return fmt::format("{:g}/s", choice.gain_per_s);
+    case ScanRow::Rate:
+      return text(choice.line_rate_hz, physics::kFrequencyUnits);
+    case ScanRow::TipRadius:
+      return text(choice.tip_radius_m, physics::kLengthUnits);
+    case ScanRow::Noise:
+      return text(choice.noise_m, physics::kLengthUnits);
+    case ScanRow::Drift:
+      return fmt::format("{:.3g} nm/s", choice.drift_m_per_s * 1e9);
+    case ScanRow::SecondApex:
+      break;
+  }
+  return choice.apex_distance_m > 0.0 ? text(choice.apex_distance_m, physics::kLengthUnits) : "";
+}
+
+physics::ScanSettings settings_of(const ScanChoice& choice, double adhesion_n) {
+  physics::ScanSettings settings;
+  settings.line_rate = physics::Frequency(choice.line_rate_hz);
+  settings.setpoint = physics::Force(choice.setpoint_n);
+  settings.integral_gain = physics::Frequency(choice.gain_per_s);
+  settings.spring_constant = physics::Stiffness(kSpring);
+  settings.adhesion = physics::Force(adhesion_n);
+  settings.noise = physics::Length(choice.noise_m);
+  settings.drift_x = settings.drift_y = physics::Velocity(choice.drift_m_per_s);
+  settings.second_apex_distance = physics::Length(choice.apex_distance_m);
+  settings.second_apex_height = physics::Length(kApexHeightM);
+  return settings;
+}
+
+}  // namespace afm::exhibit

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/scan/scan_panels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/enumerators.h"
+#include "curves/live_parameters.h"
+#include "exhibit/height_colours.h"
+#include "exhibit/parameter_panel.h"
+#include "exhibit/scan/scan_cause.h"
+#include "exhibit/wall_marks.h"
+#include "physics/quantity_text.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+constexpr glm::vec3 kTraceColor{0.337F, 0.706F, 0.914F}, kRetraceColor{0.902F, 0.624F, 0.0F};
+constexpr double kOutliers = 0.003;       // of all values at each end: spikes do not use up the colours
+constexpr double kLeastRangeM = 0.2e-9;   // of the colours: a flat sample does not look rough
+constexpr double kLeastForceN = 0.05e-9;  // of the shades of forces, likewise
+
+struct Range {
+  double low = 0, high = 0;
+  bool empty = true;
+
+  double middle() const { return 0.5 * (low + high); }
+};
+
+// Of what has been measured, without the outliers.
+Range range_of(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> values;
+  values.reserve(a.size() + b.size());
+  for (const auto* map : {&a, &b}) {
+    std::copy_if(map->begin(), map->end(), std::back_inserter(values), [](double v) { return std::isfinite(v); });
+  }
+  if (values.empty()) return {};
+  const auto cut = static_cast<std::ptrdiff_t>(kOutliers * static_cast<double>(values.size()));
+  const auto low = values.begin() + cut, high = values.end() - 1 - cut;
+  std::nth_element(values.begin(), low, values.end());
+  const double lowest = *low;
+  std::nth_element(values.begin(), high, values.end());
+  return {lowest, *high, false};
+}
+
+Range at_least(Range range, double width) {
+  if (range.high - range.low >= width) return range;
+  return {range.middle() - 0.5 * width, range.middle() + 0.5 * width, range.empty};
+}
+
+Srgb grey(double zero_to_one) {
+  const auto level = static_cast<std::uint8_t>(std::lround(28.0 + 210.0 * std::clamp(zero_to_one, 0.0, 1.0)));
+  return {level, level, level};
+}
+
+render::ColorGrid colored(const std::vector<double>& map, const Range& range, Srgb (*color)(double)) {
+  constexpr auto kSide = static_cast<std::uint32_t>(LiveScan::kPixels);
+  render::ColorGrid grid{.columns = kSide, .rows = kSide, .colors = {}};
+  grid.colors.reserve(map.size());
+  for (const double value : map) {
+    const auto [r, g, b] = std::isfinite(value) ? color((value - range.low) / (range.high - range.low)) : Srgb{};
+    grid.colors.push_back({r, g, b, static_cast<std::uint8_t>(std::isfinite(value) ? 255 : 0)});
+  }
+  return grid;
+}
+
+std::string nanonewtons(const Range& range) { return fmt::format("{:.2g}", 0.5e9 * (range.high - range.low)); }
+
+// A row of the image from left to right, in nanometres above `low_m`.
+std::vector<glm::vec2> line_of(const std::vector<double>& map, std::size_t row, double side_nm, double low_m) {
+  std::vector<glm::vec2> points;
+  for (std::size_t column = 0; column < LiveScan::kPixels; ++column) {
+    const double height_m = map[row * LiveScan::kPixels + column];
+    if (!std::isfinite(height_m)) continue;
+    const double x_nm = (static_cast<double>(column) + 0.5) / static_cast<double>(LiveScan::kPixels) * side_nm;
+    points.emplace_back(x_nm, (height_m - low_m) * 1e9);
+  }
+  return points;
+}
+
+render::ProfilePlot newest_line(const LiveScan& scan, const Range& heights, const Phrases& phrases) {
+  const double side_nm = scan.subject().side_m * 1e9, high_nm = (heights.high - heights.low) * 1e9;
+  render::ProfilePlot plot{.title = phrases[Phrase::ScanNewestLine],
+                           .low = {0.0, -0.06 * high_nm},
+                           .high = {side_nm, 1.30 * high_nm},  // the legend above the lines
+                           .lines = {}};
+  const auto row = scan.newest_row();
+  if (!row) return plot;
+  plot.lines = {{.label = phrases[Phrase::ScanTraceShort],
+                 .color = kTraceColor,
+                 .dashed = false,
+                 .points = line_of(scan.maps().height_m[0], *row, side_nm, heights.low)},
+                {.label = phrases[Phrase::ScanRetraceShort],
+                 .color = kRetraceColor,
+                 .dashed = true,
+                 .points = line_of(scan.maps().height_m[1], *row, side_nm, heights.low)}};
+  return plot;
+}
+
+constexpr std::array<std::uint8_t, 4> kUnreached{70, 150, 235, 255};
+
+void mark(const std::vector<std::uint8_t>& unreached, render::ColorGrid& grid) {
+  for (std::size_t i = 0; i < grid.colors.size(); ++i) {
+    if (unreached[i] == 0 || grid.colors[i][3] == 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      grid.colors[i][c] = static_cast<std::uint8_t>((grid.colors[i][c] + 2 * kUnreached[c]) / 3);
+    }
+  }
+}
+
+std::vector<glm::vec2> nanometres(const TipProfile& tip) {
+  std::vector<glm::vec2> points;
+  for (const glm::dvec2& point : tip.points_m) points.emplace_back(1e9 * point);
+  return points;
+}
+
+// In the place of the retrace the sample itself, in that of the newest line the tips.
+void add_truth(const ScanTruth& truth, const std::vector<double>& trace_m, const Range& heights, const Phrases& phrases,
+               render::ImagePanel& panel) {
+  const auto [low, high] = std::minmax_element(truth.reach.sample.height_m.begin(), truth.reach.sample.height_m.end());
+  const Range common{std::min(heights.low, *low + heights.high - *high), heights.high};
+  const Range sample{common.low - heights.high + *high, *high};
+  panel.subtitle = phrases.text<Phrase::ScanTruthSubtitle>(fmt::format("{:.0f}", 100.0 * truth.reach.unreached_share));
+  panel.heights[0].grid = colored(trace_m, common, height_colour);
+  panel.heights[1] = {phrases[Phrase::ScanSample], colored(truth.reach.sample.height_m, sample, height_colour)};
+  for (render::ImageMap& map : panel.heights) mark(truth.reach.unreached, map.grid);
+  panel.bar_high_nm = (common.high - common.low) * 1e9;
+  const double reach_nm = truth.true_tip.points_m.back().x * 1e9;
+  double highest_nm = truth.true_tip.points_m.back().y * 1e9;
+  for (const glm::dvec2& point : truth.revealed_tip.points_m) highest_nm = std::max(highest_nm, 1e9 * point.y);
+  panel.profile = {.title = phrases[Phrase::ScanTipShape],
+                   .low = {-reach_nm, -0.06 * highest_nm},
+                   .high = {reach_nm, 1.35 * highest_nm},
+                   .lines = {{.label = phrases[Phrase::ScanTipTrue],
+                              .color = kTraceColor,
+                              .dashed = false,
+                              .points = nanometres(truth.true_tip)}}};
+  if (truth.revealed_tip.points_m.empty()) return;
+  panel.profile.lines.push_back({.label = phrases[Phrase::ScanTipFound],
+                                 .color = kRetraceColor,
+                                 .dashed = true,
+                                 .points = nanometres(truth.revealed_tip)});
+}
+
+// In the order of ScanRow.
+constexpr std::array<Phrase, 7> kRowNames{Phrase::ScanSetpoint,  Phrase::ScanGain,  Phrase::ScanRate,
+                                          Phrase::TipRadius,     Phrase::ScanNoise, Phrase::ScanDrift,
+                                          Phrase::ScanSecondApex};
+static_assert(kRowNames.size() == core::kEnumerators<ScanRow>.size());
+
+bool hand_uses_tip(physics::Phase phase, scene::ServoState state) {
+  return phase == physics::Phase::Attached || state == scene::ServoState::Running || state == scene::ServoState::Arming;
+}
+
+}  // namespace
+
+render::ImagePanel image_panel(const LiveScan& scan, const std::string& sample, const Phrases& phrases) {
+  const ScanMaps& maps = scan.maps();
+  const double side_nm = scan.subject().side_m * 1e9;
+  const Range heights = at_least(range_of(maps.height_m[0], maps.height_m[1]), kLeastRangeM);
+  const Range errors = at_least(range_of(maps.error_n[0], {}), kLeastForceN);
+  const Range lateral = at_least(range_of(maps.lateral_n[0], {}), kLeastForceN);
+
+  render::ImagePanel panel;
+  panel.title = phrases.text<Phrase::ScanTitle>(sample);
+  panel.subtitle =
+      phrases.text<Phrase::ScanSubtitle>(fmt::format("{:.3g} nm", side_nm), value_text(scan.choice(), ScanRow::Rate),
+                                         fmt::format("{}", scan.row() + 1), fmt::format("{}", LiveScan::kPixels));
+  panel.decimal_mark = phrases.decimal_mark();
+  panel.heights = {render::ImageMap{phrases[Phrase::ScanTrace], colored(maps.height_m[0], heights, height_colour)},
+                   render::ImageMap{phrases[Phrase::ScanRetrace], colored(maps.height_m[1], heights, height_colour)}};
+  panel.smaller = {
+      {phrases.text<Phrase::ScanError>(nanonewtons(errors)), colored(maps.error_n[0], errors, grey)},
+      {phrases.text<Phrase::ScanLateral>(nanonewtons(lateral)), colored(maps.lateral_n[0], lateral, grey)}};
+  panel.profile = newest_line(scan, heights, phrases);
+  panel.side_nm = side_nm;
+  panel.scale_bar_nm = scale_bar(side_nm, 0.30).length_m;
+  panel.line = (static_cast<double>(scan.row()) + 0.5) / static_cast<double>(LiveScan::kPixels);
+  panel.bar_low_nm = 0.0;
+  panel.bar_high_nm = (heights.high - heights.low) * 1e9;
+  if (scan.truth()) add_truth(*scan.truth(), maps.height_m[0], heights, phrases, panel);
+  for (const Srgb& c : kHeightColours) panel.bar.push_back(glm::vec3(c[0], c[1], c[2]) / 255.0F);
+  return panel;
+}
+
+render::ControlPanel scan_panel(const LiveScan& scan, const std::string& title, const Phrases& phrases) {
+  render::ControlPanel panel;
+  panel.title = phrases.text<Phrase::ScanTitle>(title);
+  panel.status = scan_guidance(scan, phrases);
+  for (const ScanRow row : core::kEnumerators<ScanRow>) {
+    const std::string value = value_text(scan.choice(), row), usual = value_text(scan.usual(), row);
+    panel.rows.push_back({.name = phrases[kRowNames[core::index_of(row)]],
+                          .value = value.empty() ? phrases[Phrase::ScanOneApex] : phrases.number(value),
+                          .changed = value != usual});
+  }
+  panel.notes = {phrases[Phrase::ScanNoteKeys], phrases[Phrase::ScanNoteTruth]};
+  panel.buttons = {phrases[Phrase::ButtonReset], phrases[Phrase::ButtonClose]};
+  return panel;
+}
+
+std::string scan_guidance(const LiveScan& scan, const Phrases& phrases) {
+  static_assert(after(Phrase::CauseNone, core::kEnumerators<ScanCause>.size()) == Phrase::Keys);
+  return phrases[after(Phrase::CauseNone, core::index_of(cause_of(scan)))];
+}
+
+bool hand_uses_tip(const scene::TipState& tip) { return hand_uses_tip(tip.phase, tip.servo_state); }
+
+void show_scan(const LiveScan& scan, Moment& moment) {
+  WallState& wall = moment.wall;
+  wall.scan = true;
+  moment.scan = &scan;
+  const glm::dvec3 apex_m = scan.apex_m();
+  constexpr int kSamples = 64;
+  const double half_m = 0.5 * scan.subject().side_m;
+  double highest_m = apex_m.z;
+  for (int i = 0; i <= kSamples; ++i) {
+    highest_m = std::max(highest_m, scan.surface_m(half_m * (2.0 * i / kSamples - 1.0), apex_m.y));
+  }
+  wall.scan_line = {glm::dvec3(-half_m, apex_m.y, highest_m), glm::dvec3(half_m, apex_m.y, highest_m)};
+  if (hand_uses_tip(moment.phase, moment.servo_state)) return;
+  wall.surface = {.xy_m = {apex_m.x, apex_m.y}, .height_m = apex_m.z};
+  const double deflection_m = -scan.force_n() / settings_of(scan.choice(), 0.0).spring_constant.si;
+  wall.tip = {.z_m = deflection_m, .force_n = scan.force_n(), .height_m = 0.0, .deflection_m = deflection_m};
+}
+
+}  // namespace afm::exhibit

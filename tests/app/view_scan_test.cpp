@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// An image that is taken in the real window, on an X server without a screen, by keys alone.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "servo/session_file.h"
+#include "support/live_program.h"
+#include "support/pictures.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+#include "support/virtual_display.h"
+
+namespace afm::app {
+namespace {
+
+class ViewScan : public ::testing::Test {
+ protected:
+  std::vector<std::string> view() const {
+    return {"/usr/bin/env", "-C",     folder_.path(), AFM_PROGRAM, "view",         "--size",     "320x240",
+            "--eye-width",  "320",    "--stereo",     "mono",      "--frame-rate", "10",         "--record",
+            "kept",         "--wand", "mouse",        "--servo",   AFM_SERVO_MODE, "--material", "gold"};
+  }
+  void xdotool(const std::string& what) const {
+    const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool " + what);
+    ASSERT_EQ(done.exit_code, 0) << "xdotool " << what << ": " << done.err << " (package xdotool)";
+  }
+
+  support::ScratchFolder folder_;
+  support::VirtualDisplay display_{320, 240};
+};
+
+TEST_F(ViewScan, TakesAnImageAndNamesAnArtefact) {
+  support::LiveProgram program(view(), display_.name());
+  ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
+  xdotool("mousemove 160 10 key i");
+  ASSERT_TRUE(program.says("scan: choose a sample first")) << program.said();
+  xdotool("key 1");
+  ASSERT_TRUE(program.says("Press Turn-On")) << program.said();
+  xdotool("key i");
+  ASSERT_TRUE(program.says("scan: Gold, 265 nm wide, 128 lines")) << program.said();
+  ASSERT_TRUE(program.says("Scanning: Tab chooses a setting")) << program.said();
+  xdotool("key Tab key Tab key plus");
+  ASSERT_TRUE(program.says("scan: 2 nN, 5000/s, 10 Hz, 50 nm")) << program.said();
+  ASSERT_TRUE(program.says("Ringing: the gain is too high")) << program.said();
+  xdotool("key minus");
+  ASSERT_TRUE(program.says("scan: 2 nN, 2000/s, 10 Hz, 50 nm")) << program.said();
+  xdotool("key i");
+  ASSERT_TRUE(program.says("scan: ended")) << program.said();
+  xdotool("key Escape");
+  EXPECT_EQ(program.ends(), 0) << program.said();
+}
+
+TEST_F(ViewScan, IsDrawnAgainFromItsSession) {
+  support::LiveProgram program(view(), display_.name());
+  ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
+  xdotool("mousemove 160 10 key 1");
+  ASSERT_TRUE(program.says("chosen: Gold")) << program.said();
+  xdotool("mousemove 160 120 mousedown 3 mousemove 160 90 mouseup 3");
+  for (int presses = 0; presses < 40 && !program.says("force on", std::chrono::seconds(2)); ++presses) {
+    xdotool("key t");
+  }
+  xdotool("key i");
+  ASSERT_TRUE(program.says("scan: Gold")) << program.said();
+  xdotool("key Tab key plus key u");
+  ASSERT_TRUE(program.says("scan: showing what the tip could not reach")) << program.said();
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  xdotool("key F12");
+  ASSERT_TRUE(program.says("saved ./touchafm-001.png")) << program.said();
+  xdotool("key Escape");
+  ASSERT_EQ(program.ends(), 0) << program.said();
+
+  const auto session = servo::load_session(folder_.file("kept/session-gold.afms"));
+  ASSERT_TRUE(session) << program.said() << session.error().message;
+  ASSERT_FALSE(session->wall.empty());
+  ASSERT_TRUE(session->wall.back().scan.has_value());
+  EXPECT_TRUE(session->wall.back().scan->truth);
+  EXPECT_FALSE(session->wall.front().scan.has_value());
+  const double end_s =
+      session->seconds_since_start(std::min(session->wall.back().time_ns, session->samples.back().time_ns));
+  const auto draw = [&](double at_s, const std::string& name) {
+    const std::string command = std::string(AFM_PROGRAM) + " render --session " +
+                                folder_.file("kept/session-gold.afms") + " --at " + std::to_string(at_s) +
+                                " --size 320x240 --out " + folder_.file(name);
+    const auto drawn = support::run_program(command);
+    EXPECT_EQ(drawn.exit_code, 0) << command << ": " << drawn.err;
+    return test::read_png(folder_.file(name));
+  };
+  const render::Image saved = test::read_png(folder_.file("touchafm-001.png"));
+  // a frame later the tip has gone on by a line
+  EXPECT_LT(test::difference(saved, draw(end_s, "end.png"), 24).share_beyond, 0.06);
+  EXPECT_GT(test::difference(saved, draw(0.0, "begin.png"), 24).share_beyond, 0.08);  // no scan yet
+}
+
+}  // namespace
+}  // namespace afm::app

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/scan/live_scan.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/enumerators.h"
+#include "curves/sample_model.h"
+#include "exhibit/exhibit_setup.h"
+#include "exhibit/recorded_wall.h"
+#include "exhibit/scan/scan_cause.h"
+#include "exhibit/scan/scan_panels.h"
+#include "exhibit/scan/scan_subject.h"
+#include "places.h"
+
+// The scan that the live wall shows, driven as the keys drive it.
+namespace afm::exhibit {
+namespace {
+
+constexpr std::size_t kMica = 0, kGold = 1;
+constexpr double kFrameS = 1.0 / 60.0;
+
+const Stage& stage() {
+  static const Stage loaded = [] {
+    ExhibitFiles files;
+    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    return load_exhibit(files).value();
+  }();
+  return loaded;
+}
+
+LiveScan scan_of(std::size_t material) {
+  const auto model = curves::make_sample_model(curves::ContactSetup{stage().materials.materials[material], {}, {}});
+  return LiveScan(scan_subject(stage().wall_scene, material, model.value()));
+}
+
+void scan_for(LiveScan& scan, double seconds) {
+  for (double t = 0; t < seconds; t += kFrameS) scan.advance(kFrameS);
+}
+
+// Whole lines, however long one takes.
+void scan_lines(LiveScan& scan, double lines) { scan_for(scan, lines / scan.choice().line_rate_hz); }
+
+// NaN equals NaN.
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
+bool same_images(const LiveScan& a, const LiveScan& b) {
+  for (std::size_t pass = 0; pass < 2; ++pass) {
+    if (!same(a.maps().height_m[pass], b.maps().height_m[pass]) ||
+        !same(a.maps().error_n[pass], b.maps().error_n[pass]) ||
+        !same(a.maps().lateral_n[pass], b.maps().lateral_n[pass])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::size_t measured(const LiveScan& scan) {
+  const auto& map = scan.maps().height_m[0];
+  return static_cast<std::size_t>(std::count_if(map.begin(), map.end(), [](double h) { return std::isfinite(h); }));
+}
+
+// ---- every artefact can be produced and undone from the keyboard ----
+
+struct Pressed {
+  ScanRow row;
+  int times;  // of +, or of - where below zero
+};
+struct Artefact {
+  ScanCause cause;
+  std::vector<Pressed> keys;
+};
+
+const std::vector<Artefact> kArtefacts{{ScanCause::Blur, {{ScanRow::Setpoint, 2}, {ScanRow::Gain, -3}}},
+                                       {ScanCause::Overload, {{ScanRow::Setpoint, -4}}},
+                                       {ScanCause::Parachuting, {{ScanRow::Setpoint, -4}, {ScanRow::Gain, -5}}},
+                                       {ScanCause::Ringing, {{ScanRow::Gain, 1}}},
+                                       {ScanCause::Drift, {{ScanRow::Drift, 5}}},
+                                       {ScanCause::DoubleTip, {{ScanRow::SecondApex, 1}}},
+                                       {ScanCause::Noise, {{ScanRow::Noise, 4}}},
+                                       {ScanCause::BluntTip, {{ScanRow::TipRadius, 2}}}};
+
+class ScanOfAMaterial : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(ScanOfAMaterial, ShowsEveryArtefactNamesItsCauseAndIsCleanAgainAfterwards) {
+  EXPECT_EQ(kArtefacts.size() + 1, core::kEnumerators<ScanCause>.size()) << "a new cause needs its keys here";
+  constexpr double kLines = 10;  // more than are judged
+  LiveScan scan = scan_of(GetParam());
+  scan_lines(scan, kLines);
+  ASSERT_EQ(cause_of(scan), ScanCause::None);
+  for (const Artefact& artefact : kArtefacts) {
+    const std::string where = fmt::format("cause {}", core::index_of(artefact.cause));
+    for (const Pressed& key : artefact.keys) EXPECT_TRUE(scan.step(key.row, key.times)) << where;
+    scan_lines(scan, kLines);
+    EXPECT_EQ(core::index_of(cause_of(scan)), core::index_of(artefact.cause)) << where;
+    for (const Pressed& key : artefact.keys) scan.step(key.row, -key.times);
+    EXPECT_EQ(scan.choice(), scan.usual()) << where;
+    scan_lines(scan, kLines);
+    EXPECT_EQ(core::index_of(cause_of(scan)), core::index_of(ScanCause::None)) << "after " << where;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Materials, ScanOfAMaterial, ::testing::Values(0U, 1U, 2U));
+
+// ---- it grows line by line, in bounded time ----
+
+TEST(LiveScan, GrowsLineByLineFromTheTop) {
+  LiveScan scan = scan_of(kGold);
+  EXPECT_EQ(measured(scan), 0U);
+  scan_lines(scan, 20);
+  const std::size_t lines = measured(scan) / LiveScan::kPixels;
+  EXPECT_NEAR(static_cast<double>(lines), 20.0, 1.5);
+  EXPECT_TRUE(std::isfinite(scan.maps().height_m[0].front()));
+  EXPECT_TRUE(std::isnan(scan.maps().height_m[0].back()));
+  EXPECT_NEAR(static_cast<double>(scan.row()), 20.0, 1.5);
+}
+
+TEST(LiveScan, ScansNoMoreThanABoundHoweverLateAFrameIs) {
+  LiveScan scan = scan_of(kGold);
+  scan.advance(3600.0);
+  EXPECT_LE(measured(scan), LiveScan::kPixels * static_cast<std::size_t>(LiveScan::kMostCatchUpS * 10.0 + 1.0));
+  const ScanProgress before = scan.progress();
+  scan.advance(-1.0);
+  EXPECT_EQ(scan.progress().pixel, before.pixel);
+}
+
+TEST(LiveScan, MeasuresTheSurfaceThatTheApexTraces) {
+  LiveScan scan = scan_of(kMica);
+  while (scan.step(ScanRow::Noise, -1)) {
+  }
+  scan_lines(scan, 30);
+  const auto& map = scan.maps().height_m[0];
+  const double side_m = scan.subject().side_m, pixel_m = side_m / LiveScan::kPixels;
+  for (std::size_t column = 8; column < LiveScan::kPixels; ++column) {
+    const double x_m = (static_cast<double>(column) + 0.5) * pixel_m - 0.5 * side_m;
+    const double y_m = 0.5 * side_m - 20.5 * pixel_m;
+    EXPECT_NEAR(map[20 * LiveScan::kPixels + column], scan.surface_m(x_m, y_m), 0.1e-9) << column;
+  }
+}
+
+// ---- a session draws it again ----
+
+TEST(LiveScan, IsTheSameAgainFromWhatASessionRecords) {
+  LiveScan scan = scan_of(kMica);
+  scan_lines(scan, 70);
+  scan.step(ScanRow::TipRadius, -3);
+  scan_lines(scan, 20);
+  scan.step(ScanRow::Gain, 1);
+  scan.step(ScanRow::Noise, 2);
+  scan_lines(scan, 60);  // into the next frame
+  scan.step(ScanRow::SecondApex, 1);
+  scan.show_truth(true);
+  for (int i = 0; i < 3; ++i) {
+    scan_lines(scan, 55.3);
+    Moment moment;
+    show_scan(scan, moment);
+    const servo::WallFrame frame = wall_frame_of(moment, 0, {});
+    ASSERT_TRUE(frame.scan.has_value());
+    const ScanProgress progress = scan_progress_of(frame);
+    EXPECT_EQ(progress, scan.progress());
+    ASSERT_TRUE(LiveScan::valid(progress));
+    const LiveScan again(scan.subject(), progress);
+    EXPECT_TRUE(same_images(scan, again)) << i;
+    EXPECT_EQ(again.apex_m(), scan.apex_m()) << i;
+    EXPECT_EQ(cause_of(again), cause_of(scan)) << i;
+    EXPECT_EQ(image_panel(again, "", stage().phrases()), image_panel(scan, "", stage().phrases())) << i;
+  }
+  EXPECT_GE(scan.progress().frame, 2U);
+  EXPECT_LE(scan.progress().changes.size(), 2U) << "what is no longer seen is forgotten";
+}
+
+TEST(LiveScan, RefusesARecordedProgressThatNoScanHas) {
+  const ScanProgress good{.frame = 1, .pixel = 5, .truth = false, .changes = {{.frame = 0, .pixel = 0, .choice = {}}}};
+  EXPECT_TRUE(LiveScan::valid(good));
+  ScanProgress bad = good;
+  bad.changes.clear();
+  EXPECT_FALSE(LiveScan::valid(bad));
+  bad = good;
+  bad.pixel = 2 * LiveScan::kPixels * LiveScan::kPixels + 1;
+  EXPECT_FALSE(LiveScan::valid(bad));
+  for (double ScanChoice::* value :
+       {&ScanChoice::setpoint_n, &ScanChoice::gain_per_s, &ScanChoice::line_rate_hz, &ScanChoice::tip_radius_m,
+        &ScanChoice::noise_m, &ScanChoice::drift_m_per_s, &ScanChoice::apex_distance_m}) {
+    for (const double number : {std::nan(""), -1.0, 1e30, HUGE_VAL}) {
+      bad = good;
+      bad.changes.front().choice.*value = number;
+      EXPECT_FALSE(LiveScan::valid(bad)) << number;
+    }
+  }
+  bad = good;
+  bad.changes.push_back({.frame = 1, .pixel = 3, .choice = {}});
+  EXPECT_TRUE(LiveScan::valid(bad));
+  bad.changes.push_back({.frame = 0, .pixel = 9, .choice = {}});
+  EXPECT_FALSE(LiveScan::valid(bad)) << "out of order";
+}
+
+// ---- what is tip and what is sample ----
+
+TEST(LiveScan, ShowsThatABluntTipLeavesMoreUntouched) {
+  LiveScan scan = scan_of(kGold);
+  scan.show_truth(true);
+  const double usual = scan.truth()->reach.unreached_share;
+  scan.step(ScanRow::TipRadius, 2);
+  scan_lines(scan, 2);
+  EXPECT_GT(scan.truth()->reach.unreached_share, 1.5 * usual);
+  scan.step(ScanRow::TipRadius, -7);
+  scan_lines(scan, 2);
+  EXPECT_LT(scan.truth()->reach.unreached_share, 0.02);
+  EXPECT_TRUE(scan.truth()->revealed_tip.points_m.empty()) << "before there is a whole image";
+  scan.show_truth(false);
+  EXPECT_FALSE(scan.truth().has_value());
+}
+
+TEST(LiveScan, RevealsATipThatIsNowhereSharperThanTheTrueOne) {
+  LiveScan scan = scan_of(kGold);
+  while (scan.step(ScanRow::Noise, -1)) {
+  }
+  scan.step(ScanRow::Rate, -3);
+  scan_lines(scan, 130);
+  scan.show_truth(true);
+  const auto& revealed = scan.truth()->revealed_tip.points_m;
+  ASSERT_GT(revealed.size(), 10U);
+  double widest_gap_m = 0;
+  for (const glm::dvec2& point : revealed) {
+    // places between the points of its grid touched, too
+    const double beside_m = std::abs(point.x) + 2.0 * scan.subject().side_m / LiveScan::kPixels;
+    EXPECT_LE(point.y, beside_m * beside_m / (2.0 * scan.choice().tip_radius_m) + 0.3e-9) << point.x;
+    widest_gap_m = std::max(widest_gap_m, point.x * point.x / (2.0 * scan.choice().tip_radius_m) - point.y);
+  }
+  EXPECT_LT(widest_gap_m, 8e-9);
+}
+
+// ---- the wall ----
+
+TEST(LiveScan, TakesThePlaceOfTheCurveAndTheTipFollowsUnlessTheHandHasIt) {
+  LiveScan scan = scan_of(kGold);
+  scan_lines(scan, 10);
+  Moment moment;
+  moment.wall.material = kGold;
+  render::FrameState frame;
+  stage().wall_scene.update(moment.wall, frame);
+  const render::PanelPlacement place = frame.force_placement;
+  EXPECT_EQ(frame.image_placement, render::kNoPlacement);
+  show_scan(scan, moment);
+  EXPECT_EQ(moment.wall.surface.xy_m[1], scan.apex_m().y);
+  stage().wall_scene.update(moment.wall, frame);
+  EXPECT_EQ(frame.image_placement, place);
+  EXPECT_EQ(frame.force_placement, render::kNoPlacement);
+
+  Moment held;
+  held.wall.material = kGold;
+  held.servo_state = scene::ServoState::Running;
+  held.wall.surface.xy_m = {1e-9, 2e-9};
+  show_scan(scan, held);
+  EXPECT_EQ(held.wall.surface.xy_m[0], 1e-9);
+  EXPECT_TRUE(held.wall.scan_line.has_value());
+}
+
+TEST(LiveScan, LeavesRoomForTheServosNodesWithEveryMaterialOnTheShelf) {
+  ExhibitFiles files;
+  files.assets_dir = AFM_SOURCE_DIR "/assets";
+  const auto library = scene::load_materials(files.assets_dir + "/materials.toml").value();
+  for (const auto& material : library.materials) {
+    if (files.shown.size() < kMostMaterials) files.shown.push_back(material.name);
+  }
+  ASSERT_EQ(files.shown.size(), kMostMaterials);
+  EXPECT_LE(load_exhibit(files).value().wall_scene.scene().nodes.size(), scene::kMaxNodes);
+}
+
+}  // namespace
+}  // namespace afm::exhibit
