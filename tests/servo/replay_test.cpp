@@ -183,6 +183,37 @@ TEST(Replay, GivesEveryBitOfEveryMaterialAgainWhateverWasFeltBefore) {
   }
 }
 
+TEST(Replay, GivesTheFrictionAgain) {
+  for (const auto law :
+       {physics::FrictionLaw::Amontons, physics::FrictionLaw::ContactArea, physics::FrictionLaw::Lattice}) {
+    auto model = test::paper_model();
+    scene::SharedContact& mica = model.materials[test::kMica];
+    mica.law = physics::Law::Dmt;
+    mica.contact.reduced_modulus = physics::Pressure(5.15e10);
+    mica.friction = {.law = law,
+                     .lattice = physics::LatticeKind::Hexagonal,
+                     .coefficient = 0.1,
+                     .shear_strength = physics::Pressure(1e8),
+                     .period = physics::Length(0.52e-9),
+                     .corrugation = physics::Length(5e-12),
+                     .lateral_stiffness = physics::Stiffness(1.0)};
+    Recording recording(model);
+    recording.choose(test::kMica);
+    recording.cycle();
+    const support::ScratchFolder folder;
+    const std::string path = folder.file("friction.afms");
+    ASSERT_TRUE(save_session(recording.sessions.front(), path));
+    const auto loaded = load_session(path);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    double strongest = 0.0;
+    for (const TipSample& sample : loaded->samples) {
+      strongest = std::max(strongest, std::hypot(sample.lateral_force_n[0], sample.lateral_force_n[1]));
+    }
+    EXPECT_GT(strongest, 1e-11);
+    expect_same(*loaded);
+  }
+}
+
 TEST(Replay, TurnsTheSampleAgainAsTheWandTurnedIt) {
   Recording recording;
   recording.choose(test::kMica);
@@ -378,10 +409,10 @@ TEST(Replay, ComparesEveryNumberThatTheServoComputed) {
     EXPECT_EQ(replay(session)->first_event.value_or(Difference{}).quantity, name);
     quantities.push_back(name);
   }
-  EXPECT_THAT(quantities,
-              testing::ElementsAre("z_m", "force_N", "tip_height_m", "deflection_m", "sample_deformation_m",
-                                   "hand_height_m", "hand_force_N", "servo_state", "phase", "tip_x_m", "tip_y_m",
-                                   "surface_height_m", "kind", "time_ns", "z_m", "force_before_N", "force_after_N"));
+  EXPECT_THAT(quantities, testing::ElementsAre("z_m", "force_N", "tip_height_m", "deflection_m", "sample_deformation_m",
+                                               "hand_height_m", "hand_force_N", "servo_state", "phase", "tip_x_m",
+                                               "tip_y_m", "surface_height_m", "lateral_x_N", "lateral_y_N", "kind",
+                                               "time_ns", "z_m", "force_before_N", "force_after_N"));
 }
 
 TEST(Replay, IsTheSameFromAFile) {
