@@ -41,31 +41,35 @@ scene::SharedContact mica(FrictionLaw law) {
 
 constexpr std::array kLaws{FrictionLaw::Amontons, FrictionLaw::ContactArea, FrictionLaw::Lattice};
 
-constexpr double kAbove = 0.060, kOnSample = -0.004;
+// Pressed by some 0.1 nN beyond the adhesion.
+double on_sample(const haptics::ContactModel& model) { return model.scaling().hand_height_m(-1.1e-9); }
 
-// Lifted, and put down at a place.
-void put_down(haptics::ContactModel& model, const glm::dvec2& at_m = glm::dvec2(0.0)) {
-  model.step({at_m, kAbove});
-  for (double height_m = kAbove; height_m > kOnSample; height_m -= 1e-4) model.step({at_m, height_m});
-  model.step({at_m, kOnSample});
-  ASSERT_EQ(model.phase(), physics::Phase::Attached);
+// Lifted, and put down at a place; the height of the hand there.
+double put_down(haptics::ContactModel& model, const glm::dvec2& at_m = glm::dvec2(0.0)) {
+  const double on_m = on_sample(model);
+  for (double height_m = model.scaling().release_height_m() + 0.01; height_m > on_m; height_m -= 1e-4) {
+    model.step({at_m, height_m});
+  }
+  model.step({at_m, on_m});
+  EXPECT_EQ(model.phase(), physics::Phase::Attached);
+  return on_m;
 }
 
-struct Run {
+struct Drag {
   std::vector<glm::dvec3> force_n;  // at whole milliseconds
   std::vector<glm::dvec2> slips_m;  // where the tip's holder was
 };
 
 // Along x at a speed of the hand, in ticks of a rate; forces where the hand has gone a whole number of tenths of mm.
-Run drag(FrictionLaw law, double speed_m_per_s, double rate_hz, double way_m) {
+Drag drag(FrictionLaw law, double speed_m_per_s, double rate_hz, double way_m) {
   const auto model = model_of(mica(law));
-  put_down(*model);
-  Run run;
+  const double on_m = put_down(*model);
+  Drag run;
   const auto ticks = static_cast<int>(std::llround(way_m / speed_m_per_s * rate_hz));
   int tenths = 0;
   for (int i = 1; i <= ticks; ++i) {
     const double x = way_m * i / ticks;
-    const haptics::Touch touch = model->step({x, 0.2 * x, kOnSample});
+    const haptics::Touch touch = model->step({x, 0.2 * x, on_m});
     for (const auto& slip : touch.friction.events.slipped()) {
       run.slips_m.emplace_back(slip.support.x.si, slip.support.y.si);
     }
@@ -79,12 +83,12 @@ Run drag(FrictionLaw law, double speed_m_per_s, double rate_hz, double way_m) {
 
 TEST(FeltFriction, IsTheSameAtEveryRateAndSpeed) {
   for (const FrictionLaw law : kLaws) {
-    const Run reference = drag(law, 0.001, 4000.0, 0.012);
+    const Drag reference = drag(law, 0.001, 4000.0, 0.012);
     ASSERT_EQ(reference.force_n.size(), 12U);
     EXPECT_EQ(reference.slips_m.empty(), law != FrictionLaw::Lattice);
     for (const double speed : {0.001, 0.020, 0.050, 0.100, 0.200}) {
       for (const double rate : {1000.0, 2000.0, 4000.0}) {
-        const Run run = drag(law, speed, rate, 0.012);
+        const Drag run = drag(law, speed, rate, 0.012);
         ASSERT_EQ(run.slips_m.size(), reference.slips_m.size()) << speed << " " << rate;
         for (std::size_t i = 0; i < run.slips_m.size(); ++i) {
           EXPECT_LT(glm::length(run.slips_m[i] - reference.slips_m[i]), 1e-16) << speed << " " << rate;
@@ -102,14 +106,14 @@ TEST(FeltFriction, SlipsOnceALatticeStepUnderOneCountOfNoise) {
   constexpr double kCountM = 5.5e-5;
   const auto model = model_of(mica(FrictionLaw::Lattice));
   model->use(ScaleMode::Atoms);
-  put_down(*model);
+  const double on_m = put_down(*model);
   std::mt19937_64 random(5);
   std::uniform_int_distribution<int> count(-1, 0);
   constexpr double kWayM = 0.038;
   int slips = 0, ticks = 0;
   for (double x = 0.0; x < kWayM; x += 2e-5, ++ticks) {
     const double read_m = kCountM * (std::floor(x / kCountM) + count(random));
-    slips += static_cast<int>(model->step({read_m, 0.0, kOnSample}).friction.events.slip_count);
+    slips += static_cast<int>(model->step({read_m, 0.0, on_m}).friction.events.slip_count);
   }
   EXPECT_LE(slips, static_cast<int>(kWayM / haptics::Scaling::kAtomM));
   EXPECT_GE(slips, static_cast<int>(kWayM / haptics::Scaling::kAtomM) - 3);
@@ -118,32 +122,32 @@ TEST(FeltFriction, SlipsOnceALatticeStepUnderOneCountOfNoise) {
 TEST(FeltFriction, GoesWithTheLoad) {
   // less load than keeps eta above 1: the tip is pulled up nearly to where it lets go
   const auto model = model_of(mica(FrictionLaw::Lattice));
-  put_down(*model);
+  const double on_m = put_down(*model);
   const double pull_off_m = model->scaling().hand_height_m(
       physics::build_law_tables(physics::Law::Dmt, mica(FrictionLaw::Lattice).contact)->figures.z_joc.si);
   const auto slips_at = [&](double height_m) {
-    for (int i = 0; i <= 200; ++i) model->step({0.0, 0.0, kOnSample + (height_m - kOnSample) * i / 200.0});
+    for (int i = 0; i <= 200; ++i) model->step({0.0, 0.0, on_m + (height_m - on_m) * i / 200.0});
     std::uint32_t slips = 0;
     for (int i = 1; i <= 800; ++i) slips += model->step({2.5e-5 * i, 0.0, height_m}).friction.events.slip_count;
     for (int i = 799; i >= 0; --i) model->step({2.5e-5 * i, 0.0, height_m});
-    for (int i = 200; i >= 0; --i) model->step({0.0, 0.0, kOnSample + (height_m - kOnSample) * i / 200.0});
+    for (int i = 200; i >= 0; --i) model->step({0.0, 0.0, on_m + (height_m - on_m) * i / 200.0});
     return slips;
   };
-  EXPECT_GE(slips_at(kOnSample), 8U);
-  EXPECT_EQ(slips_at(pull_off_m - 0.10 * (pull_off_m - kOnSample)), 0U);
+  EXPECT_GE(slips_at(on_m), 8U);
+  EXPECT_EQ(slips_at(pull_off_m - 0.10 * (pull_off_m - on_m)), 0U);
 }
 
 TEST(FeltFriction, IsNothingOffTheSampleAndBeginsAnewOnIt) {
   for (const FrictionLaw law : kLaws) {
     const auto model = model_of(mica(law));
-    put_down(*model);
-    for (int i = 1; i <= 100; ++i) model->step({1e-4 * i, 0.0, kOnSample});
-    EXPECT_LT(model->step({0.0101, 0.0, kOnSample}).hand_force_n.x, -0.01);
-    const haptics::Touch off = model->step({0.0101, 0.0, kAbove});
+    const double on_m = put_down(*model);
+    for (int i = 1; i <= 100; ++i) model->step({1e-4 * i, 0.0, on_m});
+    EXPECT_LT(model->step({0.0101, 0.0, on_m}).hand_force_n.x, -0.01);
+    const haptics::Touch off = model->step({0.0101, 0.0, (model->scaling().release_height_m() + 0.01)});
     EXPECT_EQ(off.hand_force_n.x, 0.0);
     EXPECT_EQ(off.friction.lateral, physics::Sideways<physics::Force>{});
     put_down(*model, {0.0101, 0.0});
-    const haptics::Touch again = model->step({0.0101, 0.0, kOnSample});
+    const haptics::Touch again = model->step({0.0101, 0.0, on_m});
     if (law != FrictionLaw::Lattice) {
       EXPECT_NEAR(again.hand_force_n.x, 0.0, 1e-9);
     }
@@ -158,9 +162,9 @@ TEST(FeltFriction, IsNoStifferThanItsShareOfTheDevice) {
       for (const auto& row : scene::kScaleModes) {
         const auto model = model_of(material);
         model->use(row.mode);
-        put_down(*model);
-        const double before = model->step({0.0, 0.0, kOnSample}).hand_force_n.x;
-        const double after = model->step({1e-7, 0.0, kOnSample}).hand_force_n.x;
+        const double on_m = put_down(*model);
+        const double before = model->step({0.0, 0.0, on_m}).hand_force_n.x;
+        const double after = model->step({1e-7, 0.0, on_m}).hand_force_n.x;
         EXPECT_LE((before - after) / 1e-7, 0.5 * haptics::Scaling::kMaxStiffnessNPerM * 1.001) << row.word;
       }
     }
@@ -201,9 +205,9 @@ TEST(FeltFriction, NeverGivesMoreThanASampledSpring) {
       const auto rough = test::rough_model();
       const auto model = model_of(mica(law), &rough.height_fields[0]);
       model->use(row.mode);
-      put_down(*model);
+      const double on_m = put_down(*model);
       haptics::PassivityObserver observer;
-      glm::dvec3 hand(0.0, 0.0, kOnSample), velocity(0.0);
+      glm::dvec3 hand(0.0, 0.0, on_m), velocity(0.0);
       haptics::Touch touch = model->step(hand);
       auto before = model->energy(touch);
       double lost = 0.0, largest = 0.0;
@@ -234,9 +238,10 @@ TEST(FeltFriction, NeverGivesMoreThanASampledSpring) {
 TEST(FeltFriction, AllocatesNothingInATick) {
   for (const FrictionLaw law : kLaws) {
     const auto model = model_of(mica(law));
-    put_down(*model);
+    const double on_m = put_down(*model);
     const test::NoAllocation none;
-    for (int i = 0; i < 2000; ++i) model->step({1e-5 * i, 3e-6 * i, kOnSample + (i % 500 == 0 ? kAbove : 0.0)});
+    for (int i = 0; i < 2000; ++i)
+      model->step({1e-5 * i, 3e-6 * i, on_m + (i % 500 == 0 ? (model->scaling().release_height_m() + 0.01) : 0.0)});
   }
 }
 
@@ -245,6 +250,7 @@ TEST(FeltFriction, ReportsItsSlipsAndForcesAndStaysWithinTheLedger) {
   scene.materials[test::kMica] = mica(FrictionLaw::Lattice);
   test::ServoBench bench(scene);
   bench.arm(test::kMica, ScaleMode::Atoms);
+  constexpr double kOnSample = -0.004;
   bench.move(kOnSample, 0.5);
   bench.run(0.2);
   const auto aim = [&](double x) {

@@ -71,8 +71,8 @@ class Recording {
 
   void choose(int material) { renderer_.store(scene::Selection{.material = material, .revision = ++selection_}); }
 
-  void aim(double height_m, double seconds, bool pressed = false) {
-    renderer_.store(scene::HandScript{.target_m = {0.003, height_m, -0.002},
+  void aim(double height_m, double seconds, bool pressed = false, double sideways_m = 0.003) {
+    renderer_.store(scene::HandScript{.target_m = {sideways_m, height_m, -0.002},
                                       .duration_s = seconds,
                                       .revision = ++script_,
                                       .turn_on_pressed = pressed ? 1U : 0U});
@@ -199,7 +199,13 @@ TEST(Replay, GivesTheFrictionAgain) {
                      .lateral_stiffness = physics::Stiffness(1.0)};
     Recording recording(model);
     recording.choose(test::kMica);
-    recording.cycle();
+    recording.arm();
+    recording.aim(-0.006, 0.5);
+    recording.run(800);
+    recording.aim(-0.006, 0.4, false, 0.020);
+    recording.run(600);
+    recording.aim(0.065, 0.7);
+    recording.run(900);
     const support::ScratchFolder folder;
     const std::string path = folder.file("friction.afms");
     ASSERT_TRUE(save_session(recording.sessions.front(), path));
