@@ -12,12 +12,15 @@
 
 #include "app/command.h"
 #include "app/commands/analyse_image.h"
+#include "app/commands/standard_output.h"
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
+#include "physics/friction.h"
 #include "physics/quantity_text.h"
+#include "servo/session_friction.h"
 
 namespace afm::app {
 
@@ -54,7 +57,40 @@ core::Result<double> parse_sensitivity(std::string_view text) {
   return parsed.value->si;
 }
 
+core::Result<void> analyse_session(const AnalyseOptions& options) {
+  const auto session = servo::load_session(options.file);
+  if (!session) return tl::unexpected(session.error());
+  const auto loop = servo::friction_loop(*session);
+  if (!loop) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("{}: no friction loop; choose a --friction, and lead the tip there and back while "
+                                     "it touches",
+                                     options.file));
+  }
+  using namespace physics;
+  if (options.json) {
+    return write_stdout(nlohmann::json{{"material", session->material},
+                                       {"friction", text_of(session->parameters.friction.law).word},
+                                       {"half_width_N", loop->half_width.si},
+                                       {"offset_N", loop->offset.si},
+                                       {"slope_N_per_m", loop->slope.si},
+                                       {"dissipated_J", loop->dissipated.si}}
+                            .dump(2) +
+                        "\n");
+  }
+  return write_stdout(fmt::format(
+      "{}, friction {}: the last loop there and back\n"
+      "  half width            {}\n"
+      "  offset                {}\n"
+      "  slope after the turn  {}\n"
+      "  energy lost           {}\n",
+      session->material, text_of(session->parameters.friction.law).word,
+      format_quantity(loop->half_width, kForceUnits, 4), format_quantity(loop->offset, kForceUnits, 4),
+      format_quantity(loop->slope, kStiffnessUnits, 4), format_quantity(loop->dissipated, kEnergyUnits, 4)));
+}
+
 core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
+  if (options.file.ends_with(".afms")) return analyse_session(options);
   if (curves::is_image_file(options.file)) {
     return analyse_image_file(options.file, {{.channel = options.channel}, options.levelling}, options.json);
   }
@@ -86,9 +122,11 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<AnalyseOptions>();
   command
-      .add_option("file", options->file,
-                  "curve: TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw; image: "
-                  "Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, JPK .jpk")
+      .add_option(
+          "file", options->file,
+          "curve: TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw; image: "
+          "Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, JPK .jpk; session: .afms, for its friction "
+          "loop")
       .required()
       .type_name("FILE");
   command

@@ -50,6 +50,7 @@ struct DemoOptions {
   servo::ServoChoice servo;
   curves::ModelName model{.text = "paper"};
   scene::ScaleMode scale = scene::ScaleMode::Fit;
+  physics::FrictionLaw friction = physics::FrictionLaw::None;
   std::string probe;              // a lever and tip instead of the materials' own; empty: none
   std::string measured;           // a curve file to be felt too; empty: none
   std::vector<std::string> vary;  // "spring-constant=0.1N/m:0.4N/m:3"
@@ -84,7 +85,7 @@ core::Result<curves::ContactSetup> setup_of(scene::MaterialEntry entry, const De
     if (!probe) return tl::unexpected(probe.error());
     entry = scene::with_probe(std::move(entry), **probe);
   }
-  return curves::ContactSetup{std::move(entry), {}, options.model};
+  return curves::ContactSetup{std::move(entry), {}, options.model, options.friction};
 }
 
 // The material once more for each value of each axis, titled with that value.
@@ -349,6 +350,7 @@ void add_sample_options(OptionList& command, DemoOptions& options, const Command
                   "measured curve to feel as well (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
       .type_name("FILE");
   add_scale_option(command, options.scale);
+  add_friction_option(command, options.friction);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <stdexcept>
 
 #include "app/command.h"
@@ -28,9 +29,9 @@ std::string in_words(const std::string& key) {
   return words;
 }
 
-std::string sources_text(const scene::MaterialEntry& material) {
+std::string sources_text(std::span<const scene::SourcedValue> sources) {
   std::string text;
-  for (const scene::SourcedValue& source : material.sources) {
+  for (const scene::SourcedValue& source : sources) {
     text += fmt::format("  {:<22}{:<14}{}{}\n", in_words(source.key), source.value, source.source,
                         source.estimated ? " (estimated)" : "");
   }
@@ -97,11 +98,16 @@ core::Result<std::string> material_text(const curves::ContactSetup& setup) {
   const scene::MaterialEntry& material = setup.material;
   std::string text = fmt::format("{}: {} tip, in {}\n", material.title, material.tip, material.medium);
   if (!material.note.empty()) text += material.note + "\n";
-  text += "\nvalues and their sources\n" + sources_text(material);
+  text += "\nvalues and their sources\n" + sources_text(material.sources);
   if (material.tip_elasticity) {
     text += fmt::format("  {:<22}{:<14}from tip and sample: 1/E* = (1 - nu_t^2)/E_t + (1 - nu_s^2)/E_s\n",
                         "reduced modulus", text_of(material.contact.reduced_modulus, physics::kPressureUnits));
   }
+  text += "\nfriction (--friction of demo and view) and its sources\n" + sources_text(material.friction_sources);
+  text += material.has_lattice
+              ? fmt::format("  {:<22}{}\n", "lattice",
+                            physics::kLatticeKinds.at(static_cast<std::size_t>(material.friction.lattice)).word)
+              : fmt::format("  {:<22}none: --friction lattice rubs by the load instead\n", "lattice");
   if (const auto place = setup.place()) {
     text += fmt::format(
         "\nposition on the adhesion map\n"

@@ -30,10 +30,6 @@ nlohmann::json json_of(const std::optional<servo::Difference>& first) {
           {"replayed", first->replayed}};
 }
 
-const char* name_of(physics::EventKind kind) {
-  return kind == physics::EventKind::JumpToContact ? "jump-to-contact" : "jump-off-contact";
-}
-
 double seconds(const servo::RecordedSession& session) {
   return session.seconds_since_start(session.samples.back().time_ns);
 }
@@ -43,7 +39,7 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
   nlohmann::json events = nlohmann::json::array();
   for (const scene::TipEvent& event : session.events) {
     if (!range.holds(session.seconds_since_start(event.time_ns))) continue;
-    events.push_back({{"kind", name_of(event.kind)},
+    events.push_back({{"kind", physics::name_of(event.kind)},
                       {"time_s", session.seconds_since_start(event.time_ns)},
                       {"z_m", event.z_m},
                       {"force_before_N", event.force_before_n},
@@ -84,7 +80,7 @@ std::string plain(const servo::RecordedSession& session, const servo::Replay& re
   for (const scene::TipEvent& event : session.events) {
     if (!range.holds(session.seconds_since_start(event.time_ns))) continue;
     text += fmt::format("  {:<16} at {:8.3f} s   Z = {:9.4f} nm   force {:9.5f} nN, then {:9.5f} nN\n",
-                        name_of(event.kind), session.seconds_since_start(event.time_ns), event.z_m * 1e9,
+                        physics::name_of(event.kind), session.seconds_since_start(event.time_ns), event.z_m * 1e9,
                         event.force_before_n * 1e9, event.force_after_n * 1e9);
   }
   text += fmt::format("largest difference: {:.3g} nN on the tip, {:.3g} N on the hand\n", replayed.largest_tip_n * 1e9,

@@ -44,6 +44,7 @@ struct ViewOptions {
   exhibit::ExhibitFiles files;
   DisplayOptions display;
   ViewSettings settings;
+  physics::FrictionLaw friction = physics::FrictionLaw::None;
   double frame_rate = 0;  // 0: the display's
   bool kiosk = false;     // an unattended window that is opened again whenever it fails
   servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = kLingerS}};
@@ -109,8 +110,11 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
   std::vector<curves::SampleModel> materials;
+  // the paper's law has no friction: with one the window begins with the law of the adhesion map
+  curves::ModelName law;
+  law.automatic = options.friction != physics::FrictionLaw::None;
   for (const scene::MaterialEntry& entry : stage->materials.materials) {
-    auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
+    auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, law, options.friction});
     if (!model) return tl::unexpected(model.error());
     stage->wall_scene.lay_surface_on(model->parameters, materials.size());
     materials.push_back(std::move(*model));
@@ -226,6 +230,7 @@ void add_servo_options(OptionList& command, ViewOptions& options) {
       .show_default()
       .type_name("SECONDS");
   add_scale_option(command, options.settings.scale);
+  add_friction_option(command, options.friction);
   command.add_flag("--dead-man", options.servo.settings.dead_man, "apply force only while Turn-On is held down");
   quantity_option(
       command, "--max-force", [&options](physics::Force most) { options.servo.settings.max_force_n = most.si; },

@@ -255,8 +255,8 @@ std::string session_csv(const servo::RecordedSession& session) {
   fmt::format_to(out, "# force on the tip, positive away from the sample; Z is the piezo displacement\n");
   for (const scene::TipEvent& e : session.events) {
     fmt::format_to(out, "# event: {} at t_s={:.9f} z_m={:.12e} force_before_N={:.12e} force_after_N={:.12e}\n",
-                   e.kind == physics::EventKind::JumpToContact ? "jump-to-contact" : "jump-off-contact",
-                   session.seconds_since_start(e.time_ns), e.z_m, e.force_before_n, e.force_after_n);
+                   physics::name_of(e.kind), session.seconds_since_start(e.time_ns), e.z_m, e.force_before_n,
+                   e.force_after_n);
   }
   fmt::format_to(out,
                  "time_s,z_m,force_N,tip_height_m,deflection_m,sample_deformation_m,hand_height_m,hand_force_N,servo_"

@@ -57,6 +57,17 @@ void add_scale_option(OptionList& command, scene::ScaleMode& mode) {
                           scene::text_of(mode).word));
 }
 
+void add_friction_option(OptionList& command, physics::FrictionLaw& friction) {
+  std::string meanings;
+  for (const physics::FrictionLawText& row : physics::kFrictionLaws) {
+    meanings += fmt::format("{}{} ({})", meanings.empty() ? "" : ", ", row.word, row.meaning);
+  }
+  enum_option(
+      command, "--friction", friction, "a friction", physics::kFrictionLaws, &physics::FrictionLawText::word,
+      &physics::FrictionLawText::law,
+      fmt::format("what holds the tip back sideways: {}; default: {}", meanings, physics::text_of(friction).word));
+}
+
 void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
   files.assets_dir = context.assets_dir;
   files.language = context.language;

@@ -5,6 +5,7 @@
 
 #include "app/command.h"
 #include "exhibit/exhibit_setup.h"
+#include "physics/friction.h"
 #include "scene/shared/scale_modes.h"
 
 namespace afm::app {
@@ -18,6 +19,9 @@ void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files);
 
 // --scale.
 void add_scale_option(OptionList& command, scene::ScaleMode& mode);
+
+// --friction.
+void add_friction_option(OptionList& command, physics::FrictionLaw& friction);
 
 // --language, --guidance and --assets: the words of what is drawn or reported.
 void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context);

@@ -183,6 +183,14 @@ bool ContactSetup::has_work_of_adhesion() const {
          scene::find_source(material.sources, "mean_surface_energy") != nullptr;
 }
 
+physics::FrictionParameters ContactSetup::felt_friction() const {
+  using physics::FrictionLaw;
+  if (friction == FrictionLaw::None) return {};
+  physics::FrictionParameters felt = material.friction;
+  felt.law = friction == FrictionLaw::Lattice && !material.has_lattice ? FrictionLaw::Amontons : friction;
+  return felt;
+}
+
 std::optional<physics::LawChoice> ContactSetup::place() const {
   if (!has_work_of_adhesion()) return std::nullopt;
   return physics::choose_law(material.contact);

@@ -31,6 +31,7 @@ scene::SharedContact parameters_of(const ContactSetup& setup) {
   shared.meniscus = options.meniscus.value_or(physics::Meniscus());
   shared.dynamic = setup.model.dynamic ? 1 : 0;
   shared.lever = setup.material.lever;
+  shared.friction = setup.felt_friction();
   return shared;
 }
 
@@ -72,12 +73,13 @@ core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry, c
   ContactSetup setup{entry, scene::law_options(parameters), {}};
   setup.model.law = parameters.law;
   setup.model.dynamic = parameters.dynamic != 0;
+  setup.friction = parameters.friction.law;
   return model_with(setup, parameters, curves);
 }
 
 core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry,
                                             std::span<const scene::SharedMeasuredCurve> curves, std::uint32_t index) {
-  scene::SharedContact parameters = parameters_of({entry, {}, {}});
+  scene::SharedContact parameters = parameters_of(ContactSetup{entry, {}, {}});
   parameters.law = Law::Measured;
   parameters.measured_curve = index;
   return make_sample_model(entry, parameters, curves);

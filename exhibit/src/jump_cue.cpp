@@ -13,8 +13,10 @@ constexpr glm::vec3 kInColor(0.25F, 1.1F, 2.0F), kOffColor(2.2F, 0.75F, 0.05F);
 }  // namespace
 
 std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::int64_t now_ns) {
-  const auto later = std::upper_bound(events.begin(), events.end(), now_ns,
-                                      [](std::int64_t t, const scene::TipEvent& e) { return t < e.time_ns; });
+  auto later = std::upper_bound(events.begin(), events.end(), now_ns,
+                                [](std::int64_t t, const scene::TipEvent& e) { return t < e.time_ns; });
+  // a slip is felt many times a second: nothing that may flash
+  while (later != events.begin() && (later - 1)->kind == physics::EventKind::Slip) --later;
   if (later == events.begin()) return std::nullopt;
   const scene::TipEvent& newest = *(later - 1);
   const double age_s = static_cast<double>(now_ns - newest.time_ns) * 1e-9;

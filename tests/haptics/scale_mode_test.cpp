@@ -59,7 +59,8 @@ TEST_P(CycleOnAScale, HasTheEventsOfTheEquationsAndLetsGoWithinTheWorkspace) {
 
 INSTANTIATE_TEST_SUITE_P(Papers, CycleOnAScale,
                          testing::Combine(testing::Values(kMica, kGold, kSiliconNitride),
-                                          testing::Values(ScaleMode::Common, ScaleMode::Fit, ScaleMode::Compressed)));
+                                          testing::Values(ScaleMode::Common, ScaleMode::Fit, ScaleMode::Compressed,
+                                                          ScaleMode::Atoms)));
 
 TEST(ScaleMode, ChangesOnlyOffTheSampleAndWithoutForce) {
   ServoBench bench;

@@ -102,13 +102,14 @@ struct Felt {
 Scaling scaling_of(ScaleMode mode, const std::shared_ptr<const LawTables>& tables, const DeviceSpec& device) {
   if (mode == ScaleMode::Fit) return *Scaling::fit(*tables, device);
   if (mode == ScaleMode::Compressed) return *Scaling::compressed(*tables, device);
+  if (mode == ScaleMode::Atoms) return *Scaling::atoms(*tables, device, 0.246e-9);
   return *Scaling::common(*tables, device, *Scaling::common_scale(std::vector{tables}, device));
 }
 
 std::string name_of(const testing::TestParamInfo<std::tuple<Felt, ScaleMode>>& test) {
-  const ScaleMode mode = std::get<ScaleMode>(test.param);
-  const char* const mode_name = mode == ScaleMode::Common ? "Common" : mode == ScaleMode::Fit ? "Fit" : "Compressed";
-  return std::get<Felt>(test.param).name + mode_name;
+  std::string mode = afm::scene::text_of(std::get<ScaleMode>(test.param)).word;
+  mode.front() = static_cast<char>(mode.front() - 'a' + 'A');
+  return std::get<Felt>(test.param).name + mode;
 }
 
 class ScalingOfAnyLaw : public testing::TestWithParam<std::tuple<Felt, ScaleMode>> {
@@ -165,20 +166,20 @@ TEST_P(ScalingOfAnyLaw, KeepsZeroIsMonotoneAndOddBelowTheKnee) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, ScalingOfAnyLaw,
-                         testing::Combine(testing::ValuesIn(std::vector<Felt>{
-                                              {"Paper", Law::Paper, mica()},
-                                              {"Hao", Law::Hao, mica()},
-                                              {"Dmt", Law::Dmt, mica()},
-                                              {"DmtOnAStiffLever", Law::Dmt, mica(3.0)},
-                                              {"DmtWithoutHysteresis", Law::Dmt, mica(40.0)},
-                                              {"Jkr", Law::Jkr, pdms(1.0)},
-                                              {"JkrOnASoftLever", Law::Jkr, pdms(0.1)},
-                                              {"HertzOnPdms", Law::Hertz, pdms(1.0)},
-                                              {"HertzOnMica", Law::Hertz, mica()},
-                                              {"LennardJones", Law::LennardJones, mica()}}),
-                                          testing::Values(ScaleMode::Common, ScaleMode::Fit, ScaleMode::Compressed)),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Laws, ScalingOfAnyLaw,
+    testing::Combine(testing::ValuesIn(std::vector<Felt>{{"Paper", Law::Paper, mica()},
+                                                         {"Hao", Law::Hao, mica()},
+                                                         {"Dmt", Law::Dmt, mica()},
+                                                         {"DmtOnAStiffLever", Law::Dmt, mica(3.0)},
+                                                         {"DmtWithoutHysteresis", Law::Dmt, mica(40.0)},
+                                                         {"Jkr", Law::Jkr, pdms(1.0)},
+                                                         {"JkrOnASoftLever", Law::Jkr, pdms(0.1)},
+                                                         {"HertzOnPdms", Law::Hertz, pdms(1.0)},
+                                                         {"HertzOnMica", Law::Hertz, mica()},
+                                                         {"LennardJones", Law::LennardJones, mica()}}),
+                     testing::Values(ScaleMode::Common, ScaleMode::Fit, ScaleMode::Compressed, ScaleMode::Atoms)),
+    name_of);
 
 // ---- the paper's three materials on an Omni: Liu & Peng, Table 1, through (3.4) to (3.10) ----
 
@@ -319,6 +320,22 @@ TEST(FitScaling, RefusesAContactThatIsTooStiffToBeFelt) {
   soft.max_stiffness_n_per_m = 0.5;
   const auto tables = build_law_tables(Law::Paper, mica());
   EXPECT_THAT(Scaling::fit(*tables, soft).error().message, testing::HasSubstr("use a softer lever"));
+}
+
+TEST(AtomsScaling, GivesAnAtomTheSameWidthInTheHandWhateverTheMaterial) {
+  const DeviceSpec device = SimulatedDevice().spec();
+  for (const double period_m : {0.246e-9, 0.288e-9, 0.52e-9}) {
+    const auto tables = build_law_tables(Law::Dmt, mica(0.02));
+    const Scaling fit = *Scaling::fit(*tables, device), atoms = *Scaling::atoms(*tables, device, period_m);
+    EXPECT_NEAR(atoms.lateral_m_per_m() * period_m, 0.0019, 1e-12);
+    EXPECT_EQ(atoms.hand_m_per_m(), fit.hand_m_per_m());
+    EXPECT_EQ(atoms.hand_n_per_n(), fit.hand_n_per_n());
+    EXPECT_NEAR(atoms.flattening(), fit.hand_m_per_m() / atoms.lateral_m_per_m(), 1e-15);
+    EXPECT_EQ(fit.flattening(), 1.0);
+  }
+  // a scale that is larger already stays
+  const auto tables = build_law_tables(Law::Dmt, mica(3.0));
+  EXPECT_EQ(Scaling::atoms(*tables, device, 5e-9)->lateral_m_per_m(), Scaling::fit(*tables, device)->hand_m_per_m());
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ CaseProgram program_of(const std::string& id) {
   if (kContactCases.contains(id)) return CaseProgram::Contact;
   const std::string family = id.substr(0, id.find('_'));
   if (family == "thermal" || family == "dyn" || family == "beam") return CaseProgram::Lever;
+  if (family == "friction") return CaseProgram::Friction;
   return CaseProgram::Cycle;
 }
 

@@ -43,9 +43,10 @@ std::vector<Case> read_cases();
 
 // Which test program answers for a row.
 enum class CaseProgram {
-  Cycle,    // cycle_cases: whole cycles and their folds, through lever and support
-  Contact,  // contact_cases: the laws of force by themselves
-  Lever,    // lever_cases: thermal noise, dynamics, beams
+  Cycle,     // cycle_cases: whole cycles and their folds, through lever and support
+  Contact,   // contact_cases: the laws of force by themselves
+  Lever,     // lever_cases: thermal noise, dynamics, beams
+  Friction,  // friction_cases: what holds a tip back sideways
 };
 std::vector<Case> cases_of(CaseProgram program);
 

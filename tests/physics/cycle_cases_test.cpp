@@ -211,10 +211,11 @@ INSTANTIATE_TEST_SUITE_P(Research, TableCase, testing::ValuesIn(table_cases()),
 
 // A row that nobody instantiates is a row that nobody checks: each program asserts how many it takes.
 TEST(PhysicsCases, EveryRowBelongsToATestProgram) {
-  EXPECT_EQ(read_cases().size(), 227U);
+  EXPECT_EQ(read_cases().size(), 272U);
   EXPECT_EQ(cases_of(CaseProgram::Cycle).size(), 132U);
   EXPECT_EQ(cases_of(CaseProgram::Contact).size(), 56U);
   EXPECT_EQ(cases_of(CaseProgram::Lever).size(), 39U);
+  EXPECT_EQ(cases_of(CaseProgram::Friction).size(), 45U);
 }
 
 }  // namespace

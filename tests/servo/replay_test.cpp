@@ -17,6 +17,7 @@
 #include "haptics/simulated_device.h"
 #include "places.h"
 #include "scene/shared/shared_segment.h"
+#include "servo/session_friction.h"
 #include "support/paper_model.h"
 #include "support/scratch_folder.h"
 
@@ -71,8 +72,8 @@ class Recording {
 
   void choose(int material) { renderer_.store(scene::Selection{.material = material, .revision = ++selection_}); }
 
-  void aim(double height_m, double seconds, bool pressed = false) {
-    renderer_.store(scene::HandScript{.target_m = {0.003, height_m, -0.002},
+  void aim(double height_m, double seconds, bool pressed = false, double sideways_m = 0.003) {
+    renderer_.store(scene::HandScript{.target_m = {sideways_m, height_m, -0.002},
                                       .duration_s = seconds,
                                       .revision = ++script_,
                                       .turn_on_pressed = pressed ? 1U : 0U});
@@ -181,6 +182,75 @@ TEST(Replay, GivesEveryBitOfEveryMaterialAgainWhateverWasFeltBefore) {
     EXPECT_GE(session.events.size(), 4U);
     expect_same(session);
   }
+}
+
+TEST(Replay, GivesTheFrictionAgain) {
+  for (const auto law :
+       {physics::FrictionLaw::Amontons, physics::FrictionLaw::ContactArea, physics::FrictionLaw::Lattice}) {
+    auto model = test::paper_model();
+    scene::SharedContact& mica = model.materials[test::kMica];
+    mica.law = physics::Law::Dmt;
+    mica.contact.reduced_modulus = physics::Pressure(5.15e10);
+    mica.friction = {.law = law,
+                     .lattice = physics::LatticeKind::Hexagonal,
+                     .coefficient = 0.1,
+                     .shear_strength = physics::Pressure(1e8),
+                     .period = physics::Length(0.52e-9),
+                     .corrugation = physics::Length(5e-12),
+                     .lateral_stiffness = physics::Stiffness(1.0)};
+    Recording recording(model);
+    recording.choose(test::kMica);
+    recording.arm();
+    recording.aim(-0.006, 0.5);
+    recording.run(800);
+    recording.aim(-0.006, 0.4, false, 0.020);
+    recording.run(600);
+    recording.aim(0.065, 0.7);
+    recording.run(900);
+    const support::ScratchFolder folder;
+    const std::string path = folder.file("friction.afms");
+    ASSERT_TRUE(save_session(recording.sessions.front(), path));
+    const auto loaded = load_session(path);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    double strongest = 0.0;
+    for (const TipSample& sample : loaded->samples) {
+      strongest = std::max(strongest, std::hypot(sample.lateral_force_n[0], sample.lateral_force_n[1]));
+    }
+    EXPECT_GT(strongest, 1e-11);
+    expect_same(*loaded);
+  }
+}
+
+// Half width, offset and slope of a loop that the hand drew, within 1 % of what the numbers of the material say.
+TEST(SessionFriction, IsMeasuredFromARecording) {
+  auto model = test::paper_model();
+  scene::SharedContact& mica = model.materials[test::kMica];
+  mica.law = physics::Law::Dmt;
+  mica.contact.reduced_modulus = physics::Pressure(5.15e10);
+  mica.friction = {
+      .law = physics::FrictionLaw::Amontons, .coefficient = 0.1, .lateral_stiffness = physics::Stiffness(1.0)};
+  Recording recording(model);
+  recording.choose(test::kMica);
+  recording.arm();
+  recording.aim(-0.006, 0.5);
+  recording.run(1200);
+  for (const double x : {0.020, -0.020, 0.020, -0.020}) {
+    recording.aim(-0.006, 0.8, false, x);
+    recording.run(1100);
+  }
+  const RecordedSession& session = recording.sessions.front();
+  const auto loop = friction_loop(session);
+  ASSERT_TRUE(loop);
+  const double load_n = session.samples.back().tip.force_n + 4.0 * M_PI * 50e-9 * 2.228e-3;
+  EXPECT_NEAR(loop->half_width.si, 0.1 * load_n, 0.01 * 0.1 * load_n);
+  EXPECT_NEAR(loop->offset.si, 0.0, 0.01 * 0.1 * load_n);
+  EXPECT_NEAR(loop->slope.si, 1.0, 0.01);
+
+  RecordedSession without = session;
+  for (TipSample& sample : without.samples) sample.lateral_force_n = {};
+  EXPECT_FALSE(friction_loop(without));
+  without.samples.clear();
+  EXPECT_FALSE(friction_loop(without));
 }
 
 TEST(Replay, TurnsTheSampleAgainAsTheWandTurnedIt) {
@@ -378,10 +448,10 @@ TEST(Replay, ComparesEveryNumberThatTheServoComputed) {
     EXPECT_EQ(replay(session)->first_event.value_or(Difference{}).quantity, name);
     quantities.push_back(name);
   }
-  EXPECT_THAT(quantities,
-              testing::ElementsAre("z_m", "force_N", "tip_height_m", "deflection_m", "sample_deformation_m",
-                                   "hand_height_m", "hand_force_N", "servo_state", "phase", "tip_x_m", "tip_y_m",
-                                   "surface_height_m", "kind", "time_ns", "z_m", "force_before_N", "force_after_N"));
+  EXPECT_THAT(quantities, testing::ElementsAre("z_m", "force_N", "tip_height_m", "deflection_m", "sample_deformation_m",
+                                               "hand_height_m", "hand_force_N", "servo_state", "phase", "tip_x_m",
+                                               "tip_y_m", "surface_height_m", "lateral_x_N", "lateral_y_N", "kind",
+                                               "time_ns", "z_m", "force_before_N", "force_after_N"));
 }
 
 TEST(Replay, IsTheSameFromAFile) {

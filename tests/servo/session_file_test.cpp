@@ -221,7 +221,7 @@ TEST(SessionFile, AlteredInAnyByteIsRefused) {
 TEST(SessionFile, OfAnotherVersionNamesBoth) {
   const support::ScratchFolder folder;
   EXPECT_THAT(error_of(folder.write("new.afms", std::string("AFMS\x09\0\0\0", 8))),
-              HasSubstr("version is 9; this program reads versions 3 and 4"));
+              HasSubstr("version is 9; this program reads versions 3 to 5"));
 }
 
 TEST(SessionFile, CarriesTheCurveThatWasFelt) {

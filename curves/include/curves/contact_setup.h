@@ -8,6 +8,7 @@
 
 #include "core/result.h"
 #include "physics/adhesion_map.h"
+#include "physics/friction.h"
 #include "physics/law.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/material_library.h"
@@ -37,6 +38,10 @@ struct ContactSetup {
   scene::MaterialEntry material;  // with probe and overrides in its numbers, and their sources
   physics::LawOptions law_options;
   ModelName model;
+  physics::FrictionLaw friction = physics::FrictionLaw::None;  // that is felt; no curve of a force knows it
+
+  // The chosen law with the material's numbers; Amontons' where atoms were asked for that lie in no lattice.
+  physics::FrictionParameters felt_friction() const;
 
   // Whether W is known; without it the contact has no place on the adhesion map.
   bool has_work_of_adhesion() const;

@@ -95,6 +95,7 @@
   PHRASE(ScaleCommon, "scale-common", "", kLine)                      \
   PHRASE(ScaleFit, "scale-fit", "", kLine)                            \
   PHRASE(ScaleCompressed, "scale-compressed", "", kLine)              \
+  PHRASE(ScaleAtoms, "scale-atoms", "", kLine)                        \
   PHRASE(ForceLimit, "force-limit", "", kLine)                        \
   PHRASE(WhileTurnOnHeld, "while-turn-on-held", "device", kLine)      \
   PHRASE(Servo, "servo", "", kLine)                                   \

@@ -6,12 +6,14 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
 
 #include "core/result.h"
 #include "haptics/device.h"
+#include "haptics/felt_friction.h"
 #include "haptics/passivity_observer.h"
 #include "haptics/potential_energy.h"
 #include "haptics/sample_surface.h"
@@ -39,6 +41,7 @@ struct Touch {
   physics::TipResponse response;
   double z_m = 0;  // above the surface below the tip
   glm::dvec2 tip_xy_m{0.0};
+  FeltFriction::Step friction;
   double surface_height_m = 0;
   glm::dvec3 normal{0.0, 0.0, 1.0};  // of the surface below the tip, unit
   glm::dvec3 hand_force_n{0.0};      // for the hand
@@ -49,7 +52,8 @@ struct Touch {
 // Z is measured from the surface below the tip, d = z - h(x, y), and the force on the hand is what the potential of
 // F(d) gives: F(d) (-dh/dx, -dh/dy, 1), along the local normal (docs/decisions/0007). So no path sideways gains energy
 // on a branch of the law, and the jumps have the law's forces wherever they happen. Sideways a hand's metre is as many
-// metres of the nanoworld as along z.
+// metres of the nanoworld as along z, or fewer on the scale Atoms, on which the slopes are as much flatter. Friction
+// (haptics/felt_friction.h) comes on top of that and takes energy.
 //
 // create() takes milliseconds (on a topography, tenths of a second) and allocates; the rest is for a tick of the servo.
 class ContactModel {
@@ -89,14 +93,16 @@ class ContactModel {
 
   using StoredEnergies = std::vector<PotentialEnergy>;  // likewise
 
-  ContactModel(Model model, SampleSurface surface, const Scalings& scalings, StoredEnergies stored_energies,
-               std::shared_ptr<const physics::LawTables> tables, double force_cap_n, std::uint32_t edit_revision);
+  ContactModel(Model model, SampleSurface surface, std::optional<FeltFriction> friction, const Scalings& scalings,
+               StoredEnergies stored_energies, std::shared_ptr<const physics::LawTables> tables, double force_cap_n,
+               std::uint32_t edit_revision);
 
   physics::TipResponse step_law(physics::Length z) noexcept;
   double stiffness_n_per_m() const noexcept;
 
   Model model_;  // never without a value, so that visiting it cannot throw
   SampleSurface surface_;
+  std::optional<FeltFriction> friction_;
   double steepest_slope_;
   double largest_curvature_per_m_;
   double force_cap_n_;

@@ -41,6 +41,7 @@ class PassivityObserver {
     double stiffness_n_per_m = 0;  // K: no spring in the law is stiffer
     double oscillation_n = 0;      // by how much the lever's own force is off its table's
     bool is_dynamic = false;       // a lever that is never at rest
+    double given_j = 0;            // of U: stored in this tick by a touch-down, which the jump to contact has paid
   };
 
   // One tick that has passed; device frame.

@@ -34,6 +34,10 @@ struct CommonScale {
 //   workspace holds between 20 mm of push and 20 mm of recoil: Z = 0 lies lower than in the other two. The strongest
 //   pull of all is as strong as the device may be. On an Omni, for the paper's materials, 0.8 mm/nm and 0.20 N/nN.
 //
+// - Atoms: Fit along the normal, and sideways so large that a lattice step is kAtomM wide in the hand. Sideways a
+// hand's
+//   metre is then fewer metres of the nanoworld than along z, and a surface as much flatter.
+//
 // In all of them the force map is odd up to three quarters of the cap; beyond, repulsion bends so that it stays below
 // it. It keeps zero and is monotone: integrated over the height it is a potential, so that it adds no energy to a law
 // that has one. Where the force rises more steeply against the hand than kMaxStiffnessNPerM or the device's own limit,
@@ -47,10 +51,15 @@ class Scaling {
   static constexpr double kMaxStiffnessNPerM = 400.0;  // stable on every device of this class at 1 kHz
   static constexpr double kFaintShare = 0.02;          // of 2.0 N: below what the governor arms at
   static constexpr double kFaintestPullN = 0.05;       // less is not felt by a hand that moves
+  static constexpr double kAtomM = 0.0019;             // of hand: a lattice step
+  static constexpr double kUsualPeriodM = 0.52e-9;     // mica's, for a material whose lattice is not known
 
   // Both fail if the device is too weak or too small, and if the pull of so stiff a contact would be too faint to feel.
   static core::Result<Scaling> fit(const physics::LawTables& tables, const DeviceSpec& device);
   static core::Result<Scaling> compressed(const physics::LawTables& tables, const DeviceSpec& device);
+
+  // `period_m`: of the lattice, 0 for none.
+  static core::Result<Scaling> atoms(const physics::LawTables& tables, const DeviceSpec& device, double period_m);
 
   // `scale`, or less of it where this material alone would not suit the device: one that was changed since the scale
   // was made. Faint forces stay faint.
@@ -68,6 +77,9 @@ class Scaling {
   double hand_m_per_m() const noexcept { return hand_m_per_m_; }
   double hand_n_per_n() const noexcept { return hand_n_per_n_; }  // of the strongest pull; constant but in Compressed
 
+  double lateral_m_per_m() const noexcept { return lateral_m_per_m_; }             // of hand, sideways
+  double flattening() const noexcept { return hand_m_per_m_ / lateral_m_per_m_; }  // of the slopes of a surface
+
   double z_m(double hand_height_m) const noexcept { return (hand_height_m - zero_m_) / hand_m_per_m_; }
   double hand_height_m(double z_m) const noexcept { return zero_m_ + z_m * hand_m_per_m_; }
 
@@ -83,6 +95,7 @@ class Scaling {
 
   scene::ScaleMode mode_ = scene::ScaleMode::Fit;
   double hand_m_per_m_ = 0;
+  double lateral_m_per_m_ = 0;
   double hand_n_per_n_ = 0;
   double zero_m_ = 0;
   double release_m_ = kStrokeM;

@@ -55,11 +55,6 @@ PotentialEnergy stored_energy_of(const physics::LawTables& tables, const Scaling
                          {-reach_m, reach_m});
 }
 
-// Where a surface bends, a force on it is a stiffness sideways: force times curvature, both on the hand. It gets this
-// share of the device's stiffness limit on the scale of Fit, beside the law's own stiffness. The common scale is
-// softer.
-constexpr double kShareOfStiffness = 0.5;
-
 // For a validation that knows no segment: there is a topography.
 constexpr scene::SharedTopography kAnyTopography{.columns = 2, .rows = 2, .spacing_m = 1};
 
@@ -86,7 +81,7 @@ double slow_motion_of(const physics::DynamicModel& model) { return model.slow_mo
 
 double largest_curvature_per_m(const Scaling& fit, const DeviceSpec& device) {
   const double stands_n_per_m = std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
-  return kShareOfStiffness * stands_n_per_m / force_cap_n(device) * fit.hand_m_per_m();
+  return (1.0 - FeltFriction::kShareOfStiffness) * stands_n_per_m / force_cap_n(device) * fit.hand_m_per_m();
 }
 
 core::Result<std::shared_ptr<const physics::LawTables>> build_tables(
@@ -109,29 +104,34 @@ core::Result<std::unique_ptr<ContactModel>> ContactModel::create(
   const auto common_scaling = Scaling::common(*tables, device, common);
   const auto fit = Scaling::fit(*tables, device);
   const auto compressed = Scaling::compressed(*tables, device);
-  for (const auto* scaling : {&common_scaling, &fit, &compressed}) {
+  const auto atoms = Scaling::atoms(*tables, device, material.friction.period.si);
+  for (const auto* scaling : {&common_scaling, &fit, &compressed, &atoms}) {
     if (!*scaling) return refusal(material, scaling->error().category, scaling->error().message);
   }
   try {
     Model model(std::in_place_type<physics::ApproachRetractModel>, tables);
     if (material.dynamic != 0) model = dynamic_model(material, period_ns);
-    const Scalings scalings{*common_scaling, *fit, *compressed};
+    const Scalings scalings{*common_scaling, *fit, *compressed, *atoms};
     SampleSurface surface(drawn, material.contact.tip_radius.si, largest_curvature_per_m(*fit, device));
+    std::optional<FeltFriction> friction;
+    if (material.friction.law != physics::FrictionLaw::None) friction.emplace(material, tables, device);
     StoredEnergies stored_energies;
     for (const Scaling& scaling : scalings) stored_energies.push_back(stored_energy_of(*tables, scaling, device));
-    return std::unique_ptr<ContactModel>(new ContactModel(std::move(model), std::move(surface), scalings,
-                                                          std::move(stored_energies), std::move(tables),
+    return std::unique_ptr<ContactModel>(new ContactModel(std::move(model), std::move(surface), std::move(friction),
+                                                          scalings, std::move(stored_energies), std::move(tables),
                                                           force_cap_n(device), edit_revision));
   } catch (const std::exception& error) {
     return refusal(material, core::ErrorCategory::Failed, error.what());
   }
 }
 
-ContactModel::ContactModel(Model model, SampleSurface surface, const Scalings& scalings, StoredEnergies stored_energies,
+ContactModel::ContactModel(Model model, SampleSurface surface, std::optional<FeltFriction> friction,
+                           const Scalings& scalings, StoredEnergies stored_energies,
                            std::shared_ptr<const physics::LawTables> tables, double force_cap_n,
                            std::uint32_t edit_revision)
     : model_(std::move(model)),
       surface_(std::move(surface)),
+      friction_(std::move(friction)),
       steepest_slope_(surface_.steepest_slope()),
       largest_curvature_per_m_(surface_.largest_curvature_per_m()),
       force_cap_n_(force_cap_n),
@@ -144,14 +144,18 @@ ContactModel::ContactModel(Model model, SampleSurface surface, const Scalings& s
 Touch ContactModel::step(const glm::dvec3& hand_m) noexcept {
   const Scaling& scale = scaling();
   Touch touch;
-  touch.tip_xy_m = glm::dvec2(hand_m) / scale.hand_m_per_m();
+  touch.tip_xy_m = glm::dvec2(hand_m) / scale.lateral_m_per_m();
   const SampleSurface::Place below = surface_.at(touch.tip_xy_m);
   touch.surface_height_m = below.height_m;
   touch.z_m = scale.z_m(hand_m.z) - below.height_m;
   touch.response = step_law(physics::Length(touch.z_m));
-  const glm::dvec3 gradient(-below.slope, 1.0);
-  touch.normal = glm::normalize(gradient);
+  touch.normal = glm::normalize(glm::dvec3(-below.slope, 1.0));
+  const glm::dvec3 gradient(-below.slope * scale.flattening(), 1.0);
   touch.hand_force_n = scale.hand_force_n(touch.response.force.si) * gradient;
+  if (friction_) {
+    touch.friction = friction_->step(touch.tip_xy_m, touch.z_m, below, touch.response, scale);
+    touch.hand_force_n += touch.friction.hand_force_n;
+  }
   return touch;
 }
 
@@ -160,7 +164,8 @@ double ContactModel::stiffness_n_per_m() const noexcept {
   // a recorded contact's turn adds at most the stiffness that it has on average
   const double turning = tables_->turn.si > 0.0 ? 2.0 : 1.0;
   return turning * stored_energy().stiffness_n_per_m() * (1.0 + steepest_slope_ * steepest_slope_) +
-         force_cap_n_ * largest_curvature_per_m_ / scaling().hand_m_per_m();
+         force_cap_n_ * largest_curvature_per_m_ / scaling().hand_m_per_m() +
+         (friction_ ? friction_->stiffness_n_per_m(scaling()) : 0.0);
 }
 
 physics::TipResponse ContactModel::step_law(physics::Length z) noexcept {
@@ -169,6 +174,7 @@ physics::TipResponse ContactModel::step_law(physics::Length z) noexcept {
 
 void ContactModel::wait_for_lift() noexcept {
   std::visit([](auto& model) { model.wait_for_lift(); }, model_);
+  if (friction_) friction_->lift();
 }
 
 physics::Phase ContactModel::phase() const noexcept {
@@ -186,6 +192,10 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
     const physics::Length in = tables_->figures.z_jtc;
     law.stored_j += turn_energy_j(*tables_, scaling(), physics::Length(touch.z_m), model->lowest_z()) -
                     turn_energy_j(*tables_, scaling(), in, in);
+  }
+  if (friction_) {
+    law.stored_j += friction_->stored_j(scaling());
+    law.given_j = touch.friction.given_j;
   }
   if (law.is_dynamic) {
     const auto& branch = attached ? tables_->attached : tables_->free;

@@ -150,7 +150,7 @@ core::Result<Scaling> Scaling::fit(const physics::LawTables& tables, const Devic
   if (auto some = check_extent(extent); !some) return tl::unexpected(some.error());
   Scaling scaling;
   scaling.cap_n_ = force_cap_n(device);
-  scaling.hand_m_per_m_ = kStrokeM / extent.reach_m;
+  scaling.hand_m_per_m_ = scaling.lateral_m_per_m_ = kStrokeM / extent.reach_m;
   scaling.hand_n_per_n_ = scaling.cap_n_ / extent.strong_n;
 
   // a weaker scale bends at another depth, so that one step need not be enough
@@ -189,6 +189,14 @@ core::Result<Scaling> Scaling::compressed(const physics::LawTables& tables, cons
   return scaling;
 }
 
+core::Result<Scaling> Scaling::atoms(const physics::LawTables& tables, const DeviceSpec& device, double period_m) {
+  auto scaling = fit(tables, device);
+  if (!scaling) return scaling;
+  scaling->mode_ = scene::ScaleMode::Atoms;
+  scaling->lateral_m_per_m_ = std::max(scaling->hand_m_per_m_, kAtomM / (period_m > 0.0 ? period_m : kUsualPeriodM));
+  return scaling;
+}
+
 double Scaling::common_zero_m(const DeviceSpec& device) noexcept {
   return device.workspace_min_m.y - device.contact_point_m.y + kPushM;
 }
@@ -204,6 +212,7 @@ core::Result<Scaling> Scaling::common(const physics::LawTables& tables, const De
   scaling.cap_n_ = force_cap_n(device);
   scaling.zero_m_ = common_zero_m(device);
   scaling.hand_m_per_m_ = std::min(scale.hand_m_per_m, common_stroke_m(device) / extent.reach_m);
+  scaling.lateral_m_per_m_ = scaling.hand_m_per_m_;
   scaling.hand_n_per_n_ = std::min(scale.hand_n_per_n, scaling.cap_n_ / extent.strong_n);
   scaling.release_m_ = scaling.hand_height_m(extent.reach_m);
   for (double excess = excess_of_stiffness(scaling, tables, device); excess > 1.0 + kRounding;

@@ -258,6 +258,15 @@ void ServoLoop::publish_events(std::int64_t now_ns) noexcept {
                                  .force_before_n = event.force_before.si,
                                  .force_after_n = event.force_after.si});
   }
+  for (const physics::LatticeSlip& slip : touch_.friction.events.slipped()) {
+    shared_.push(scene::TipEvent{
+        .kind = physics::EventKind::Slip,
+        .material = state_.material,
+        .time_ns = previous_ns_ + std::llround(slip.fraction * static_cast<double>(now_ns - previous_ns_)),
+        .z_m = touch_.z_m,
+        .force_before_n = physics::magnitude(slip.force_before).si,
+        .force_after_n = physics::magnitude(slip.force_after).si});
+  }
 }
 
 void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
@@ -309,7 +318,8 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                 .surface = state_.surface,
                                 .motor_heat = state_.safety.motor_heat,
                                 .device_healthy = device_healthy_ ? 1U : 0U,
-                                .changing = changing_ ? 1U : 0U});
+                                .changing = changing_ ? 1U : 0U,
+                                .lateral_force_n = {touch_.friction.lateral.x.si, touch_.friction.lateral.y.si}});
 }
 
 bool ServoLoop::finished() const noexcept {

@@ -22,7 +22,7 @@ bool is_number(const GovernorInput& input) {
   return std::isfinite(force_n.x) && std::isfinite(force_n.y) && std::isfinite(force_n.z) &&
          is_within_reach(input.hand_position_m) && std::isfinite(input.hand_height_m) &&
          std::isfinite(input.law_energy.stored_j) && std::isfinite(input.law_energy.stiffness_n_per_m) &&
-         std::isfinite(input.law_energy.oscillation_n);
+         std::isfinite(input.law_energy.oscillation_n) && std::isfinite(input.law_energy.given_j);
 }
 
 }  // namespace
@@ -126,7 +126,8 @@ void SafetyGovernor::observe_energy(const GovernorInput& input) noexcept {
   observer_.integrate({.moved_m = motion_.moved_m(),
                        .wanted_n = output_.wanted_n(),
                        .commanded_n = output_.command_n(),
-                       .stored_rise_j = previous_.law_gain * (input.law_energy.stored_j - previous_.law.stored_j) +
+                       .stored_rise_j = previous_.law_gain * (input.law_energy.stored_j - input.law_energy.given_j -
+                                                              previous_.law.stored_j) +
                                         previous_.stop_gain * (stop_j - previous_.stop_stored_j),
                        .stiffness_n_per_m = previous_.law_gain * previous_.law.stiffness_n_per_m +
                                             (in_stop ? previous_.stop_gain * WorkspaceStop::kStiffnessNPerM : 0.0),

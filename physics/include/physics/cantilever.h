@@ -51,4 +51,11 @@ Torque clamp_moment(Force force, Length lever_length);
 // degrees.
 Stiffness tilted_spring_constant(Stiffness spring_constant, double tilt_rad);
 
+// What the lever is to a force across it at the apex of a tip of height h, by twisting: k_lat = G w t^3/(3 L h^2) with
+// G = E/(2 (1 + nu)), for t well below w.
+Stiffness lateral_stiffness(const RectangularLever& lever, double poisson_ratio, Length tip_height);
+
+// The same of a lever whose k is known, k 2/(3 (1 + nu)) (L/h)^2.
+Stiffness lateral_stiffness(Stiffness spring_constant, double poisson_ratio, Length length, Length tip_height);
+
 }  // namespace afm::physics

@@ -67,4 +67,13 @@ Stiffness tilted_spring_constant(Stiffness spring_constant, double tilt_rad) {
   return spring_constant / (cosine * cosine);
 }
 
+Stiffness lateral_stiffness(const RectangularLever& lever, double poisson_ratio, Length tip_height) {
+  return lateral_stiffness(spring_constant(lever), poisson_ratio, lever.length, tip_height);
+}
+
+Stiffness lateral_stiffness(Stiffness spring_constant, double poisson_ratio, Length length, Length tip_height) {
+  const double slenderness = length / tip_height;
+  return 2.0 / (3.0 * (1.0 + poisson_ratio)) * slenderness * slenderness * spring_constant;
+}
+
 }  // namespace afm::physics

@@ -19,7 +19,7 @@
 namespace afm::scene {
 namespace {
 
-constexpr std::array<std::string_view, 23> kMaterialKeys{"name",
+constexpr std::array<std::string_view, 29> kMaterialKeys{"name",
                                                          "title",
                                                          "tip",
                                                          "medium",
@@ -41,7 +41,13 @@ constexpr std::array<std::string_view, 23> kMaterialKeys{"name",
                                                          "quality_factor",
                                                          "temperature",
                                                          "experiment_f_attr",
-                                                         "experiment_f_ad"};
+                                                         "experiment_f_ad",
+                                                         "friction_coefficient",
+                                                         "shear_strength",
+                                                         "lateral_stiffness",
+                                                         "lattice",
+                                                         "lattice_period",
+                                                         "lattice_corrugation"};
 
 // One [[material]].
 class MaterialReader {
@@ -73,7 +79,9 @@ class MaterialReader {
     entry_.experiment_f_attr = magnitude("experiment_f_attr");
     entry_.experiment_f_ad = magnitude("experiment_f_ad");
     check_physics();
-    entry_.sources = std::move(table_.sources());
+    entry_.sources = std::exchange(table_.sources(), {});
+    read_friction();
+    entry_.friction_sources = std::move(table_.sources());
     return std::move(entry_);
   }
 
@@ -147,6 +155,57 @@ class MaterialReader {
     } else {
       table_.add_source({"temperature", "298.15 K", "default: 25 degrees Celsius", true});
     }
+  }
+
+  void read_friction() {
+    physics::FrictionParameters& friction = entry_.friction;
+    friction.coefficient = 0.1;
+    if (table_.has("friction_coefficient")) {
+      friction.coefficient = table_.number("friction_coefficient");
+    } else {
+      table_.add_source({"friction_coefficient", "0.1", "default: most pairs lie within 0.01 to 0.5", true});
+    }
+    friction.shear_strength = read_or("shear_strength", physics::kPressureUnits, physics::Pressure(1e8),
+                                      "default: 10 MPa to 1 GPa have been measured");
+    friction.lateral_stiffness = read_or("lateral_stiffness", physics::kStiffnessUnits, physics::Stiffness(1.0),
+                                         "default: tip and contact give way at some 1 N/m, far softer than the lever");
+    entry_.has_lattice = table_.has("lattice");
+    for (const char* key : {"lattice_period", "lattice_corrugation"}) {
+      if (table_.has(key) != entry_.has_lattice) {
+        table_.refuse(key, entry_.has_lattice ? "is missing; lattice needs it" : "needs lattice = \"hexagonal\"");
+      }
+    }
+    if (entry_.has_lattice) read_lattice();
+    check_friction();
+  }
+
+  void read_lattice() {
+    const auto kind = physics::lattice_kind_of(table_.text("lattice"));
+    if (!kind) table_.refuse("lattice", "is not known; known are rows, square, hexagonal");
+    entry_.friction.lattice = *kind;
+    entry_.friction.period = table_.quantity("lattice_period", physics::kLengthUnits);
+    entry_.friction.corrugation = table_.quantity("lattice_corrugation", physics::kLengthUnits);
+  }
+
+  // By every law whose numbers it has.
+  void check_friction() const {
+    for (const physics::FrictionLawText& row : physics::kFrictionLaws) {
+      if (row.law == physics::FrictionLaw::Lattice && !entry_.has_lattice) continue;
+      physics::FrictionParameters friction = entry_.friction;
+      friction.law = row.law;
+      try {
+        physics::validate(friction);
+      } catch (const physics::UnphysicalValue& error) {
+        table_.refuse(error.field(), error.what());
+      }
+    }
+  }
+
+  template <class Q>
+  Q read_or(std::string_view key, const physics::UnitList<Q>& units, Q usual, const char* why) {
+    if (table_.has(key)) return table_.quantity(key, units);
+    table_.add_source({std::string(key), physics::format_quantity(usual, units), why, true});
+    return usual;
   }
 
   std::optional<physics::Force> magnitude(std::string_view key) {

@@ -126,6 +126,19 @@ physics::LawOptions law_options(const SharedContact& material) {
   return options;
 }
 
+std::string why_no_friction(physics::FrictionLaw friction, physics::Law law, physics::Pressure reduced_modulus) {
+  if (friction == physics::FrictionLaw::None) return "";
+  if (law == physics::Law::Paper) {
+    return "the paper's law has no friction; choose the model dmt, or --friction none";
+  }
+  if (friction != physics::FrictionLaw::ContactArea) return "";
+  if (!physics::has_contact_area(law)) {
+    return fmt::format("the law {} has no contact area; choose the model dmt, or --friction amontons",
+                       physics::name_of(law));
+  }
+  return physics::isfinite(reduced_modulus) ? "" : "a rigid contact has no contact area; choose --friction amontons";
+}
+
 core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count, std::uint32_t height_field_count,
                             const SharedTopography& topography) {
   if (!terminated(material.name)) return model_refused("its name is not terminated");
@@ -146,12 +159,20 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
   if (!positive(material.topography.lateral) || !positive(material.topography.vertical)) {
     return model_refused("the scale of its topography is not a valid one");
   }
+  if (!core::is_enumerator(material.friction.law) || !core::is_enumerator(material.friction.lattice)) {
+    return model_refused("its friction is unknown");
+  }
+  if (const std::string why = why_no_friction(material.friction.law, material.law, material.contact.reduced_modulus);
+      !why.empty()) {
+    return model_refused(why);
+  }
   if (!(material.retardation_wavelength_m >= 0))
     return model_refused("its retardation wavelength is not a valid length");
   try {
     physics::validate(material.contact);
     physics::validate(law_options(material));
     if (material.dynamic != 0) physics::validate(material.lever);
+    physics::validate(material.friction);
   } catch (const std::invalid_argument& error) {
     return model_refused(error.what());
   }

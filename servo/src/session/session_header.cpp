@@ -28,6 +28,26 @@ physics::ContactParameters contact_of(const nlohmann::json& json) {
   return contact;
 }
 
+nlohmann::json json_of(const physics::FrictionParameters& friction) {
+  return {{"law", static_cast<std::uint32_t>(friction.law)},
+          {"lattice", static_cast<std::uint32_t>(friction.lattice)},
+          {"coefficient", friction.coefficient},
+          {"shear_strength_Pa", friction.shear_strength.si},
+          {"period_m", friction.period.si},
+          {"corrugation_m", friction.corrugation.si},
+          {"lateral_stiffness_N_per_m", friction.lateral_stiffness.si}};
+}
+
+physics::FrictionParameters friction_of(const nlohmann::json& json) {
+  return {.law = static_cast<physics::FrictionLaw>(json.at("law").get<std::uint32_t>()),
+          .lattice = static_cast<physics::LatticeKind>(json.at("lattice").get<std::uint32_t>()),
+          .coefficient = json.at("coefficient").get<double>(),
+          .shear_strength = physics::Pressure(json.at("shear_strength_Pa").get<double>()),
+          .period = physics::Length(json.at("period_m").get<double>()),
+          .corrugation = physics::Length(json.at("corrugation_m").get<double>()),
+          .lateral_stiffness = physics::Stiffness(json.at("lateral_stiffness_N_per_m").get<double>())};
+}
+
 nlohmann::json json_of(const scene::SharedContact& m) {
   nlohmann::json json{{"law", static_cast<std::uint32_t>(m.law)},
                       {"interaction", json_of(m.contact)},
@@ -46,6 +66,7 @@ nlohmann::json json_of(const scene::SharedContact& m) {
                         {"quality_factor", m.lever.quality_factor},
                         {"temperature_K", m.lever.temperature.si}};
   }
+  if (m.friction.law != physics::FrictionLaw::None) json["friction"] = json_of(m.friction);
   return json;
 }
 
@@ -73,6 +94,7 @@ scene::SharedContact parameters_of(const nlohmann::json& json, const std::string
                .quality_factor = dynamics->at("quality_factor").get<double>(),
                .temperature = physics::Temperature(dynamics->at("temperature_K").get<double>())};
   }
+  if (const auto friction = json.find("friction"); friction != json.end()) m.friction = friction_of(*friction);
   return m;
 }
 
@@ -152,9 +174,9 @@ nlohmann::json header_of(const RecordedSession& session) {
   return header;
 }
 
-bool fits_records(const nlohmann::json& header) {
+bool fits_records(const nlohmann::json& header, std::size_t sample_bytes) {
   const auto surface_bytes = header.at("surface_bytes").get<std::size_t>();
-  return header.at("sample_bytes") == sizeof(scene::TipSample) && header.at("event_bytes") == sizeof(scene::TipEvent) &&
+  return header.at("sample_bytes") == sample_bytes && header.at("event_bytes") == sizeof(scene::TipEvent) &&
          (surface_bytes == sizeof(scene::SharedHeightField) || surface_bytes == kTopographyBytes);
 }
 

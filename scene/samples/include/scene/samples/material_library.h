@@ -11,6 +11,7 @@
 #include "core/result.h"
 #include "physics/contact_parameters.h"
 #include "physics/elasticity.h"
+#include "physics/friction.h"
 #include "physics/lever_dynamics.h"
 #include "physics/units.h"
 #include "scene/samples/sourced_value.h"
@@ -32,6 +33,9 @@ struct MaterialEntry {
   std::optional<physics::Force> experiment_f_attr;       // magnitude, measured by others
   std::optional<physics::Force> experiment_f_ad;         // magnitude, measured by others
   std::vector<SourcedValue> sources;                     // of every number above, in the order of the fields
+  physics::FrictionParameters friction;                  // the numbers of every law, of which none is chosen here
+  bool has_lattice = false;                              // else its atoms lie in no order
+  std::vector<SourcedValue> friction_sources;            // of friction's numbers
 };
 
 struct MaterialLibrary {

@@ -9,8 +9,9 @@
 namespace afm::scene {
 
 // Scaling of nanometres and nanonewtons to the hand: one scale for all materials, one that fits each (the default), or
-// the latter with small forces amplified by a bounded compression.
-enum class ScaleMode : std::uint32_t { Common = 0, Fit = 1, Compressed = 2 };
+// the latter with small forces amplified by a bounded compression, or with the sample's plane so large that its atoms
+// are felt one by one.
+enum class ScaleMode : std::uint32_t { Common = 0, Fit = 1, Compressed = 2, Atoms = 3 };
 
 struct ScaleModeText {
   ScaleMode mode;
@@ -20,7 +21,8 @@ struct ScaleModeText {
 
 inline constexpr std::array kScaleModes{ScaleModeText{ScaleMode::Common, "common", "one scale for all samples"},
                                         ScaleModeText{ScaleMode::Fit, "fit", "each sample on its own scale"},
-                                        ScaleModeText{ScaleMode::Compressed, "compressed", "weak forces amplified"}};
+                                        ScaleModeText{ScaleMode::Compressed, "compressed", "weak forces amplified"},
+                                        ScaleModeText{ScaleMode::Atoms, "atoms", "an atom is 1.9 mm wide sideways"}};
 static_assert(core::has_row_for_each(kScaleModes, &ScaleModeText::mode));
 
 constexpr const ScaleModeText& text_of(ScaleMode mode) { return kScaleModes[core::index_of(mode)]; }

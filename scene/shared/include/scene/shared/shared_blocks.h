@@ -7,6 +7,7 @@
 
 #include "physics/contact_parameters.h"
 #include "physics/contact_phase.h"
+#include "physics/friction.h"
 #include "physics/law.h"
 #include "physics/law_tables.h"
 #include "physics/lever_dynamics.h"
@@ -66,6 +67,7 @@ struct SharedContact {
   std::uint32_t height_field = kNoHeightField;  // index into SharedModel::height_fields, or kTopography; none: a plane
   physics::LeverDynamics lever{};
   TopographyScale topography{};  // of kTopography alone
+  physics::FrictionParameters friction{};
 };
 
 // A curve that an instrument recorded, to be felt: each branch along rising Z.

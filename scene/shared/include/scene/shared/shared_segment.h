@@ -6,6 +6,7 @@
 #include <glm/mat4x4.hpp>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "core/file_descriptor.h"
 #include "core/result.h"
@@ -44,6 +45,9 @@ bool is_valid(const SharedDevice& device);
 bool is_valid(const TipState& state, const SharedModel& model);
 bool is_valid(const TipSample& sample, const SharedModel& model);
 bool is_valid(const TipEvent& event, const SharedModel& model);
+
+// Why a law of force cannot be felt with this friction, or nothing. The paper's law is felt as the paper has it.
+std::string why_no_friction(physics::FrictionLaw friction, physics::Law law, physics::Pressure reduced_modulus);
 
 // Transform of `node` at rest, composed along its parents. `model` is valid and `node` is less than its node_count.
 glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node);

@@ -190,9 +190,10 @@ struct TipSample {
   std::array<double, 3> sample_normal{0.0, 1.0, 0.0};  // +z of the sample's frame, unit
   std::array<double, 3> sample_x{1.0, 0.0, 0.0};       // +x of the sample's frame, unit
   SurfacePoint surface{};
-  double motor_heat = 0;             // as in SafetyFigures
-  std::uint32_t device_healthy = 1;  // 0: the device failed, and the hand's place is the last known
-  std::uint32_t changing = 0;        // 1: another choice, or an edit, has taken the force away
+  double motor_heat = 0;                    // as in SafetyFigures
+  std::uint32_t device_healthy = 1;         // 0: the device failed, and the hand's place is the last known
+  std::uint32_t changing = 0;               // 1: another choice, or an edit, has taken the force away
+  std::array<double, 2> lateral_force_n{};  // of friction on the lever by the sample, along the sample's x and y
 };
 
 // Results of the tick: a replay must reproduce them bit for bit.
@@ -204,6 +205,8 @@ constexpr void for_each_result(Visit&& visit, const Record&... sample) {
   visit("servo_state", sample.servo_state...);
   visit("phase", sample.phase...);
   visit("surface", sample.surface...);
+  visit("lateral_x_N", sample.lateral_force_n[0]...);
+  visit("lateral_y_N", sample.lateral_force_n[1]...);
 }
 
 // Inputs of the tick: a replay begins with them.
@@ -232,7 +235,8 @@ constexpr void for_each_field(Visit&& visit, const Record&... sample) {
 }
 static_assert(all_fields_described<TipSample>());
 
-// A transition of the latch, at the place where the path crossed the fold inside the tick.
+// A transition of the latch, at the place where the path crossed the fold inside the tick; or a slip from atom to atom,
+// whose forces are the lateral ones: their magnitudes, before and after.
 struct TipEvent {
   physics::EventKind kind = physics::EventKind::JumpToContact;
   std::int32_t material = -1;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "physics/sideways.h"
+#include "physics/units.h"
+
+namespace afm::physics {
+
+// Dry friction as a spring whose other end is anchored on the sample: it holds up to a yield force and drags its anchor
+// beyond (Hayward & Armstrong 2000; elastic, perfectly plastic). With L the way from the anchor to the support,
+//
+//   force on the support = -k L,  |k L| <= yield;  the anchor moves along L alone, and only while L is as long as that
+//
+// - A held tip does not drift, and the forces do not depend on time: only on the path.
+// - A straight path with one yield force gives the same in one step as in many: the anchor then follows a tractrix,
+//   tan(angle/2) = tan(angle_0/2) exp(-way/r) with r = yield/k, which has a closed form.
+// - It takes energy only: what a path costs is 1/2 k |L|^2 at its end less that at its beginning, and `lost` above
+//   zero.
+//
+// For one thread; does not allocate or throw.
+class AnchoredTip {
+ public:
+  explicit AnchoredTip(Stiffness spring) noexcept : k_(spring.si) {}
+
+  // The tip touches down: no force.
+  void land(const Sideways<Length>& support) noexcept;
+
+  // Along a straight line to `support`, under a yield force that is the new one all along; what it took from the hand
+  // for good. A yield force that falls shortens L.
+  Energy move_to(const Sideways<Length>& support, Force yield) noexcept;
+
+  Sideways<Force> force() const noexcept { return {Force(-k_ * x_), Force(-k_ * y_)}; }  // on the support
+  Energy stored() const noexcept { return Energy(0.5 * k_ * (x_ * x_ + y_ * y_)); }
+
+ private:
+  double k_;
+  Sideways<Length> support_{};
+  double x_ = 0.0, y_ = 0.0;  // L
+};
+
+}  // namespace afm::physics

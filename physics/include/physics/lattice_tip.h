@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "physics/friction.h"
+#include "physics/sideways.h"
+#include "physics/units.h"
+
+namespace afm::physics {
+
+// The landscape that a lattice is to a tip, in units of U: v(x) = sum over its waves of 1 - cos(g . x), zero in the
+// wells. Hexagonal: three waves of the length sqrt(3)/2 a, so that
+// V = U v = const - U [2 cos(2 pi x/a) cos(2 pi y/(sqrt3 a)) + cos(4 pi y/(sqrt3 a))], with wells of 0, saddles of 4 U
+// and tops of 4.5 U, and the stiffness 8 pi^2 U/a^2 all around a well. Rows and Square: waves along x, and along y.
+class LatticeLandscape {
+ public:
+  LatticeLandscape(LatticeKind kind, Length period) noexcept;
+
+  struct Place {
+    double height = 0.0;
+    double slope_x = 0.0, slope_y = 0.0;                 // 1/m
+    double bend_xx = 0.0, bend_xy = 0.0, bend_yy = 0.0;  // 1/m^2
+    std::array<double, 4> third{};                       // xxx, xxy, xyy, yyy, 1/m^3
+  };
+  Place at(double x_m, double y_m) const noexcept;
+
+  double period_m() const noexcept { return period_m_; }
+  double sharpest_bend() const noexcept;  // no curvature is larger, 1/m^2
+  double highest() const noexcept;        // no height is
+
+  // U where the largest force along x is that of a row of the amplitude E0: E0/4 for Hexagonal, else E0/2.
+  static Energy scale_of_row(LatticeKind kind, Energy amplitude) noexcept;
+
+ private:
+  struct Wave {
+    double x = 0.0, y = 0.0;  // g, 1/m
+  };
+  double period_m_;
+  std::array<Wave, 3> waves_{};
+  std::uint32_t count_ = 0;
+};
+
+// The stiffness 8 pi^2 U/a^2 of a well of the hexagonal lattice; a spring below it slips along y = 0, one above it does
+// not (there V is the sine of physics/prandtl_tomlinson.h with E0 = 4 U).
+Stiffness hexagonal_well_stiffness(Energy scale, Length period);
+
+// A jump of the tip from one well to another.
+struct LatticeSlip {
+  double fraction = 0.0;         // of the step's path, in [0, 1]
+  Sideways<Length> support;      // where it happened
+  Sideways<Length> way;          // of the tip
+  Sideways<Force> force_before;  // on the support
+  Sideways<Force> force_after;
+  Energy lost;  // above zero
+};
+
+// The tip of Prandtl and Tomlinson on a lattice, V = U v(x) + (k/2) |x - X|^2, in its well as long as there is one, and
+// then down the steepest way to the next (an overdamped tip, pulled infinitely slowly). Its state is its place alone:
+//
+// - The slips lie where the well ends, exactly, on the straight path between two steps, as many as there are; forces
+// and
+//   slips do not depend on where the steps end or on time.
+// - It takes energy only: dV = F . dX + v dU along a path, and every slip loses some.
+// - U changes as the load does. V then pushes along the load's axis as well, with v dU/dN dN/dz: see relief().
+//
+// A path of many periods in one step is cut at its beginning (kLongestPath), so that the work of a step is bounded.
+// For one thread; does not allocate or throw.
+class LatticeTip {
+ public:
+  static constexpr double kLongestPath = 3.0;  // in periods
+  static constexpr std::size_t kMostSlips = 6;
+
+  LatticeTip(LatticeKind kind, Length period, Stiffness spring) noexcept;
+
+  // What a step did. Only a path that is cut, or a touch-down, can store energy that the hand has not paid: `given`.
+  struct Step {
+    std::array<LatticeSlip, kMostSlips> slips{};
+    std::uint32_t slip_count = 0;
+    Energy lost;   // by slips, and where an unstable place was left
+    Energy given;  // at or above zero
+    std::span<const LatticeSlip> slipped() const noexcept { return std::span(slips).first(slip_count); }
+  };
+
+  // The tip touches down above the support and finds its well; `scale` is U.
+  Step land(const Sideways<Length>& support, Energy scale) noexcept;
+
+  // To `support`, U going on to `scale` along the way.
+  Step move_to(const Sideways<Length>& support, Energy scale) noexcept;
+
+  Sideways<Force> force() const noexcept;  // on the support: k (x - X)
+  Sideways<Length> tip() const noexcept { return {Length(x_), Length(y_)}; }
+  Energy stored() const noexcept;  // V
+  double relief() const noexcept;  // v: dV/dU at a support that is held
+
+ private:
+  // A support and a U.
+  struct Control {
+    double x = 0.0, y = 0.0, scale = 0.0;
+  };
+  // x and V's second derivatives there.
+  struct Rest {
+    double x = 0.0, y = 0.0;
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    double least() const noexcept;  // curvature
+  };
+
+  Control on_path(const Control& from, const Control& change, double t) const noexcept;
+  double potential(double x, double y, const Control& at) const noexcept;
+  Rest rest_at(double x, double y, const Control& at) const noexcept;
+  bool settle(Rest& rest, const Control& at, double reach) const noexcept;
+  void roll_down(double x, double y, const Control& at) noexcept;
+  static std::array<double, 2> softest(const Rest& rest) noexcept;
+  bool leads_to(const Rest& rest, double t, const Rest& last, double end, const Control& at,
+                const Control& change) const noexcept;
+  void slip(double fraction, const Control& change, Step& step) noexcept;
+  bool find_end_of_well(const Control& from, const Control& change, double t, double furthest, Rest& rest,
+                        double& end) const noexcept;
+  void follow(const Control& from, const Control& change, Step& step) noexcept;
+
+  LatticeLandscape landscape_;
+  double k_;
+  Control now_;
+  double x_ = 0.0, y_ = 0.0;  // of the tip
+};
+
+}  // namespace afm::physics
