@@ -227,8 +227,9 @@ TEST(SessionFriction, IsMeasuredFromARecording) {
   scene::SharedContact& mica = model.materials[test::kMica];
   mica.law = physics::Law::Dmt;
   mica.contact.reduced_modulus = physics::Pressure(5.15e10);
-  mica.friction = {
-      .law = physics::FrictionLaw::Amontons, .coefficient = 0.1, .lateral_stiffness = physics::Stiffness(1.0)};
+  mica.friction.law = physics::FrictionLaw::Amontons;
+  mica.friction.coefficient = 0.1;
+  mica.friction.lateral_stiffness = physics::Stiffness(1.0);
   Recording recording(model);
   recording.choose(test::kMica);
   recording.arm();
