@@ -42,6 +42,18 @@ TEST(QuantityText, ReadsANumberAndItsUnit) {
   EXPECT_DOUBLE_EQ(parsed(".5um", kLengthUnits), 5e-7);
 }
 
+TEST(QuantityText, ReadsAndShowsNumbersWithoutAUnit) {
+  const auto read = [](std::string_view text) {
+    return parse_si(text, kPlainNumber.sort, kPlainNumber.units, Infinity::Refused);
+  };
+  EXPECT_EQ(std::get<double>(read(" 0.25 ")), 0.25);
+  EXPECT_THAT(std::get<std::string>(read("3nm")), testing::EndsWith("\"nm\" is not its unit; write a number"));
+  EXPECT_EQ(format_si(0.3, kPlainNumber.units), "0.3");
+  EXPECT_EQ(range_text(2.0, 4096.0, kPlainNumber), "2 to 4096");
+  EXPECT_DOUBLE_EQ(parsed("250us", kTimeUnits), 250e-6);
+  EXPECT_EQ(format_quantity(Time(2e-3), kTimeUnits), "2 ms");
+}
+
 TEST(QuantityText, ReadsTheUnitsOfOtherPrograms) {
   EXPECT_DOUBLE_EQ(parsed("10pN/nm", kStiffnessUnits), 0.01);
   EXPECT_DOUBLE_EQ(parsed("3 \u00c5", kLengthUnits), 3e-10);
