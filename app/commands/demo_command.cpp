@@ -25,6 +25,7 @@
 #include "curves/sweep.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/shared_model.h"
+#include "exhibit/topography_model.h"
 #include "haptics/scaling.h"
 #include "haptics/simulated_device.h"
 #include "render/context.h"
@@ -135,6 +136,9 @@ core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optiona
     auto model = curves::make_sample_model(*setup);
     if (!model) return tl::unexpected(model.error());
     stage.wall_scene.lay_surface_on(model->parameters, plan.materials.size());
+    if (stage.wall_scene.topography().columns > 0) {
+      core::log_line(exhibit::smoothing_note(*model, stage.wall_scene.topography()));
+    }
     auto variations = variations_of(*model, options);
     if (!variations) return tl::unexpected(variations.error());
     plan.materials.push_back(std::move(*model));

@@ -24,6 +24,7 @@
 #include "curves/sample_model.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/shared_model.h"
+#include "exhibit/topography_model.h"
 #include "render/context.h"
 #include "render/monitor.h"
 #include "servo/haptic_choice.h"
@@ -117,6 +118,9 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
     auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, law, options.friction});
     if (!model) return tl::unexpected(model.error());
     stage->wall_scene.lay_surface_on(model->parameters, materials.size());
+    if (stage->wall_scene.topography().columns > 0) {
+      core::log_line(exhibit::smoothing_note(*model, stage->wall_scene.topography()));
+    }
     materials.push_back(std::move(*model));
   }
   ViewSettings settings = options.settings;

@@ -14,6 +14,10 @@
 #include "core/log.h"
 #include "exhibit/height_colours.h"
 #include "exhibit/loading_notice.h"
+#include "haptics/contact_model.h"
+#include "haptics/sample_surface.h"
+#include "haptics/simulated_device.h"
+#include "linear_colour.h"
 #include "physics/quantity_text.h"
 
 namespace afm::exhibit {
@@ -29,16 +33,6 @@ constexpr double kOutlierShare = 0.002;  // of the points, at either end of the 
 constexpr double kFlat_m = 1e-15;        // a relief that is none
 
 constexpr glm::vec4 kWallColour(0.055F, 0.05F, 0.06F, 1.0F);
-
-float linear(std::uint8_t srgb) {
-  const float s = static_cast<float>(srgb) / 255.0F;
-  return s <= 0.04045F ? s / 12.92F : std::pow((s + 0.055F) / 1.055F, 2.4F);
-}
-
-glm::vec4 linear_colour(double zero_to_one) {
-  const Srgb colour = height_colour(zero_to_one);
-  return {linear(colour[0]), linear(colour[1]), linear(colour[2]), 1.0F};
-}
 
 struct Grid {
   const scene::Topography& topography;
@@ -74,7 +68,7 @@ scene::Primitive top_of(const Grid& grid, double lowest_m, double highest_m) {
   const double range_m = std::max(highest_m - lowest_m, kFlat_m);
   // of 1024 colours no step is seen
   std::vector<glm::vec4> colours;
-  for (int i = 0; i < 1024; ++i) colours.push_back(linear_colour(i / 1023.0));
+  for (int i = 0; i < 1024; ++i) colours.push_back(linear_colour(height_colour(i / 1023.0)));
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t column = 0; column < columns; ++column) {
       const double share = (static_cast<double>(grid.z(column, row)) - lowest_m) / range_m;
@@ -205,6 +199,21 @@ core::Result<TopographyModel> load_topography_model(const std::string& file, con
       physics::text_of(measured->levelling).meaning, length_of(measured->levelled.sq), filled, model.exaggeration);
   core::log_line(model.summary);
   return model;
+}
+
+std::string smoothing_note(const curves::SampleModel& material, const scene::Topography& topography) {
+  const scene::SharedContact& parameters = material.parameters;
+  const scene::HeightGrid shown(topography, parameters.topography);
+  const haptics::SampleSurface felt(
+      shown, parameters.contact.tip_radius.si,
+      haptics::largest_curvature_per_m(material.scaling, haptics::SimulatedDevice().spec()));
+  const haptics::SampleSurface::Change change = felt.change_of(shown);
+  const double measured_per_m = 1.0 / parameters.topography.vertical;
+  return fmt::format(
+      "the sample is felt on {} smoothed by {} at most and {} rms of its measured heights, so that it is nowhere "
+      "too steep or too sharp for a hand",
+      material.setup.material.name, length_of(change.largest_m * measured_per_m),
+      length_of(change.rms_m * measured_per_m));
 }
 
 scene::TopographyScale topography_scale(const TopographyModel& model, double stroke_m) {

@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "exhibit/drawn_surface.h"
 #include "exhibit/model_builder.h"
+#include "height_bar.h"
 #include "physics/contact.h"
 #include "scene/graph/height_field.h"
 
@@ -101,6 +102,12 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   return w;
 }
 
+void WallScene::add_height_bar(ModelBuilder& build) {
+  height_bar_ = build.part(height_bar(kHeightBarWidth / kHeightBarHeight), "height-bar", layout_);
+  scene_.nodes[height_bar_].parent_from_node =
+      glm::scale(glm::translate(dmat4(1.0), dvec3(height_bar_x(), kHeightBarBottom, 0.0)), dvec3(kHeightBarHeight));
+}
+
 // One mesh for all materials, in metres as they were measured; the node of each says how large it is shown.
 void WallScene::add_topography(ModelBuilder& build, const std::string& sample, const UserModels& own,
                                MaterialLook& look) {
@@ -111,6 +118,9 @@ void WallScene::add_topography(ModelBuilder& build, const std::string& sample, c
       glm::scale(dmat4(1.0), dvec3(look.topography.lateral, look.topography.lateral, look.topography.vertical));
   if (!topography_mesh_) {
     topography_ = model.topography;
+    topography_relief_m_ = model.highest_m - model.lowest_m;
+    topography_exaggeration_ = model.exaggeration;
+    add_height_bar(build);
     look.sample = build.part(model.sample, sample, sample_frame_);
     topography_mesh_ = scene_.nodes[build.node(sample + "/surface")].mesh;
   } else {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The place of everything in one state.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -10,6 +12,7 @@
 #include "exhibit/wall_layout.h"
 #include "exhibit/wall_scene.h"
 #include "physics/beam_shape.h"
+#include "physics/quantity_text.h"
 
 namespace afm::exhibit {
 
@@ -180,6 +183,7 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
   if (state.centerpiece == Analogy || state.centerpiece == Journey) hide({stage_});
   if (state.centerpiece != Analogy) hide({analogy_.frame()});
   if (state.centerpiece != Journey) hide({journey_.frame()});
+  if (topography_mesh_ && (state.centerpiece != Instrument || !state.material)) hide({height_bar_});
   if (state.centerpiece != Instrument || !state.material) hide(marks_.lever_nodes());
   if (ruler_m_per_unit(state) == 0.0) hide(marks_.ruler_nodes());
   if (state.centerpiece != Instrument || !state.scan_line) hide({marks_.scan_line_node()});
@@ -210,6 +214,7 @@ void WallScene::update(const WallState& state, render::FrameState& frame) const 
   if (state.centerpiece != Centerpiece::Journey) place_swatch_labels(state, frame);
   if (state.centerpiece == Centerpiece::Analogy) place_analogy_labels(state, frame);
   place_marks(state, frame);
+  place_height_bar(state, frame);
   place_fog(state, frame);
 
   const double unit_m = glm::length(dvec3(room_from_layout_[0]));
@@ -285,6 +290,30 @@ void WallScene::place_marks(const WallState& state, render::FrameState& frame) c
   const CueRing ring = cue_ring(*state.cue);
   frame.contact.ring_color = ring.color;
   frame.contact.ring_radius_m = static_cast<float>(ring.radius) * frame.contact.shade_radius_m;
+}
+
+// So far to the right as an upright wall, whose panels stand below, has room for the numbers.
+double WallScene::height_bar_x() const {
+  return std::min(kHeightBarX, half_width_ - kPanelMargin - kHeightBarWidth - kHeightBarTextGap - kHeightBarTextWidth);
+}
+
+// The numbers at the ends of its scale, in metres as they were measured, and how far the sample is out of proportion.
+void WallScene::place_height_bar(const WallState& state, render::FrameState& frame) const {
+  if (!topography_mesh_ || state.centerpiece != Centerpiece::Instrument || !state.material) return;
+  const auto length = [](double length_m) {
+    std::string text = physics::format_quantity(physics::Length(length_m), physics::kLengthUnits, 3);
+    if (const auto micro = text.find("um"); micro != std::string::npos) text.replace(micro, 1, "\u00b5");
+    return text;
+  };
+  const double left = height_bar_x() + kHeightBarWidth + kHeightBarTextGap;
+  const auto beside = [&](double height) {
+    return panel(left, kHeightBarBottom + height - 0.5 * kHeightBarTextHeight, kHeightBarTextWidth,
+                 kHeightBarTextHeight);
+  };
+  frame.labels.push_back({length(topography_relief_m_), false, beside(kHeightBarHeight)});
+  frame.labels.push_back({phrases_.text<Phrase::HeightsTimes>(fmt::format("{:g}", topography_exaggeration_)), false,
+                          beside(0.5 * kHeightBarHeight)});
+  frame.labels.push_back({"0", false, beside(0.0)});
 }
 
 void WallScene::place_fog(const WallState& state, render::FrameState& frame) const {

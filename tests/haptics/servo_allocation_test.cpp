@@ -174,19 +174,21 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsOverATopographyOfTheMostPoints)
   bench.hold_attached(afm::test::kMica);
   std::vector<double> work_us;
   work_us.reserve(4000);
-  const NoAllocation no_allocation;
-  const NoLock no_lock;
-  for (int tick = 0; tick < 4000; ++tick) {
-    const double angle = 0.01 * tick;
-    bench.renderer.store(afm::scene::RendererHeartbeat{.time_ns = bench.now_ns});
-    bench.renderer.store(afm::scene::HandScript{.target_m = {0.03 * std::cos(angle), -0.005, 0.03 * std::sin(angle)},
-                                                .duration_s = 0.001,
-                                                .revision = ++bench.script,
-                                                .turn_on_pressed = 0});
-    bench.now_ns += bench.loop->period_ns();
-    const auto begin = std::chrono::steady_clock::now();
-    bench.loop->tick(bench.now_ns, 0);
-    work_us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+  {
+    const NoAllocation no_allocation;
+    const NoLock no_lock;
+    for (int tick = 0; tick < 4000; ++tick) {
+      const double angle = 0.01 * tick;
+      bench.renderer.store(afm::scene::RendererHeartbeat{.time_ns = bench.now_ns, .frame = ++bench.frame});
+      bench.renderer.store(afm::scene::HandScript{.target_m = {0.03 * std::cos(angle), -0.005, 0.03 * std::sin(angle)},
+                                                  .duration_s = 0.001,
+                                                  .revision = ++bench.script,
+                                                  .turn_on_pressed = 0});
+      bench.now_ns += bench.loop->period_ns();
+      const auto begin = std::chrono::steady_clock::now();
+      bench.loop->tick(bench.now_ns, 0);
+      work_us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+    }
   }
   EXPECT_EQ(bench.state().servo_state, afm::scene::ServoState::Running);
   EXPECT_NE(bench.state().surface.height_m, 0.0);

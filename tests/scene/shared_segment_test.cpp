@@ -191,6 +191,58 @@ void add_measured_curve(SharedModel& model) {
   }
 }
 
+// ---- a topography behind the blocks ----
+
+SharedModel with_topography(const Topography& topography) {
+  SharedModel model = paper_model();
+  model.topography = topography.size();
+  model.materials[0].height_field = kTopography;
+  return model;
+}
+
+const Topography kTwoByThree{
+    .columns = 2, .rows = 3, .spacing_m = 1e-9, .height_m = {0, 1e-9F, 2e-9F, 3e-9F, 4e-9F, 5e-9F}};
+
+TEST(SharedSegment, HoldsATopographyBehindItsBlocks) {
+  const auto segment = SharedSegment::create(with_topography(kTwoByThree), kDigest, kTwoByThree);
+  ASSERT_TRUE(segment) << segment.error().message;
+  const auto attached = SharedSegment::attach(copy_of(*segment));
+  ASSERT_TRUE(attached) << attached.error().message;
+  EXPECT_TRUE(is_valid(attached->topography(), attached->model().topography));
+  EXPECT_EQ(attached->topography().height_m, kTwoByThree.height_m);
+  const HeightGrid grid = surface_of(attached->model().materials[0], {}, attached->topography());
+  EXPECT_EQ(grid.heights, Heights::Traced);
+  EXPECT_EQ(grid.rows, 3U);
+
+  const SharedSegment plain = create_segment();
+  EXPECT_EQ(plain.topography().columns, 0U);
+  EXPECT_EQ(::lseek(segment->descriptor(), 0, SEEK_END) - ::lseek(plain.descriptor(), 0, SEEK_END),
+            static_cast<off_t>(6 * sizeof(float)))
+      << "one without a topography is no longer than before";
+}
+
+TEST(SharedSegment, RefusesATopographyThatItsModelDoesNotHave) {
+  Topography other = kTwoByThree;
+  other.height_m.pop_back();
+  EXPECT_FALSE(SharedSegment::create(with_topography(kTwoByThree), kDigest, other));
+  EXPECT_FALSE(SharedSegment::create(with_topography(kTwoByThree), kDigest));
+  EXPECT_FALSE(SharedSegment::create(paper_model(), kDigest, kTwoByThree));
+  other = kTwoByThree;
+  other.height_m[3] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(SharedSegment::create(with_topography(kTwoByThree), kDigest, other));
+  other = kTwoByThree;
+  other.columns = kMaxTopographySide + 1;
+  EXPECT_FALSE(SharedSegment::create(with_topography(other), kDigest, other));
+
+  // a writer that changes the size afterwards
+  const auto segment = SharedSegment::create(with_topography(kTwoByThree), kDigest, kTwoByThree);
+  ASSERT_TRUE(segment);
+  auto& model = const_cast<SharedModel&>(segment->model());
+  model.topography.rows = 2;
+  EXPECT_FALSE(is_valid(segment->topography(), segment->model().topography));
+  EXPECT_THAT(attach_error(*segment), HasSubstr("does not fill it"));
+}
+
 struct BadModel {
   const char* message;
   void (*spoil)(SharedModel&);
@@ -209,60 +261,63 @@ TEST_P(SharedModelWith, IsRefusedWithAReason) {
 
 INSTANTIATE_TEST_SUITE_P(
     Defects, SharedModelWith,
-    testing::Values(BadModel{"0 nodes", [](SharedModel& m) { m.node_count = 0; }},
-                    BadModel{"129 nodes", [](SharedModel& m) { m.node_count = 129; }},
-                    BadModel{"0 materials", [](SharedModel& m) { m.material_count = 0; }},
-                    BadModel{"33 materials", [](SharedModel& m) { m.material_count = 33; }},
-                    BadModel{"sample is node 2", [](SharedModel& m) { m.sample_node = 2; }},
-                    BadModel{"node 1 precedes its parent 1", [](SharedModel& m) { m.nodes[1].parent = 1; }},
-                    BadModel{"node 0 precedes its parent 5", [](SharedModel& m) { m.nodes[0].parent = 5; }},
-                    BadModel{"transform", [](SharedModel& m) { m.nodes[1].parent_from_node[3] = kNan; }},
-                    BadModel{"is not terminated", [](SharedModel& m) { m.nodes[0].name.fill('x'); }},
-                    BadModel{"is not terminated", [](SharedModel& m) { m.materials[0].name.fill('x'); }},
-                    BadModel{"material 2", [](SharedModel& m) { m.materials[2].contact.hamaker.si = kNan; }},
-                    BadModel{"material 1", [](SharedModel& m) { m.materials[1].contact.tip_radius.si = 0; }},
-                    BadModel{"material 0", [](SharedModel& m) { m.materials[0].contact.spring_constant.si = -1; }},
-                    BadModel{"material 0",
-                             [](SharedModel& m) { m.materials[0].contact.sample_stiffness.si = -kInfinity; }},
-                    BadModel{"law", [](SharedModel& m) { m.materials[0].law = Law::Count; }},
-                    BadModel{"option", [](SharedModel& m) { m.materials[1].exact_hamaker_sphere = 2; }},
-                    BadModel{"option", [](SharedModel& m) { m.materials[1].dynamic = 7; }},
-                    BadModel{"retardation", [](SharedModel& m) { m.materials[0].retardation_wavelength_m = kNan; }},
-                    BadModel{"humidity",
-                             [](SharedModel& m) {
-                               m.materials[0].has_meniscus = 1;
-                               m.materials[0].meniscus.relative_humidity = 1.5;
-                             }},
-                    BadModel{"resonance",
-                             [](SharedModel& m) {
-                               m.materials[0].law = Law::Dmt;
-                               m.materials[0].dynamic = 1;
-                             }},
-                    BadModel{"the law paper has no dynamics", [](SharedModel& m) { make_dynamic(m.materials[0]); }},
-                    BadModel{"the law measured has no dynamics",
-                             [](SharedModel& m) {
-                               add_measured_curve(m);
-                               m.materials[0].law = Law::Measured;
-                               m.materials[0].measured_curve = 0;
-                               make_dynamic(m.materials[0]);
-                             }},
-                    BadModel{"no measured curve", [](SharedModel& m) { m.materials[0].law = Law::Measured; }},
-                    BadModel{"5 measured curves", [](SharedModel& m) { m.curve_count = 5; }},
-                    BadModel{"measured curve 0", [](SharedModel& m) { m.curve_count = 1; }},
-                    BadModel{"measured curve 0",
-                             [](SharedModel& m) {
-                               add_measured_curve(m);
-                               std::swap(m.curves[0].approach[3], m.curves[0].approach[4]);
-                             }},
-                    BadModel{"measured curve 0",
-                             [](SharedModel& m) {
-                               add_measured_curve(m);
-                               m.curves[0].retract[5].force.si = kNan;
-                             }},
-                    BadModel{"measured curve 0", [](SharedModel& m) {
-                               add_measured_curve(m);
-                               m.curves[0].retract_count = kMaxMeasuredPoints + 1;
-                             }}));
+    testing::Values(
+        BadModel{"0 nodes", [](SharedModel& m) { m.node_count = 0; }},
+        BadModel{"129 nodes", [](SharedModel& m) { m.node_count = 129; }},
+        BadModel{"its surface does not exist", [](SharedModel& m) { m.materials[0].height_field = kTopography; }},
+        BadModel{"scale of its topography", [](SharedModel& m) { m.materials[0].topography.vertical = 0; }},
+        BadModel{"topography is not a grid", [](SharedModel& m) { m.topography = {1, 5, 1e-9}; }},
+        BadModel{"0 materials", [](SharedModel& m) { m.material_count = 0; }},
+        BadModel{"33 materials", [](SharedModel& m) { m.material_count = 33; }},
+        BadModel{"sample is node 2", [](SharedModel& m) { m.sample_node = 2; }},
+        BadModel{"node 1 precedes its parent 1", [](SharedModel& m) { m.nodes[1].parent = 1; }},
+        BadModel{"node 0 precedes its parent 5", [](SharedModel& m) { m.nodes[0].parent = 5; }},
+        BadModel{"transform", [](SharedModel& m) { m.nodes[1].parent_from_node[3] = kNan; }},
+        BadModel{"is not terminated", [](SharedModel& m) { m.nodes[0].name.fill('x'); }},
+        BadModel{"is not terminated", [](SharedModel& m) { m.materials[0].name.fill('x'); }},
+        BadModel{"material 2", [](SharedModel& m) { m.materials[2].contact.hamaker.si = kNan; }},
+        BadModel{"material 1", [](SharedModel& m) { m.materials[1].contact.tip_radius.si = 0; }},
+        BadModel{"material 0", [](SharedModel& m) { m.materials[0].contact.spring_constant.si = -1; }},
+        BadModel{"material 0", [](SharedModel& m) { m.materials[0].contact.sample_stiffness.si = -kInfinity; }},
+        BadModel{"law", [](SharedModel& m) { m.materials[0].law = Law::Count; }},
+        BadModel{"option", [](SharedModel& m) { m.materials[1].exact_hamaker_sphere = 2; }},
+        BadModel{"option", [](SharedModel& m) { m.materials[1].dynamic = 7; }},
+        BadModel{"retardation", [](SharedModel& m) { m.materials[0].retardation_wavelength_m = kNan; }},
+        BadModel{"humidity",
+                 [](SharedModel& m) {
+                   m.materials[0].has_meniscus = 1;
+                   m.materials[0].meniscus.relative_humidity = 1.5;
+                 }},
+        BadModel{"resonance",
+                 [](SharedModel& m) {
+                   m.materials[0].law = Law::Dmt;
+                   m.materials[0].dynamic = 1;
+                 }},
+        BadModel{"the law paper has no dynamics", [](SharedModel& m) { make_dynamic(m.materials[0]); }},
+        BadModel{"the law measured has no dynamics",
+                 [](SharedModel& m) {
+                   add_measured_curve(m);
+                   m.materials[0].law = Law::Measured;
+                   m.materials[0].measured_curve = 0;
+                   make_dynamic(m.materials[0]);
+                 }},
+        BadModel{"no measured curve", [](SharedModel& m) { m.materials[0].law = Law::Measured; }},
+        BadModel{"5 measured curves", [](SharedModel& m) { m.curve_count = 5; }},
+        BadModel{"measured curve 0", [](SharedModel& m) { m.curve_count = 1; }},
+        BadModel{"measured curve 0",
+                 [](SharedModel& m) {
+                   add_measured_curve(m);
+                   std::swap(m.curves[0].approach[3], m.curves[0].approach[4]);
+                 }},
+        BadModel{"measured curve 0",
+                 [](SharedModel& m) {
+                   add_measured_curve(m);
+                   m.curves[0].retract[5].force.si = kNan;
+                 }},
+        BadModel{"measured curve 0", [](SharedModel& m) {
+                   add_measured_curve(m);
+                   m.curves[0].retract_count = kMaxMeasuredPoints + 1;
+                 }}));
 
 TEST(SharedModel, TakesAMaterialThatWasMeasured) {
   SharedModel model = paper_model();

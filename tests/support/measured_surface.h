@@ -20,8 +20,8 @@ inline scene::Topography measured_surface(std::uint32_t side = scene::kMaxTopogr
   for (std::uint32_t row = 0; row < side; ++row) {
     for (std::uint32_t column = 0; column < side; ++column) {
       const double x = (column + 0.5) / side - 0.5, y = (row + 0.5) / side - 0.5;
-      const double hills = 0.4 * std::sin(11.0 * x + 4.0 * y) * std::cos(9.0 * y - 3.0 * x);
-      const double steps = 0.3 * std::floor(3.0 * (y + 0.4 * x));
+      const double hills = 0.4 * std::sin(7.0 * x + 4.0 * y) * std::cos(6.0 * y - 3.0 * x);
+      const double steps = 0.3 * std::floor(3.0 * (y + 0.4 * x) + 0.5);
       topography.height_m.push_back(static_cast<float>(height_m * (hills + steps + noise(random))));
     }
   }
@@ -30,8 +30,8 @@ inline scene::Topography measured_surface(std::uint32_t side = scene::kMaxTopogr
   return topography;
 }
 
-// Shown some 60 nm wide and at twice its true height.
-inline constexpr scene::TopographyScale kMeasuredScale{.lateral = 6e-3, .vertical = 12e-3};
+// Shown some 60 nm wide and in true proportions.
+inline constexpr scene::TopographyScale kMeasuredScale{.lateral = 6e-3, .vertical = 6e-3};
 
 // The paper's three materials on it.
 inline scene::SharedModel measured_model(const scene::Topography& topography) {

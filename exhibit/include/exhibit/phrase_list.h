@@ -173,6 +173,7 @@
   PHRASE(AnalogySpring, "analogy-spring", "", kLine)                     \
   PHRASE(AnalogyMagnet, "analogy-magnet", "", kLine)                     \
   PHRASE(AnalogyPlate, "analogy-plate", "", kLine)                       \
+  PHRASE(HeightsTimes, "heights-times", "factor", kLine)                 \
   PHRASE(Depth, "depth", "near far near-angle far-angle", kLine)         \
   PHRASE(DepthBringToWall, "depth-bring-to-wall", "", kLine)             \
   PHRASE(DepthNarrowEyes, "depth-narrow-eyes", "", kLine)                \

@@ -6,6 +6,7 @@
 
 #include "core/result.h"
 #include "curves/measured_topography.h"
+#include "curves/sample_model.h"
 #include "scene/graph/scene.h"
 #include "scene/shared/height_grid.h"
 
@@ -31,6 +32,10 @@ scene::Scene topography_scene(const scene::Topography& topography, double lowest
 
 // How large the sample of a material with this stroke is drawn and felt: as wide as the assets' samples are beside it.
 scene::TopographyScale topography_scale(const TopographyModel& model, double stroke_m);
+
+// How far it is smoothed where it is felt on this material, whose parameters are felt with it: for the log. Takes some
+// tenths of a second for the largest one.
+std::string smoothing_note(const curves::SampleModel& material, const scene::Topography& topography);
 
 // 1, 2 or 5 times a power of ten by which the heights are multiplied, beyond true proportions, so that the relief is
 // neither too low to be felt nor higher than the stroke has room for.

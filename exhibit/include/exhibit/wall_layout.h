@@ -69,6 +69,11 @@ inline constexpr double kRulerRadius = 0.0045;
 inline constexpr double kRulerTextGap = 0.04;
 inline constexpr double kRulerTextWidth = 0.22;
 inline constexpr double kRulerTextHeight = 0.08;
+// the colours of a measured sample's heights, in the wall's plane, below the panel on the right
+inline constexpr double kHeightBarX = 0.80, kHeightBarBottom = -0.80;
+inline constexpr double kHeightBarHeight = 0.27, kHeightBarWidth = 0.045;
+inline constexpr double kHeightBarTextWidth = 0.24, kHeightBarTextHeight = 0.07;
+inline constexpr double kHeightBarTextGap = 0.02;
 inline constexpr double kUnbentBeyond = 0.16;
 inline constexpr double kUnbentBeside = 0.09;  // of the tip's axis: right of it
 inline constexpr double kUnbentLowest = 0.05;  // over the sample, whose terraces rise behind the tip

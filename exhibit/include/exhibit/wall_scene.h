@@ -144,6 +144,9 @@ class WallScene {
   void place_analogy_labels(const WallState& state, render::FrameState& frame) const;
   void place_fog(const WallState& state, render::FrameState& frame) const;
   void place_marks(const WallState& state, render::FrameState& frame) const;
+  void add_height_bar(ModelBuilder& build);
+  void place_height_bar(const WallState& state, render::FrameState& frame) const;
+  double height_bar_x() const;
   std::vector<glm::dmat4> local_transforms(const WallState& state, render::BeamBend& bend) const;
   std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;
   render::PanelPlacement panel(double left, double bottom, double width, double height) const;         // in the wall
@@ -156,6 +159,9 @@ class WallScene {
   std::vector<scene::SharedHeightField> height_fields_;
   scene::Topography topography_;
   std::optional<std::uint32_t> topography_mesh_;
+  double topography_relief_m_ = 0;  // from the lowest colour to the highest
+  double topography_exaggeration_ = 1;
+  scene::NodeIndex height_bar_{};            // where there is a topography
   std::vector<std::string> surface_models_;  // of which model each of them is
   // origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre
   glm::dmat4 room_from_layout_{1.0};

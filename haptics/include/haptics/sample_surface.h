@@ -59,6 +59,7 @@ class SampleSurface {
   void trace(double tip_radius_m, double largest_curvature_per_m);
   void smooth_widely(double largest_curvature_per_m);
   bool is_gentle(double largest_curvature_per_m) const;
+  const double* line_of(int row) const noexcept;         // of the grid, clamped
   double control_m(int column, int row) const noexcept;  // clamped to the grid
 
   int columns_ = 0;

@@ -157,7 +157,7 @@ void SampleSurface::smooth_widely(double largest_curvature_per_m) {
   std::size_t enough = 1;
   while (enough < widest && !is_gentle_with(enough)) enough *= 2;
   std::size_t too_narrow = enough / 2;
-  while (enough - too_narrow > 1 + too_narrow / 16) {
+  while (enough - too_narrow > 1 + too_narrow / 8) {
     const std::size_t middle = too_narrow + (enough - too_narrow) / 2;
     (is_gentle_with(middle) ? enough : too_narrow) = middle;
   }
@@ -180,6 +180,10 @@ SampleSurface::Change SampleSurface::change_of(const scene::HeightGrid& drawn) c
   }
   change.rms_m = std::sqrt(change.rms_m / static_cast<double>(drawn.height_m.size()));
   return change;
+}
+
+const double* SampleSurface::line_of(int row) const noexcept {
+  return controls_m_.data() + static_cast<std::ptrdiff_t>(std::clamp(row, 0, rows_ - 1)) * columns_;
 }
 
 double SampleSurface::control_m(int column, int row) const noexcept {
@@ -215,9 +219,11 @@ SampleSurface::Place SampleSurface::at(const glm::dvec2& xy_m) const noexcept {
 double SampleSurface::steepest_slope() const noexcept {
   double steepest_x = 0, steepest_y = 0;
   for (int row = 0; row < rows_; ++row) {
+    const double *here = line_of(row), *above = line_of(row + 1);
     for (int column = 0; column < columns_; ++column) {
-      steepest_x = std::max(steepest_x, std::abs(control_m(column + 1, row) - control_m(column, row)));
-      steepest_y = std::max(steepest_y, std::abs(control_m(column, row + 1) - control_m(column, row)));
+      const int right = std::min(column + 1, columns_ - 1);
+      steepest_x = std::max(steepest_x, std::abs(here[right] - here[column]));
+      steepest_y = std::max(steepest_y, std::abs(above[column] - here[column]));
     }
   }
   return std::hypot(steepest_x, steepest_y) / spacing_m_;
@@ -226,11 +232,13 @@ double SampleSurface::steepest_slope() const noexcept {
 double SampleSurface::largest_curvature_per_m() const noexcept {
   double along_x = 0, along_y = 0, across = 0;
   for (int row = 0; row < rows_; ++row) {
+    const double *line = line_of(row), *above = line_of(row + 1), *below = line_of(row - 1);
     for (int column = 0; column < columns_; ++column) {
-      const double here = control_m(column, row), right = control_m(column + 1, row), up = control_m(column, row + 1);
-      along_x = std::max(along_x, std::abs(right - 2.0 * here + control_m(column - 1, row)));
-      along_y = std::max(along_y, std::abs(up - 2.0 * here + control_m(column, row - 1)));
-      across = std::max(across, std::abs(control_m(column + 1, row + 1) - right - up + here));
+      const int after = std::min(column + 1, columns_ - 1), before = std::max(column - 1, 0);
+      const double here = line[column], right = line[after], up = above[column];
+      along_x = std::max(along_x, std::abs(right - 2.0 * here + line[before]));
+      along_y = std::max(along_y, std::abs(up - 2.0 * here + below[column]));
+      across = std::max(across, std::abs(above[after] - right - up + here));
     }
   }
   return (std::max(along_x, along_y) + across) / (spacing_m_ * spacing_m_);

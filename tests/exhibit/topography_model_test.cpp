@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/topography_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "exhibit/user_models.h"
+#include "support/image_files.h"
+#include "support/paper_wall.h"
+#include "support/scratch_folder.h"
+
+namespace afm::exhibit {
+namespace {
+
+// Hills on 48 x 32 points, 3 um x 2 um.
+class MeasuredSample : public test::PaperWall {
+ protected:
+  support::ScratchFolder folder_;
+  std::string file_ = write();
+  UserModels own_ = load_own_models("", file_).value();
+  WallScene measured_ = WallScene::load(assets_, materials_, stage_place(wall_), test::english(), own_).value();
+
+  std::string write() const {
+    std::vector<float> heights;
+    for (int i = 0; i < 48 * 32; ++i) {
+      heights.push_back(static_cast<float>(40e-9 * std::sin(0.3 * (i % 48)) * std::cos(0.4 * (i / 48))));
+    }
+    std::ofstream(folder_.file("hills.glb"), std::ios::binary)
+        << test::gsf_file("XRes = 48\nYRes = 32\nXReal = 3e-6\nYReal = 2e-6\nXYUnits = m\nZUnits = m\n", heights);
+    return folder_.file("hills.glb");  // the name deceives; the first bytes do not
+  }
+
+  scene::NodeIndex surface(std::size_t material) const {
+    return measured_.scene().find_node("sample-" + materials_.materials[material].name + "/surface").value();
+  }
+};
+
+TEST_F(MeasuredSample, IsFeltFromTheVerticesThatAreDrawn) {
+  const scene::Topography& felt = measured_.topography();
+  ASSERT_EQ(felt.columns * felt.rows, 48U * 32U);
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const scene::Node& node = measured_.scene().nodes[surface(material)];
+    const auto& drawn = measured_.scene().meshes[*node.mesh].primitives.front().vertices;
+    ASSERT_EQ(drawn.size(), felt.height_m.size());
+    const scene::HeightGrid shown(felt, measured_.topography_scale(material));
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      ASSERT_EQ(felt.height_m[i], drawn[i].position.z);
+      const glm::dvec3 place(node.parent_from_node * glm::dvec4(glm::dvec3(drawn[i].position), 1.0));
+      const double column = static_cast<double>(i % felt.columns), row = static_cast<double>(i / felt.columns);
+      ASSERT_NEAR(place.x, (column - 0.5 * (felt.columns - 1)) * shown.spacing_m,
+                  1e-6 * shown.spacing_m * felt.columns);
+      ASSERT_NEAR(place.y, (row - 0.5 * (felt.rows - 1)) * shown.spacing_m, 1e-6 * shown.spacing_m * felt.columns);
+      ASSERT_NEAR(place.z, shown.height_factor * static_cast<double>(felt.height_m[i]), 1e-20);
+    }
+    scene::SharedContact parameters;
+    measured_.lay_surface_on(parameters, material);
+    EXPECT_EQ(parameters.height_field, scene::kTopography);
+    EXPECT_EQ(parameters.topography.lateral, measured_.topography_scale(material).lateral);
+  }
+  EXPECT_TRUE(measured_.height_fields().empty());
+}
+
+TEST_F(MeasuredSample, HasTheApexOverTheDrawnVertex) {
+  const scene::Topography& felt = measured_.topography();
+  const scene::HeightGrid shown(felt, measured_.topography_scale(0));
+  for (std::size_t i = 5; i < felt.height_m.size(); i += 97) {
+    const double x = (static_cast<double>(i % felt.columns) - 0.5 * (felt.columns - 1)) * shown.spacing_m;
+    const double y = (static_cast<double>(i / felt.columns) - 0.5 * (felt.rows - 1)) * shown.spacing_m;
+    const double z = shown.height_factor * static_cast<double>(felt.height_m[i]);
+    render::FrameState frame;
+    measured_.update({.material = 0, .tip = {.z_m = 0, .deflection_m = 0}, .surface = {{x, y}, z}}, frame);
+    const auto& drawn = measured_.scene().meshes[*measured_.scene().nodes[surface(0)].mesh].primitives.front().vertices;
+    const glm::dvec3 vertex(frame.room_from_node[surface(0)] * glm::dvec4(glm::dvec3(drawn[i].position), 1.0));
+    const glm::dvec3 apex(frame.room_from_node[measured_.scene().find_node("probe/apex").value()][3]);
+    EXPECT_NEAR(glm::length(apex - vertex), 0.0, 1e-6);
+  }
+}
+
+TEST_F(MeasuredSample, IsOneMeshAsWideAsTheMaterialsOwn) {
+  EXPECT_EQ(measured_.scene().nodes[surface(0)].mesh, measured_.scene().nodes[surface(2)].mesh);
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const double shown_m =
+        measured_.topography_scale(material).lateral * 3e-6 / measured_.drawn_scale(material).sample_m_per_m;
+    EXPECT_NEAR(shown_m, 1.13, 0.05) << "metres of the paper's wall";
+  }
+}
+
+TEST_F(MeasuredSample, HasABarWithItsReliefBesideIt) {
+  const auto texts = [&](const WallState& state) {
+    render::FrameState frame;
+    measured_.update(state, frame);
+    std::vector<std::string> found;
+    for (const render::Label& label : frame.labels) found.push_back(label.text);
+    return found;
+  };
+  EXPECT_THAT(texts({.material = 0}), testing::Contains(testing::HasSubstr(" nm")));
+  EXPECT_THAT(texts({.material = 0}), testing::Contains(testing::HasSubstr("heights \u00d7")));
+  EXPECT_THAT(texts({}), testing::Not(testing::Contains(testing::HasSubstr("heights \u00d7"))));
+}
+
+TEST(ExaggerationOfHeights, KeepsTrueProportionsWhereTheyCanBeFelt) {
+  EXPECT_EQ(exaggeration_of(1e-6, 10e-6), 1.0);
+  EXPECT_EQ(exaggeration_of(2e-6, 10e-6), 0.5);
+  EXPECT_EQ(exaggeration_of(0.3e-9, 200e-9), 50.0);
+  EXPECT_EQ(exaggeration_of(0.0, 200e-9), 1.0);
+  for (const double relief_m : {1e-11, 3e-10, 4e-9, 7e-8, 2e-6, 5e-5}) {
+    const double shown = 1.65 * relief_m / 10e-6 * exaggeration_of(relief_m, 10e-6);
+    EXPECT_GE(shown, 0.05);
+    EXPECT_LE(shown, 0.25);
+  }
+}
+
+}  // namespace
+}  // namespace afm::exhibit
