@@ -36,7 +36,8 @@ HeightGrid image_of(const HeightGrid& surface, const TipShape& tip);
 HeightGrid reconstruction_of(const HeightGrid& image, const TipShape& tip);
 
 // 1 where the reconstruction is the surface for certain: where, for some place of the tip, it touches there and nowhere
-// else, to within `tolerance_m`. 0 elsewhere, and in a margin of the tip's reach at the border.
+// else, to within `tolerance_m`. 0 elsewhere. Places of the tip are left out whose material beyond the border, as far
+// up as the highest of the surface, might touch what is not in the image.
 std::vector<std::uint8_t> certainty_map(const HeightGrid& image, const HeightGrid& reconstruction, const TipGrid& tip,
                                         double tolerance_m);
 

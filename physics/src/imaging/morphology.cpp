@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 namespace afm::physics {
 namespace {
@@ -40,6 +41,38 @@ void for_each_pair(const HeightGrid& grid, const TipGrid& tip, int sign, const C
     }
   }
 }
+
+// How many pixels to each side of the apex the tip has material below some height above it.
+class TipReach {
+ public:
+  explicit TipReach(const TipGrid& tip)
+      : lowest_of_column_m_(tip.reach_columns + 1, kNowhere), lowest_of_row_m_(tip.reach_rows + 1, kNowhere) {
+    const auto away = [](std::size_t index, std::size_t middle) {
+      return index > middle ? index - middle : middle - index;
+    };
+    for (std::size_t i = 0; i < tip.above_apex_m.size(); ++i) {
+      double& column_m = lowest_of_column_m_[away(i % tip.columns(), tip.reach_columns)];
+      double& row_m = lowest_of_row_m_[away(i / tip.columns(), tip.reach_rows)];
+      column_m = std::min(column_m, tip.above_apex_m[i]);
+      row_m = std::min(row_m, tip.above_apex_m[i]);
+    }
+  }
+
+  std::size_t columns(double above_m) const { return reach(lowest_of_column_m_, above_m); }
+  std::size_t rows(double above_m) const { return reach(lowest_of_row_m_, above_m); }
+
+ private:
+  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+
+  static std::size_t reach(const std::vector<double>& lowest_m, double above_m) {
+    std::size_t pixels = lowest_m.size() - 1;
+    while (pixels > 0 && lowest_m[pixels] > above_m) --pixels;
+    return pixels;
+  }
+
+  std::vector<double> lowest_of_column_m_;  // the lowest of the tip, by pixels from its apex
+  std::vector<double> lowest_of_row_m_;
+};
 
 }  // namespace
 
@@ -84,15 +117,17 @@ HeightGrid reconstruction_of(const HeightGrid& image, const TipShape& tip) {
 std::vector<std::uint8_t> certainty_map(const HeightGrid& image, const HeightGrid& reconstruction, const TipGrid& tip,
                                         double tolerance_m) {
   std::vector<std::uint8_t> certain(image.height_m.size(), 0);
-  const std::size_t margin_x = tip.reach_columns, margin_y = tip.reach_rows;
-  if (image.columns <= 2 * margin_x || image.rows <= 2 * margin_y) return certain;
-  for (std::size_t row = margin_y; row + margin_y < image.rows; ++row) {
-    for (std::size_t column = margin_x; column + margin_x < image.columns; ++column) {
+  const double highest_m = *std::max_element(reconstruction.height_m.begin(), reconstruction.height_m.end());
+  const TipReach reach(tip);
+  for (std::size_t row = 0; row < image.rows; ++row) {
+    for (std::size_t column = 0; column < image.columns; ++column) {
       const double apex_m = image.at(column, row);
+      const std::size_t x = reach.columns(highest_m - apex_m), y = reach.rows(highest_m - apex_m);
+      if (column < x || column + x >= image.columns || row < y || row + y >= image.rows) continue;
       std::size_t touches = 0, touched = 0;
-      const double* above = tip.above_apex_m.data();
-      for (std::size_t r = row - margin_y; r <= row + margin_y && touches < 2; ++r) {
-        for (std::size_t c = column - margin_x; c <= column + margin_x && touches < 2; ++c) {
+      for (std::size_t r = row - y; r <= row + y && touches < 2; ++r) {
+        const double* above = &tip.above_apex_m[(tip.reach_rows + r - row) * tip.columns() + tip.reach_columns - x];
+        for (std::size_t c = column - x; c <= column + x && touches < 2; ++c) {
           if (reconstruction.at(c, r) - *above++ < apex_m - tolerance_m) continue;
           ++touches;
           touched = r * image.columns + c;
