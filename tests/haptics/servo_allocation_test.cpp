@@ -178,12 +178,13 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsOverATopographyOfTheMostPoints)
     const NoAllocation no_allocation;
     const NoLock no_lock;
     for (int tick = 0; tick < 4000; ++tick) {
-      const double angle = 0.01 * tick;
+      const double angle = 0.002 * tick;
       bench.renderer.store(afm::scene::RendererHeartbeat{.time_ns = bench.now_ns, .frame = ++bench.frame});
-      bench.renderer.store(afm::scene::HandScript{.target_m = {0.03 * std::cos(angle), -0.005, 0.03 * std::sin(angle)},
-                                                  .duration_s = 0.001,
-                                                  .revision = ++bench.script,
-                                                  .turn_on_pressed = 0});
+      bench.renderer.store(
+          afm::scene::HandScript{.target_m = {0.03 * std::sin(angle), 0.025, 0.03 - 0.03 * std::cos(angle)},
+                                 .duration_s = 0.001,
+                                 .revision = ++bench.script,
+                                 .turn_on_pressed = 0});
       bench.now_ns += bench.loop->period_ns();
       const auto begin = std::chrono::steady_clock::now();
       bench.loop->tick(bench.now_ns, 0);

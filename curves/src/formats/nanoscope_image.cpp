@@ -83,7 +83,7 @@ double nanoscope_number(const Block& block, const std::string& key) {
   return *number;
 }
 
-// What stands between the two, which with all before it is passed; nothing if they do not come next.
+// The text between the two, which with all before it is passed; nothing if they do not come next.
 std::string_view take_between(char open, char close, std::string_view& text) {
   text = trimmed(text);
   const std::size_t end = text.find(close);

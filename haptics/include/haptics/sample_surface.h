@@ -48,7 +48,8 @@ class SampleSurface {
   double steepest_slope() const noexcept;
   double largest_curvature_per_m() const noexcept;
 
-  // Of the heights that it was made of: the largest change by smoothing, and the root of its mean square.
+  // Of the heights that it was made of: the largest change by smoothing, and the root of its mean square, about the
+  // mean change, which is a shift.
   struct Change {
     double largest_m = 0;
     double rms_m = 0;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -167,18 +168,24 @@ void SampleSurface::smooth_widely(double largest_curvature_per_m) {
 SampleSurface::Change SampleSurface::change_of(const scene::HeightGrid& drawn) const {
   Change change;
   if (columns_ == 0) return change;
+  std::vector<double> by_m;
+  by_m.reserve(drawn.height_m.size());
   for (std::uint32_t row = 0; row < drawn.rows; ++row) {
     for (std::uint32_t column = 0; column < drawn.columns; ++column) {
       const glm::dvec2 place_m((column - 0.5 * (drawn.columns - 1)) * drawn.spacing_m,
                                (row - 0.5 * (drawn.rows - 1)) * drawn.spacing_m);
       const double drawn_m =
           drawn.height_factor * static_cast<double>(drawn.height_m[std::size_t{row} * drawn.columns + column]);
-      const double by_m = std::abs(at(place_m).height_m - drawn_m);
-      change.largest_m = std::max(change.largest_m, by_m);
-      change.rms_m += by_m * by_m;
+      by_m.push_back(at(place_m).height_m - drawn_m);
     }
   }
-  change.rms_m = std::sqrt(change.rms_m / static_cast<double>(drawn.height_m.size()));
+  const auto count = static_cast<double>(by_m.size());
+  const double shift_m = std::accumulate(by_m.begin(), by_m.end(), 0.0) / count;
+  for (const double by : by_m) {
+    change.largest_m = std::max(change.largest_m, std::abs(by - shift_m));
+    change.rms_m += (by - shift_m) * (by - shift_m) / count;
+  }
+  change.rms_m = std::sqrt(change.rms_m);
   return change;
 }
 
