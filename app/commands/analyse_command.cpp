@@ -18,7 +18,7 @@
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
-#include "physics/friction.h"
+#include "physics/friction/friction.h"
 #include "physics/quantity_text.h"
 #include "servo/session_friction.h"
 

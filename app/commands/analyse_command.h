@@ -6,7 +6,7 @@
 
 #include "core/result.h"
 #include "curves/curve_file.h"
-#include "physics/levelling.h"
+#include "physics/imaging/levelling.h"
 
 namespace afm::app {
 

@@ -21,8 +21,8 @@
 #include "core/whole_file.h"
 #include "curves/image_output.h"
 #include "exhibit/image_picture.h"
-#include "physics/scan_artefact.h"
-#include "physics/scan_truth.h"
+#include "physics/imaging/scan_artefact.h"
+#include "physics/imaging/scan_truth.h"
 #include "render/image_file.h"
 
 namespace afm::app {

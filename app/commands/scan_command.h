@@ -9,8 +9,8 @@
 
 #include "app/options/contact_options.h"
 #include "core/result.h"
-#include "physics/scan_settings.h"
-#include "physics/tip_shape.h"
+#include "physics/imaging/scan_settings.h"
+#include "physics/imaging/tip_shape.h"
 
 namespace afm::app {
 

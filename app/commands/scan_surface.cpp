@@ -10,7 +10,7 @@
 #include "exhibit/drawn_surface.h"
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
-#include "physics/morphology.h"
+#include "physics/imaging/morphology.h"
 
 namespace afm::app {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "core/result.h"
 #include "curves/contact_setup.h"
-#include "physics/scanner.h"
-#include "physics/tip_shape.h"
+#include "physics/imaging/scanner.h"
+#include "physics/imaging/tip_shape.h"
 
 namespace afm::app {
 

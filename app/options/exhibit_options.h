@@ -5,7 +5,7 @@
 
 #include "app/command.h"
 #include "exhibit/exhibit_setup.h"
-#include "physics/friction.h"
+#include "physics/friction/friction.h"
 #include "scene/shared/scale_modes.h"
 
 namespace afm::app {

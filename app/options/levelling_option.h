@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/command.h"
-#include "physics/levelling.h"
+#include "physics/imaging/levelling.h"
 
 namespace afm::app {
 

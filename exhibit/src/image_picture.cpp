@@ -7,21 +7,15 @@
 #include <string>
 #include <string_view>
 
+#include "exhibit/height_colours.h"
 #include "physics/quantity_text.h"
 
 namespace afm::exhibit {
 namespace {
 
-using Color = std::array<std::uint8_t, 3>;
+using Color = Srgb;
 
-struct GradientStop {
-  double share;
-  std::array<double, 3> color;
-};
-constexpr std::array kGradient{GradientStop{0.0, {0, 0, 0}}, GradientStop{0.344671, {168, 40, 15}},
-                               GradientStop{0.687075, {243, 194, 93}}, GradientStop{1.0, {255, 255, 255}}};
-
-constexpr Color kPaper{24, 26, 30}, kInk{235, 235, 235}, kNoValue{40, 60, 200};
+constexpr Color kPaper{24, 26, 30}, kInk{235, 235, 235};
 constexpr std::uint32_t kSmallestSide = 256, kPictureMargin = 12, kRangeBarWidth = 16, kRangeLabelWidth = 100,
                         kPictureFooter = 44;
 
@@ -115,19 +109,6 @@ double round_length_m(double width_m) {
 
 }  // namespace
 
-std::array<std::uint8_t, 3> height_color(double share) noexcept {
-  const double place = std::min(std::max(0.0, share), 1.0);  // no number is the lowest
-  std::size_t i = 1;
-  while (i + 1 < kGradient.size() && kGradient[i].share < place) ++i;
-  const GradientStop &below = kGradient[i - 1], &above = kGradient[i];
-  const double along = (place - below.share) / (above.share - below.share);
-  Color color{};
-  for (std::size_t c = 0; c < color.size(); ++c) {
-    color[c] = static_cast<std::uint8_t>(std::lround(below.color[c] + along * (above.color[c] - below.color[c])));
-  }
-  return color;
-}
-
 render::Image picture_of(const physics::ScanImage& image, std::size_t channel) {
   const physics::ImageChannel& shown = image.channels[channel];
   const ValueRange range = value_range_of(shown.values);
@@ -140,14 +121,14 @@ render::Image picture_of(const physics::ScanImage& image, std::size_t channel) {
     for (std::uint32_t column = 0; column < columns; ++column) {
       const double value = shown.values[std::size_t{row} * columns + column];
       canvas.fill(kPictureMargin + zoom * column, kPictureMargin + zoom * row, zoom, zoom,
-                  std::isfinite(value) ? height_color(range.share(value)) : kNoValue);
+                  height_colour(std::isfinite(value) ? range.share(value) : value));
     }
   }
 
   const std::uint32_t bar_x = width + 2 * kPictureMargin, label_x = bar_x + kRangeBarWidth + kPictureMargin / 2;
   for (std::uint32_t y = 0; y < height; ++y) {
     canvas.fill(bar_x, kPictureMargin + y, kRangeBarWidth, 1,
-                height_color(1.0 - static_cast<double>(y) / std::max(1U, height - 1)));
+                height_colour(1.0 - static_cast<double>(y) / std::max(1U, height - 1)));
   }
   constexpr std::uint32_t kLetterHeight = 10;
   canvas.text(label_x, kPictureMargin, value_label(range.most, shown.unit));

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "curves/image_file.h"
-#include "physics/levelling.h"
+#include "physics/imaging/levelling.h"
 
 // Whatever the bytes, and whichever format they claim: an image whose channels fill its grid, and which can be levelled
 // if a point was measured, or an error.

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "haptics/contact_model.h"
-#include "physics/prandtl_tomlinson.h"
+#include "physics/friction/prandtl_tomlinson.h"
 #include "servo_bench.h"
 #include "support/no_alloc.h"
 #include "support/rough_surface.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/anchored_tip.h"
+#include "physics/friction/anchored_tip.h"
 
 #include <gtest/gtest.h>
 

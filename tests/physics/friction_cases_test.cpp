@@ -10,9 +10,9 @@
 #include "physics/cantilever.h"
 #include "physics/contact_parameters.h"
 #include "physics/elasticity.h"
-#include "physics/friction.h"
-#include "physics/lattice_tip.h"
-#include "physics/prandtl_tomlinson.h"
+#include "physics/friction/friction.h"
+#include "physics/friction/lattice_tip.h"
+#include "physics/friction/prandtl_tomlinson.h"
 
 namespace afm::physics {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/friction_loop.h"
+#include "physics/friction/friction_loop.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "physics/anchored_tip.h"
-#include "physics/lattice_tip.h"
-#include "physics/prandtl_tomlinson.h"
+#include "physics/friction/anchored_tip.h"
+#include "physics/friction/lattice_tip.h"
+#include "physics/friction/prandtl_tomlinson.h"
 
 namespace afm::physics {
 namespace {

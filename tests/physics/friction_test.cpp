@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/friction.h"
+#include "physics/friction/friction.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 
 #include "mica.h"
 #include "physics/adhesive_contact.h"
+#include "physics/friction/lateral_contact.h"
 #include "physics/hertz.h"
 #include "physics/jkr.h"
-#include "physics/lateral_contact.h"
 
 namespace afm::physics {
 namespace {

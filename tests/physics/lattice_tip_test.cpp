@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/lattice_tip.h"
+#include "physics/friction/lattice_tip.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "physics/prandtl_tomlinson.h"
+#include "physics/friction/prandtl_tomlinson.h"
 
 namespace afm::physics {
 namespace {

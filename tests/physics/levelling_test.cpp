@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/levelling.h"
+#include "physics/imaging/levelling.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/scan_artefact.h"
+#include "physics/imaging/scan_artefact.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <set>
 #include <tuple>
 
-#include "physics/morphology.h"
-#include "physics/scan_truth.h"
+#include "physics/imaging/morphology.h"
+#include "physics/imaging/scan_truth.h"
 
 namespace {
 

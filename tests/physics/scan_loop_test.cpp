@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/scanner.h"
+#include "physics/imaging/scanner.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "core/result.h"
 #include "physics/adhesion_map.h"
-#include "physics/friction.h"
+#include "physics/friction/friction.h"
 #include "physics/law.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/material_library.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "physics/scan_image.h"
+#include "physics/imaging/scan_image.h"
 
 // Reading of the images that AFM programs write; docs/manual.md, "Bring your own surface", says what each format holds.
 namespace afm::curves {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "curves/image_file.h"
-#include "physics/scan_image.h"
+#include "physics/imaging/scan_image.h"
 
 // Images as files of Gwyddion, from its published layouts. Every channel has columns times rows values.
 namespace afm::curves {

@@ -6,7 +6,7 @@
 
 #include "core/result.h"
 #include "curves/image_file.h"
-#include "physics/levelling.h"
+#include "physics/imaging/levelling.h"
 #include "scene/shared/height_grid.h"
 
 namespace afm::curves {

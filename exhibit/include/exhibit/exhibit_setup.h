@@ -13,7 +13,7 @@
 #include "exhibit/phrases.h"
 #include "exhibit/wall_pictures.h"
 #include "exhibit/wall_scene.h"
-#include "physics/levelling.h"
+#include "physics/imaging/levelling.h"
 #include "render/renderer.h"
 #include "scene/display/wall.h"
 #include "scene/samples/material_library.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/morphology.h"
+#include "physics/imaging/morphology.h"
 
 namespace afm::exhibit {
 

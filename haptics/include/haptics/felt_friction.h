@@ -9,7 +9,7 @@
 #include "haptics/sample_surface.h"
 #include "haptics/scaling.h"
 #include "physics/force_model.h"
-#include "physics/lateral_contact.h"
+#include "physics/friction/lateral_contact.h"
 #include "physics/law_tables.h"
 #include "scene/shared/shared_blocks.h"
 
@@ -19,8 +19,8 @@ namespace afm::haptics {
 //
 // - The load is what the attached branch of the law pulls or pushes at the tip's Z, and the strongest pull of that
 //   branch: a function of Z alone, zero where contact is lost. A lever that swings rubs with its mean load.
-// - Forces and slips on the tip are those of physics/lateral_contact.h on every scale. On the hand they have the gain
-// of
+// - Forces and slips on the tip are those of physics/friction/lateral_contact.h on every scale. On the hand they have
+// the gain of
 //   the law's force, or less, so that the lateral spring is at most kShareOfStiffness of what the device can be given
 //   (Scaling::kMaxStiffnessNPerM): a loop at 1 kHz holds it still.
 // - A lattice whose depth follows the load pushes along the normal too, by what the rise of the load has to pay; so the

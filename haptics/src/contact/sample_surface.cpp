@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "physics/morphology.h"
+#include "physics/imaging/morphology.h"
 
 namespace afm::haptics {
 

@@ -10,7 +10,7 @@ namespace afm::physics {
 enum class Phase : std::uint32_t { WaitForLift = 0, Free = 1, Attached = 2 };
 
 // A jump from one branch of the law to the other, or sideways from one well of a lattice to the next
-// (physics/lattice_tip.h). Session files hold the numbers.
+// (physics/friction/lattice_tip.h). Session files hold the numbers.
 enum class EventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2, Slip = 3 };
 
 // As reports and replays name it.

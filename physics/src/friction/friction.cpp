@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/friction.h"
+#include "physics/friction/friction.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/friction_loop.h"
+#include "physics/friction/friction_loop.h"
 
 #include <algorithm>
 #include <cmath>

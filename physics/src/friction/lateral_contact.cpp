@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/lateral_contact.h"
+#include "physics/friction/lateral_contact.h"
 
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "physics/lattice_tip.h"
+#include "physics/friction/lattice_tip.h"
 
 namespace afm::physics {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/lattice_tip.h"
+#include "physics/friction/lattice_tip.h"
 
 #include <algorithm>
 #include <array>

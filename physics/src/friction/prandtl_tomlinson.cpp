@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/prandtl_tomlinson.h"
+#include "physics/friction/prandtl_tomlinson.h"
 
 #include <cmath>
 #include <numbers>

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "physics/morphology.h"
+#include "physics/imaging/morphology.h"
 
 namespace afm::physics {
 namespace {

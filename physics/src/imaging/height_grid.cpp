@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/height_grid.h"
+#include "physics/imaging/height_grid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/morphology.h"
+#include "physics/imaging/morphology.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/morphology.h"
+#include "physics/imaging/morphology.h"
 
 namespace afm::physics {
 namespace {

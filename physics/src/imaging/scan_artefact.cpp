@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/scan_artefact.h"
+#include "physics/imaging/scan_artefact.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/scan_settings.h"
+#include "physics/imaging/scan_settings.h"
 
 #include <cmath>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/scan_truth.h"
+#include "physics/imaging/scan_truth.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-#include "physics/morphology.h"
+#include "physics/imaging/morphology.h"
 
 namespace afm::physics {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/tip_shape.h"
+#include "physics/imaging/tip_shape.h"
 
 #include <algorithm>
 #include <cmath>

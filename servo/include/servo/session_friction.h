@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "physics/friction_loop.h"
+#include "physics/friction/friction_loop.h"
 #include "servo/session_file.h"
 
 namespace afm::servo {

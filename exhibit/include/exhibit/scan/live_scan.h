@@ -11,7 +11,7 @@
 
 #include "exhibit/scan/scan_choice.h"
 #include "exhibit/scan/scan_truth.h"
-#include "physics/scanner.h"
+#include "physics/imaging/scanner.h"
 
 namespace afm::exhibit {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "physics/scan_settings.h"
+#include "physics/imaging/scan_settings.h"
 
 namespace afm::exhibit {
 

@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "physics/height_grid.h"
+#include "physics/imaging/height_grid.h"
 
 namespace afm::exhibit {
 
@@ -19,7 +19,7 @@ struct ReachOfTip {
 };
 
 // Of a round tip, a paraboloid, over a square around the origin: where the sample lies below its closing by the tip
-// (physics/morphology.h). The rim outside the square is looked at too, so that no border is certain by chance.
+// (physics/imaging/morphology.h). The rim outside the square is looked at too, so that no border is certain by chance.
 // `drawn_m` is the height of the sample, finite everywhere. Some milliseconds.
 ReachOfTip reach_of_tip(const std::function<double(double x_m, double y_m)>& drawn_m, double side_m, std::size_t pixels,
                         double tip_radius_m);

@@ -11,7 +11,7 @@
 #include "core/result.h"
 #include "physics/contact_parameters.h"
 #include "physics/elasticity.h"
-#include "physics/friction.h"
+#include "physics/friction/friction.h"
 #include "physics/lever_dynamics.h"
 #include "physics/units.h"
 #include "scene/samples/sourced_value.h"

@@ -7,7 +7,7 @@
 
 #include "physics/contact_parameters.h"
 #include "physics/contact_phase.h"
-#include "physics/friction.h"
+#include "physics/friction/friction.h"
 #include "physics/law.h"
 #include "physics/law_tables.h"
 #include "physics/lever_dynamics.h"

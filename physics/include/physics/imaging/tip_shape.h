@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "physics/height_grid.h"
+#include "physics/imaging/height_grid.h"
 #include "physics/units.h"
 
 namespace afm::physics {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "physics/friction.h"
-#include "physics/sideways.h"
+#include "physics/friction/friction.h"
+#include "physics/friction/sideways.h"
 #include "physics/units.h"
 
 namespace afm::physics {
@@ -44,7 +44,7 @@ class LatticeLandscape {
 };
 
 // The stiffness 8 pi^2 U/a^2 of a well of the hexagonal lattice; a spring below it slips along y = 0, one above it does
-// not (there V is the sine of physics/prandtl_tomlinson.h with E0 = 4 U).
+// not (there V is the sine of physics/friction/prandtl_tomlinson.h with E0 = 4 U).
 Stiffness hexagonal_well_stiffness(Energy scale, Length period);
 
 // A jump of the tip from one well to another.

@@ -29,7 +29,7 @@ struct ScanArea {
 inline constexpr std::size_t kMostScanPixels = 4096;
 
 // What a person may change while a scan runs: the microscope in static contact mode. The tip's shape and radius are not
-// here: they make the surface that the apex traces (physics/morphology.h).
+// here: they make the surface that the apex traces (physics/imaging/morphology.h).
 struct ScanSettings {
   Frequency line_rate{2.0};          // lines a second, each there and back: tip speed 2 * width * line_rate
   Force setpoint{0.5e-9};            // of the lever; below zero the tip is held by adhesion alone

@@ -3,12 +3,13 @@
 
 #include <cstddef>
 
-#include "physics/scan_image.h"
-#include "physics/tip_shape.h"
+#include "physics/imaging/scan_image.h"
+#include "physics/imaging/tip_shape.h"
 
 namespace afm::physics {
 
-// Adds to an image whose first channel is the height what it reveals (physics/morphology.h), as channels of its size:
+// Adds to an image whose first channel is the height what it reveals (physics/imaging/morphology.h), as channels of its
+// size:
 //
 //   "Reconstruction"      the highest sample with this image under `tip`
 //   "Certainty"           1 where that is the sample for certain, else 0

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "physics/sideways.h"
+#include "physics/friction/sideways.h"
 #include "physics/units.h"
 
 namespace afm::physics {

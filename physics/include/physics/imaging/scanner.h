@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "physics/scan_image.h"
-#include "physics/scan_loop.h"
-#include "physics/scan_settings.h"
+#include "physics/imaging/scan_image.h"
+#include "physics/imaging/scan_loop.h"
+#include "physics/imaging/scan_settings.h"
 #include "physics/units.h"
 
 namespace afm::physics {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "physics/height_grid.h"
-#include "physics/tip_shape.h"
+#include "physics/imaging/height_grid.h"
+#include "physics/imaging/tip_shape.h"
 
 // What a tip makes of a surface, and what an image reveals of both: Villarrubia, J. Res. NIST 102, 425 (1997). With
 // T(u) the height of the tip's material above its apex at u beside it:

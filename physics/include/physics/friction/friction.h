@@ -64,7 +64,7 @@ struct FrictionParameters {
   double coefficient = 0.0;     // mu
   Pressure shear_strength;      // tau
   Length period;                // a, from well to well along x
-  Length corrugation;           // of the lattice's potential: its U is this times N (physics/lattice_tip.h)
+  Length corrugation;           // of the lattice's potential: its U is this times N (physics/friction/lattice_tip.h)
   Stiffness lateral_stiffness;  // of lever, tip and contact in series
 };
 

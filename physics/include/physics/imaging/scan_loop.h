@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "physics/imaging/scan_settings.h"
 #include "physics/normal_generator.h"
-#include "physics/scan_settings.h"
 #include "physics/units.h"
 
 namespace afm::physics {

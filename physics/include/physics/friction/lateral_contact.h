@@ -4,11 +4,11 @@
 #include <variant>
 #include <vector>
 
-#include "physics/anchored_tip.h"
 #include "physics/contact_parameters.h"
-#include "physics/friction.h"
-#include "physics/lattice_tip.h"
-#include "physics/sideways.h"
+#include "physics/friction/anchored_tip.h"
+#include "physics/friction/friction.h"
+#include "physics/friction/lattice_tip.h"
+#include "physics/friction/sideways.h"
 
 namespace afm::physics {
 

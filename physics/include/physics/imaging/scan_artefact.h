@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "physics/scanner.h"
+#include "physics/imaging/scanner.h"
 
 namespace afm::physics {
 
