@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <array>
+#include <cstdint>
 #include <limits>
+
+#include "exhibit/height_colours.h"
 
 namespace {
 
