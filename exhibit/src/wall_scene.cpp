@@ -11,9 +11,9 @@
 #include "core/check.h"
 #include "exhibit/drawn_surface.h"
 #include "exhibit/model_builder.h"
-#include "height_bar.h"
 #include "physics/contact.h"
 #include "scene/graph/height_field.h"
+#include "topography/height_bar.h"
 
 namespace afm::exhibit {
 

@@ -64,7 +64,8 @@ class FrameAllocation : public testing::Test {
                              .rows = {{"spring constant", number + " N/m", i % 2 == 0}},
                              .notes = {"what follows from " + number},
                              .status = "felt since " + number,
-                             .pointed = {}};
+                             .pointed = {},
+                             .marked = {}};
       if (i % 3 == 0) frame.control_panel.pointed = render::ControlTarget{};
       frame.control_placement = frame.data_placement;
       for (render::Label& label : frame.labels) label.highlighted = i % 2 == 0;

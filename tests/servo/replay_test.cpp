@@ -6,18 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "haptics/servo_loop.h"
-#include "haptics/simulated_device.h"
 #include "places.h"
-#include "scene/shared/shared_segment.h"
-#include "servo/session_friction.h"
+#include "servo/recorded_servo.h"
 #include "support/paper_model.h"
 #include "support/scratch_folder.h"
 
@@ -28,146 +23,6 @@ using scene::FaultCode;
 using scene::ServoState;
 using scene::TipSample;
 using testing::HasSubstr;
-
-// The simulated hand on a device of another frame and other limits, which can fail.
-class FaultyDevice final : public haptics::HapticDevice {
- public:
-  FaultyDevice() : spec_(hand_.spec()) {
-    spec_.name = "faulty device";
-    spec_.contact_point_m = kContact;
-    spec_.workspace_min_m += kContact;
-    spec_.workspace_max_m += kContact;
-    spec_.max_force_n = 2.0;
-    spec_.max_slew_n_per_s = 400.0;
-  }
-
-  const haptics::DeviceSpec& spec() const noexcept override { return spec_; }
-  haptics::DeviceSample read(std::int64_t now_ns) noexcept override {
-    haptics::DeviceSample sample = hand_.read(now_ns);
-    sample.position_m += kContact;
-    sample.healthy = healthy;
-    if (lost) sample.position_m.y = std::numeric_limits<double>::quiet_NaN();
-    return sample;
-  }
-  void write(const haptics::ForceCommand& command) noexcept override { hand_.write(command); }
-  void follow(const scene::HandScript& script) noexcept override { hand_.follow(script); }
-
-  bool healthy = true;
-  bool lost = false;
-
- private:
-  static constexpr glm::dvec3 kContact{0.0123, -0.0207, 0.0031};
-  haptics::SimulatedDevice hand_;
-  haptics::DeviceSpec spec_;
-};
-
-// A servo in a time that comes irregularly, as on a busy machine, yet in the same way in every run. It records as
-// touchafm does: a session for each material.
-class Recording {
- public:
-  explicit Recording(const scene::SharedModel& model = test::paper_model())
-      : segment_(std::move(*scene::SharedSegment::create(model, 0))),
-        renderer_(segment_.renderer_side()),
-        loop_(std::move(*haptics::ServoLoop::create(segment_, device, {.rate_hz = 1000.0}))) {}
-
-  void choose(int material) { renderer_.store(scene::Selection{.material = material, .revision = ++selection_}); }
-
-  void aim(double height_m, double seconds, bool pressed = false, double sideways_m = 0.003) {
-    renderer_.store(scene::HandScript{.target_m = {sideways_m, height_m, -0.002},
-                                      .duration_s = seconds,
-                                      .revision = ++script_,
-                                      .turn_on_pressed = pressed ? 1U : 0U});
-  }
-
-  void run(int ticks) {
-    for (int i = 0; i < ticks; ++i, ++tick_) {
-      if (heartbeats && tick_ % 16 == 0)
-        renderer_.store(scene::RendererHeartbeat{.frame = ++frame_, .stop = stop ? 1U : 0U});
-      now_ns += 1'000'000 + 37'000 * (tick_ % 11) - (tick_ % 7) * 51'000;
-      loop_->tick(now_ns, 0);
-      while (const auto sample = renderer_.pop_sample()) record(*sample);
-      while (const auto event = renderer_.pop_event()) sessions.back().events.push_back(*event);
-    }
-  }
-
-  void arm() {
-    aim(0.062, 0.3);
-    run(900);
-    aim(0.062, 0.0, true);
-    run(100);
-    aim(0.062, 0.0);
-    run(600);
-  }
-
-  void cycle() {
-    arm();
-    aim(-0.012, 0.7);
-    run(1200);
-    aim(0.065, 0.7);
-    run(1300);
-  }
-
-  // As a frame of the wall does, about the room's x axis.
-  void turn(double angle_rad) {
-    const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), angle_rad, glm::dvec3(1.0, 0.2, 0.0)) *
-                              scene::rest_room_from_node(segment_.model(), 1);
-    scene::SceneTransforms transforms;
-    transforms.count = segment_.model().node_count;
-    for (auto& node : transforms.room_from_node) {
-      std::copy_n(glm::value_ptr(turned), node.size(), node.begin());
-    }
-    renderer_.store(transforms);
-    sessions.back().wall.push_back({.time_ns = now_ns, .room_from_sample = transforms.room_from_node[1]});
-  }
-
-  scene::TipState state() { return *renderer_.tip_state(); }
-
-  FaultyDevice device;
-  std::vector<RecordedSession> sessions;
-  bool heartbeats = true;
-  bool stop = false;
-  std::int64_t now_ns = 7'000'000'000;
-
- private:
-  void record(const TipSample& sample) {
-    if (sessions.empty() || sessions.back().samples.back().material != sample.material) {
-      RecordedSession& session = sessions.emplace_back();
-      session.parameters = segment_.model().materials[static_cast<std::size_t>(sample.material)];
-      session.material = session.parameters.name.data();
-      session.device = *renderer_.device();
-      session.rate_hz = 1000.0;
-      session.room_from_sample = segment_.model().nodes[1].parent_from_node;
-    }
-    sessions.back().samples.push_back(sample);
-  }
-
-  scene::SharedSegment segment_;
-  scene::RendererSide renderer_;
-  std::unique_ptr<haptics::ServoLoop> loop_;
-  std::uint32_t selection_ = 0;
-  std::uint32_t script_ = 0;
-  std::uint64_t frame_ = 0;
-  int tick_ = 0;
-};
-
-double strongest_n(const RecordedSession& session) {
-  double strongest = 0;
-  for (const TipSample& sample : session.samples) strongest = std::max(strongest, std::abs(sample.hand_force_n));
-  return strongest;
-}
-
-void expect_same(const RecordedSession& session) {
-  const auto replayed = replay(session);
-  ASSERT_TRUE(replayed) << replayed.error().message;
-  EXPECT_EQ(replayed->ticks, session.samples.size());
-  if (replayed->first) {
-    ADD_FAILURE() << session.material << ": tick " << replayed->first->index << " of " << replayed->ticks << ", "
-                  << replayed->first->quantity << " was " << replayed->first->recorded << ", is "
-                  << replayed->first->replayed << "; " << replayed->different_ticks << " differ";
-  }
-  EXPECT_FALSE(replayed->first_event);
-  EXPECT_EQ(replayed->largest_hand_n, 0.0);
-}
 
 TEST(Replay, GivesEveryBitOfEveryMaterialAgainWhateverWasFeltBefore) {
   Recording recording;
@@ -182,76 +37,6 @@ TEST(Replay, GivesEveryBitOfEveryMaterialAgainWhateverWasFeltBefore) {
     EXPECT_GE(session.events.size(), 4U);
     expect_same(session);
   }
-}
-
-TEST(Replay, GivesTheFrictionAgain) {
-  for (const auto law :
-       {physics::FrictionLaw::Amontons, physics::FrictionLaw::ContactArea, physics::FrictionLaw::Lattice}) {
-    auto model = test::paper_model();
-    scene::SharedContact& mica = model.materials[test::kMica];
-    mica.law = physics::Law::Dmt;
-    mica.contact.reduced_modulus = physics::Pressure(5.15e10);
-    mica.friction = {.law = law,
-                     .lattice = physics::LatticeKind::Hexagonal,
-                     .coefficient = 0.1,
-                     .shear_strength = physics::Pressure(1e8),
-                     .period = physics::Length(0.52e-9),
-                     .corrugation = physics::Length(5e-12),
-                     .lateral_stiffness = physics::Stiffness(1.0)};
-    Recording recording(model);
-    recording.choose(test::kMica);
-    recording.arm();
-    recording.aim(-0.006, 0.5);
-    recording.run(800);
-    recording.aim(-0.006, 0.4, false, 0.020);
-    recording.run(600);
-    recording.aim(0.065, 0.7);
-    recording.run(900);
-    const support::ScratchFolder folder;
-    const std::string path = folder.file("friction.afms");
-    ASSERT_TRUE(save_session(recording.sessions.front(), path));
-    const auto loaded = load_session(path);
-    ASSERT_TRUE(loaded) << loaded.error().message;
-    double strongest = 0.0;
-    for (const TipSample& sample : loaded->samples) {
-      strongest = std::max(strongest, std::hypot(sample.lateral_force_n[0], sample.lateral_force_n[1]));
-    }
-    EXPECT_GT(strongest, 1e-11);
-    expect_same(*loaded);
-  }
-}
-
-// Half width, offset and slope of a loop that the hand drew, within 1 % of what the numbers of the material say.
-TEST(SessionFriction, IsMeasuredFromARecording) {
-  auto model = test::paper_model();
-  scene::SharedContact& mica = model.materials[test::kMica];
-  mica.law = physics::Law::Dmt;
-  mica.contact.reduced_modulus = physics::Pressure(5.15e10);
-  mica.friction.law = physics::FrictionLaw::Amontons;
-  mica.friction.coefficient = 0.1;
-  mica.friction.lateral_stiffness = physics::Stiffness(1.0);
-  Recording recording(model);
-  recording.choose(test::kMica);
-  recording.arm();
-  recording.aim(-0.006, 0.5);
-  recording.run(1200);
-  for (const double x : {0.020, -0.020, 0.020, -0.020}) {
-    recording.aim(-0.006, 0.8, false, x);
-    recording.run(1100);
-  }
-  const RecordedSession& session = recording.sessions.front();
-  const auto loop = friction_loop(session);
-  ASSERT_TRUE(loop);
-  const double load_n = session.samples.back().tip.force_n + 4.0 * M_PI * 50e-9 * 2.228e-3;
-  EXPECT_NEAR(loop->half_width.si, 0.1 * load_n, 0.01 * 0.1 * load_n);
-  EXPECT_NEAR(loop->offset.si, 0.0, 0.01 * 0.1 * load_n);
-  EXPECT_NEAR(loop->slope.si, 1.0, 0.01);
-
-  RecordedSession without = session;
-  for (TipSample& sample : without.samples) sample.lateral_force_n = {};
-  EXPECT_FALSE(friction_loop(without));
-  without.samples.clear();
-  EXPECT_FALSE(friction_loop(without));
 }
 
 TEST(Replay, TurnsTheSampleAgainAsTheWandTurnedIt) {

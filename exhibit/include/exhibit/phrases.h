@@ -30,7 +30,7 @@ struct PhraseRow {
 };
 
 #define AFM_PHRASE_ROW(name, key, places, limit) PhraseRow{key, places, limit},
-inline constexpr std::array kPhraseRows{AFM_FOR_EACH_PHRASE(AFM_PHRASE_ROW)};
+inline constexpr auto kPhraseRows = std::to_array<PhraseRow>({AFM_FOR_EACH_PHRASE(AFM_PHRASE_ROW)});
 #undef AFM_PHRASE_ROW
 
 constexpr const PhraseRow& row_of(Phrase phrase) { return kPhraseRows[static_cast<std::size_t>(phrase)]; }

@@ -107,7 +107,9 @@ Weights weights_at(double offset) {
 }  // namespace
 
 SampleSurface::SampleSurface(const scene::HeightGrid& drawn, double tip_radius_m, double largest_curvature_per_m)
-    : columns_(static_cast<int>(drawn.columns)), rows_(static_cast<int>(drawn.rows)), spacing_m_(drawn.spacing_m) {
+    : columns_(static_cast<int>(drawn.columns)),
+      rows_(static_cast<int>(drawn.rows)),
+      spacing_m_(drawn.columns > 0 ? drawn.spacing_m : 1.0) {
   if (columns_ == 0) return;
   controls_m_.assign(drawn.height_m.begin(), drawn.height_m.end());
   for (double& control_m : controls_m_) control_m *= drawn.height_factor;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/jpk_image.h"
+#include "images/jpk_image.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/nanoscope_image.h"
+#include "images/nanoscope_image.h"
 
 #include <fmt/format.h>
 

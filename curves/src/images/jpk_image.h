@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "formats/image_pages.h"
+#include "images/image_pages.h"
 
 namespace afm::curves {
 

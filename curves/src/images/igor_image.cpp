@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/igor_image.h"
+#include "images/igor_image.h"
 
 #include <array>
 #include <string>

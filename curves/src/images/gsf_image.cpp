@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/gsf_image.h"
+#include "images/gsf_image.h"
 
 #include <fmt/format.h>
 

@@ -20,13 +20,13 @@
 #include "curves/curve_error.h"
 #include "formats/confined_child.h"
 #include "formats/file_bytes.h"
-#include "formats/gsf_image.h"
-#include "formats/gwy_image.h"
-#include "formats/igor_image.h"
 #include "formats/igor_wave.h"
-#include "formats/image_pages.h"
-#include "formats/jpk_image.h"
-#include "formats/nanoscope_image.h"
+#include "images/gsf_image.h"
+#include "images/gwy_image.h"
+#include "images/igor_image.h"
+#include "images/image_pages.h"
+#include "images/jpk_image.h"
+#include "images/nanoscope_image.h"
 
 namespace afm::curves {
 

@@ -17,8 +17,8 @@
 #include "haptics/contact_model.h"
 #include "haptics/sample_surface.h"
 #include "haptics/simulated_device.h"
-#include "linear_colour.h"
 #include "physics/quantity_text.h"
+#include "topography/linear_colour.h"
 
 namespace afm::exhibit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/image_pages.h"
+#include "images/image_pages.h"
 
 #include <fmt/format.h>
 

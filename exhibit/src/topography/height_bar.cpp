@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "height_bar.h"
+#include "topography/height_bar.h"
 
 #include "exhibit/height_colours.h"
-#include "linear_colour.h"
+#include "topography/linear_colour.h"
 
 namespace afm::exhibit {
 

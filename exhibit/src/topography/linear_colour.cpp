@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "linear_colour.h"
+#include "topography/linear_colour.h"
 
 #include <cmath>
 #include <cstdint>

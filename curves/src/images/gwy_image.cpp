@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/gwy_image.h"
+#include "images/gwy_image.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "haptics/servo_loop.h"
+#include "haptics/simulated_device.h"
+#include "scene/shared/shared_segment.h"
+#include "servo/replay.h"
+#include "support/paper_model.h"
+
+// Sessions for the tests of their replay.
+namespace afm::servo {
+
+// The simulated hand on a device of another frame and other limits, which can fail.
+class FaultyDevice final : public haptics::HapticDevice {
+ public:
+  FaultyDevice() : spec_(hand_.spec()) {
+    spec_.name = "faulty device";
+    spec_.contact_point_m = kContact;
+    spec_.workspace_min_m += kContact;
+    spec_.workspace_max_m += kContact;
+    spec_.max_force_n = 2.0;
+    spec_.max_slew_n_per_s = 400.0;
+  }
+
+  const haptics::DeviceSpec& spec() const noexcept override { return spec_; }
+  haptics::DeviceSample read(std::int64_t now_ns) noexcept override {
+    haptics::DeviceSample sample = hand_.read(now_ns);
+    sample.position_m += kContact;
+    sample.healthy = healthy;
+    if (lost) sample.position_m.y = std::numeric_limits<double>::quiet_NaN();
+    return sample;
+  }
+  void write(const haptics::ForceCommand& command) noexcept override { hand_.write(command); }
+  void follow(const scene::HandScript& script) noexcept override { hand_.follow(script); }
+
+  bool healthy = true;
+  bool lost = false;
+
+ private:
+  static constexpr glm::dvec3 kContact{0.0123, -0.0207, 0.0031};
+  haptics::SimulatedDevice hand_;
+  haptics::DeviceSpec spec_;
+};
+
+// A servo in a time that comes irregularly, as on a busy machine, yet in the same way in every run. It records as
+// touchafm does: a session for each material.
+class Recording {
+ public:
+  explicit Recording(const scene::SharedModel& model = test::paper_model())
+      : segment_(std::move(*scene::SharedSegment::create(model, 0))),
+        renderer_(segment_.renderer_side()),
+        loop_(std::move(*haptics::ServoLoop::create(segment_, device, {.rate_hz = 1000.0}))) {}
+
+  void choose(int material) { renderer_.store(scene::Selection{.material = material, .revision = ++selection_}); }
+
+  void aim(double height_m, double seconds, bool pressed = false, double sideways_m = 0.003) {
+    renderer_.store(scene::HandScript{.target_m = {sideways_m, height_m, -0.002},
+                                      .duration_s = seconds,
+                                      .revision = ++script_,
+                                      .turn_on_pressed = pressed ? 1U : 0U});
+  }
+
+  void run(int ticks) {
+    for (int i = 0; i < ticks; ++i, ++tick_) {
+      if (heartbeats && tick_ % 16 == 0)
+        renderer_.store(scene::RendererHeartbeat{.frame = ++frame_, .stop = stop ? 1U : 0U});
+      now_ns += 1'000'000 + 37'000 * (tick_ % 11) - (tick_ % 7) * 51'000;
+      loop_->tick(now_ns, 0);
+      while (const auto sample = renderer_.pop_sample()) record(*sample);
+      while (const auto event = renderer_.pop_event()) sessions.back().events.push_back(*event);
+    }
+  }
+
+  void arm() {
+    aim(0.062, 0.3);
+    run(900);
+    aim(0.062, 0.0, true);
+    run(100);
+    aim(0.062, 0.0);
+    run(600);
+  }
+
+  void cycle() {
+    arm();
+    aim(-0.012, 0.7);
+    run(1200);
+    aim(0.065, 0.7);
+    run(1300);
+  }
+
+  // As a frame of the wall does, about the room's x axis.
+  void turn(double angle_rad) {
+    const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), angle_rad, glm::dvec3(1.0, 0.2, 0.0)) *
+                              scene::rest_room_from_node(segment_.model(), 1);
+    scene::SceneTransforms transforms;
+    transforms.count = segment_.model().node_count;
+    for (auto& node : transforms.room_from_node) {
+      std::copy_n(glm::value_ptr(turned), node.size(), node.begin());
+    }
+    renderer_.store(transforms);
+    sessions.back().wall.push_back({.time_ns = now_ns, .room_from_sample = transforms.room_from_node[1]});
+  }
+
+  scene::TipState state() { return *renderer_.tip_state(); }
+
+  FaultyDevice device;
+  std::vector<RecordedSession> sessions;
+  bool heartbeats = true;
+  bool stop = false;
+  std::int64_t now_ns = 7'000'000'000;
+
+ private:
+  void record(const scene::TipSample& sample) {
+    if (sessions.empty() || sessions.back().samples.back().material != sample.material) {
+      RecordedSession& session = sessions.emplace_back();
+      session.parameters = segment_.model().materials[static_cast<std::size_t>(sample.material)];
+      session.material = session.parameters.name.data();
+      session.device = *renderer_.device();
+      session.rate_hz = 1000.0;
+      session.room_from_sample = segment_.model().nodes[1].parent_from_node;
+    }
+    sessions.back().samples.push_back(sample);
+  }
+
+  scene::SharedSegment segment_;
+  scene::RendererSide renderer_;
+  std::unique_ptr<haptics::ServoLoop> loop_;
+  std::uint32_t selection_ = 0;
+  std::uint32_t script_ = 0;
+  std::uint64_t frame_ = 0;
+  int tick_ = 0;
+};
+
+inline double strongest_n(const RecordedSession& session) {
+  double strongest = 0;
+  for (const scene::TipSample& sample : session.samples) strongest = std::max(strongest, std::abs(sample.hand_force_n));
+  return strongest;
+}
+
+inline void expect_same(const RecordedSession& session) {
+  const auto replayed = replay(session);
+  ASSERT_TRUE(replayed) << replayed.error().message;
+  EXPECT_EQ(replayed->ticks, session.samples.size());
+  if (replayed->first) {
+    ADD_FAILURE() << session.material << ": tick " << replayed->first->index << " of " << replayed->ticks << ", "
+                  << replayed->first->quantity << " was " << replayed->first->recorded << ", is "
+                  << replayed->first->replayed << "; " << replayed->different_ticks << " differ";
+  }
+  EXPECT_FALSE(replayed->first_event);
+  EXPECT_EQ(replayed->largest_hand_n, 0.0);
+}
+
+}  // namespace afm::servo
