@@ -69,7 +69,7 @@ TEST(GsfImage, WithoutXRealIsOneWideAndSidesCountByTheirAbsoluteValue) {
 }
 
 TEST(GsfImage, MasksNaNAndWhatIsInfinite) {
-  const LoadedImage image = loaded(gsf_file("XRes = 2\nYRes = 2\n", {1, NAN, -INFINITY, 4}));
+  const LoadedImage image = loaded(gsf_file("XRes = 2\nYRes = 2\n", {1, std::nanf(""), -HUGE_VALF, 4}));
   EXPECT_TRUE(std::isnan(values(image)[1]));
   EXPECT_TRUE(std::isnan(values(image)[2]));
   EXPECT_EQ(values(image)[3], 4.0);
@@ -90,8 +90,8 @@ TEST(GsfImage, IsRefusedWhereItIsDamaged) {
 
 std::string two_fields() {
   return gwy_field("/0/data", 2, 2, 1e-6, 1e-6, "V", {1, 2, 3, 4}) + gwy_string("/0/data/title", "Deflection") +
-         gwy_field("/3/data", 2, 2, 1e-6, 1e-6, "m", {1e-9, NAN, 3e-9, 4e-9}) + gwy_string("/3/data/title", "Height") +
-         gwy_field("/4/data", 3, 2, 1e-6, 1e-6, "deg", {1, 2, 3, 4, 5, 6}) +
+         gwy_field("/3/data", 2, 2, 1e-6, 1e-6, "m", {1e-9, std::nan(""), 3e-9, 4e-9}) +
+         gwy_string("/3/data/title", "Height") + gwy_field("/4/data", 3, 2, 1e-6, 1e-6, "deg", {1, 2, 3, 4, 5, 6}) +
          gwy_object("/0/meta", "GwyContainer", gwy_string("Rate", "1 Hz")) +
          gwy_object("/3/mask", "GwyDataField", gwy_int("xres", 2));
 }
@@ -238,7 +238,8 @@ TEST(IgorImage, IsRefusedWhereItIsDamaged) {
   altered[100] = 'x';
   EXPECT_THAT(error_of(altered), HasSubstr("checksum"));
   EXPECT_THAT(error_of(igor_image_file(3, 2, {"HeightTrace"}, 5e-9, "", layers())), HasSubstr("does not fit"));
-  EXPECT_THAT(error_of(igor_image_file(3, 2, {"HeightTrace", "B"}, NAN, "", layers())), HasSubstr("no scan's"));
+  EXPECT_THAT(error_of(igor_image_file(3, 2, {"HeightTrace", "B"}, std::nan(""), "", layers())),
+              HasSubstr("no scan's"));
 }
 
 // ---- JPK ----
@@ -288,7 +289,7 @@ TEST(JpkImage, IsRefusedWhereItIsDamaged) {
               HasSubstr("no linear calibration \"absent\""));
   EXPECT_THAT(error_of(jpk_image_file(3e-6, 2e-6, {jpk_channel("h", false, 4, 2, kSlots, "volts", 16, kRaw)})),
               HasSubstr("do not fill it"));
-  EXPECT_THAT(error_of(jpk_image_file(NAN, 2e-6, {channel})), HasSubstr("no scan's"));
+  EXPECT_THAT(error_of(jpk_image_file(std::nan(""), 2e-6, {channel})), HasSubstr("no scan's"));
   TiffPage packed = channel;
   packed.number(0x0103, 3, 5);
   EXPECT_THAT(error_of(jpk_image_file(3e-6, 2e-6, {packed})), HasSubstr("compressed"));

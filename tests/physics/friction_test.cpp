@@ -48,10 +48,10 @@ TEST(Friction, RefusesWhatALawNeedsAndHasNot) {
   friction.period = Length();
   EXPECT_EQ(refused(friction), "lattice_period");
   friction = everything(FrictionLaw::Lattice);
-  friction.corrugation = Length(NAN);
+  friction.corrugation = Length(std::nan(""));
   EXPECT_EQ(refused(friction), "lattice_corrugation");
   friction = everything(FrictionLaw::Amontons);
-  friction.lateral_stiffness = Stiffness(INFINITY);
+  friction.lateral_stiffness = Stiffness(HUGE_VAL);
   EXPECT_EQ(refused(friction), "lateral_stiffness");
   EXPECT_EQ(refused({}), "");
 }
