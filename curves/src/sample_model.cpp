@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -53,7 +54,11 @@ core::Result<SampleModel> model_with(const ContactSetup& setup, const scene::Sha
 
 core::Result<SampleModel> make_sample_model(const ContactSetup& setup) {
   try {
-    return model_with(setup, parameters_of(setup), {});
+    const scene::SharedContact parameters = parameters_of(setup);
+    const std::string why =
+        scene::why_no_friction(parameters.friction.law, parameters.law, parameters.contact.reduced_modulus);
+    if (!why.empty()) return refusal(setup.material, core::ErrorCategory::WrongUsage, why);
+    return model_with(setup, parameters, {});
   } catch (const std::invalid_argument& error) {
     return refusal(setup.material, core::ErrorCategory::Failed, error.what());
   }

@@ -119,6 +119,12 @@ TEST(CommandLine, NamesEveryHapticDevice) {
   expect_refusal(touchafm("view --haptics falcon"), 2, "hdapi, haply, gamepad");
 }
 
+TEST(CommandLine, RefusesAFrictionThatTheLawDoesNotHave) {
+  const support::ScratchFolder folder;
+  expect_refusal(touchafm("demo --friction lattice --out " + folder.file("out")), 2, "choose the model dmt");
+  expect_refusal(touchafm("demo --friction glue --out " + folder.file("out")), 2, "amontons");
+}
+
 TEST(CommandLine, ExplainsEveryScaleMode) {
   for (const char* command : {"demo", "view"}) {
     const std::string help = touchafm(std::string(command) + " --help").out;

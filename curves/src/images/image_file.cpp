@@ -76,9 +76,9 @@ void number_names(std::vector<ImagePage>& pages) {
 }
 
 std::string names_of(const std::vector<ImagePage>& pages) {
-  std::vector<std::string> names;
-  for (const ImagePage& page : pages) names.push_back(page.name);
-  return fmt::format("{}", fmt::join(names, ", "));
+  std::string names;
+  for (const ImagePage& page : pages) names += (names.empty() ? "" : ", ") + page.name;
+  return names;
 }
 
 // A height by its name and its unit; the smaller, the sooner it is taken.
