@@ -58,7 +58,6 @@ TEST(Interruption, OfASweepLeavesNoFile) {
   }
 }
 
-// While it loads, starts its servo, lets a cycle be felt, and draws the pictures of the report.
 TEST(Interruption, OfAScanLeavesNoFile) {
   const support::ScratchFolder folder;
   support::LiveProgram scan({AFM_PROGRAM, "scan", "--material", "mica", "--size", "500nm", "--pixels", "4096", "--rate",
@@ -72,6 +71,7 @@ TEST(Interruption, OfAScanLeavesNoFile) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
+// While it loads, starts its servo, lets a cycle be felt, and draws the pictures of the report.
 TEST_P(InterruptedDemonstration, LeavesNoFile) {
   const support::ScratchFolder folder;
   support::LiveProgram demo({AFM_PROGRAM, "demo", "--out", folder.file("out"), "--material", "mica"}, "");
@@ -88,9 +88,9 @@ INSTANTIATE_TEST_SUITE_P(After, InterruptedDemonstration,
 
 TEST(Interruption, OfAViewThatStartsIsItsEnd) {
   const support::VirtualDisplay display(64, 64);
-  for (const int wait_ms : {300, 900}) {
+  for (const char* line : {"drawing 64 x 64", "Choose a sample"}) {
     support::LiveProgram view({AFM_PROGRAM, "view", "--size", "64x64"}, display.name());
-    std::this_thread::sleep_for(milliseconds(wait_ms));
+    ASSERT_TRUE(view.says(line)) << view.said();
     const Ended ended = interrupt(view, SIGTERM);
     EXPECT_EQ(ended.exit_code, 0) << ended.said;
     EXPECT_LT(ended.after, kBound);

@@ -2,7 +2,6 @@
 #include "curves/image_file.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>

@@ -113,8 +113,9 @@ void mark(const std::vector<std::uint8_t>& unreached, render::ColorGrid& grid) {
 }
 
 std::vector<glm::vec2> nanometres(const TipProfile& tip) {
-  std::vector<glm::vec2> points;
-  for (const glm::dvec2& point : tip.points_m) points.emplace_back(1e9 * point);
+  std::vector<glm::vec2> points(tip.points_m.size());
+  std::transform(tip.points_m.begin(), tip.points_m.end(), points.begin(),
+                 [](const glm::dvec2& point) { return glm::vec2(1e9 * point); });
   return points;
 }
 

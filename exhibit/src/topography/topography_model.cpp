@@ -67,8 +67,10 @@ scene::Primitive top_of(const Grid& grid, double lowest_m, double highest_m) {
   top.vertices.reserve(columns * rows);
   const double range_m = std::max(highest_m - lowest_m, kFlat_m);
   // of 1024 colours no step is seen
-  std::vector<glm::vec4> colours;
-  for (int i = 0; i < 1024; ++i) colours.push_back(linear_colour(height_colour(i / 1023.0)));
+  std::vector<glm::vec4> colours(1024);
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    colours[i] = linear_colour(height_colour(static_cast<double>(i) / static_cast<double>(colours.size() - 1)));
+  }
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t column = 0; column < columns; ++column) {
       const double share = (static_cast<double>(grid.z(column, row)) - lowest_m) / range_m;
