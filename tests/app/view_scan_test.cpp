@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "servo/session_file.h"
@@ -69,7 +68,6 @@ TEST_F(ViewScan, IsDrawnAgainFromItsSession) {
   ASSERT_TRUE(program.says("scan: Gold")) << program.said();
   xdotool("key Tab key plus key u");
   ASSERT_TRUE(program.says("scan: showing what the tip could not reach")) << program.said();
-  std::this_thread::sleep_for(std::chrono::seconds(3));
   xdotool("key F12");
   ASSERT_TRUE(program.says("saved ./touchafm-001.png")) << program.said();
   xdotool("key Escape");

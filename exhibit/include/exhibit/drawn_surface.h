@@ -10,7 +10,7 @@
 
 namespace afm::exhibit {
 
-// Whose models stand for a material: its own, those of its look, or, with a line on stderr, the plain grey ones.
+// The material whose models draw this one: itself, the one that it looks like or, with a line on stderr, the grey one.
 std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& material);
 
 // The surface that the wall draws of a material, without drawing it. The error names the file.

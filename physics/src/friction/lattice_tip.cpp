@@ -121,8 +121,8 @@ std::array<double, 2> LatticeTip::softest(const Rest& rest) noexcept {
   return {x / length, y / length};
 }
 
-// Whether a tip at rest at `t` in `rest` comes to the end of its well at `end` in `last`, and not to that of another:
-// before it there is a well, whose place goes with the root of what is left of the path.
+// Whether a tip at rest at `t` in `rest` reaches the end of its own well at `end` in `last`, and not that of another
+// well. Near the end of a well, its minimum moves with the square root of the rest of the path.
 bool LatticeTip::leads_to(const Rest& rest, double t, const Rest& last, double end, const Control& at,
                           const Control& change) const noexcept {
   const auto [ex, ey] = softest(last);

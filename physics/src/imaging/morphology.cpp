@@ -74,6 +74,10 @@ class TipReach {
   std::vector<double> lowest_of_row_m_;
 };
 
+bool is_single_paraboloid(const TipShape& tip) {
+  return tip.kind == TipKind::Paraboloid && !(tip.second_apex_distance.si > 0.0);
+}
+
 }  // namespace
 
 HeightGrid dilate(const HeightGrid& surface, const TipGrid& tip) {
@@ -97,7 +101,7 @@ HeightGrid erode(const HeightGrid& image, const TipGrid& tip) {
 }
 
 HeightGrid image_of(const HeightGrid& surface, const TipShape& tip) {
-  if (tip.kind != TipKind::Paraboloid || tip.second_apex_distance.si > 0.0) {
+  if (!is_single_paraboloid(tip)) {
     return dilate(surface, sample_tip(tip, surface, surface.range_m()));
   }
   HeightGrid image = surface;
@@ -106,7 +110,7 @@ HeightGrid image_of(const HeightGrid& surface, const TipShape& tip) {
 }
 
 HeightGrid reconstruction_of(const HeightGrid& image, const TipShape& tip) {
-  if (tip.kind != TipKind::Paraboloid || tip.second_apex_distance.si > 0.0) {
+  if (!is_single_paraboloid(tip)) {
     return erode(image, sample_tip(tip, image, image.range_m()));
   }
   HeightGrid surface = image;

@@ -25,7 +25,7 @@ namespace {
 
 #ifdef GLFW_PLATFORM  // 3.4 and later
 
-// libwayland prints a line of its own where there is no Wayland; ours says it.
+// Where there is no Wayland, libwayland prints a second line beside our error.
 void silence_wayland() {
   using Log = void (*)(const char* format, std::va_list values);
   void* const wayland = ::dlopen("libwayland-client.so.0", RTLD_LAZY);  // never closed: what is set stays

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "case_table.h"
 #include "physics/cantilever.h"
+#include "physics/case_table.h"
 #include "physics/contact_parameters.h"
 #include "physics/elasticity.h"
 #include "physics/friction/friction.h"

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <string>
 
-#include "mica.h"
 #include "physics/adhesive_contact.h"
 #include "physics/friction/lateral_contact.h"
 #include "physics/hertz.h"
 #include "physics/jkr.h"
+#include "physics/mica.h"
 
 namespace afm::physics {
 namespace {
