@@ -25,7 +25,7 @@ MaterialSpec glass() {
 MaterialSpec silicon() {
   return {.name = "silicon", .base_color = {0.30, 0.32, 0.37}, .metallic = 0.85, .roughness = 0.30};
 }
-MaterialSpec nitride() { return {.name = "silicon nitride", .base_color = {0.66, 0.63, 0.48}, .roughness = 0.28}; }
+MaterialSpec nitride() { return {.name = "silicon nitride", .base_color = {0.62, 0.40, 0.13}, .roughness = 0.24}; }
 MaterialSpec ceramic() { return {.name = "probe holder", .base_color = {0.50, 0.44, 0.36}, .roughness = 0.40}; }
 
 Surface block(V3 low, V3 high, double round, double bevel) {
@@ -132,7 +132,7 @@ std::vector<Part> tip_atoms() {
       const bool nitrogen = random_unit(column, row, 83) > 0.45;
       const double radius = nitrogen ? 0.85 * kRadius : kRadius;
       add_atom(surface, {x, y, kGap + rise + radius}, radius, Facing::Down,
-               nitrogen ? V3{0.16, 0.28, 0.75} : V3{0.80, 0.66, 0.42});
+               nitrogen ? V3{0.16, 0.28, 0.75} : V3{0.80, 0.66, 0.42}, 2);
     }
   }
   return {{std::move(surface), {.name = "tip atoms", .roughness = 0.35, .vertex_colors = true}}};

@@ -15,7 +15,9 @@ constexpr double kDiscRadius = 5e-3, kDiscThickness = 0.36e-3;
 constexpr double kInnermost = 0.4 * kNm;
 constexpr double kRingRatio = 1.22;
 constexpr int kHalvings = 4;  // 64 points around
-constexpr double kAtomsReach = 2.0 * kNm;
+constexpr double kAtomsReach = 3.1 * kNm;
+constexpr double kBelowAtoms = 0.36 * kNm;                 // how deep the ground lies under them
+constexpr std::int64_t kAtomRows = 14, kAtomColumns = 20;  // enough for that reach
 
 // What a sample looks like close by, whatever "close" is: one pattern, repeated at every scale. Real surfaces are not
 // that kind: far from its scale each pattern stands for what one would see there, cleavage steps or the film's
@@ -48,7 +50,7 @@ Place ground_at(const Look& look, double x, double y) {
     sum += weight * n;
     weights += weight;
   }
-  const double hollow = 0.11 * kNm * (1 - smooth_step(kAtomsReach * 0.9, kAtomsReach * 1.6, r));  // for the atoms
+  const double hollow = kBelowAtoms * (1 - smooth_step(kAtomsReach, kAtomsReach * 4, r));
   return {height - hollow, sum / weights};
 }
 
@@ -90,23 +92,28 @@ std::vector<Surface> rings(const Look& look) {
   return result;
 }
 
+// Who looks stands at negative y, 2 to 3 nm from the contact.
+int halvings_at(double x, double y) {
+  const double away = std::sqrt(x * x + (y + 2.3 * kNm) * (y + 2.3 * kNm));
+  return away < 1.1 * kNm ? 3 : away < 3.2 * kNm ? 2 : 1;
+}
+
 Surface mica_atoms() {
   // basal oxygens in rings of six: a triangular lattice of 0.26 nm without every fourth site, over every other of which
   // a potassium ion is left by the cleavage (W. L. Bragg's structure; a = 0.52 nm)
   constexpr double kSpacing = 0.26 * kNm;
   Surface surface;
-  for (std::int64_t row = -11; row <= 11; ++row) {
-    for (std::int64_t column = -14; column <= 14; ++column) {
+  for (std::int64_t row = -kAtomRows; row <= kAtomRows; ++row) {
+    for (std::int64_t column = -kAtomColumns; column <= kAtomColumns; ++column) {
       const double x = (static_cast<double>(column) + 0.5 * static_cast<double>(row)) * kSpacing;
       const double y = static_cast<double>(row) * std::sqrt(0.75) * kSpacing;
       const double r = std::sqrt(x * x + y * y);
       if (r > kAtomsReach) continue;
-      const double sink = 0.15 * kNm * smooth_step(0.45, 1, r / kAtomsReach);
       const bool hole = (column % 2 != 0) && (row % 2 != 0);
       if (!hole) {
-        add_atom(surface, {x, y, -0.15 * kNm - sink}, 0.15 * kNm, Facing::Up, {0.72, 0.20, 0.15});
+        add_atom(surface, {x, y, -0.15 * kNm}, 0.15 * kNm, Facing::Up, {0.72, 0.20, 0.15}, halvings_at(x, y));
       } else if (random_unit(column, row, 91) > 0.5) {
-        add_atom(surface, {x, y, -0.13 * kNm - sink}, 0.19 * kNm, Facing::Up, {0.42, 0.22, 0.62});
+        add_atom(surface, {x, y, -0.13 * kNm}, 0.19 * kNm, Facing::Up, {0.42, 0.22, 0.62}, halvings_at(x, y));
       }
     }
   }
@@ -116,8 +123,8 @@ Surface mica_atoms() {
 // A triangular lattice, each atom moved by up to `disorder` of the spacing.
 Surface packed_atoms(double spacing, double disorder, const std::function<V3(double)>& color) {
   Surface surface;
-  for (std::int64_t row = -11; row <= 11; ++row) {
-    for (std::int64_t column = -14; column <= 14; ++column) {
+  for (std::int64_t row = -kAtomRows; row <= kAtomRows; ++row) {
+    for (std::int64_t column = -kAtomColumns; column <= kAtomColumns; ++column) {
       const double jitter_x = disorder * (random_unit(column, row, 92) - 0.5);
       const double jitter_y = disorder * (random_unit(column, row, 93) - 0.5);
       const double x = (static_cast<double>(column) + 0.5 * static_cast<double>(row) + jitter_x) * spacing;
@@ -125,9 +132,9 @@ Surface packed_atoms(double spacing, double disorder, const std::function<V3(dou
       const double r = std::sqrt(x * x + y * y);
       if (r > kAtomsReach) continue;
       const double radius = 0.54 * spacing;
-      const double sink =
-          0.15 * kNm * smooth_step(0.45, 1, r / kAtomsReach) + disorder * 0.2 * spacing * random_unit(column, row, 94);
-      add_atom(surface, {x, y, -radius - sink}, radius, Facing::Up, color(random_unit(column, row, 95)));
+      const double sink = disorder * 0.2 * spacing * random_unit(column, row, 94);
+      add_atom(surface, {x, y, -radius - sink}, radius, Facing::Up, color(random_unit(column, row, 95)),
+               halvings_at(x, y));
     }
   }
   return surface;

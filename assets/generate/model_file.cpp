@@ -79,9 +79,9 @@ Json add_attributes(Writer& writer, const Surface& surface, bool colors) {
     }
     for (const double c : components(vertex.normal)) writer.put(static_cast<float>(c));
     if (!colors) continue;
-    for (const double c : components(vertex.color))
+    const V3 color = vertex.color;
+    for (const double c : {color.x, color.y, color.z, vertex.alpha})
       writer.put(static_cast<std::uint32_t>(std::lround(std::clamp(c, 0.0, 1.0) * 255)), 1);
-    writer.put(255, 1);
   }
 
   const std::size_t view = add_view(writer, offset, kArrayBuffer, colors ? 28 : 24);
@@ -135,7 +135,7 @@ std::size_t add_material(Writer& writer, const MaterialSpec& spec) {
   material["pbrMetallicRoughness"] = {{"baseColorFactor", {base.x, base.y, base.z, spec.alpha}},
                                       {"metallicFactor", spec.metallic},
                                       {"roughnessFactor", spec.roughness}};
-  if (spec.alpha < 1) material["alphaMode"] = "BLEND";
+  if (spec.alpha < 1 || spec.fading) material["alphaMode"] = "BLEND";
   if (!(spec.emissive == V3{})) material["emissiveFactor"] = components(spec.emissive);
   if (spec.emissive_strength != 1) {
     use_extension(writer, "KHR_materials_emissive_strength");

@@ -19,7 +19,8 @@ struct MaterialSpec {
   V3 base_color{1, 1, 1};
   double metallic = 0;
   double roughness = 0.5;
-  double alpha = 1;  // below 1: alphaMode BLEND
+  double alpha = 1;     // below 1: alphaMode BLEND
+  bool fading = false;  // the same, with the alpha of the vertices
   V3 emissive{0, 0, 0};
   double emissive_strength = 1;
   bool unlit = false;

@@ -12,16 +12,18 @@ namespace afm::generate {
 Model probe();                 // chip, V-shaped cantilever, pyramidal tip
 std::vector<Model> samples();  // a patch of mica, gold and silicon nitride each
 Model stage();
+Model room();                   // the floor that the exhibit stands on
 std::vector<Model> swatches();  // what the wand points at to choose a material
 Model optics();                 // laser, four-quadrant photodiode, beam, spot
 Model wand();
 Model analogy();               // a magnet on a spring above an iron plate
 Model journey();               // the instrument from the bench to its last atom, all about the contact point
+Model companions();            // known things beside it, at their true sizes
 std::vector<Model> grounds();  // the samples for it, from 5 mm to their atoms
 Model marks();                 // the ruler's line and the bend's
 
 inline std::vector<Model> all_models() {
-  std::vector<Model> models{probe(), stage(), optics(), wand(), marks(), journey(), analogy()};
+  std::vector<Model> models{probe(), stage(), room(), optics(), wand(), marks(), journey(), companions(), analogy()};
   for (Model& model : samples()) models.push_back(std::move(model));
   for (Model& model : grounds()) models.push_back(std::move(model));
   for (Model& model : swatches()) models.push_back(std::move(model));

@@ -32,7 +32,7 @@ constexpr double kChipLength = 300 * kUm;
 constexpr double kChipHalfWidth = 130 * kUm;
 constexpr double kChipHeight = 80 * kUm;
 
-MaterialSpec nitride() { return {.name = "silicon nitride", .base_color = {0.66, 0.63, 0.48}, .roughness = 0.28}; }
+MaterialSpec nitride() { return {.name = "silicon nitride", .base_color = {0.62, 0.40, 0.13}, .roughness = 0.24}; }
 MaterialSpec gold() {
   return {.name = "gold coating", .base_color = {1.0, 0.77, 0.34}, .metallic = 1, .roughness = 0.22};
 }
@@ -278,25 +278,26 @@ Surface tip_apex() { return from_apex(tip_cap(fine_shares())); }
 double tip_length() { return -apex_height(); }
 double tip_radius() { return kApexRadius; }
 
-void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color) {
-  // rings at 30, 60 and 88 degrees from the pole, of sixteen points each
-  constexpr V2 kRings[] = {{0.49999999999999994, 0.86602540378443871},
-                           {0.8660254037844386, 0.50000000000000011},
-                           {0.99939082701909576, 0.03489949670250108}};
+void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color, int halvings) {
+  // rings from the pole to 112 degrees from it; the neighbours take the light from what lies low
+  const std::vector<V2> rings = arc({1, 0}, {-0.37460659341591201, 0.92718385456678742}, halvings);
+  const Outline around = circle(1, halvings);
   const double side = facing == Facing::Up ? 1 : -1;
-  const Outline around = circle(1, 2);
-  const auto vertex = [&](V3 normal) { return SurfaceVertex{center + normal * radius, normal, color}; };
-  const std::uint32_t pole = surface.add(vertex({0, 0, side}));
-  for (const V2 ring : kRings) {
+  const auto vertex = [&](V3 normal, double height) {
+    return SurfaceVertex{center + normal * radius, normal, color * mix(0.12, 1, smooth_step(-0.5, 0.9, height))};
+  };
+  const std::uint32_t pole = surface.add(vertex({0, 0, side}, 1));
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    const V2 ring = rings[i];
     for (const OutlinePoint& point : around) {
-      surface.add(vertex({point.position.x * ring.x, side * point.position.y * ring.x, side * ring.y}));
+      surface.add(vertex({point.position.x * ring.y, side * point.position.y * ring.y, side * ring.x}, ring.x));
     }
   }
   const auto count = static_cast<std::uint32_t>(around.size());
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t here = pole + 1 + i, next = pole + 1 + (i + 1) % count;
     surface.add_triangle(pole, here, next);
-    for (std::uint32_t ring = 1; ring < std::size(kRings); ++ring) {
+    for (std::uint32_t ring = 1; ring + 1 < rings.size(); ++ring) {
       const std::uint32_t outwards = ring * count;
       surface.add_triangle(here + outwards - count, here + outwards, next + outwards);
       surface.add_triangle(here + outwards - count, next + outwards, next + outwards - count);

@@ -19,7 +19,8 @@ Surface tip_apex();
 double tip_length();  // from the apex to the base
 double tip_radius();  // of the ball
 
-// The half of a ball that shows, on which `facing` says: some forty triangles.
-void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color);
+// The part of a ball that shows among others, more than half of it, on the side that `facing` says.
+// 4 x 2^halvings points around.
+void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color, int halvings);
 
 }  // namespace afm::generate

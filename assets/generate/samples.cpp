@@ -48,7 +48,7 @@ Model mica() {
   };
   const HeightField field(90, 40 * kNm / 90, [&](double x, double y) { return layers(x, y) * kLayer; });
 
-  const V3 even{0.86, 0.80, 0.72}, odd{0.50, 0.49, 0.47};
+  const V3 even{0.80, 0.80, 0.80}, odd{0.58, 0.60, 0.62};
   std::vector<WallBand> bands;
   for (int layer = 2; layer > -9; --layer) {
     bands.push_back({layer * kLayer, (layer - 1) * kLayer, layer % 2 == 0 ? even : odd});
@@ -57,14 +57,14 @@ Model mica() {
   // alternate as the interference colours of thin flakes do, which makes mica pearly
   const auto tint = [&](const V3& position) {
     constexpr V3 kHues[] = {
-        {0.60, 0.70, 0.74}, {0.82, 0.72, 0.78}, {0.78, 0.84, 0.80}, {0.94, 0.88, 0.92}, {1.0, 1.0, 0.94}};
+        {0.52, 0.62, 0.72}, {0.66, 0.72, 0.80}, {0.78, 0.80, 0.86}, {0.90, 0.89, 0.92}, {1.0, 0.99, 0.97}};
     const double layer = std::clamp(position.z / kLayer + kLayersBelowCenter, 0.0, 4.0);
     const auto below = static_cast<std::size_t>(std::min(layer, 3.0));
     const double part = layer - static_cast<double>(below);
     return mix(kHues[below], kHues[below + 1], part) * (1 - 1.7 * part * (1 - part));
   };
   const MaterialSpec material{
-      .name = "mica", .base_color = {0.66, 0.63, 0.59}, .roughness = 0.22, .vertex_colors = true};
+      .name = "mica", .base_color = {0.62, 0.63, 0.64}, .roughness = 0.16, .vertex_colors = true};
   NodeSpec node = surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}});
   node.extras["step_m"] = kLayer;
   return sample("sample-mica", std::move(node));
@@ -113,7 +113,7 @@ Model silicon_nitride() {
     return V3{lit, lit, lit};
   };
   const MaterialSpec material{
-      .name = "silicon nitride", .base_color = {0.060, 0.098, 0.092}, .roughness = 0.30, .vertex_colors = true};
+      .name = "silicon nitride", .base_color = {0.105, 0.120, 0.150}, .roughness = 0.26, .vertex_colors = true};
   const std::vector<WallBand> bands{{3 * kNm, -2 * kNm, {0.85, 0.85, 0.85}}, {-2 * kNm, -9.5 * kNm, {0.7, 0.7, 0.7}}};
   return sample("sample-si3n4",
                 surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}}));

@@ -14,6 +14,7 @@ struct SurfaceVertex {
   V3 position;
   V3 normal;
   V3 color{1, 1, 1};  // linear, multiplies the material's
+  double alpha = 1;   // the same
 };
 
 struct Surface {

@@ -79,7 +79,7 @@ Model mica() {
     add_placed(stack, prism, {origin, x, cross(up, x), up});
   }
   return swatch("swatch-mica", std::move(stack),
-                {.name = "mica", .base_color = {0.72, 0.66, 0.58}, .roughness = 0.22, .vertex_colors = true});
+                {.name = "mica", .base_color = {0.68, 0.68, 0.68}, .roughness = 0.16, .vertex_colors = true});
 }
 
 // A bar whose sides lean in, as it comes out of the mould.
@@ -143,7 +143,7 @@ Model silicon_nitride() {
             0.3 * kCm);
   Model model =
       swatch("swatch-si3n4", std::move(group),
-             {.name = "silicon nitride", .base_color = {0.045, 0.085, 0.080}, .metallic = 0.1, .roughness = 0.12});
+             {.name = "silicon nitride", .base_color = {0.085, 0.100, 0.130}, .metallic = 0.1, .roughness = 0.12});
   Surface stand;
   add_placed(stand, foot, upright(0, kPlinthHeight, kTopMiddle));
   model.nodes.front().parts.push_back(

@@ -49,6 +49,7 @@ Journey::Journey(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layo
   frame_ = build.frame("journey-frame", layout, dmat4(1.0));
   const scene::NodeIndex root = build.model_in_frame_of("journey", "journey.glb", "journey", frame_);
   measure(scene, root, std::nullopt);
+  measure(scene, build.model_in_frame_of("companions", "companions.glb", "companions", frame_), std::nullopt);
 }
 
 std::size_t Journey::add_ground(ModelBuilder& build, scene::Scene& scene, const std::string& look) {
@@ -88,6 +89,20 @@ bool Journey::shows(scene::NodeIndex node, double orders, std::size_t ground) co
   if (part == parts_.end() || part->ground.value_or(ground) != ground) return false;
   const double scale = scale_of(orders);
   return part->nearest_m * scale < kBeyondFog && part->farthest_m * scale > kBelowPixel;
+}
+
+std::optional<Journey::Companion> Journey::companion(double orders) const {
+  // over their highest points, in metres (assets/generate/companions.cpp)
+  static constexpr std::array<Companion, 4> kCompanions{{{Phrase::CompanionHair, {560e-6, 300e-6, 95e-6}},
+                                                         {Phrase::CompanionCell, {-9.5e-6, 0.5e-6, 6e-6}},
+                                                         {Phrase::CompanionVirus, {-118e-9, 10e-9, 105e-9}},
+                                                         {Phrase::CompanionDna, {-21e-9, -1e-9, 3.2e-9}}}};
+  constexpr double kNearest = 0.25, kFarthest = 1.15;  // layout units from the tip: then it is seen whole
+  for (const Companion& companion : kCompanions) {
+    const dvec3 place = companion.place * scale_of(orders);
+    if (std::abs(place.x) > kNearest && std::abs(place.x) < kFarthest) return Companion{companion.name, place};
+  }
+  return std::nullopt;
 }
 
 void JourneyTravel::turn_round(std::int64_t now_ns) {

@@ -28,7 +28,10 @@ void WallScene::add_instrument(ModelBuilder& build, const UserModels& own) {
   layout_ = build.frame("layout", std::nullopt, room_from_layout_);
   const double c = std::cos(kSampleTiltRad), s = std::sin(kSampleTiltRad);
   sample_frame_ = build.frame("sample", layout_, frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)));
+  floor_ = build.model("room.glb", "room", layout_);
   stage_ = build.model_in_frame_of("stage", "stage.glb", "stage", sample_frame_);
+  post_ = build.node("stage/post");
+  foot_ = build.node("stage/foot");
   probe_frame_ = build.frame("probe-frame", sample_frame_, dmat4(1.0));
   lever_ = own.probe ? build.part(*own.probe, "probe", probe_frame_) : build.model("probe.glb", "probe", probe_frame_);
   cantilever_ = build.node("probe/cantilever");
@@ -98,7 +101,13 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
                         .x;
   w.tip_length_ = -bounds_below(w.scene_, w.tip_).low.z;
   const Bounds stage = bounds_below(w.scene_, build.node("stage/stage"));
-  w.stage_scale_ = kStageDrawnDiameter / (stage.high.x - stage.low.x);
+  w.stage_scale_ = kStageDrawnWidth / (stage.high.x - stage.low.x);
+  w.stage_height_ = w.stage_scale_ * (stage.high.z - stage.low.z);
+  w.floor_y_ = w.shelf_y_;
+  for (const MaterialLook& look : w.looks_) {
+    const double thickness = look.thickness_m * kStrokeHeight / look.stroke_m + w.stage_height_;
+    w.floor_y_ = std::min(w.floor_y_, -std::cos(kSampleTiltRad) * thickness - kLeastPost);
+  }
   return w;
 }
 

@@ -139,6 +139,24 @@ void WallScene::place_sample(const WallState& state, std::vector<dmat4>& local) 
   }
   local[stage_] =
       glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -thickness)), dvec3(stage_scale_)) * local[stage_];
+  place_stand(thickness, local);
+}
+
+// Upright from the floor to the plate, wherever that is under a sample; the wand moves it with them.
+void WallScene::place_stand(double thickness, std::vector<dmat4>& local) const {
+  const dmat4& layout_from_sample = scene_.nodes[sample_frame_].parent_from_node;
+  const dvec3 top(layout_from_sample * glm::dvec4(0.0, 0.0, -thickness - stage_height_, 1.0));
+  const dvec3 foot(top.x, floor_y_, top.z);
+  const dmat4 stand_from_layout = glm::inverse(layout_from_sample * local[stage_]);
+  const auto set = [&](scene::NodeIndex node, const dmat4& layout_from_node) {
+    const dmat4 stage_from_parent = ancestor_from_node(scene_, stage_, *scene_.nodes[node].parent);
+    local[node] = glm::inverse(stage_from_parent) * stand_from_layout * layout_from_node;
+  };
+  const double height = std::max(top.y - floor_y_, 0.0);
+  const dmat4 standing = frame_matrix({1, 0, 0}, {0, 0, -1}, {0, 1, 0}, foot);
+  set(post_, glm::scale(standing, dvec3(1.0, 1.0, height)));
+  set(foot_, height > 0.0 ? standing : dmat4(0.0));
+  local[floor_] = glm::translate(dmat4(1.0), dvec3(0.0, floor_y_, 0.0));
 }
 
 void WallScene::place_wand(const WallState& state, std::vector<dmat4>& local) const {
@@ -181,6 +199,7 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
   }
   if (state.centerpiece != Instrument) hide({lever_, optics_});
   if (state.centerpiece == Analogy || state.centerpiece == Journey) hide({stage_});
+  if (state.centerpiece == Journey) hide({floor_});
   if (state.centerpiece != Analogy) hide({analogy_.frame()});
   if (state.centerpiece != Journey) hide({journey_.frame()});
   if (topography_mesh_ && (state.centerpiece != Instrument || !state.material)) hide({height_bar_});
@@ -280,7 +299,10 @@ void WallScene::place_marks(const WallState& state, render::FrameState& frame) c
                           .highlighted = false,
                           .placement = panel(kRulerFoot.x + kRulerTextGap, 0.5 * (bar.drawn - kRulerTextHeight),
                                              kRulerTextWidth, kRulerTextHeight)});
-  if (state.centerpiece == Centerpiece::Journey) return;
+  if (state.centerpiece == Centerpiece::Journey) {
+    if (const auto companion = journey_.companion(state.journey_orders)) place_companion_label(*companion, frame);
+    return;
+  }
 
   const auto radius_m = static_cast<float>(kShadeRadius * glm::length(dvec3(room_from_layout_[0])));
   const bool magnet = state.centerpiece == Centerpiece::Analogy;
@@ -290,6 +312,20 @@ void WallScene::place_marks(const WallState& state, render::FrameState& frame) c
   const CueRing ring = cue_ring(*state.cue);
   frame.contact.ring_color = ring.color;
   frame.contact.ring_radius_m = static_cast<float>(ring.radius) * frame.contact.shade_radius_m;
+}
+
+// Over it, as deep in the room as it is.
+void WallScene::place_companion_label(const Journey::Companion& companion, render::FrameState& frame) const {
+  const dmat4& room_from_journey = frame.room_from_node[journey_.frame()];
+  const double unit_m = glm::length(dvec3(room_from_layout_[0]));
+  const auto axis = [&](const glm::dvec4& column) { return unit_m * glm::normalize(dvec3(column)); };
+  const dvec3 middle = dvec3(room_from_journey[3]) + companion.place.x * axis(room_from_journey[0]) +
+                       companion.place.y * axis(room_from_journey[1]) + companion.place.z * axis(room_from_journey[2]);
+  const dvec3 right(room_from_layout_ * glm::dvec4(kCompanionLabelWidth, 0.0, 0.0, 0.0));
+  const dvec3 up(room_from_layout_ * glm::dvec4(0.0, kCompanionLabelHeight, 0.0, 0.0));
+  frame.labels.push_back({.text = phrases_[companion.name],
+                          .highlighted = false,
+                          .placement = {.lower_left_m = middle - 0.5 * right, .right_m = right, .up_m = up}});
 }
 
 // So far to the right as an upright wall, whose panels stand below, has room for the numbers.

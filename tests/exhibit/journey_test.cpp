@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -47,6 +48,31 @@ TEST_F(JourneyTest, LeavesTheContactPointWhereItIs) {
     const glm::mat4 room_from_frame(frame(orders).room_from_node[node("journey-frame")]);
     EXPECT_LT(glm::distance(glm::dvec3(room_from_frame[3]), contact), 1e-6) << orders;
   }
+}
+
+TEST_F(JourneyTest, NamesAKnownThingOfTheScaleBesideTheTip) {
+  const std::map<std::string, std::pair<double, std::string>> things{{"hair", {2.95, "human hair"}},
+                                                                     {"red-cell", {4.8, "red blood cell"}},
+                                                                     {"virus", {6.7, "virus"}},
+                                                                     {"dna", {7.45, "DNA"}}};
+  const double unit_m = scene_.panel_millimetre_m() * 1000.0;
+  for (const auto& [thing, seen] : things) {
+    const auto& [orders, name] = seen;
+    const render::FrameState state = frame(orders);
+    EXPECT_NE(state.visible[node("companions/" + thing)], 0) << thing;
+    const auto label = std::find_if(state.labels.begin(), state.labels.end(),
+                                    [&, wanted = name](const render::Label& l) { return l.text.starts_with(wanted); });
+    ASSERT_NE(label, state.labels.end()) << thing;
+    // over the thing, which reaches neither to the tip's axis nor up to its name
+    const glm::dmat4 room_from_frame = state.room_from_node[node("journey-frame")];
+    const auto [low, high] = heights("companions/" + thing);
+    const glm::dvec3 middle = label->placement.lower_left_m + 0.5 * label->placement.right_m;
+    const glm::dvec3 place(glm::inverse(room_from_frame) * glm::dvec4(middle, 1.0));
+    EXPECT_GT(place.z, high) << thing;
+    EXPECT_LT(place.z - high, 0.5 * unit_m / std::pow(10.0, orders)) << thing;
+    EXPECT_GT(std::abs(place.x), 0.25 * unit_m / std::pow(10.0, orders)) << thing;
+  }
+  for (const double orders : {0.0, 2.0, 4.0, 5.6, 9.0}) EXPECT_EQ(frame(orders).labels.size(), 1U) << orders;
 }
 
 TEST_F(JourneyTest, ScalesByTheSameFactorOnEveryStepFromOneMetreToOneNanometre) {

@@ -37,6 +37,14 @@ class Journey {
   // True for a node below the journey's frame that is to be drawn: none beyond the fog or smaller than a pixel.
   bool shows(scene::NodeIndex node, double orders, std::size_t ground) const;
 
+  // What stands beside the tip to compare it with at this scale: where its name goes, in the sample's axes about the
+  // contact point, layout units.
+  struct Companion {
+    Phrase name;
+    glm::dvec3 place;
+  };
+  std::optional<Companion> companion(double orders) const;
+
   scene::NodeIndex frame() const { return frame_; }
 
  private:

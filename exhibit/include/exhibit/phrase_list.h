@@ -86,6 +86,10 @@
   PHRASE(PlaceApex, "place-apex", "", kLine)                          \
   PHRASE(PlaceGap, "place-gap", "", kLine)                            \
   PHRASE(PlaceAtoms, "place-atoms", "", kLine)                        \
+  PHRASE(CompanionHair, "companion-hair", "", kLine)                  \
+  PHRASE(CompanionCell, "companion-cell", "", kLine)                  \
+  PHRASE(CompanionVirus, "companion-virus", "", kLine)                \
+  PHRASE(CompanionDna, "companion-dna", "", kLine)                    \
   PHRASE(TrueScale, "true-scale", "length", kLine)                    \
   PHRASE(SampleScale, "sample-scale", "length", kLine)                \
   PHRASE(LeverScale, "lever-scale", "length", kLine)                  \

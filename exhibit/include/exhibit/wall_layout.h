@@ -21,7 +21,8 @@ inline constexpr double kSampleTiltRad = 0.26;    // towards the viewer, so that
 inline constexpr double kLeverAzimuthRad = 0.42;  // the lever comes from behind, a little from the left
 inline constexpr double kLeverDrawnLength = 1.25;
 inline constexpr double kLeverDrawnThickness = 0.0125;
-inline constexpr double kStageDrawnDiameter = 1.2;
+inline constexpr double kStageDrawnWidth = 1.44;  // before the wall it reaches to the panels beside it
+inline constexpr double kLeastPost = 0.08;        // from the floor to the stage
 // The light comes from the upper face's side of the lever however it bends; both are seen below the banner.
 inline constexpr glm::dvec3 kLaser(-0.48, 0.79, -0.18);
 inline constexpr glm::dvec3 kPhotodiode(0.56, 0.80, -0.42);
@@ -89,7 +90,8 @@ inline constexpr double kAnalogyLabelWidth = 0.40;
 inline constexpr double kAnalogyLabelHeight = 0.075;
 inline constexpr double kAnalogyLabelGap = 0.16;
 inline constexpr glm::dvec3 kAnalogyPlateLabel(0.0, -0.382, -0.07);  // in the sample's frame, on the plate's front
-inline constexpr float kFogBegin = 3.5F, kFogEnd = 14.0F;            // behind the wall, on the journey
+inline constexpr double kCompanionLabelWidth = 0.44, kCompanionLabelHeight = 0.075;  // on the journey
+inline constexpr float kFogBegin = 3.5F, kFogEnd = 14.0F;                            // behind the wall, on the journey
 inline constexpr double kBannerHeight = 0.21;
 // of the wall below and above the contact point: the shelf is seen whole, and the banner is above the panels
 inline constexpr double kRoomBelow = 1.20;

@@ -128,6 +128,7 @@ class WallScene {
   LeverPose lever_pose(const WallState& state) const;
   void place_probe(const WallState& state, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
   void place_sample(const WallState& state, std::vector<glm::dmat4>& local) const;
+  void place_stand(double thickness, std::vector<glm::dmat4>& local) const;
   void place_optics(const WallState& state, std::vector<glm::dmat4>& local) const;
   void place_wand(const WallState& state, std::vector<glm::dmat4>& local) const;
   double parameter_factor(std::size_t material, double release_z_m) const;  // of Z_joc, against the material's own
@@ -145,6 +146,7 @@ class WallScene {
   void place_fog(const WallState& state, render::FrameState& frame) const;
   void place_marks(const WallState& state, render::FrameState& frame) const;
   void add_height_bar(ModelBuilder& build);
+  void place_companion_label(const Journey::Companion& companion, render::FrameState& frame) const;
   void place_height_bar(const WallState& state, render::FrameState& frame) const;
   double height_bar_x() const;
   std::vector<glm::dmat4> local_transforms(const WallState& state, render::BeamBend& bend) const;
@@ -173,14 +175,16 @@ class WallScene {
   glm::dvec3 wand_grip_{0.0};
   render::PanelPlacement force_placement_, data_placement_;
 
-  scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, stage_{};
+  scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, stage_{}, post_{},
+      foot_{}, floor_{};
   scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{}, wand_{}, ray_{}, apex_{};
   WallMarks marks_;
   Journey journey_;
   Analogy analogy_;
   double lever_length_ = 0;  // glTF metres, clamp to tip axis
   double tip_length_ = 0;    // glTF metres, base to apex
-  double stage_scale_ = 0;
+  double stage_scale_ = 0, stage_height_ = 0;
+  double floor_y_ = 0;  // layout units, below the shelf and every sample's stage
 };
 
 }  // namespace afm::exhibit

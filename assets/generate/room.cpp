@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "models.h"
+
+namespace afm::generate {
+namespace {
+
+// In metres of the exhibit: x right, y up, z towards the viewer; the floor lies at y = 0, the wall at z = 0.
+constexpr double kBack = 4.2, kBeside = 3.4;  // where it has dissolved into the background
+constexpr double kFront = 0.80;               // before the wall: under the shelf, and no further into the room
+constexpr double kFrontBeside = 1.25;         // what stands before the wall must not be cut off at its sides
+constexpr int kRings = 28;
+
+double gaussian(double x, double y) { return 1 / ((1 + x * x + y * y) * (1 + x * x + y * y)); }
+
+// Shade of the stage's foot and of the plate above it, and of what stands on the shelf.
+double shade(double x, double z) {
+  const double foot = gaussian(x / 0.30, (z + 0.12) / 0.30);
+  const double plate = gaussian(x / 0.75, (z + 0.05) / 0.6);
+  return (1 - 0.75 * foot) * (1 - 0.45 * plate);
+}
+
+double visible(double x, double z) {
+  const double behind = std::max(0.0, -z) / kBack, beside = x / kBeside;
+  const double back = 1 - smooth_step(0.25, 1, std::sqrt(behind * behind + beside * beside));
+  const double toward = std::max(0.0, z) / kFront, aside = z > 0 ? std::abs(x) / kFrontBeside : 0.0;
+  return back * (1 - smooth_step(0.82, 1, toward)) * (1 - smooth_step(0.0, 0.25, z) * smooth_step(0.7, 1, aside));
+}
+
+// Finest about the middle of what stands on it.
+Surface floor_surface() {
+  Surface surface;
+  const auto spread = [](std::size_t i, double low, double high) {
+    const double t = 2.0 * static_cast<double>(i) / (2 * kRings) - 1;  // -1..1
+    const double bent = t * (0.35 + 0.65 * t * t);
+    return bent < 0 ? -bent * low : bent * high;
+  };
+  surface.add_grid(2 * kRings + 1, 2 * kRings + 1, [&](std::size_t row, std::size_t column) {
+    const double x = spread(column, -kBeside, kBeside), z = spread(2 * kRings - row, -kBack, kFront);
+    const double lit = shade(x, z);
+    return SurfaceVertex{{x, 0, z}, {0, 1, 0}, {lit, lit, lit}, visible(x, z)};
+  });
+  return surface;
+}
+
+}  // namespace
+
+Model room() {
+  Model model{"room", {}};
+  model.nodes.push_back({.name = "floor",
+                         .parts = {{floor_surface(),
+                                    {.name = "floor",
+                                     .base_color = {0.040, 0.045, 0.056},
+                                     .roughness = 0.62,
+                                     .fading = true,
+                                     .vertex_colors = true}}}});
+  return model;
+}
+
+}  // namespace afm::generate
