@@ -54,17 +54,18 @@ physics::ScanArtefact cause_of(const LiveScan& scan) {
   const physics::ScanSettings settings = settings_of(now, scan.subject().adhesion_n);
   const LineFacts facts = newest_facts(scan);
   if (facts.off_surface > kLostShare) return ScanArtefact::LostContact;
+  if (facts.on_second_apex > kSecondShare && now.apex_distance_m > 0.0) return ScanArtefact::DoubleTip;
   // with pure integral control and a resonance the loop is stable below w0/Q
   const double limit_per_s = 2.0 * std::numbers::pi * settings.z_resonance.si / settings.z_quality_factor;
   if (now.gain_per_s > limit_per_s) return ScanArtefact::Ringing;
-  if (facts.off_surface > kSeenShare) return ScanArtefact::Parachuting;
-  if (facts.highest_force_n > kOverload * std::abs(now.setpoint_n)) return ScanArtefact::Overload;
-  if (facts.on_second_apex > kSecondShare && now.apex_distance_m > 0.0) return ScanArtefact::DoubleTip;
   const double frame_s = static_cast<double>(LiveScan::kPixels) / now.line_rate_hz;
   if (now.drift_m_per_s * frame_s > kSeenDrift * scan.subject().side_m) return ScanArtefact::Drift;
   // what passes the loop of the detector's white noise: sqrt(S/(4 tau)), S = noise^2/bandwidth
   const double noise_m = now.noise_m * std::sqrt(now.gain_per_s / (4.0 * physics::kNoiseBandwidth.si));
   if (noise_m > kSeenNoise * relief_m(scan)) return ScanArtefact::Noise;
+  // noise that is seen lifts the tip, too
+  if (facts.off_surface > kSeenShare) return ScanArtefact::Parachuting;
+  if (facts.highest_force_n > kOverload * std::abs(now.setpoint_n)) return ScanArtefact::Overload;
   if (2.0 * now.line_rate_hz / now.gain_per_s > kSeenLag) return ScanArtefact::Blur;
   return now.tip_radius_m > kBlunt * scan.usual().tip_radius_m ? ScanArtefact::BluntTip : ScanArtefact::None;
 }

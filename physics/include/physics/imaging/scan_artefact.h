@@ -8,7 +8,7 @@
 
 namespace afm::physics {
 
-// What keeps an image from showing the sample. Names, phrases of the wall and judgements follow this order.
+// What keeps an image from showing the sample. Names and phrases of the wall follow this order.
 enum class ScanArtefact {
   None,
   LostContact,  // the tip hangs above the sample: setpoint too low, or the sample drifted away
