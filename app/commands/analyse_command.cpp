@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 #include "app/command.h"
 #include "app/commands/analyse_image.h"
@@ -43,6 +45,42 @@ std::string contact_method_names() {
   std::string names;
   for (const auto& each : physics::kContactMethods) names += (names.empty() ? "" : ", ") + std::string(each.name);
   return names;
+}
+
+enum class FileKind { Curve, Image, Session };
+
+// What a file is as analyse_curve_file() has it, in the words of a message.
+struct FileKindText {
+  FileKind kind;
+  const char* one;   // "an image"
+  const char* many;  // "images"
+};
+
+constexpr std::array kFileKinds{FileKindText{FileKind::Curve, "a curve", "curves"},
+                                FileKindText{FileKind::Image, "an image", "images"},
+                                FileKindText{FileKind::Session, "a session", "sessions"}};
+
+FileKind kind_of(const std::string& file) {
+  if (file.ends_with(".afms")) return FileKind::Session;
+  return curves::is_image_file(file) ? FileKind::Image : FileKind::Curve;
+}
+
+// An option that is of use for one kind of file alone.
+struct OptionOfKind {
+  Option option;
+  const char* name;
+  FileKind kind;
+};
+
+core::Result<void> check_options(const std::string& file, const std::vector<OptionOfKind>& options) {
+  const FileKind kind = kind_of(file);
+  for (const OptionOfKind& row : options) {
+    if (!row.option.given() || row.kind == kind) continue;
+    return wrong_usage(fmt::format("{} is for {}, and {} is {}; leave it out", row.name,
+                                   kFileKinds[static_cast<std::size_t>(row.kind)].many, file,
+                                   kFileKinds[static_cast<std::size_t>(kind)].one));
+  }
+  return {};
 }
 
 }  // namespace
@@ -90,8 +128,9 @@ core::Result<void> analyse_session(const AnalyseOptions& options) {
 }
 
 core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
-  if (options.file.ends_with(".afms")) return analyse_session(options);
-  if (curves::is_image_file(options.file)) {
+  const FileKind kind = kind_of(options.file);
+  if (kind == FileKind::Session) return analyse_session(options);
+  if (kind == FileKind::Image) {
     return analyse_image_file(options.file, {{.channel = options.channel}, options.levelling}, options.json);
   }
   const auto measured = load_analysed(options.file, options.reading, options.contact_method);
@@ -129,22 +168,32 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
           "loop")
       .required()
       .type_name("FILE");
-  command
-      .add_option("--beside", options->beside, "second curve to compare with, measured or computed by touchafm curve")
-      .type_name("FILE");
+  // shared: like the options, for the chosen command
+  const auto of_kind = std::make_shared<std::vector<OptionOfKind>>();
+  const auto for_curves = [of_kind](const char* name, const Option& option) {
+    of_kind->push_back({option, name, FileKind::Curve});
+  };
+  for_curves("--beside", command
+                             .add_option("--beside", options->beside,
+                                         "second curve to compare with, measured or computed by touchafm curve")
+                             .type_name("FILE"));
   curves::CurveReading& reading = options->reading;
-  quantity_option(
-      command, "--spring-constant", [&reading](physics::Stiffness lever) { reading.spring_constant = lever; },
-      physics::kStiffnessUnits, "spring constant of the lever instead of the file's; forces scale with it",
-      std::optional(kSpringConstants));
+  for_curves(
+      "--spring-constant",
+      quantity_option(
+          command, "--spring-constant", [&reading](physics::Stiffness lever) { reading.spring_constant = lever; },
+          physics::kStiffnessUnits, "spring constant of the lever instead of the file's; forces scale with it",
+          std::optional(kSpringConstants)));
   const auto read_sensitivity = [&reading](const std::string& text) -> core::Result<void> {
     const auto sensitivity = parse_sensitivity(text);
     if (!sensitivity) return tl::unexpected(sensitivity.error());
     reading.sensitivity_m_per_v = *sensitivity;
     return {};
   };
-  command.add_parsed_option("--sensitivity", read_sensitivity, "sensitivity of the optical lever instead of the file's")
-      .type_name("SENSITIVITY in um/V, nm/V, pm/V");
+  for_curves("--sensitivity", command
+                                  .add_parsed_option("--sensitivity", read_sensitivity,
+                                                     "sensitivity of the optical lever instead of the file's")
+                                  .type_name("SENSITIVITY in um/V, nm/V, pm/V"));
   const auto read_method = [options = options.get()](const std::string& text) -> core::Result<void> {
     const auto method = std::find_if(physics::kContactMethods.begin(), physics::kContactMethods.end(),
                                      [&](const auto& each) { return each.name == text; });
@@ -154,23 +203,30 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
     options->contact_method = method->method;
     return {};
   };
-  command
-      .add_parsed_option("--contact-point", read_method,
-                         "method that finds the contact point: " + contact_method_names() +
-                             "; default: zero-force if the tip is attracted before contact or the curve is computed, "
-                             "otherwise fit-polynomial")
-      .type_name("METHOD");
-  command.add_option("--curve", reading.index, "number of the curve in an .h5 file, from 0")
-      .show_default()
-      .type_name("INDEX");
-  add_channel_options(command, options->channel, options->levelling);
+  for_curves("--contact-point",
+             command
+                 .add_parsed_option("--contact-point", read_method,
+                                    "method that finds the contact point: " + contact_method_names() +
+                                        "; default: zero-force if the tip is attracted before contact or the curve is "
+                                        "computed, otherwise fit-polynomial")
+                 .type_name("METHOD"));
+  for_curves("--curve", command.add_option("--curve", reading.index, "number of the curve in an .h5 file, from 0")
+                            .show_default()
+                            .type_name("INDEX"));
+  const auto [channel, level] = add_channel_options(command, options->channel, options->levelling);
+  of_kind->push_back({channel, "--channel", FileKind::Image});
+  of_kind->push_back({level, "--level", FileKind::Image});
   command.add_flag("--json", options->json, "print JSON in SI units; null marks a figure that was not found");
-  command.add_option("--out", options->out, "write a plot of the curve (SVG) to FILE").type_name("FILE");
+  for_curves("--out",
+             command.add_option("--out", options->out, "write a plot of the curve (SVG) to FILE").type_name("FILE"));
   command.footer(
       "docs/curves.md defines each figure.\n"
       "example: touchafm analyse gold.jpk-force --beside model.csv --out gold.svg\n"
       "         touchafm analyse mica.spm --channel \"Height Sensor\" --json");
-  command.when_chosen([options] { return analyse_curve_file(*options); });
+  command.when_chosen([options, of_kind]() -> core::Result<void> {
+    if (const auto checked = check_options(options->file, *of_kind); !checked) return checked;
+    return analyse_curve_file(*options);
+  });
 }
 
 }  // namespace afm::app

@@ -168,6 +168,7 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
   exhibit::PictureOptions picture = options.picture;
   look_as(*then.frame, stage.wall, picture);
   ViewPanels panels(stage.wall_scene, models);
+  panels.set_friction(&then.friction);
   panels.show(then.frame->panels);
   std::optional<exhibit::LiveScan> scan;
   if (then.frame->scan) {

@@ -109,7 +109,7 @@ core::Result<Scan> take_scan(const ScanOptions& options) {
   area.y_centre = options.y_centre;
   area.columns = area.rows = options.pixels;
   if (area.width.si > drawn_m * (1.0 + 1e-9)) {
-    core::log_line(fmt::format("the sample of {} is {} wide; beyond its rim the image shows its mirror images",
+    core::log_line(fmt::format("the sample of {} is {} wide; beyond its rim the image is level, as it is felt there",
                                setup->material.name,
                                physics::format_quantity(physics::Length(drawn_m), physics::kLengthUnits, 3)));
   }

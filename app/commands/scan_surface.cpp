@@ -2,7 +2,6 @@
 #include "app/commands/scan_surface.h"
 
 #include <array>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -14,13 +13,6 @@
 
 namespace afm::app {
 namespace {
-
-// Where a place lies on a piece between -half and half that is laid side by side with its mirror images.
-double mirrored(double place_m, double half_m) {
-  if (std::abs(place_m) <= half_m) return place_m;
-  const double along_m = std::abs(std::remainder(place_m + half_m, 4.0 * half_m));
-  return along_m - half_m;
-}
 
 physics::HeightGrid grid_of(const scene::SharedHeightField& drawn) {
   physics::HeightGrid grid;
@@ -59,20 +51,16 @@ core::Result<ScanSurface> scan_surface(const curves::ContactSetup& setup, const 
   surface.depth_m = static_cast<double>((*drawn)->rows - 1) * (*drawn)->spacing_m;
   surface.pull_off_force_n = std::max(0.0, -material->figures().force_before_joc.si);
   surface.snap_in_m = std::max(0.0, material->figures().z_jtc.si);
-  const double half_x_m = 0.5 * surface.width_m, half_y_m = 0.5 * surface.depth_m;
   if (tip.kind == physics::TipKind::Paraboloid) {
     auto felt = felt_surface(*material, **drawn);
     if (!felt) return tl::unexpected(felt.error());
-    surface.height_m = [half_x_m, half_y_m, felt = std::move(*felt)](double x_m, double y_m) {
-      return felt.at({mirrored(x_m, half_x_m), mirrored(y_m, half_y_m)}).height_m;
-    };
+    surface.height_m = [felt = std::move(*felt)](double x_m, double y_m) { return felt.at({x_m, y_m}).height_m; };
     return surface;
   }
   physics::TipShape single = tip;
   single.second_apex_distance = physics::Length();
-  surface.height_m = [half_x_m, half_y_m, traced = physics::image_of(grid_of(**drawn), single)](double x_m,
-                                                                                                double y_m) {
-    return traced.height_at_m(mirrored(x_m, half_x_m), mirrored(y_m, half_y_m));
+  surface.height_m = [traced = physics::image_of(grid_of(**drawn), single)](double x_m, double y_m) {
+    return traced.height_at_m(x_m, y_m);
   };
   return surface;
 }

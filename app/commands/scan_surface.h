@@ -12,7 +12,7 @@ namespace afm::app {
 
 // A sample as the scanner meets it.
 struct ScanSurface {
-  physics::Scanner::Surface height_m;  // what the apex traces; beyond the rim the sample goes on as in a mirror
+  physics::Scanner::Surface height_m;  // what the apex traces; level beyond the rim, as it is felt
   double width_m = 0;                  // of the drawn piece, which is centred on the origin
   double depth_m = 0;
   double pull_off_force_n = 0;  // magnitude

@@ -28,8 +28,9 @@ std::vector<curves::SvgPoint> points_within(const std::vector<render::PlotPoint>
   std::vector<curves::SvgPoint> result;
   result.reserve(points.size());
   for (const render::PlotPoint& p : points) {
-    const bool inside = p.z_nm >= window.z_min_nm && p.z_nm <= window.z_max_nm && p.force_nn >= window.force_min_nn;
-    result.push_back(inside ? curves::SvgPoint{p.z_nm, p.force_nn} : curves::SvgPoint{kBreak, kBreak});
+    const bool inside =
+        p.place_nm >= window.z_min_nm && p.place_nm <= window.z_max_nm && p.force_nn >= window.force_min_nn;
+    result.push_back(inside ? curves::SvgPoint{p.place_nm, p.force_nn} : curves::SvgPoint{kBreak, kBreak});
   }
   return result;
 }

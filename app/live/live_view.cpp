@@ -59,6 +59,7 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::Sample
       hand_(hand_over(stage.wall_scene)),
       person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), input::HandPath{}),
       visitor_(static_cast<std::int64_t>(settings.idle_s * 1e9)) {
+  panels_.set_friction(&servo_.friction());
   if (settings_.unattended) panels_.show_visitors_keys_only();
 }
 

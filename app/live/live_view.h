@@ -83,6 +83,7 @@ class LiveView {
   void toggle_analogy();
   void toggle_scan();
   void toggle_truth();
+  void toggle_friction_loop();
   void end_scan();
   void follow_scan(std::int64_t now_ns);
   void mark_next_setting();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "exhibit/cycle_history.h"
+#include "exhibit/friction_history.h"
 #include "servo/servo_client.h"
 #include "servo/session_folder.h"
 #include "servo/session_recorder.h"
@@ -53,9 +54,13 @@ class ServoSupervisor {
   std::optional<std::size_t> material() const;  // the one under the tip
 
   const exhibit::CycleHistory& cycles() const { return cycles_; }
+  const exhibit::FrictionHistory& friction() const { return friction_; }
   // The newest jump, if there has been one.
   std::span<const scene::TipEvent> events() const { return {&newest_event_, has_event_ ? 1U : 0U}; }
-  void forget_cycles() { cycles_ = exhibit::CycleHistory(materials_); }
+  void forget_cycles() {
+    cycles_ = exhibit::CycleHistory(materials_);
+    friction_ = {};
+  }
 
  private:
   core::Result<void> launch(const char* message);
@@ -76,6 +81,7 @@ class ServoSupervisor {
   std::deque<std::int64_t> restarts_ns_;  // of servos that died, within the last minute
   servo::TipStream stream_;
   exhibit::CycleHistory cycles_;
+  exhibit::FrictionHistory friction_;
   std::optional<servo::SessionFolder> folder_;
   servo::SessionRecorder recorder_;
   std::int64_t kept_ns_ = 0;  // when a part of the session was kept last

@@ -8,6 +8,7 @@
 
 #include "core/enumerators.h"
 #include "core/log.h"
+#include "exhibit/friction_panel.h"
 #include "exhibit/panel_hit.h"
 #include "exhibit/scan/scan_panels.h"
 #include "render/control_layout.h"
@@ -15,6 +16,8 @@
 namespace afm::app {
 
 namespace {
+
+constexpr const char* kLoopShown = "friction-loop";  // in sessions
 
 void log_parameters(const curves::LiveParameters& parameters) {
   std::string line = "parameters:";
@@ -40,13 +43,17 @@ ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<c
     : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials) {}
 
 std::string ViewPanels::shown() const {
-  return keys_shown_ ? "keys" : hidden_ ? "none" : parameters_shown_ ? "parameters" : "samples";
+  if (keys_shown_) return "keys";
+  if (hidden_) return "none";
+  return right_ == RightPanel::Parameters ? "parameters" : right_ == RightPanel::FrictionLoop ? kLoopShown : "samples";
 }
 
 void ViewPanels::show(std::string_view panels) {
   keys_shown_ = panels == "keys";
   hidden_ = panels == "none";
-  parameters_shown_ = panels == "parameters";
+  right_ = panels == "parameters" ? RightPanel::Parameters
+           : panels == kLoopShown ? RightPanel::FrictionLoop
+                                  : RightPanel::Data;
 }
 
 Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m,
@@ -54,13 +61,15 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
   Pointed pointed{.control = {}, .tab = false, .swatch = {}, .point_m = wall_point_m};
   const render::PanelPlacement panel = wall_scene_.parameter_placement();
   const double millimetre_m = wall_scene_.panel_millimetre_m();
-  if (const auto hit =
-          material && parameters_shown_ && !hidden_ ? exhibit::hit_of(ray, panel, millimetre_m) : std::nullopt) {
+  if (const auto hit = material && right_ == RightPanel::Parameters && !hidden_
+                           ? exhibit::hit_of(ray, panel, millimetre_m)
+                           : std::nullopt) {
     pointed.control = render::control_at(control_panel(*material, "", exhibit::ChangeState::AsLoaded),
                                          exhibit::size_mm(panel, millimetre_m), hit->place_mm);
     return pointed;
   }
-  if (!parameters_shown_ && material && exhibit::hit_of(ray, wall_scene_.parameter_tab_placement(), millimetre_m)) {
+  if (right_ != RightPanel::Parameters && material &&
+      exhibit::hit_of(ray, wall_scene_.parameter_tab_placement(), millimetre_m)) {
     pointed.tab = true;
     return pointed;
   }
@@ -70,7 +79,7 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
 }
 
 void ViewPanels::press(const Pointed& pointed, std::size_t material, servo::ServoClient* servo) {
-  if (pointed.tab) parameters_shown_ = true;
+  if (pointed.tab) right_ = RightPanel::Parameters;
   if (pointed.control) change(*pointed.control, material, servo);
 }
 
@@ -86,14 +95,15 @@ render::ControlPanel ViewPanels::control_panel(std::size_t material, const std::
 void ViewPanels::mark_next(std::size_t material) {
   const std::size_t rows = control_panel(material, "", exhibit::ChangeState::AsLoaded).rows.size();
   marked_ = marking_ ? (std::min(marked_, rows - 1) + 1) % rows : 0;
-  marking_ = parameters_shown_ = true;
+  marking_ = true;
+  right_ = RightPanel::Parameters;
 }
 
 void ViewPanels::step_marked(int steps, std::size_t material, servo::ServoClient* servo) {
   if (!marking_) mark_next(material);
   const std::size_t rows = control_panel(material, "", exhibit::ChangeState::AsLoaded).rows.size();
   marked_ = std::min(marked_, rows - 1);
-  parameters_shown_ = true;
+  right_ = RightPanel::Parameters;
   using Kind = render::ControlTarget::Kind;
   change({steps > 0 ? Kind::More : Kind::Less, marked_}, material, servo);
 }
@@ -101,7 +111,7 @@ void ViewPanels::step_marked(int steps, std::size_t material, servo::ServoClient
 void ViewPanels::change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo) {
   const bool button = target.kind == render::ControlTarget::Kind::Button;
   if (button && static_cast<exhibit::PanelButton>(target.index) == exhibit::PanelButton::Close) {
-    parameters_shown_ = false;
+    right_ = RightPanel::Data;
     return;
   }
   if (scan_ != nullptr) {
@@ -122,7 +132,8 @@ void ViewPanels::change(const render::ControlTarget& target, std::size_t materia
 void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material,
                                 const std::string& material_title, const scene::TipState& tip) {
   const curves::LiveParameters& parameters = edits_.of(material);
-  if (parameters_shown_) {
+  const bool shown = right_ == RightPanel::Parameters;
+  if (shown) {
     frame.control_panel = control_panel(material, material_title, edits_.state(material, tip));
     frame.control_panel.pointed = pointed.control;
     frame.control_placement = wall_scene_.parameter_placement();
@@ -132,7 +143,12 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
                             .highlighted = pointed.tab,
                             .placement = wall_scene_.parameter_tab_placement()});
   }
-  if (parameters_shown_ || parameters.changed()) exhibit::add_prediction(parameters, phrases(), frame.force_panel);
+  if (right_ == RightPanel::FrictionLoop && friction_ != nullptr) {
+    frame.loop_panel = exhibit::friction_panel(*friction_, parameters.model().parameters.friction.law, phrases());
+    frame.loop_placement = wall_scene_.parameter_placement();
+    frame.data_placement = render::kNoPlacement;
+  }
+  if (shown || parameters.changed()) exhibit::add_prediction(parameters, phrases(), frame.force_panel);
 }
 
 void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece) const {
@@ -149,13 +165,13 @@ void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::
                         const std::string& material_title, const scene::TipState& tip, HandSource hand) {
   if (material) add_parameters(frame, pointed, *material, material_title, tip);
   if (hidden_) {
-    frame.force_placement = frame.image_placement = frame.data_placement = frame.control_placement =
-        render::kNoPlacement;
+    frame.force_placement = frame.image_placement = frame.loop_placement = frame.data_placement =
+        frame.control_placement = render::kNoPlacement;
   }
   if (keys_shown_) {
     frame.data_panel = key_list(hand, unattended_, phrases());
     frame.data_placement = wall_scene_.parameter_placement();
-    frame.control_placement = render::kNoPlacement;
+    frame.loop_placement = frame.control_placement = render::kNoPlacement;
   }
 }
 

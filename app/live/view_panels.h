@@ -7,6 +7,7 @@
 
 #include "app/live/parameter_edits.h"
 #include "app/live/view_keys.h"
+#include "exhibit/friction_history.h"
 #include "exhibit/guidance.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/wall_scene.h"
@@ -33,9 +34,14 @@ class ViewPanels {
     keys_shown_ = !keys_shown_;
     keys_known_ = true;
   }
-  void toggle_parameters() { parameters_shown_ = !parameters_shown_; }
+  void toggle_parameters() { toggle(RightPanel::Parameters); }
+  // True if it is now shown.
+  bool toggle_friction_loop() { return toggle(RightPanel::FrictionLoop); }
   // The settings of a scan are in the place of the parameters; null: none. It must outlive this.
   void set_scan(exhibit::LiveScan* scan) { scan_ = scan; }
+
+  // Of the loop that is shown; must outlive this.
+  void set_friction(const exhibit::FrictionHistory* friction) { friction_ = friction; }
 
   // The row that keys change: the next one; and a step of it. Both open the panel. `material` is the one under the tip.
   void mark_next(std::size_t material);
@@ -46,7 +52,7 @@ class ViewPanels {
   // The list of keys leaves out those of staff.
   void show_visitors_keys_only() { unattended_ = true; }
 
-  // "keys", "none", "parameters" or "samples": which of them cover the others.
+  // "keys", "none", "parameters", "friction-loop" or "samples": which of them cover the others.
   std::string shown() const;
   void show(std::string_view panels);
 
@@ -67,6 +73,13 @@ class ViewPanels {
               const std::string& material_title, const scene::TipState& tip, HandSource hand);
 
  private:
+  // What is in the place of the sample's data.
+  enum class RightPanel { Data, Parameters, FrictionLoop };
+
+  bool toggle(RightPanel panel) {
+    right_ = right_ == panel ? RightPanel::Data : panel;
+    return right_ == panel;
+  }
   const exhibit::Phrases& phrases() const { return wall_scene_.phrases(); }
   render::ControlPanel control_panel(std::size_t material, const std::string& title, exhibit::ChangeState state);
   void change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo);
@@ -77,13 +90,14 @@ class ViewPanels {
   std::vector<input::Target> swatches_;
   ParameterEdits edits_;
   exhibit::LiveScan* scan_ = nullptr;
+  const exhibit::FrictionHistory* friction_ = nullptr;
   std::size_t marked_ = 0;
   bool marking_ = false;  // a row has been marked by a key
   bool hidden_ = false;
   bool keys_shown_ = false;
   bool unattended_ = false;
   bool keys_known_ = false;
-  bool parameters_shown_ = false;
+  RightPanel right_ = RightPanel::Data;
 };
 
 }  // namespace afm::app

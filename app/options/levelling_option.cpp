@@ -7,19 +7,19 @@
 
 namespace afm::app {
 
-void add_channel_options(OptionList& command, std::string& channel, physics::Levelling& levelling) {
-  command
-      .add_option("--channel", channel,
-                  "channel of a measured image, by its name; default: its height, trace before retrace")
-      .type_name("NAME");
+std::array<Option, 2> add_channel_options(OptionList& command, std::string& channel, physics::Levelling& levelling) {
+  Option which = command.add_option(
+      "--channel", channel, "channel of a measured image, by its name; default: its height, trace before retrace");
+  which.type_name("NAME");
   std::string meanings;
   for (const physics::LevellingText& row : physics::kLevellings) {
     meanings += fmt::format("{}{} ({})", meanings.empty() ? "" : ", ", row.word, row.meaning);
   }
-  enum_option(
+  const Option level = enum_option(
       command, "--level", levelling, "a way of levelling", physics::kLevellings, &physics::LevellingText::word,
       &physics::LevellingText::levelling,
       fmt::format("what is taken off a measured image: {}; default: {}", meanings, physics::text_of(levelling).word));
+  return {which, level};
 }
 
 }  // namespace afm::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "app/command.h"
@@ -9,6 +10,6 @@
 namespace afm::app {
 
 // --channel and --level: how an image that an instrument measured is read.
-void add_channel_options(OptionList& command, std::string& channel, physics::Levelling& levelling);
+std::array<Option, 2> add_channel_options(OptionList& command, std::string& channel, physics::Levelling& levelling);
 
 }  // namespace afm::app

@@ -15,6 +15,7 @@ namespace afm::curves {
 
 namespace {
 
+constexpr double kNarrowestScanM = 1e-10;  // an atom
 constexpr double kWidestScanM = 1e-3, kHighestM = 1e-3;
 constexpr double kSquarePixels = 1e-3;  // of their sides, by how much they may differ
 
@@ -180,6 +181,10 @@ core::Result<scene::Topography> felt_topography(const MeasuredTopography& topogr
     return unfit(topography,
                  fmt::format("{} wide, {} to {} high: larger than a scan is", length_text(scan.width_m),
                              length_text(topography.levelled.lowest), length_text(topography.levelled.highest)));
+  }
+  if (std::min(scan.width_m, scan.height_m) < kNarrowestScanM) {
+    return unfit(topography,
+                 fmt::format("{} x {}: smaller than an atom", length_text(scan.width_m), length_text(scan.height_m)));
   }
   const PixelGrid grid = with_square_pixels({scan.columns, scan.rows, scan.width_m / static_cast<double>(scan.columns),
                                              scan.height_m / static_cast<double>(scan.rows), topography.level.heights});

@@ -11,14 +11,14 @@ namespace afm::exhibit {
 
 CycleCurve CycleCurve::from(const std::vector<std::array<double, 2>>& points) {
   CycleCurve curve;
-  for (const auto& [z_nm, force_nn] : points) curve.add_point({.z_nm = z_nm, .force_nn = force_nn});
+  for (const auto& [z_nm, force_nn] : points) curve.add_point({.place_nm = z_nm, .force_nn = force_nn});
   return curve;
 }
 
 std::vector<std::array<double, 2>> CycleCurve::points() const {
   std::vector<std::array<double, 2>> points(points_.size());
   std::transform(points_.begin(), points_.end(), points.begin(),
-                 [](const render::PlotPoint& point) { return std::array{point.z_nm, point.force_nn}; });
+                 [](const render::PlotPoint& point) { return std::array{point.place_nm, point.force_nn}; });
   return points;
 }
 
@@ -26,17 +26,17 @@ void CycleCurve::add(const scene::TipSample& sample) {
   const bool with_force =
       sample.servo_state == scene::ServoState::Running && sample.phase != physics::Phase::WaitForLift;
   if (with_force)
-    add_point({.z_nm = sample.tip.z_m * curves::kNmPerM, .force_nn = sample.tip.force_n * curves::kNnPerN});
+    add_point({.place_nm = sample.tip.z_m * curves::kNmPerM, .force_nn = sample.tip.force_n * curves::kNnPerN});
 }
 
 void CycleCurve::add(const scene::TipEvent& event) {
   if (event.kind == physics::EventKind::Slip) return;  // its forces lie across the curve's
-  add_point({.z_nm = event.z_m * curves::kNmPerM, .force_nn = event.force_before_n * curves::kNnPerN});
-  add_point({.z_nm = event.z_m * curves::kNmPerM, .force_nn = event.force_after_n * curves::kNnPerN});
+  add_point({.place_nm = event.z_m * curves::kNmPerM, .force_nn = event.force_before_n * curves::kNnPerN});
+  add_point({.place_nm = event.z_m * curves::kNmPerM, .force_nn = event.force_after_n * curves::kNnPerN});
 }
 
 void CycleCurve::add_point(const render::PlotPoint& point) {
-  if (points_.empty() || point.z_nm < points_[deepest_].z_nm) deepest_ = points_.size();
+  if (points_.empty() || point.place_nm < points_[deepest_].place_nm) deepest_ = points_.size();
   points_.push_back(point);
 }
 

@@ -62,8 +62,8 @@ class Axes {
   // A tip that is hardly pulled is pushed; otherwise the pull gives the measure.
   void apply(render::ForcePanel& panel) const {
     const bool pulled = pull_nn_ > kHardlyPulled * push_nn_;
-    panel.z_min_nm = -kAxisBelow * reach_nm_;
-    panel.z_max_nm = kAxisAbove * reach_nm_;
+    panel.place_min_nm = -kAxisBelow * reach_nm_;
+    panel.place_max_nm = kAxisAbove * reach_nm_;
     panel.force_min_nn = pulled ? -kForceBelow * pull_nn_ : -kForceAbove * push_nn_;
     panel.force_max_nn = pulled ? kForceAbove * pull_nn_ : kForceBelow * push_nn_;
   }

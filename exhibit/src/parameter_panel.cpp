@@ -93,7 +93,7 @@ void add_prediction(const curves::LiveParameters& parameters, const Phrases& phr
       .label = phrases[Phrase::PlotPredicted], .color = kPredictionColor, .faded = true, .approach = {}, .retract = {}};
   for (const physics::CurveSample& sample : parameters.curve().samples) {
     auto& branch = sample.branch == physics::Branch::Approach ? predicted.approach : predicted.retract;
-    branch.push_back({.z_nm = sample.z.si * curves::kNmPerM, .force_nn = sample.force.si * curves::kNnPerN});
+    branch.push_back({.place_nm = sample.z.si * curves::kNmPerM, .force_nn = sample.force.si * curves::kNnPerN});
   }
   panel.curves.insert(panel.curves.begin(), std::move(predicted));
 
@@ -101,8 +101,8 @@ void add_prediction(const curves::LiveParameters& parameters, const Phrases& phr
   const double deepest_nn = std::abs(parameters.curve().samples.back().force.si) * curves::kNnPerN;
   const double pull_nn = strongest_pull_n(parameters.curve()) * curves::kNnPerN;
   const double span_nn = pull_nn > 0.0 ? pull_nn : std::max(deepest_nn, 1e-3);
-  panel.z_min_nm = -curves::kReachBelow * reach_nm;
-  panel.z_max_nm = curves::kReachAbove * reach_nm;
+  panel.place_min_nm = -curves::kReachBelow * reach_nm;
+  panel.place_max_nm = curves::kReachAbove * reach_nm;
   panel.force_min_nn = -kForceBelow * span_nn;
   panel.force_max_nn = kForceAbove * span_nn;
   panel.markers.clear();

@@ -86,6 +86,15 @@ std::vector<CycleCurve> curves_until(const servo::RecordedSession& session, std:
   return curves;
 }
 
+FrictionHistory friction_until(const servo::RecordedSession& session, std::int64_t end_ns) {
+  FrictionHistory history;
+  for (const scene::TipSample& sample : session.samples) {
+    if (sample.time_ns > end_ns) break;
+    history.add(sample);
+  }
+  return history;
+}
+
 }  // namespace
 
 servo::RecordedPose recorded(const scene::HeadPose& head) { return recorded(head.position_m, head.room_from_head); }
@@ -151,7 +160,10 @@ RecordedMoment moment_on_wall(const servo::RecordedSession& session, std::span<c
   then.wall.fade = frame.fade;
   then.wall.navigation = glm::make_mat4(frame.navigation.data());
   for (const auto& [name, value, source] : frame.servo_row) then.servo.push_back({name, value, source});
-  return {.frame = &frame, .curves = curves_until(session, materials, own, frame.time_ns), .moment = std::move(then)};
+  return {.frame = &frame,
+          .curves = curves_until(session, materials, own, frame.time_ns),
+          .friction = friction_until(session, frame.time_ns),
+          .moment = std::move(then)};
 }
 
 }  // namespace afm::exhibit

@@ -69,6 +69,21 @@ TEST(CommandLine, RefusesABareNumberByListingTheUnits) {
   expect_refusal(touchafm("curve --material mica --tip-radius 50"), 2, "nm");
 }
 
+TEST(CommandLine, RefusesOptionsOfAnalyseThatAreForAnotherKindOfFile) {
+  const support::ScratchFolder folder;
+  const std::string image = folder.file("mica.gsf");
+  ASSERT_EQ(touchafm("scan --material mica --pixels 8 --size 30nm --rate 10Hz --out " + image).exit_code, 0);
+  for (const char* option : {"--beside x.csv", "--spring-constant 1N/m", "--sensitivity 70nm/V",
+                             "--contact-point gradient", "--curve 1", "--out x.svg"}) {
+    const std::string name = std::string(option).substr(0, std::string(option).find(' '));
+    expect_refusal(touchafm("analyse " + image + " " + option), 2, name + " is for curves, and " + image);
+  }
+  expect_refusal(touchafm("analyse x.csv --channel Height"), 2, "--channel is for images, and x.csv is a curve");
+  expect_refusal(touchafm("analyse x.csv --level none"), 2, "--level is for images");
+  expect_refusal(touchafm("analyse x.afms --curve 0"), 2, "--curve is for curves, and x.afms is a session");
+  EXPECT_EQ(touchafm("analyse " + image + " --level none --json").exit_code, 0);
+}
+
 TEST(CommandLine, RefusesSettingsOfAScanByListingWhatIsLegal) {
   expect_refusal(touchafm("scan --out x.gwy"), 2, "--material");
   expect_refusal(touchafm("scan --material mica --json --rate 2"), 2, "MHz, kHz, Hz");

@@ -63,7 +63,7 @@ TEST(Interruption, OfAScanLeavesNoFile) {
   support::LiveProgram scan({AFM_PROGRAM, "scan", "--material", "mica", "--size", "500nm", "--pixels", "4096", "--rate",
                              "0.01Hz", "--out", folder.file("image.gwy")},
                             "");
-  ASSERT_TRUE(scan.says("mirror images"));
+  ASSERT_TRUE(scan.says("beyond its rim the image is level"));
   const Ended ended = interrupt(scan, SIGINT);
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(ended.said, EndsWith("touchafm: interrupted\n"));

@@ -89,15 +89,21 @@ TEST(ScanCommand, ShowsAtZeroSpeedWhatAHandFeels) {
   }
 }
 
-TEST(ScanCommand, ContinuesASampleBeyondItsRimAsInAMirror) {
+// Under a paraboloid what a hand feels there; under any other tip as high as the rim.
+TEST(ScanCommand, IsLevelBeyondTheRimOfTheSampleAsAHandFeelsIt) {
   const ScanOptions options = options_for("mica");
-  const auto surface = scan_surface(*contact_setup(options.contact), {}, options.contact.assets_dir);
-  ASSERT_TRUE(surface);
-  const double half_m = 0.5 * surface->width_m;
-  for (const double beyond_m : {1e-9, 13e-9, 1.99 * half_m}) {
-    EXPECT_NEAR(surface->height_m(half_m + beyond_m, 3e-9), surface->height_m(half_m - beyond_m, 3e-9), 1e-18);
-    EXPECT_NEAR(surface->height_m(3e-9, -half_m - beyond_m), surface->height_m(3e-9, beyond_m - half_m), 1e-18);
-    EXPECT_NEAR(surface->height_m(beyond_m + 4.0 * half_m, 0.0), surface->height_m(beyond_m, 0.0), 1e-18);
+  const haptics::SampleSurface felt = felt_surface(options);
+  for (const physics::TipKind kind : {physics::TipKind::Paraboloid, physics::TipKind::Sphere}) {
+    const auto surface = scan_surface(*contact_setup(options.contact), {.kind = kind}, options.contact.assets_dir);
+    ASSERT_TRUE(surface);
+    const double half_m = 0.5 * surface->width_m, rim_m = surface->height_m(2.0 * half_m, 3e-9);
+    EXPECT_NE(rim_m, surface->height_m(0.0, 3e-9));
+    for (const double beyond_m : {1e-9, 13e-9, 1.99 * half_m, 1.0}) {
+      EXPECT_NEAR(surface->height_m(half_m + beyond_m, 3e-9), rim_m, 1e-9 * beyond_m + 1e-12);
+      if (kind == physics::TipKind::Paraboloid) {
+        EXPECT_EQ(surface->height_m(-half_m - beyond_m, 7e-9), felt.at({-half_m - beyond_m, 7e-9}).height_m);
+      }
+    }
   }
 }
 

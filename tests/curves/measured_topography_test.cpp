@@ -31,6 +31,17 @@ std::string gsf(int columns, int rows, double width_m, double height_m, const st
                         values);
 }
 
+TEST(MeasuredTopography, IsNoSampleIfItIsSmallerThanAnAtom) {
+  const support::ScratchFolder folder;
+  const std::string header = "XRes = 2\nYRes = 2\nXReal = 1e-30\nYReal = 1e-30\nXYUnits = m\nZUnits = m\n";
+  const auto tiny = load_topography(write(folder, test::gsf_file(header, {0, 1e-9F, 2e-9F, 0})), {});
+  ASSERT_TRUE(tiny) << tiny.error().message;
+  const auto felt = felt_topography(*tiny);
+  ASSERT_FALSE(felt);
+  EXPECT_EQ(felt.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_THAT(felt.error().message, HasSubstr("smaller than an atom"));
+}
+
 TEST(MeasuredTopography, IsLevelledAndKeepsTheRaw) {
   const support::ScratchFolder folder;
   std::vector<float> tilted;

@@ -28,16 +28,16 @@ servo::RecordedSession v_shaped() {
 
 TEST(CycleCurve, IsSplitAtTheDeepestPush) {
   const render::PlotCurve plot = curve_until(v_shaped(), 20'000'000).plot("mica", glm::vec3(1.0F));
-  EXPECT_DOUBLE_EQ(plot.approach.back().z_nm, -3.0);
-  EXPECT_DOUBLE_EQ(plot.retract.front().z_nm, -3.0);
-  EXPECT_DOUBLE_EQ(plot.retract.back().z_nm, 7.0);
+  EXPECT_DOUBLE_EQ(plot.approach.back().place_nm, -3.0);
+  EXPECT_DOUBLE_EQ(plot.retract.front().place_nm, -3.0);
+  EXPECT_DOUBLE_EQ(plot.retract.back().place_nm, 7.0);
 }
 
 TEST(CycleCurve, HoldsEverySampleAndBothEndsOfTheJump) {
   const render::PlotCurve plot = curve_until(v_shaped(), 20'000'000).plot("mica", glm::vec3(1.0F));
   // the deepest point ends one part and begins the other
   EXPECT_EQ(plot.approach.size() + plot.retract.size(), 21U + 2U + 1U);
-  EXPECT_DOUBLE_EQ(plot.approach[8].z_nm, -0.5);
+  EXPECT_DOUBLE_EQ(plot.approach[8].place_nm, -0.5);
   EXPECT_DOUBLE_EQ(plot.approach[8].force_nn, 0.0);
   EXPECT_DOUBLE_EQ(plot.approach[9].force_nn, -0.24);
 }

@@ -31,8 +31,8 @@ std::vector<MarkerLabel> labels_of(const render::ForcePanel& panel) {
   std::vector<MarkerLabel> labels;
   for (const PlotMarker& marker : panel.markers) {
     const bool vertical = marker.kind == PlotMarker::Kind::VerticalLine;
-    const double low = vertical ? panel.z_min_nm : panel.force_min_nn;
-    const double high = vertical ? panel.z_max_nm : panel.force_max_nn;
+    const double low = vertical ? panel.place_min_nm : panel.force_min_nn;
+    const double high = vertical ? panel.place_max_nm : panel.force_max_nn;
     const auto share = static_cast<float>((marker.value - low) / (high - low));
     const glm::vec2 size(kWidestCharacter * static_cast<float>(marker.label.size()) + 12.0F, kLine);
     labels.push_back({marker.kind,

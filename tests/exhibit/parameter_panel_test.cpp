@@ -65,7 +65,7 @@ TEST(ParameterPanel, ThePredictionStandsBehindTheFeltCurvesWithAxesThatHoldIt) {
   ASSERT_EQ(panel.curves.size(), 2U);
   EXPECT_EQ(panel.curves.front().label, "predicted");
   EXPECT_TRUE(panel.curves.front().faded);
-  EXPECT_GT(panel.z_max_nm, 14.0);
+  EXPECT_GT(panel.place_max_nm, 14.0);
   EXPECT_LT(panel.force_min_nn, -1.4);
   EXPECT_EQ(panel.markers.size(), 4U);
 }

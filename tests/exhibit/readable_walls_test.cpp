@@ -23,6 +23,7 @@
 #include "exhibit/calibration.h"
 #include "exhibit/depth_report.h"
 #include "exhibit/exhibit_setup.h"
+#include "exhibit/friction_panel.h"
 #include "exhibit/guidance.h"
 #include "exhibit/parameter_panel.h"
 #include "exhibit/scan/scan_panels.h"
@@ -159,6 +160,20 @@ LiveScan full_scan(const Stage& stage) {
   return scan;
 }
 
+// Three loops there and back, the last one open, with the longest numbers.
+render::ForcePanel full_friction_loop(physics::FrictionLaw law, const Phrases& phrases) {
+  FrictionHistory history;
+  scene::TipSample sample;
+  sample.phase = physics::Phase::Attached;
+  for (int i = 0; i < 1300; ++i) {
+    const int phase = i % 400;
+    sample.surface.xy_m = {1e-9 * (phase < 200 ? phase : 400 - phase), 0.0};
+    sample.lateral_force_n = {phase < 200 ? -123.4e-9 : 123.4e-9, 0.0};
+    history.add(sample);
+  }
+  return friction_panel(history, law, phrases);
+}
+
 // What a visitor can see on one wall in one language, at one width.
 void expect_readable(const Stage& stage, const render::FrameState& frame, std::uint32_t width_px,
                      const std::string& where) {
@@ -183,6 +198,9 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   expect_whole(app::key_list(app::HandSource::Mouse, false, phrases), stage.wall_scene.parameter_placement(),
                "the list of keys");
   expect_whole(full_parameters(stage), stage.wall_scene.parameter_placement(), "the parameters");
+  for (const auto law : {physics::FrictionLaw::None, physics::FrictionLaw::Lattice}) {
+    expect_whole(full_friction_loop(law, phrases), stage.wall_scene.parameter_placement(), "the friction loop");
+  }
   const LiveScan scan = full_scan(stage);
   expect_whole(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.force_placement, "the images");
   expect_whole(scan_panel(scan, phrases.word("Silicon nitride"), phrases), stage.wall_scene.parameter_placement(),

@@ -46,7 +46,7 @@ TEST_F(MeasuredSample, IsFeltFromTheVerticesThatAreDrawn) {
     const scene::Node& node = measured_.scene().nodes[surface(material)];
     const auto& drawn = measured_.scene().meshes[*node.mesh].primitives.front().vertices;
     ASSERT_EQ(drawn.size(), felt.height_m.size());
-    const scene::HeightGrid shown(felt, measured_.topography_scale(material));
+    const scene::FeltHeights shown(felt, measured_.topography_scale(material));
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       ASSERT_EQ(felt.height_m[i], drawn[i].position.z);
       const glm::dvec3 place(node.parent_from_node * glm::dvec4(glm::dvec3(drawn[i].position), 1.0));
@@ -66,7 +66,7 @@ TEST_F(MeasuredSample, IsFeltFromTheVerticesThatAreDrawn) {
 
 TEST_F(MeasuredSample, HasTheApexOverTheDrawnVertex) {
   const scene::Topography& felt = measured_.topography();
-  const scene::HeightGrid shown(felt, measured_.topography_scale(0));
+  const scene::FeltHeights shown(felt, measured_.topography_scale(0));
   for (std::size_t i = 5; i < felt.height_m.size(); i += 97) {
     const double x = (static_cast<double>(i % felt.columns) - 0.5 * (felt.columns - 1)) * shown.spacing_m;
     const double y = (static_cast<double>(i / felt.columns) - 0.5 * (felt.rows - 1)) * shown.spacing_m;

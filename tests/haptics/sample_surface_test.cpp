@@ -190,7 +190,7 @@ TEST(SampleSurface, OfTheDrawnSamplesFollowsThemAsATipDoes) {
 class FeltTopography : public testing::Test {
  protected:
   const afm::scene::Topography measured_ = afm::test::measured_surface();
-  const afm::scene::HeightGrid shown_{measured_, afm::test::kMeasuredScale};
+  const afm::scene::FeltHeights shown_{measured_, afm::test::kMeasuredScale};
   const SampleSurface felt_{shown_, kRadius, kGentle};
   std::mt19937 random_{7};
 };
@@ -230,14 +230,14 @@ TEST(SampleSurface, OfAGentleTopographyIsTheMeasuredOnePointByPoint) {
     const double x = (i % 65 - 32.0) / 32.0, y = (i / 65 - 32.0) / 32.0;
     hill.height_m.push_back(static_cast<float>(1e-9 * (std::cos(3.0 * x) * std::cos(3.0 * y) - 1.0)));
   }
-  const afm::scene::HeightGrid shown(hill, {1.0, 1.0});
+  const afm::scene::FeltHeights shown(hill, {1.0, 1.0});
   const SampleSurface felt(shown, kRadius, kGentle);
   // a quadratic spline rounds by an eighth of the second differences
   const double rounding_m = 0.25 * 1e-9 * 9.0 / (32.0 * 32.0);
   EXPECT_LT(felt.change_of(shown).largest_m, 4.0 * rounding_m) << "the tip's radius dilates no image";
   afm::scene::Topography cliff = hill;
   for (std::uint32_t i = 0; i < 65 * 65; ++i) cliff.height_m[i] = i % 65 > 32 ? 1e-3F : 0.0F;
-  const SampleSurface smoothed(afm::scene::HeightGrid(cliff, {1.0, 1.0}), kRadius, kGentle);
+  const SampleSurface smoothed(afm::scene::FeltHeights(cliff, {1.0, 1.0}), kRadius, kGentle);
   EXPECT_LE(smoothed.steepest_slope(), SampleSurface::kSteepestSlope) << "whatever it takes";
 }
 

@@ -31,7 +31,7 @@ inline physics::ApproachRetractEvents calculated(std::int32_t material) {
 
 // A contact model as the servo makes it, with a scale to itself; `drawn` null for a plane. Throws as required() does.
 inline std::unique_ptr<haptics::ContactModel> model_of(const scene::SharedContact& material,
-                                                       const scene::HeightGrid& drawn = {},
+                                                       const scene::FeltHeights& drawn = {},
                                                        std::int64_t period_ns = 1'000'000) {
   const auto omni = haptics::omni_like("hand");
   const auto tables = required(haptics::build_tables(material, {}));

@@ -164,7 +164,7 @@ TEST(TopographyOfTheMostPoints, TakesAndGivesNoEnergyOnClosedPathsOfOneBranch) {
   const afm::scene::Topography measured = afm::test::measured_surface();
   const auto model = std::make_unique<afm::scene::SharedModel>(afm::test::measured_model(measured));
   const auto contact =
-      afm::test::model_of(model->materials[kMica], afm::scene::HeightGrid(measured, afm::test::kMeasuredScale));
+      afm::test::model_of(model->materials[kMica], afm::scene::FeltHeights(measured, afm::test::kMeasuredScale));
   const auto height = [&](double z_m) { return contact->scaling().hand_height_m(z_m); };
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(-1.0, 1.0), turn_of(0.0, 6.28);

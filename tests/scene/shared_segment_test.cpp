@@ -210,7 +210,7 @@ TEST(SharedSegment, HoldsATopographyBehindItsBlocks) {
   ASSERT_TRUE(attached) << attached.error().message;
   EXPECT_TRUE(is_valid(attached->topography(), attached->model().topography));
   EXPECT_EQ(attached->topography().height_m, kTwoByThree.height_m);
-  const HeightGrid grid = surface_of(attached->model().materials[0], {}, attached->topography());
+  const FeltHeights grid = surface_of(attached->model().materials[0], {}, attached->topography());
   EXPECT_EQ(grid.heights, Heights::Traced);
   EXPECT_EQ(grid.rows, 3U);
 

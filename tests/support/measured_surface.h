@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-#include "scene/shared/height_grid.h"
+#include "scene/shared/felt_heights.h"
 #include "support/paper_model.h"
 
 namespace afm::test {

@@ -191,8 +191,8 @@ render::FrameState full_frame(const TestScene& test) {
 
   frame.force_panel = {.title = "Force on the tip",
                        .words = {.approach = "approach", .retract = "retract"},
-                       .z_min_nm = -5,
-                       .z_max_nm = 20,
+                       .place_min_nm = -5,
+                       .place_max_nm = 20,
                        .force_min_nn = -1.6,
                        .force_max_nn = 0.6,
                        .curves = {sample_curve(0.6, 6.0, {0.337F, 0.706F, 0.914F}, "silicon nitride"),

@@ -7,7 +7,7 @@
 #include "core/result.h"
 #include "curves/image_file.h"
 #include "physics/imaging/levelling.h"
-#include "scene/shared/height_grid.h"
+#include "scene/shared/felt_heights.h"
 
 namespace afm::curves {
 
@@ -39,7 +39,8 @@ nlohmann::ordered_json topography_json(const MeasuredTopography& topography);
 
 // The levelled heights as they are felt and drawn, 0 at the origin. They are the image's points one by one where its
 // pixels are square and no side has more than scene::kMaxTopographySide; else the image is resampled, the mean of
-// neighbours first. BadInputFile for a channel that is no height, or larger than a scanner is.
+// neighbours first. BadInputFile for a channel that is no height, larger than a scanner is, or smaller than
+// an atom.
 core::Result<scene::Topography> felt_topography(const MeasuredTopography& topography);
 
 }  // namespace afm::curves

@@ -187,7 +187,21 @@
   PHRASE(PatternOneEye, "pattern-one-eye", "", kLine)                    \
   PHRASE(PatternRuler, "pattern-ruler", "distance", kLine)
 
-// The images of a scan and its settings; what is wrong with them, in the order of ScanCause.
+// The friction loop.
+#define AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)                  \
+  PHRASE(FrictionTitle, "friction-title", "", kLine)          \
+  PHRASE(FrictionOff, "friction-off", "", kLine)              \
+  PHRASE(FrictionAdvice, "friction-advice", "", kLine)        \
+  PHRASE(FrictionClosed, "friction-closed", "law", kLine)     \
+  PHRASE(FrictionNow, "friction-now", "", kLine)              \
+  PHRASE(FrictionLeft, "friction-left", "", kLine)            \
+  PHRASE(FrictionRight, "friction-right", "", kLine)          \
+  PHRASE(FrictionHalfWidth, "friction-half-width", "", kLine) \
+  PHRASE(FrictionOffset, "friction-offset", "", kLine)        \
+  PHRASE(FrictionSlope, "friction-slope", "", kLine)
+
+// The images of a scan and its settings; what is wrong with them, in the order of
+// physics::ScanArtefact, whose names the keys end in.
 #define AFM_FOR_EACH_SCAN_PHRASE(PHRASE)                               \
   PHRASE(ScanTitle, "scan-title", "sample", kLine)                     \
   PHRASE(ScanSubtitle, "scan-subtitle", "side rate line lines", kLine) \
@@ -213,13 +227,14 @@
   PHRASE(ScanTipFound, "scan-tip-found", "", kLine)                    \
   PHRASE(ScanTruthSubtitle, "scan-truth-subtitle", "percent", kLine)   \
   PHRASE(CauseNone, "scan-cause-none", "", kLine)                      \
-  PHRASE(CauseBlur, "scan-cause-blur", "", kLine)                      \
-  PHRASE(CauseOverload, "scan-cause-overload", "", kLine)              \
-  PHRASE(CauseParachuting, "scan-cause-parachuting", "", kLine)        \
+  PHRASE(CauseLostContact, "scan-cause-lost-contact", "", kLine)       \
   PHRASE(CauseRinging, "scan-cause-ringing", "", kLine)                \
-  PHRASE(CauseDrift, "scan-cause-drift", "", kLine)                    \
+  PHRASE(CauseParachuting, "scan-cause-parachuting", "", kLine)        \
+  PHRASE(CauseOverload, "scan-cause-overload", "", kLine)              \
   PHRASE(CauseDoubleTip, "scan-cause-double-tip", "", kLine)           \
+  PHRASE(CauseDrift, "scan-cause-drift", "", kLine)                    \
   PHRASE(CauseNoise, "scan-cause-noise", "", kLine)                    \
+  PHRASE(CauseBlur, "scan-cause-blur", "", kLine)                      \
   PHRASE(CauseBluntTip, "scan-cause-blunt-tip", "", kLine)
 
 // The list of keys (F1).
@@ -236,6 +251,7 @@
   PHRASE(KeyParameters, "key-parameters", "", kLine)         \
   PHRASE(KeyScan, "key-scan", "", kLine)                     \
   PHRASE(KeyTruth, "key-truth", "", kLine)                   \
+  PHRASE(KeyFriction, "key-friction", "", kLine)             \
   PHRASE(KeyNextSetting, "key-next-setting", "", kLine)      \
   PHRASE(KeyChangeSetting, "key-change-setting", "", kLine)  \
   PHRASE(KeyScale, "key-scale", "", kLine)                   \
@@ -314,6 +330,7 @@
   AFM_FOR_EACH_GUIDANCE_PHRASE(PHRASE)           \
   AFM_FOR_EACH_BANNER_PHRASE(PHRASE)             \
   AFM_FOR_EACH_PANEL_PHRASE(PHRASE)              \
+  AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)           \
   AFM_FOR_EACH_SCAN_PHRASE(PHRASE)               \
   AFM_FOR_EACH_KEY_PHRASE(PHRASE)                \
   AFM_FOR_EACH_REPORT_PHRASE(PHRASE)

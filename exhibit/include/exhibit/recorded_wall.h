@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "exhibit/cycle_curve.h"
+#include "exhibit/friction_history.h"
 #include "exhibit/moment.h"
 #include "exhibit/scan/live_scan.h"
 #include "scene/display/wall.h"
@@ -28,7 +29,8 @@ scene::HeadPose head_of(const servo::RecordedPose& pose);
 struct RecordedMoment {
   const servo::WallFrame* frame = nullptr;  // of the session
   std::vector<CycleCurve> curves;           // one per material, as they were
-  Moment moment;                            // without the curves
+  FrictionHistory friction;
+  Moment moment;  // without the curves
 };
 
 // The frame that was on the wall at `time_ns`, or the first one after it. The session must hold frames, and one of

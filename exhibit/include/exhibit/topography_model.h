@@ -8,7 +8,7 @@
 #include "curves/measured_topography.h"
 #include "curves/sample_model.h"
 #include "scene/graph/scene.h"
-#include "scene/shared/height_grid.h"
+#include "scene/shared/felt_heights.h"
 
 namespace afm::exhibit {
 

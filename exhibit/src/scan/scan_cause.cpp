@@ -9,6 +9,9 @@ namespace afm::exhibit {
 
 namespace {
 
+using physics::ScanArtefact;
+
+constexpr double kLostShare = 0.95;    // of a line's time off the sample: the tip is not on it at all
 constexpr std::size_t kLines = 6;      // that are judged: the newest whole ones
 constexpr double kSeenShare = 0.004;   // of a line's time: less is not seen
 constexpr double kSecondShare = 0.02;  // likewise, of the second apex
@@ -45,24 +48,26 @@ double relief_m(const LiveScan& scan) {
 
 }  // namespace
 
-ScanCause cause_of(const LiveScan& scan) {
-  if (scan.progress().frame == 0 && scan.row() < kLines) return ScanCause::None;  // too little to judge
+physics::ScanArtefact cause_of(const LiveScan& scan) {
+  if (scan.progress().frame == 0 && scan.row() < kLines) return ScanArtefact::None;  // too little to judge
   const ScanChoice& now = scan.choice();
   const physics::ScanSettings settings = settings_of(now, scan.subject().adhesion_n);
   const LineFacts facts = newest_facts(scan);
-  if (facts.on_second_apex > kSecondShare && now.apex_distance_m > 0.0) return ScanCause::DoubleTip;
+  if (facts.off_surface > kLostShare) return ScanArtefact::LostContact;
+  if (facts.on_second_apex > kSecondShare && now.apex_distance_m > 0.0) return ScanArtefact::DoubleTip;
   // with pure integral control and a resonance the loop is stable below w0/Q
   const double limit_per_s = 2.0 * std::numbers::pi * settings.z_resonance.si / settings.z_quality_factor;
-  if (now.gain_per_s > limit_per_s) return ScanCause::Ringing;
+  if (now.gain_per_s > limit_per_s) return ScanArtefact::Ringing;
   const double frame_s = static_cast<double>(LiveScan::kPixels) / now.line_rate_hz;
-  if (now.drift_m_per_s * frame_s > kSeenDrift * scan.subject().side_m) return ScanCause::Drift;
+  if (now.drift_m_per_s * frame_s > kSeenDrift * scan.subject().side_m) return ScanArtefact::Drift;
   // what passes the loop of the detector's white noise: sqrt(S/(4 tau)), S = noise^2/bandwidth
   const double noise_m = now.noise_m * std::sqrt(now.gain_per_s / (4.0 * physics::kNoiseBandwidth.si));
-  if (noise_m > kSeenNoise * relief_m(scan)) return ScanCause::Noise;
-  if (facts.off_surface > kSeenShare) return ScanCause::Parachuting;
-  if (facts.highest_force_n > kOverload * now.setpoint_n) return ScanCause::Overload;
-  if (2.0 * now.line_rate_hz / now.gain_per_s > kSeenLag) return ScanCause::Blur;
-  return now.tip_radius_m > kBlunt * scan.usual().tip_radius_m ? ScanCause::BluntTip : ScanCause::None;
+  if (noise_m > kSeenNoise * relief_m(scan)) return ScanArtefact::Noise;
+  // noise that is seen lifts the tip, too
+  if (facts.off_surface > kSeenShare) return ScanArtefact::Parachuting;
+  if (facts.highest_force_n > kOverload * std::abs(now.setpoint_n)) return ScanArtefact::Overload;
+  if (2.0 * now.line_rate_hz / now.gain_per_s > kSeenLag) return ScanArtefact::Blur;
+  return now.tip_radius_m > kBlunt * scan.usual().tip_radius_m ? ScanArtefact::BluntTip : ScanArtefact::None;
 }
 
 }  // namespace afm::exhibit

@@ -22,18 +22,24 @@ constexpr double kSpring = 5.0;
 constexpr double kApexShare = 0.18;   // of the side: a second apex stands so far beside the first
 constexpr double kApexHeightM = 0.0;  // as high as the first: both are seen on every bump
 
-// A series 1, 2, 5, 10 between two ends, with a zero below it or without.
+enum class Below { Nothing, Zero, Negative };
+
+// A series 1, 2, 5, 10 between two ends; below it nothing, or a zero, or a zero and the same series with the other
+// sign.
 struct Series {
   double ScanChoice::* value;
   double low, high;
-  bool from_zero;
+  Below below;
 };
 
 // In the order of ScanRow; the second apex has two values.
 constexpr std::array kSeries{
-    Series{&ScanChoice::setpoint_n, 0.1e-9, 50e-9, false}, Series{&ScanChoice::gain_per_s, 20.0, 20e3, false},
-    Series{&ScanChoice::line_rate_hz, 1.0, 100.0, false},  Series{&ScanChoice::tip_radius_m, 1e-9, 200e-9, false},
-    Series{&ScanChoice::noise_m, 10e-12, 2e-9, true},      Series{&ScanChoice::drift_m_per_s, 0.1e-9, 50e-9, true}};
+    Series{&ScanChoice::setpoint_n, 0.1e-9, 50e-9, Below::Negative},  // below zero adhesion alone holds the tip
+    Series{&ScanChoice::gain_per_s, 20.0, 20e3, Below::Nothing},
+    Series{&ScanChoice::line_rate_hz, 1.0, 100.0, Below::Nothing},
+    Series{&ScanChoice::tip_radius_m, 1e-9, 200e-9, Below::Nothing},
+    Series{&ScanChoice::noise_m, 10e-12, 2e-9, Below::Zero},
+    Series{&ScanChoice::drift_m_per_s, 0.1e-9, 50e-9, Below::Zero}};
 static_assert(kSeries.size() + 1 == core::kEnumerators<ScanRow>.size());
 
 constexpr double kSame = 1e-6;  // relative: the same value
@@ -53,9 +59,11 @@ double neighbour(double value, int direction) {
 }
 
 double stepped(const Series& series, double value, int direction) {
-  if (value <= 0.0) return direction > 0 ? series.low : 0.0;
+  if (value < 0.0) return -stepped(series, -value, -direction);
+  if (value == 0.0 && direction < 0) return series.below == Below::Negative ? -series.low : 0.0;
+  if (value == 0.0) return series.low;
   const double next = neighbour(value, direction);
-  if (direction < 0 && next < series.low * (1.0 - kSame)) return series.from_zero ? 0.0 : value;
+  if (direction < 0 && next < series.low * (1.0 - kSame)) return series.below == Below::Nothing ? value : 0.0;
   return next > series.high * (1.0 + kSame) ? value : next;
 }
 
@@ -69,7 +77,8 @@ bool is_valid(const ScanChoice& choice) {
     const bool radius = series.value == &ScanChoice::tip_radius_m;
     const double low = radius ? kSharpest : series.low * (1.0 - kSame);
     const double high = radius ? kBluntest : series.high * (1.0 + kSame);
-    return (value >= low && value <= high) || (series.from_zero && value == 0.0);
+    const double size = series.below == Below::Negative ? std::abs(value) : value;
+    return (size >= low && size <= high) || (series.below != Below::Nothing && value == 0.0);
   });
 }
 

@@ -204,7 +204,7 @@ render::ControlPanel scan_panel(const LiveScan& scan, const std::string& title, 
 }
 
 std::string scan_guidance(const LiveScan& scan, const Phrases& phrases) {
-  static_assert(after(Phrase::CauseNone, core::kEnumerators<ScanCause>.size()) == Phrase::Keys);
+  static_assert(after(Phrase::CauseNone, core::kEnumerators<physics::ScanArtefact>.size()) == Phrase::Keys);
   return phrases[after(Phrase::CauseNone, core::index_of(cause_of(scan)))];
 }
 

@@ -5,8 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "haptics/sample_surface.h"
+#include "physics/imaging/height_grid.h"
+#include "physics/imaging/morphology.h"
+#include "scene/shared/felt_heights.h"
 
 namespace afm::exhibit {
 
@@ -15,19 +19,32 @@ namespace {
 constexpr double kPlaneSideM = 500e-9;   // of a sample that has no relief
 constexpr double kShareOfSample = 0.92;  // of the drawn sample's width that is scanned
 
-// Bilinear between the vertices, level beyond the rim.
-double height_m(const scene::SharedHeightField& field, double x_m, double y_m) {
-  const auto along = [&](double place_m, std::uint32_t count) {
-    return std::clamp(place_m / field.spacing_m + 0.5 * (count - 1.0), 0.0, count - 1.0);
+physics::HeightGrid grid_of(const scene::FeltHeights& heights) {
+  physics::HeightGrid grid{.columns = heights.columns,
+                           .rows = heights.rows,
+                           .x_first_m = -0.5 * (heights.columns - 1.0) * heights.spacing_m,
+                           .y_first_m = -0.5 * (heights.rows - 1.0) * heights.spacing_m,
+                           .column_step_m = heights.spacing_m,
+                           .row_step_m = heights.spacing_m,
+                           .height_m = {heights.height_m.begin(), heights.height_m.end()}};
+  for (double& height_m : grid.height_m) height_m *= heights.height_factor;
+  return grid;
+}
+
+physics::Scanner::Surface surface_of(std::shared_ptr<const physics::HeightGrid> grid) {
+  return [grid = std::move(grid)](double x_m, double y_m) { return grid->height_at_m(x_m, y_m); };
+}
+
+// What a tip of another radius would have measured: the image of a paraboloid that is dilated by a second one is that
+// of a paraboloid whose radius is the sum of both. A sharper tip sees no more than was measured.
+std::function<physics::Scanner::Surface(double)> traced_again(std::shared_ptr<const physics::HeightGrid> measured,
+                                                              double tip_radius_m) {
+  return [measured = std::move(measured), tip_radius_m](double radius_m) {
+    if (radius_m <= tip_radius_m) return surface_of(measured);
+    auto blunter = std::make_shared<physics::HeightGrid>(*measured);
+    physics::dilate_by_paraboloid(*blunter, physics::Length(radius_m - tip_radius_m));
+    return surface_of(std::move(blunter));
   };
-  const double u = along(x_m, field.columns), v = along(y_m, field.rows);
-  const auto column = std::min(static_cast<std::uint32_t>(u), field.columns - 2);
-  const auto row = std::min(static_cast<std::uint32_t>(v), field.rows - 2);
-  const auto at = [&](std::uint32_t c, std::uint32_t r) {
-    return static_cast<double>(field.height_m[std::size_t{r} * field.columns + c]);
-  };
-  const double low = std::lerp(at(column, row), at(column + 1, row), u - column);
-  return std::lerp(low, std::lerp(at(column, row + 1), at(column + 1, row + 1), u - column), v - row);
 }
 
 }  // namespace
@@ -36,16 +53,23 @@ ScanSubject scan_subject(const WallScene& wall_scene, std::size_t material, cons
   ScanSubject subject;
   subject.tip_radius_m = model.parameters.contact.tip_radius.si;
   subject.adhesion_n = std::abs(model.figures().force_before_joc.si);
-  const std::uint32_t field = wall_scene.height_field(material);
-  if (field == scene::kNoHeightField) {
+  scene::SharedContact laid;
+  wall_scene.lay_surface_on(laid, material);
+  const scene::FeltHeights heights = scene::surface_of(laid, wall_scene.height_fields(), wall_scene.topography());
+  if (heights.columns == 0) {
     subject.side_m = kPlaneSideM;
     subject.drawn_m = [](double, double) { return 0.0; };
     subject.traced = [](double) { return [](double, double) { return 0.0; }; };
     return subject;
   }
-  const auto drawn = std::make_shared<const scene::SharedHeightField>(wall_scene.height_fields()[field]);
-  subject.side_m = kShareOfSample * drawn->spacing_m * (std::min(drawn->columns, drawn->rows) - 1.0);
-  subject.drawn_m = [drawn](double x_m, double y_m) { return height_m(*drawn, x_m, y_m); };
+  subject.side_m = kShareOfSample * heights.spacing_m * (std::min(heights.columns, heights.rows) - 1.0);
+  auto grid = std::make_shared<const physics::HeightGrid>(grid_of(heights));
+  subject.drawn_m = surface_of(grid);
+  if (heights.heights == scene::Heights::Traced) {
+    subject.traced = traced_again(std::move(grid), subject.tip_radius_m);
+    return subject;
+  }
+  const auto drawn = std::make_shared<const scene::SharedHeightField>(wall_scene.height_fields()[laid.height_field]);
   subject.traced = [drawn](double tip_radius_m) {
     constexpr double kAnyCurvature = std::numeric_limits<double>::infinity();
     const auto felt = std::make_shared<const haptics::SampleSurface>(*drawn, tip_radius_m, kAnyCurvature);

@@ -205,7 +205,7 @@ core::Result<TopographyModel> load_topography_model(const std::string& file, con
 
 std::string smoothing_note(const curves::SampleModel& material, const scene::Topography& topography) {
   const scene::SharedContact& parameters = material.parameters;
-  const scene::HeightGrid shown(topography, parameters.topography);
+  const scene::FeltHeights shown(topography, parameters.topography);
   const haptics::SampleSurface felt(
       shown, parameters.contact.tip_radius.si,
       haptics::largest_curvature_per_m(material.scaling, haptics::SimulatedDevice().spec()));

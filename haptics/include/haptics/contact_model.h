@@ -21,7 +21,7 @@
 #include "physics/dynamic_model.h"
 #include "physics/force_model.h"
 #include "physics/law_tables.h"
-#include "scene/shared/height_grid.h"
+#include "scene/shared/felt_heights.h"
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::haptics {
@@ -64,7 +64,7 @@ class ContactModel {
   static core::Result<std::unique_ptr<ContactModel>> create(const scene::SharedContact& material,
                                                             std::uint32_t edit_revision,
                                                             std::shared_ptr<const physics::LawTables> tables,
-                                                            const scene::HeightGrid& drawn, const CommonScale& common,
+                                                            const scene::FeltHeights& drawn, const CommonScale& common,
                                                             const DeviceSpec& device, std::int64_t period_ns);
 
   // `hand_m`: from the device's contact point, along the sample's axes.

@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "scene/shared/height_grid.h"
+#include "scene/shared/felt_heights.h"
 
 namespace afm::haptics {
 
@@ -39,7 +39,7 @@ class SampleSurface {
 
   // `drawn` is valid (scene::validate), the other two are above zero. Takes some milliseconds for the largest height
   // field, some tenths of a second for the largest topography, and allocates.
-  SampleSurface(const scene::HeightGrid& drawn, double tip_radius_m, double largest_curvature_per_m);
+  SampleSurface(const scene::FeltHeights& drawn, double tip_radius_m, double largest_curvature_per_m);
 
   // Wait-free, for a tick of the servo, wherever the tip is.
   Place at(const glm::dvec2& xy_m) const noexcept;
@@ -54,7 +54,7 @@ class SampleSurface {
     double largest_m = 0;
     double rms_m = 0;
   };
-  Change change_of(const scene::HeightGrid& drawn) const;
+  Change change_of(const scene::FeltHeights& drawn) const;
 
  private:
   void trace(double tip_radius_m, double largest_curvature_per_m);

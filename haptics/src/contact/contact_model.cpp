@@ -100,7 +100,7 @@ core::Result<std::shared_ptr<const physics::LawTables>> build_tables(
 
 core::Result<std::unique_ptr<ContactModel>> ContactModel::create(
     const scene::SharedContact& material, std::uint32_t edit_revision, std::shared_ptr<const physics::LawTables> tables,
-    const scene::HeightGrid& drawn, const CommonScale& common, const DeviceSpec& device, std::int64_t period_ns) {
+    const scene::FeltHeights& drawn, const CommonScale& common, const DeviceSpec& device, std::int64_t period_ns) {
   const auto common_scaling = Scaling::common(*tables, device, common);
   const auto fit = Scaling::fit(*tables, device);
   const auto compressed = Scaling::compressed(*tables, device);

@@ -106,7 +106,7 @@ Weights weights_at(double offset) {
 
 }  // namespace
 
-SampleSurface::SampleSurface(const scene::HeightGrid& drawn, double tip_radius_m, double largest_curvature_per_m)
+SampleSurface::SampleSurface(const scene::FeltHeights& drawn, double tip_radius_m, double largest_curvature_per_m)
     : columns_(static_cast<int>(drawn.columns)),
       rows_(static_cast<int>(drawn.rows)),
       spacing_m_(drawn.columns > 0 ? drawn.spacing_m : 1.0) {
@@ -167,7 +167,7 @@ void SampleSurface::smooth_widely(double largest_curvature_per_m) {
   if (!is_gentle_with(enough)) std::fill(controls_m_.begin(), controls_m_.end(), controls_m_.front());
 }
 
-SampleSurface::Change SampleSurface::change_of(const scene::HeightGrid& drawn) const {
+SampleSurface::Change SampleSurface::change_of(const scene::FeltHeights& drawn) const {
   Change change;
   if (columns_ == 0) return change;
   std::vector<double> by_m;

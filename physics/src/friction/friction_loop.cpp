@@ -81,19 +81,15 @@ double mean_between(Points stroke, double low, double high) {
   return sum / (high - low);
 }
 
-}  // namespace
-
-std::optional<FrictionLoop> last_friction_loop(Points run) {
-  if (run.size() < 4) return std::nullopt;
-  const std::vector<std::size_t> turns = turns_of(run);
-  if (turns.size() < 3) return std::nullopt;
-  const std::size_t a = turns[turns.size() - 3], b = turns[turns.size() - 2], c = turns.back();
+// The cycle from the point `a` over the turn `b` to the point `c` of the run.
+std::optional<FrictionLoop> loop_between(Points run, std::size_t a, std::size_t b, std::size_t c) {
   const Points first = run.subspan(a, b - a + 1), second = run.subspan(b, c - b + 1);
   const bool up_first = first.back().place > first.front().place;
   const Points forward = up_first ? first : second, backward = up_first ? second : first;
 
   const auto of_force = [](const LateralPoint& p, const LateralPoint& q) { return p.force < q.force; };
-  const auto [least, most] = std::minmax_element(run.begin() + static_cast<std::ptrdiff_t>(a), run.end(), of_force);
+  const Points cycle = run.subspan(a, c - a + 1);
+  const auto [least, most] = std::minmax_element(cycle.begin(), cycle.end(), of_force);
   const double change = (most->force - least->force).si;
   if (!(change > 0.0)) return std::nullopt;
   const double slope = slope_at_turn(second, kStickShare * change);
@@ -107,7 +103,41 @@ std::optional<FrictionLoop> last_friction_loop(Points run) {
   return FrictionLoop{.half_width = Force(0.5 * (there - back)),
                       .offset = Force(0.5 * (there + back)),
                       .slope = Stiffness(slope),
-                      .dissipated = Energy((there - back) * (high - low))};
+                      .dissipated = Energy((there - back) * (high - low)),
+                      .begin = a,
+                      .turn = b,
+                      .end = c};
+}
+
+}  // namespace
+
+std::vector<LateralPoint> along_main_line(std::span<const SidewaysPoint> points) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (const SidewaysPoint& point : points) {
+    const double px = point.place.x.si, py = point.place.y.si;
+    n += 1.0;
+    x += px;
+    y += py;
+    xx += px * px;
+    xy += px * py;
+    yy += py * py;
+  }
+  const double angle = n > 0.0 ? 0.5 * std::atan2(2.0 * (xy - x * y / n), xx - x * x / n - yy + y * y / n) : 0.0;
+  const double ux = std::cos(angle), uy = std::sin(angle);
+  std::vector<LateralPoint> run(points.size());
+  std::transform(points.begin(), points.end(), run.begin(), [&](const SidewaysPoint& point) {
+    return LateralPoint{ux * point.place.x + uy * point.place.y, -ux * point.force.x - uy * point.force.y};
+  });
+  return run;
+}
+
+std::optional<FrictionLoop> last_friction_loop(Points run) {
+  if (run.size() < 4) return std::nullopt;
+  const std::vector<std::size_t> turns = turns_of(run);
+  for (std::size_t i = turns.size() - 1; i >= 2; --i) {
+    if (auto loop = loop_between(run, turns[i - 2], turns[i - 1], turns[i])) return loop;
+  }
+  return std::nullopt;
 }
 
 }  // namespace afm::physics

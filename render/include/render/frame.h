@@ -76,7 +76,7 @@ struct PanelPlacement {
 // ---- panel contents ----
 
 struct PlotPoint {
-  double z_nm = 0;
+  double place_nm = 0;
   double force_nn = 0;
 
   bool operator==(const PlotPoint&) const = default;
@@ -95,37 +95,40 @@ struct PlotCurve {
 
 struct PlotMarker {  // a labelled value: "Z_jtc 2.40 nm"
   enum class Kind { VerticalLine, HorizontalLine } kind = Kind::VerticalLine;
-  double value = 0;  // nm on the z axis, nN on the force axis
-  std::string label;
+  double value = 0;   // nm on the axis of places, nN on the force axis
+  std::string label;  // empty: the line alone
 
   bool operator==(const PlotMarker&) const = default;
 };
 
 // The words of a plot.
 struct PlotWords {
-  std::string approach, retract;  // what dashed and solid mean
+  std::string approach, retract;  // what dashed and solid mean; empty: the labels say it
+  std::string place_axis = "Z (nm)", force_axis = "F (nN)";
   char decimal_mark = '.';
 
   bool operator==(const PlotWords&) const = default;
-};
-
-// The force-displacement panel: Z (nm) to the right, force on the tip (nN, positive away from the sample) up.
-struct ForcePanel {
-  std::string title;
-  PlotWords words{};
-  double z_min_nm = -5, z_max_nm = 20, force_min_nn = -2, force_max_nn = 1;
-  std::vector<PlotCurve> curves;
-  std::vector<PlotMarker> markers;
-  std::optional<PlotPoint> cursor;  // where the tip is now
-  std::string stage;                // the part of the cycle in words, with the letters of the paper's Fig. 2
-
-  bool operator==(const ForcePanel&) const = default;
 };
 
 struct DataRow {
   std::string name, value, source;
 
   bool operator==(const DataRow&) const = default;
+};
+
+// A force over a place. The force-displacement panel: Z (nm) to the right, force on the tip (nN, positive away from the
+// sample) up. The friction loop: lateral displacement and force, each stroke a curve.
+struct ForcePanel {
+  std::string title;
+  PlotWords words{};
+  double place_min_nm = -5, place_max_nm = 20, force_min_nn = -2, force_max_nn = 1;
+  std::vector<PlotCurve> curves;
+  std::vector<PlotMarker> markers;
+  std::optional<PlotPoint> cursor;  // where the tip is now
+  std::string stage;                // the part of the cycle in words, with the letters of the paper's Fig. 2
+  std::vector<DataRow> figures;     // what follows from the curves, in a row above them, without sources
+
+  bool operator==(const ForcePanel&) const = default;
 };
 
 struct DataPanel {
@@ -272,6 +275,8 @@ struct FrameState {
   PanelPlacement force_placement;
   ImagePanel image_panel;
   PanelPlacement image_placement = kNoPlacement;
+  ForcePanel loop_panel;
+  PanelPlacement loop_placement = kNoPlacement;
   DataPanel data_panel;
   PanelPlacement data_placement;
   Banner banner;

@@ -19,16 +19,17 @@ constexpr float kFadedAlpha = 0.50F;
 struct Plot {
   glm::vec2 top_left{0.0F};
   glm::vec2 bottom_right{0.0F};
-  double z_min = 0, z_max = 1, force_min = 0, force_max = 1;
+  double place_min = 0, place_max = 1, force_min = 0, force_max = 1;
 
-  float x(double z_nm) const {
-    return top_left.x + static_cast<float>((z_nm - z_min) / (z_max - z_min)) * (bottom_right.x - top_left.x);
+  float x(double place_nm) const {
+    const auto share = static_cast<float>((place_nm - place_min) / (place_max - place_min));
+    return top_left.x + share * (bottom_right.x - top_left.x);
   }
   float y(double force_nn) const {
     const auto share = static_cast<float>((force_nn - force_min) / (force_max - force_min));
     return bottom_right.y - share * (bottom_right.y - top_left.y);
   }
-  glm::vec2 place(const PlotPoint& point) const { return {x(point.z_nm), y(point.force_nn)}; }
+  glm::vec2 place(const PlotPoint& point) const { return {x(point.place_nm), y(point.force_nn)}; }
 };
 
 // A range that the app left empty or inverted still gives an axis.
@@ -45,6 +46,22 @@ void paint_heading(Canvas& canvas, const ForcePanel& panel) {
   canvas.shrunk_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.stage, width);
 }
 
+// In columns from `top` on: the names small, the values below them. Returns where they end.
+float paint_figures(Canvas& canvas, const std::vector<DataRow>& figures, float top) {
+  if (figures.empty()) return top;
+  constexpr float kApart = 24.0F, kBelow = 18.0F;
+  const float name_height = text_height_mm(TextStyle::Small), value_height = text_height_mm(TextStyle::Strong);
+  const auto count = static_cast<float>(figures.size());
+  const float width = (canvas.size_mm().x - 2.0F * kMargin - (count - 1.0F) * kApart) / count;
+  float x = kMargin;
+  for (const DataRow& figure : figures) {
+    canvas.shrunk_text({x, top}, TextStyle::Small, palette::kMuted, figure.name, width);
+    canvas.shrunk_text({x, top + name_height + 2.0F}, TextStyle::Strong, palette::kInk, figure.value, width);
+    x += width + kApart;
+  }
+  return top + name_height + value_height + kBelow;
+}
+
 // One entry for each curve, smaller where there are many, and what dashed and solid mean.
 void paint_legend(Canvas& canvas, const ForcePanel& panel, float y) {
   constexpr float kStroke = 42.0F, kLabel = 54.0F, kApart = 34.0F;
@@ -57,11 +74,17 @@ void paint_legend(Canvas& canvas, const ForcePanel& panel, float y) {
   const float middle = y + 19.0F;
   for (const auto& curve : panel.curves) {
     const Color color{curve.color, curve.faded ? 0.65F : 1.0F};
-    canvas.line({x, middle}, {x + scale * kStroke, middle}, kRetractWidth, color);
+    const std::array<glm::vec2, 2> stroke{glm::vec2(x, middle), glm::vec2(x + scale * kStroke, middle)};
+    if (curve.retract.empty() && !curve.approach.empty()) {
+      canvas.dashed_polyline(stroke, kApproachWidth, 14.0F, 9.0F, color);
+    } else {
+      canvas.polyline(stroke, kRetractWidth, color);
+    }
     canvas.text({x + scale * kLabel, middle - scale * 17.0F}, TextStyle::Small,
                 curve.faded ? palette::kMuted : palette::kInk, curve.label, Align::Left, scale);
     x += scale * (kLabel + canvas.text_width_mm(TextStyle::Small, curve.label) + kApart);
   }
+  if (panel.words.approach.empty()) return;
   const float right = canvas.size_mm().x - kMargin;
   const float retract = right - canvas.text_width_mm(TextStyle::Small, panel.words.retract);
   const float approach = retract - 88.0F - canvas.text_width_mm(TextStyle::Small, panel.words.approach);
@@ -75,13 +98,14 @@ void paint_legend(Canvas& canvas, const ForcePanel& panel, float y) {
   canvas.text({retract, y + 2.0F}, TextStyle::Small, palette::kMuted, panel.words.retract);
 }
 
-void paint_axes(Canvas& canvas, const Plot& plot, double z_step, double force_step, char mark) {
+void paint_axes(Canvas& canvas, const Plot& plot, double place_step, double force_step, char mark) {
   const float tick_height = text_height_mm(TextStyle::Body);
-  for (double z = std::ceil(plot.z_min / z_step - 1e-9) * z_step; z <= plot.z_max + 1e-9 * z_step; z += z_step) {
-    const float x = plot.x(z);
+  for (double at = std::ceil(plot.place_min / place_step - 1e-9) * place_step; at <= plot.place_max + 1e-9 * place_step;
+       at += place_step) {
+    const float x = plot.x(at);
     canvas.line({x, plot.top_left.y}, {x, plot.bottom_right.y}, 1.5F, palette::kGrid);
     canvas.line({x, plot.bottom_right.y}, {x, plot.bottom_right.y + 9.0F}, 2.5F, palette::kAxis);
-    canvas.text({x, plot.bottom_right.y + 12.0F}, TextStyle::Body, palette::kMuted, tick_text(z, z_step, mark),
+    canvas.text({x, plot.bottom_right.y + 12.0F}, TextStyle::Body, palette::kMuted, tick_text(at, place_step, mark),
                 Align::Center);
   }
   for (double f = std::ceil(plot.force_min / force_step - 1e-9) * force_step; f <= plot.force_max + 1e-9 * force_step;
@@ -100,24 +124,22 @@ void paint_axes(Canvas& canvas, const Plot& plot, double z_step, double force_st
   }
 }
 
-constexpr const char* kForceCaption = "F (nN)";
-
 // Where the force axis says what it shows.
-LabelBox force_caption(const Canvas& canvas, const Plot& plot) {
+LabelBox force_caption(const Canvas& canvas, const Plot& plot, const PlotWords& words) {
   const glm::vec2 place = plot.top_left + glm::vec2(8.0F, -2.0F);
-  const glm::vec2 size(canvas.text_width_mm(TextStyle::Body, kForceCaption) + 16.0F,
+  const glm::vec2 size(canvas.text_width_mm(TextStyle::Body, words.force_axis) + 16.0F,
                        text_height_mm(TextStyle::Body) + 6.0F);
   return {place, place + size};
 }
 
 // What the axes show, over the curves.
-void paint_captions(Canvas& canvas, const Plot& plot) {
-  const LabelBox force = force_caption(canvas, plot);
+void paint_captions(Canvas& canvas, const Plot& plot, const PlotWords& words) {
+  const LabelBox force = force_caption(canvas, plot, words);
   canvas.rectangle(force.from, force.to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
-  canvas.text(force.from + glm::vec2(8.0F, 1.0F), TextStyle::Body, palette::kInk, kForceCaption);
+  canvas.text(force.from + glm::vec2(8.0F, 1.0F), TextStyle::Body, palette::kInk, words.force_axis);
   // in the middle: the sample hides the panel's right corner
   canvas.text({0.5F * (plot.top_left.x + plot.bottom_right.x), plot.bottom_right.y + 54.0F}, TextStyle::Body,
-              palette::kInk, "Z (nm)", Align::Center);
+              palette::kInk, words.place_axis, Align::Center);
 }
 
 // On the canvas, as many as it can show; valid until the next call.
@@ -125,7 +147,7 @@ std::span<const glm::vec2> placed(Canvas& canvas, const Plot& plot, const std::v
   std::vector<glm::vec2>& places = canvas.memory().points;
   places.clear();
   for (const auto& point : points) {
-    if (std::isfinite(point.z_nm) && std::isfinite(point.force_nn)) {
+    if (std::isfinite(point.place_nm) && std::isfinite(point.force_nn)) {
       places.push_back(plot.place(point));
     }
   }
@@ -142,12 +164,12 @@ void paint_curve(Canvas& canvas, const Plot& plot, const PlotCurve& curve) {
 
 bool in_range(const Plot& plot, const PlotMarker& marker) {
   const bool vertical = marker.kind == PlotMarker::Kind::VerticalLine;
-  return vertical ? marker.value >= plot.z_min && marker.value <= plot.z_max
+  return vertical ? marker.value >= plot.place_min && marker.value <= plot.place_max
                   : marker.value >= plot.force_min && marker.value <= plot.force_max;
 }
 
 // All lines first, so that none crosses a label.
-void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarker>& markers) {
+void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarker>& markers, const PlotWords& words) {
   const Color line_color{palette::kInk.srgb, 0.60F};
   std::vector<MarkerLabel>& labels = canvas.memory().labels;
   labels.clear();
@@ -161,17 +183,18 @@ void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarke
         vertical ? glm::vec2(line, plot.top_left.y) : glm::vec2(plot.top_left.x, line),
         vertical ? glm::vec2(line, plot.bottom_right.y) : glm::vec2(plot.bottom_right.x, line)};
     canvas.dashed_polyline(ends, 2.2F, 7.0F, 7.0F, line_color);
+    if (marker.label.empty()) continue;
     labels.push_back(
         {marker.kind,
          line,
          {canvas.text_width_mm(TextStyle::Small, marker.label) + 12.0F, text_height_mm(TextStyle::Small) + 6.0F}});
   }
   std::vector<LabelBox>& boxes = canvas.memory().boxes;
-  boxes.assign(1, force_caption(canvas, plot));
+  boxes.assign(1, force_caption(canvas, plot, words));
   place_labels(labels, {plot.top_left, plot.bottom_right}, boxes);
   auto box = boxes.begin() + 1;
   for (const PlotMarker& marker : markers) {
-    if (!in_range(plot, marker)) {
+    if (!in_range(plot, marker) || marker.label.empty()) {
       continue;
     }
     canvas.rectangle(box->from, box->to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
@@ -181,7 +204,7 @@ void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarke
 }
 
 void paint_cursor(Canvas& canvas, const Plot& plot, const PlotPoint& cursor) {
-  if (!std::isfinite(cursor.z_nm) || !std::isfinite(cursor.force_nn)) {
+  if (!std::isfinite(cursor.place_nm) || !std::isfinite(cursor.force_nn)) {
     return;
   }
   glm::vec2 place = plot.place(cursor);
@@ -196,23 +219,23 @@ void paint_cursor(Canvas& canvas, const Plot& plot, const PlotPoint& cursor) {
 void paint(Canvas& canvas, const ForcePanel& panel) {
   canvas.panel_background();
   paint_heading(canvas, panel);
-  const float legend_y = 146.0F;
+  const float legend_y = paint_figures(canvas, panel.figures, 146.0F);
   paint_legend(canvas, panel, legend_y);
 
   const char mark = panel.words.decimal_mark;
   Plot plot;
-  std::tie(plot.z_min, plot.z_max) = sane_range(panel.z_min_nm, panel.z_max_nm);
+  std::tie(plot.place_min, plot.place_max) = sane_range(panel.place_min_nm, panel.place_max_nm);
   std::tie(plot.force_min, plot.force_max) = sane_range(panel.force_min_nn, panel.force_max_nn);
-  const double z_step = tick_step(plot.z_max - plot.z_min, 6);
+  const double place_step = tick_step(plot.place_max - plot.place_min, 6);
   const double force_step = tick_step(plot.force_max - plot.force_min, 6);
   const float widest = std::max(canvas.text_width_mm(TextStyle::Body, tick_text(plot.force_min, force_step, mark)),
                                 canvas.text_width_mm(TextStyle::Body, tick_text(plot.force_max, force_step, mark)));
   plot.top_left = {kMargin + widest + 16.0F, legend_y + 56.0F};
   plot.bottom_right = canvas.size_mm() - glm::vec2(kMargin, 112.0F);
-  paint_axes(canvas, plot, z_step, force_step, mark);
+  paint_axes(canvas, plot, place_step, force_step, mark);
 
   // markers before the curves: no label hides what was measured
-  paint_markers(canvas, plot, panel.markers);
+  paint_markers(canvas, plot, panel.markers, panel.words);
   canvas.push_clip(plot.top_left, plot.bottom_right);
   for (const auto& curve : panel.curves) {
     if (curve.faded) {
@@ -225,7 +248,7 @@ void paint(Canvas& canvas, const ForcePanel& panel) {
     }
   }
   canvas.pop_clip();
-  paint_captions(canvas, plot);
+  paint_captions(canvas, plot, panel.words);
   if (panel.cursor) {
     paint_cursor(canvas, plot, *panel.cursor);
   }

@@ -266,6 +266,7 @@ bool Panels::update(const FrameState& frame, std::size_t slot) {
   labels_.resize(std::max(labels_.size(), frame.labels.size()));
   update(force_, frame.force_panel, frame.force_placement);
   update(image_, frame.image_panel, frame.image_placement);
+  update(loop_, frame.loop_panel, frame.loop_placement);
   update(data_, frame.data_panel, frame.data_placement);
   update(banner_, frame.banner, frame.banner_placement);
   update(control_, frame.control_panel, frame.control_placement);
@@ -356,6 +357,7 @@ void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const Eye
   };
   show(force_);
   show(image_);
+  show(loop_);
   show(data_);
   show(control_);
   std::for_each(labels_.begin(), labels_.end(), show);

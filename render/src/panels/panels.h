@@ -104,6 +104,7 @@ class Panels {
   std::array<Geometry, kFramesInFlight> geometry_;
   Panel force_;
   Panel image_;
+  Panel loop_;
   Panel data_;
   Panel banner_;
   Panel control_;

@@ -96,10 +96,10 @@ bool is_valid(const SharedTopography& size) {
 
 }  // namespace
 
-HeightGrid surface_of(const SharedContact& material, std::span<const SharedHeightField> fields,
-                      const Topography& topography) {
+FeltHeights surface_of(const SharedContact& material, std::span<const SharedHeightField> fields,
+                       const Topography& topography) {
   if (material.height_field == kTopography && topography.columns > 0) return {topography, material.topography};
-  return material.height_field < fields.size() ? HeightGrid(fields[material.height_field]) : HeightGrid();
+  return material.height_field < fields.size() ? FeltHeights(fields[material.height_field]) : FeltHeights();
 }
 
 bool is_valid(const Topography& topography, const SharedTopography& size) {

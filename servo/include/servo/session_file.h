@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "scene/shared/height_grid.h"
+#include "scene/shared/felt_heights.h"
 #include "scene/shared/tip_blocks.h"
 #include "servo/wall_frame.h"
 

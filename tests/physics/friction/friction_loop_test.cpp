@@ -65,6 +65,36 @@ TEST(FrictionLoop, IsFoundUnderNoise) {
   EXPECT_NEAR(loop->half_width.si, 0.7e-9, 0.01 * 0.7e-9);
 }
 
+TEST(FrictionLoop, IsTheLastClosedOneWhileTheNextStrokeStillSticks) {
+  AnchoredTip tip(3_N_per_m);
+  tip.land({});
+  auto run = cycles(tip, [](auto& t, const Sideways<Length>& to) { t.move_to(to, 0.7_nN); }, 10e-9, 2000);
+  const std::size_t closed = run.size() - 1;
+  for (int i = 1; i <= 202; ++i) {  // not as far as it sticks at both ends
+    const Length x(10e-9 * i / 2000.0);
+    tip.move_to({x, Length()}, 0.7_nN);
+    run.push_back({x, -tip.force().x});
+  }
+  const auto loop = last_friction_loop(run);
+  ASSERT_TRUE(loop);
+  EXPECT_EQ(loop->end, closed);
+  EXPECT_EQ(loop->turn, closed - 2000);
+  EXPECT_EQ(loop->begin, closed - 4000);
+  EXPECT_NEAR(loop->half_width.si, 0.7e-9, 1e-3 * 0.7e-9);
+}
+
+TEST(FrictionLoop, LiesAlongTheLineOfTheLargestSpread) {
+  std::vector<SidewaysPoint> points;
+  for (int i = -10; i <= 10; ++i) {
+    points.push_back({{Length(3e-10 * i), Length(-4e-10 * i)}, {Force(3e-10), Force(-4e-10)}});
+  }
+  const auto run = along_main_line(points);
+  ASSERT_EQ(run.size(), points.size());
+  EXPECT_NEAR(run.back().place.si, 5e-9, 1e-20) << "it leads to +x";
+  EXPECT_NEAR(run.back().force.si, -5e-10, 1e-21);
+  EXPECT_TRUE(along_main_line({}).empty());
+}
+
 TEST(FrictionLoop, NeedsAWholeCycle) {
   EXPECT_FALSE(last_friction_loop({}));
   std::vector<LateralPoint> there;

@@ -2,14 +2,12 @@
 #pragma once
 
 #include "exhibit/scan/live_scan.h"
+#include "physics/imaging/scan_artefact.h"
 
 namespace afm::exhibit {
 
-// What is wrong with an image, if anything.
-enum class ScanCause { None, Blur, Overload, Parachuting, Ringing, Drift, DoubleTip, Noise, BluntTip };
-
-// The cause that explains the newest lines of a scan: what happened to the tip first, then what its settings must do
+// The artefact that explains the newest lines of a scan, by what happened to the tip and by what its settings must do
 // to the image. Where several apply, the one that hides the others.
-ScanCause cause_of(const LiveScan& scan);
+physics::ScanArtefact cause_of(const LiveScan& scan);
 
 }  // namespace afm::exhibit

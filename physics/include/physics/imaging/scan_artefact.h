@@ -8,7 +8,7 @@
 
 namespace afm::physics {
 
-// What keeps an image from showing the sample.
+// What keeps an image from showing the sample. Names and phrases of the wall follow this order.
 enum class ScanArtefact {
   None,
   LostContact,  // the tip hangs above the sample: setpoint too low, or the sample drifted away
@@ -19,6 +19,7 @@ enum class ScanArtefact {
   Drift,        // the sample moves on while it is scanned: the image is sheared or stretched
   Noise,        // of the detector, as large as the relief
   Blur,         // the loop is too slow: the image is flatter than the sample, and trace and retrace part
+  BluntTip,     // dents close and bumps grow wide: known only to who knows a sharper tip
 };
 
 struct ScanArtefactName {
@@ -31,13 +32,13 @@ inline constexpr std::array kScanArtefacts{
     ScanArtefactName{ScanArtefact::Ringing, "ringing"},   ScanArtefactName{ScanArtefact::Parachuting, "parachuting"},
     ScanArtefactName{ScanArtefact::Overload, "overload"}, ScanArtefactName{ScanArtefact::DoubleTip, "double-tip"},
     ScanArtefactName{ScanArtefact::Drift, "drift"},       ScanArtefactName{ScanArtefact::Noise, "noise"},
-    ScanArtefactName{ScanArtefact::Blur, "blur"},
+    ScanArtefactName{ScanArtefact::Blur, "blur"},         ScanArtefactName{ScanArtefact::BluntTip, "blunt-tip"},
 };
 
 std::string_view name_of(ScanArtefact artefact);
 
-// The one that explains best what the newest line shows, the first in the order of the enum that holds. `line` is one
-// that `scanner` took with its present settings.
+// The one that explains best what the newest line shows, the first in the order of the enum that holds; never BluntTip,
+// since a scanner knows the traced surface alone. `line` is one that `scanner` took with its present settings.
 ScanArtefact main_artefact(const Scanner& scanner, const ScanLine& line);
 
 }  // namespace afm::physics

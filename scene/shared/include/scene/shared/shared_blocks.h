@@ -88,7 +88,7 @@ struct SharedHeightField {
   std::array<float, kMaxHeightFieldSide * kMaxHeightFieldSide> height_m{};
 };
 
-// The topography that a segment holds behind its blocks (scene/shared/height_grid.h); without columns it has none.
+// The topography that a segment holds behind its blocks (scene/shared/felt_heights.h); without columns it has none.
 struct SharedTopography {
   std::uint32_t columns = 0;
   std::uint32_t rows = 0;

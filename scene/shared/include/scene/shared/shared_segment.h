@@ -11,7 +11,7 @@
 #include "core/file_descriptor.h"
 #include "core/result.h"
 #include "physics/law.h"
-#include "scene/shared/height_grid.h"
+#include "scene/shared/felt_heights.h"
 #include "scene/shared/tip_blocks.h"
 
 // The memory that touchafm and touchafm-servo share: a header page, the constant SharedModel, and one channel per

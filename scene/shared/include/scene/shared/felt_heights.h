@@ -28,7 +28,7 @@ enum class Heights {
 };
 
 // A surface under the tip, as it is felt: a grid of heights that somebody else holds.
-struct HeightGrid {
+struct FeltHeights {
   std::uint32_t columns = 0;  // 0: the plane z = 0
   std::uint32_t rows = 0;
   double spacing_m = 0;
@@ -36,15 +36,15 @@ struct HeightGrid {
   std::span<const float> height_m;
   Heights heights = Heights::Drawn;
 
-  HeightGrid() = default;
-  HeightGrid(const SharedHeightField& field)  // NOLINT(google-explicit-constructor): the same thing
+  FeltHeights() = default;
+  FeltHeights(const SharedHeightField& field)  // NOLINT(google-explicit-constructor): the same thing
       : columns(field.columns),
         rows(field.rows),
         spacing_m(field.spacing_m),
         height_m(std::span(field.height_m).first(std::size_t{field.columns} * field.rows)) {}
-  HeightGrid(const SharedHeightField* field)  // NOLINT(google-explicit-constructor): null is a plane
-      : HeightGrid(field != nullptr ? HeightGrid(*field) : HeightGrid()) {}
-  HeightGrid(const Topography& topography, const TopographyScale& scale)
+  FeltHeights(const SharedHeightField* field)  // NOLINT(google-explicit-constructor): null is a plane
+      : FeltHeights(field != nullptr ? FeltHeights(*field) : FeltHeights()) {}
+  FeltHeights(const Topography& topography, const TopographyScale& scale)
       : columns(topography.columns),
         rows(topography.rows),
         spacing_m(scale.lateral * topography.spacing_m),
@@ -54,8 +54,8 @@ struct HeightGrid {
 };
 
 // The surface of a material that is valid beside these; a plane where it has none.
-HeightGrid surface_of(const SharedContact& material, std::span<const SharedHeightField> fields,
-                      const Topography& topography);
+FeltHeights surface_of(const SharedContact& material, std::span<const SharedHeightField> fields,
+                       const Topography& topography);
 
 // Whether a topography is of this size, with a height for each point, all of them finite.
 bool is_valid(const Topography& topography, const SharedTopography& size);

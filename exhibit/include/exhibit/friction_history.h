@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/friction/friction_loop.h"
+#include "scene/shared/tip_blocks.h"
+
+namespace afm::exhibit {
+
+// How a tip was led over the sample: the contact that goes on or was the last one, and the newest one before it that
+// holds a friction loop. Forgotten with the material and its parameters. Bounded, however long the tip is led. One
+// thread.
+class FrictionHistory {
+ public:
+  static constexpr std::size_t kMostPoints = 30'000;  // of a contact; the oldest third is dropped
+
+  void add(const scene::TipSample& sample);
+
+  std::span<const physics::SidewaysPoint> contact() const { return contact_; }
+  std::span<const physics::SidewaysPoint> earlier() const { return earlier_; }
+  bool attached() const { return attached_; }
+
+ private:
+  std::vector<physics::SidewaysPoint> contact_, earlier_;
+  std::int32_t material_ = -1;
+  std::uint32_t edit_revision_ = 0;
+  bool attached_ = false;
+};
+
+}  // namespace afm::exhibit
