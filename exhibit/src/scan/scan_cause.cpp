@@ -46,6 +46,7 @@ double relief_m(const LiveScan& scan) {
 }  // namespace
 
 ScanCause cause_of(const LiveScan& scan) {
+  if (scan.is_painted()) return ScanCause::None;                                  // a hand does not keep to lines
   if (scan.progress().frame == 0 && scan.row() < kLines) return ScanCause::None;  // too little to judge
   const ScanChoice& now = scan.choice();
   const physics::ScanSettings settings = settings_of(now, scan.subject().adhesion_n);
