@@ -179,7 +179,7 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
           fmt::format("session file {}: its scan has settings that no scan can have", options.session));
     }
     const std::size_t scanned = then.moment.wall.material.value();
-    scan.emplace(exhibit::scan_subject(stage.wall_scene, scanned, models[scanned]), progress);
+    scan.emplace(exhibit::scan_subject(stage.wall_scene, scanned, models[scanned]), progress, session.samples);
     exhibit::show_scan(*scan, then.moment);
     panels.set_scan(&*scan);
   }

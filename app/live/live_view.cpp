@@ -61,9 +61,11 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::Sample
       visitor_(static_cast<std::int64_t>(settings.idle_s * 1e9)) {
   panels_.set_friction(&servo_.friction());
   if (settings_.unattended) panels_.show_visitors_keys_only();
+  servo_.hear([this](const scene::TipSample& sample) { paint_with(sample); });
 }
 
 void LiveView::begin_with(servo::ServoClient& servo, std::optional<std::size_t> felt_before) {
+  if (scan_has_hand()) end_scan();  // its ticks are those of the servo before
   hand_ = hand_over(stage_.wall_scene);
   panels_.edits().resend(servo);
   if (const auto material = felt_before ? felt_before : settings_.first_material) choose(*material);
@@ -259,11 +261,13 @@ void LiveView::move_hand(const ViewInput& input, std::int64_t now_ns) {
   const double frame_s = static_cast<double>(now_ns - std::exchange(hand_moved_ns_, now_ns)) * 1e-9;
   if (!servo_.running() || hand() == HandSource::Device) return;
   servo::ServoClient& servo = servo_.link();
+  go_with_scan(frame_s);
   if (hand() == HandSource::Mouse) {
     hand_.update(windows_.on_desktop(input.window, input.cursor_px), hand_m_per_px(input.window), frame_s, now_ns);
     servo.script(hand_.script());
     return;
   }
+  if (scan_script_.revision != 0) return servo.script(scan_script_);
   const std::int32_t material = servo.tip().material;
   if (person_.step() == input::SimulatedPerson::Step::Done && material >= 0 && !visitor_.away()) {
     person_.begin(swatches_[static_cast<std::size_t>(material)].center_m, material, now_ns);
@@ -307,7 +311,7 @@ std::string LiveView::guidance(const exhibit::Phrases& phrases) const {
   if (!servo_.running()) return exhibit::step_text(phrases, exhibit::Hint::ServoEnded, controls());
   // without a visitor it invites
   if (visitor_.away()) return exhibit::step_text(phrases, exhibit::Hint::ChooseSample, controls());
-  if (scan_ && !exhibit::hand_uses_tip(servo_.link().tip())) return exhibit::scan_guidance(*scan_, phrases);
+  if (const auto line = scan_guidance(phrases)) return *line;
   return exhibit::guidance_line(phrases, hint_, servo_.link().tip(), controls());
 }
 

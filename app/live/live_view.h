@@ -22,6 +22,7 @@
 #include "exhibit/journey.h"
 #include "exhibit/procedure.h"
 #include "exhibit/scan/live_scan.h"
+#include "exhibit/scan/scan_hand.h"
 #include "input/idle_watch.h"
 #include "input/simulated_head.h"
 #include "input/simulated_person.h"
@@ -84,8 +85,17 @@ class LiveView {
   void toggle_scan();
   void toggle_truth();
   void toggle_friction_loop();
+  void begin_scan();
   void end_scan();
+  void next_scan_hand();
+  void toggle_scan_feedback();
+  std::optional<exhibit::HandPart> hand_part(double side_m) const;
+  exhibit::HandSize hand_size() const;
+  bool scan_has_hand() const;
   void follow_scan(std::int64_t now_ns);
+  void go_with_scan(double frame_s);
+  void give_hand_back();
+  void paint_with(const scene::TipSample& sample);
   void mark_next_setting();
   void step_setting(int steps);
 
@@ -101,6 +111,7 @@ class LiveView {
   exhibit::Moment moment(const Pointed& pointed, std::int64_t now_ns);
   exhibit::Hint next_hint(std::int64_t now_ns);
   std::string guidance(const exhibit::Phrases& phrases) const;
+  std::optional<std::string> scan_guidance(const exhibit::Phrases& phrases) const;
   void record(const exhibit::Moment& now);
   void draw(const ViewInput& input, std::int64_t now_ns);
   void log_frame(std::int64_t begun_ns, std::int64_t presented_ns, std::optional<double> head_latency_s);
@@ -134,7 +145,14 @@ class LiveView {
   std::optional<exhibit::LiveScan> scan_;
   std::size_t scanned_ = 0;      // the material of that scan
   std::int64_t scanned_ns_ = 0;  // until when it has been scanned
-  glm::dmat4 to_wall_{1.0};      // brings the scene to the wall, after the wand's navigation
+  scene::ScanHand scan_hand_ = scene::ScanHand::Apart;
+  bool scan_feedback_ = true;
+  exhibit::HandSize scan_size_;  // with which it was begun
+  exhibit::LeadingScan leading_;
+  scene::HandScript scan_script_;  // of the simulated hand
+  glm::dvec3 scan_aim_m_{0.0};
+  double scan_way_s_ = 0;    // of its way over the sample
+  glm::dmat4 to_wall_{1.0};  // brings the scene to the wall, after the wand's navigation
   std::unique_ptr<servo::FrameLog> frame_log_;
   servo::ServoLateness servo_lateness_;
   input::IdleWatch visitor_;

@@ -30,7 +30,9 @@ bool is_turn_on(const render::WindowEvent& event) {
 
 void MouseHand::drag_to(const glm::dvec2& cursor_px, double m_per_px) {
   const glm::dvec2 moved_m = m_per_px * glm::dvec2(cursor_px.x - grip_px_.x, grip_px_.y - cursor_px.y);
-  wanted_m_ = glm::clamp(wanted_m_ + moved_m, glm::dvec2(-kWidestM, kLowestM), glm::dvec2(kWidestM, kHighestM));
+  wanted_m_ += over_sample_ ? glm::dvec3(moved_m.x, 0.0, moved_m.y) : glm::dvec3(moved_m, 0.0);
+  wanted_m_ =
+      glm::clamp(wanted_m_, glm::dvec3(-kWidestM, kLowestM, -kWidestM), glm::dvec3(kWidestM, kHighestM, kWidestM));
   grip_px_ = cursor_px;
 }
 
@@ -38,6 +40,12 @@ void MouseHand::set_axes(const glm::dvec3& normal, const glm::dvec3& right) {
   axes_changed_ = axes_changed_ || normal != normal_ || right != right_;
   normal_ = normal;
   right_ = right;
+}
+
+glm::dvec3 MouseHand::away() const { return glm::cross(normal_, right_); }
+
+void MouseHand::rest_at(const glm::dvec3& place_m) {
+  wanted_m_ = {glm::dot(place_m, right_), glm::dot(place_m, normal_), glm::dot(place_m, away())};
 }
 
 void MouseHand::apply(const render::WindowEvent& event, double m_per_px, std::int64_t now_ns) {
@@ -63,13 +71,13 @@ void MouseHand::update(const glm::dvec2& cursor_px, double m_per_px, double fram
 
   const double seconds = std::clamp(frame_s, 0.001, kLongestPathS);
   const double reach = kFastestMPerS * seconds;
-  const glm::dvec2 way = wanted_m_ - aim_m_;
+  const glm::dvec3 way = wanted_m_ - aim_m_;
   const double length = glm::length(way);
-  const glm::dvec2 next = length > reach ? aim_m_ + reach / length * way : wanted_m_;
+  const glm::dvec3 next = length > reach ? aim_m_ + reach / length * way : wanted_m_;
   if (next == aim_m_ && script_.revision != 0 && !axes_changed_) return;
   aim_m_ = next;
   axes_changed_ = false;
-  const glm::dvec3 target = aim_m_.x * right_ + aim_m_.y * normal_;
+  const glm::dvec3 target = aim_m_.x * right_ + aim_m_.y * normal_ + aim_m_.z * away();
   script_.target_m = {target.x, target.y, target.z};
   script_.duration_s = seconds;
   ++script_.revision;

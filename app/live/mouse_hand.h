@@ -15,14 +15,15 @@ namespace afm::app {
 // flies off by itself while the mouse goes on evenly (pseudo-haptics). Places are the hand's, from the contact point,
 // metres.
 //
-// Held right button or kGripKey: the aim follows the cursor. Wheel: steps up and down. Middle button or kTurnOnKey:
-// Turn-On.
+// Held right button or kGripKey: the aim follows the cursor, up and down or, as the scanner of an image, over the
+// sample. Wheel: steps up and down. Middle button or kTurnOnKey: Turn-On.
 class MouseHand {
  public:
   static constexpr double kLowestM = -0.030;
   static constexpr double kHighestM = 0.070;
-  static constexpr double kRestM = 0.060;    // where the simulated hand begins
-  static constexpr double kWidestM = 0.070;  // to either side: as far as a sample reaches on the scale that fits it
+  static constexpr double kRestM = 0.060;       // where the simulated hand begins
+  static constexpr double kWidestM = 0.070;     // to either side: as far as a sample reaches on the scale that fits it
+  static constexpr double kOnSampleM = -0.002;  // where the tip of a scanning hand is lowered to
 
   static constexpr render::Key kGripKey = render::Key::Space;
   static constexpr render::Key kTurnOnKey = render::Key::T;
@@ -38,7 +39,16 @@ class MouseHand {
   void update(const glm::dvec2& cursor_px, double m_per_px, double frame_s, std::int64_t now_ns);
 
   // Lifts the aim off the sample and returns it above the contact point.
-  void lift() { wanted_m_ = {0.0, kHighestM}; }
+  void lift() { wanted_m_ = {0.0, kHighestM, 0.0}; }
+
+  // A scanning hand lowers its tip onto the sample, and drags go over it; one that stops lifts it.
+  void scan(bool on) {
+    over_sample_ = on;
+    wanted_m_ = {0.0, on ? kOnSampleM : kHighestM, 0.0};
+  }
+
+  // The hand goes along with what leads it: its aim is where it is. Device frame.
+  void rest_at(const glm::dvec3& place_m);
 
   // Sets new axes, as in the constructor, after a rotation of the sample.
   void set_axes(const glm::dvec3& normal, const glm::dvec3& right);
@@ -51,11 +61,14 @@ class MouseHand {
 
  private:
   void drag_to(const glm::dvec2& cursor_px, double m_per_px);
+  glm::dvec3 away() const;  // the sample's y axis
 
   glm::dvec3 normal_;
   glm::dvec3 right_;
-  glm::dvec2 wanted_m_{0.0, kRestM};  // to the right, and up along the normal
-  glm::dvec2 aim_m_{0.0, kRestM};
+  // to the right, up along the normal, and away over the sample
+  glm::dvec3 wanted_m_{0.0, kRestM, 0.0};
+  glm::dvec3 aim_m_{0.0, kRestM, 0.0};
+  bool over_sample_ = false;
   int grips_ = 0;  // of right button and space bar, how many are held
   glm::dvec2 grip_px_{0.0};
   bool axes_changed_ = false;

@@ -72,6 +72,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
       [&](const scene::TipSample& sample) {
         cycles_.add(sample);
         friction_.add(sample);
+        if (hears_) hears_(sample);
         if (!folder_) return;
         if (recorder_.add(sample, *link_)) recorder_.set_earlier(curves_on_wall());
         keep_finished();

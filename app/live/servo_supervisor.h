@@ -39,6 +39,9 @@ class ServoSupervisor {
   // pressed; one that dies again and again, or that cannot have its device, needs a person: then it has an error().
   void update(std::int64_t now_ns);
 
+  // Called with every sample, in their order, before a session keeps it.
+  void hear(std::function<void(const scene::TipSample&)> hears) { hears_ = std::move(hears); }
+
   // Adds a frame of the wall to the current session.
   void record(const servo::WallFrame& frame) { recorder_.add(frame); }
   bool recording() const { return folder_.has_value(); }
@@ -73,6 +76,7 @@ class ServoSupervisor {
   void log_timing() const;
 
   Starter starter_;
+  std::function<void(const scene::TipSample&)> hears_;
   Started started_;
   std::size_t materials_;
   std::string record_folder_;

@@ -31,6 +31,8 @@ struct LiveKeyTable {
       LiveKey{Key::I, "I", Phrase::KeyScan, [](LiveView& view, std::size_t) { view.toggle_scan(); }},
       LiveKey{Key::U, "U", Phrase::KeyTruth, [](LiveView& view, std::size_t) { view.toggle_truth(); }},
       LiveKey{Key::F, "F", Phrase::KeyFriction, [](LiveView& view, std::size_t) { view.toggle_friction_loop(); }},
+      LiveKey{Key::L, "L", Phrase::KeyScanHand, [](LiveView& view, std::size_t) { view.next_scan_hand(); }},
+      LiveKey{Key::K, "K", Phrase::KeyScanFeedback, [](LiveView& view, std::size_t) { view.toggle_scan_feedback(); }},
       LiveKey{Key::Tab, "Tab", Phrase::KeyNextSetting, [](LiveView& view, std::size_t) { view.mark_next_setting(); }},
       LiveKey{Key::Equal, "+", Phrase::KeyChangeSetting, [](LiveView& view, std::size_t) { view.step_setting(1); }},
       LiveKey{Key::Minus, "-", Phrase::KeyChangeSetting, [](LiveView& view, std::size_t) { view.step_setting(-1); }},

@@ -124,6 +124,10 @@ servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::
   if (moment.scan != nullptr) {
     const ScanProgress& scan = moment.scan->progress();
     frame.scan = {.frame = scan.frame, .pixel = scan.pixel, .truth = scan.truth};
+    if (const auto& hand = scan.hand) {
+      frame.scan_hand = {
+          .paints = hand->paints, .feedback = hand->feedback, .side_m = hand->side_m, .first_tick = hand->first_tick};
+    }
     for (const auto& [scan_frame, pixel, c] : scan.changes) {
       frame.scan_changes.push_back({scan_frame, pixel, c.setpoint_n, c.gain_per_s, c.line_rate_hz, c.tip_radius_m,
                                     c.noise_m, c.drift_m_per_s, c.apex_distance_m});
@@ -135,7 +139,11 @@ servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::
 
 ScanProgress scan_progress_of(const servo::WallFrame& frame) {
   ScanProgress progress{
-      .frame = frame.scan->frame, .pixel = frame.scan->pixel, .truth = frame.scan->truth, .changes = {}};
+      .frame = frame.scan->frame, .pixel = frame.scan->pixel, .truth = frame.scan->truth, .changes = {}, .hand = {}};
+  if (const auto& hand = frame.scan_hand) {
+    progress.hand = {
+        .paints = hand->paints, .feedback = hand->feedback, .side_m = hand->side_m, .first_tick = hand->first_tick};
+  }
   for (const auto& [scan_frame, pixel, setpoint, gain, rate, radius, noise, drift, apex] : frame.scan_changes) {
     progress.changes.push_back({scan_frame, pixel, {setpoint, gain, rate, radius, noise, drift, apex}});
   }

@@ -48,6 +48,31 @@ TEST_F(MouseHandTest, ADragBetweenTwoFramesIsNotLost) {
   EXPECT_NEAR(hand_.wanted_m(), MouseHand::kRestM - 40.0 * kMPerPx, 1e-12);
 }
 
+// As the scanner of an image: down onto the sample, then a drag goes over it, away from the user where it goes up.
+TEST_F(MouseHandTest, GoesOverTheSampleAsAScanner) {
+  hand_.scan(true);
+  EXPECT_EQ(hand_.wanted_m(), MouseHand::kOnSampleM);
+  button(Kind::ButtonDown, render::MouseButton::Right, 100.0);
+  for (int i = 0; i < 100; ++i) frame(60.0, 30.0);
+  EXPECT_EQ(hand_.wanted_m(), MouseHand::kOnSampleM);
+  EXPECT_NEAR(hand_.script().target_m[0], 30.0 * kMPerPx, 1e-12);
+  EXPECT_NEAR(hand_.script().target_m[1], MouseHand::kOnSampleM, 1e-12);
+  EXPECT_NEAR(hand_.script().target_m[2], -40.0 * kMPerPx, 1e-12);
+  button(Kind::ButtonUp, render::MouseButton::Right, 60.0);
+  hand_.scan(false);
+  for (int i = 0; i < 100; ++i) frame(60.0, 30.0);
+  EXPECT_NEAR(hand_.script().target_m[1], MouseHand::kHighestM, 1e-12);
+  EXPECT_NEAR(hand_.script().target_m[2], 0.0, 1e-12);
+}
+
+TEST_F(MouseHandTest, StaysWhereItIsLedTo) {
+  hand_.rest_at({0.01, 0.02, -0.03});
+  for (int i = 0; i < 100; ++i) frame(0.0);
+  EXPECT_NEAR(hand_.script().target_m[0], 0.01, 1e-12);
+  EXPECT_NEAR(hand_.script().target_m[1], 0.02, 1e-12);
+  EXPECT_NEAR(hand_.script().target_m[2], -0.03, 1e-12);
+}
+
 TEST_F(MouseHandTest, SpaceBarDragsAsTheButtonDoes) {
   key(Kind::KeyDown, render::Key::Space, 100.0);
   frame(60.0);

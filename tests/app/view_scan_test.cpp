@@ -95,5 +95,60 @@ TEST_F(ViewScan, IsDrawnAgainFromItsSession) {
   EXPECT_GT(test::difference(saved, draw(0.0, "begin.png"), 24).share_beyond, 0.08);  // no scan yet
 }
 
+// The mouse lowers the tip, and a drag goes over the sample.
+TEST_F(ViewScan, IsTakenByTheHandAndDrawnAgain) {
+  support::LiveProgram program(view(), display_.name());
+  ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
+  xdotool("mousemove 160 10 key 1");
+  ASSERT_TRUE(program.says("chosen: Gold")) << program.said();
+  xdotool("mousemove 160 120 mousedown 3 mousemove 160 90 mouseup 3");
+  for (int presses = 0; presses < 40 && !program.says("force on", std::chrono::seconds(2)); ++presses) {
+    xdotool("key t");
+  }
+  xdotool("key k");
+  ASSERT_TRUE(program.says("scan: press L first")) << program.said();
+  xdotool("key l");
+  ASSERT_TRUE(program.says("scan: the tip leads the hand")) << program.said();
+  EXPECT_FALSE(program.says_one_of({"Hold Turn-On: the tip leads", "press Turn-On and hold it"}).empty());
+  xdotool("key l");
+  ASSERT_TRUE(program.says("scan: the hand takes the image")) << program.said();
+  ASSERT_TRUE(program.says("Your hand takes the image")) << program.said();
+  xdotool("mousemove 160 120 mousedown 3");
+  for (const char* place : {"200 120", "120 115", "200 110", "120 105", "200 125", "120 130", "200 135"}) {
+    xdotool(std::string("mousemove ") + place + " sleep 1");
+  }
+  xdotool("mouseup 3 key F12");
+  ASSERT_TRUE(program.says("saved ./touchafm-001.png")) << program.said();
+  xdotool("key k");
+  ASSERT_TRUE(program.says("scan: feedback off")) << program.said();
+  xdotool("key l");
+  ASSERT_TRUE(program.says("scan: the tip scans alone")) << program.said();
+  xdotool("key Escape");
+  ASSERT_EQ(program.ends(), 0) << program.said();
+
+  const auto session = servo::load_session(folder_.file("kept/session-gold.afms"));
+  ASSERT_TRUE(session) << program.said() << session.error().message;
+  const auto painted = [](const servo::WallFrame& f) {
+    return f.scan_hand && f.scan_hand->paints && f.scan_hand->feedback;
+  };
+  const auto last = std::find_if(session->wall.rbegin(), session->wall.rend(), painted);
+  ASSERT_NE(last, session->wall.rend());
+  const auto draw = [&](const std::string& at_s, const std::string& name) {
+    const std::string command = std::string(AFM_PROGRAM) + " render --session " +
+                                folder_.file("kept/session-gold.afms") + " --at " + at_s + " --size 320x240 --out " +
+                                folder_.file(name);
+    const auto drawn = support::run_program(command);
+    EXPECT_EQ(drawn.exit_code, 0) << command << ": " << drawn.err;
+    return test::read_png(folder_.file(name));
+  };
+  const render::Image saved = test::read_png(folder_.file("touchafm-001.png"));
+  const double end_s = session->seconds_since_start(last->time_ns);
+  EXPECT_LT(test::difference(saved, draw(std::to_string(end_s), "end.png"), 24).share_beyond, 0.03);
+  const auto replayed =
+      support::run_program(std::string(AFM_PROGRAM) + " replay " + folder_.file("kept/session-gold.afms"));
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+  EXPECT_THAT(replayed.out, testing::HasSubstr("is identical, bit for bit"));
+}
+
 }  // namespace
 }  // namespace afm::app

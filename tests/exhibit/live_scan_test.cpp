@@ -242,7 +242,8 @@ TEST(LiveScan, IsTheSameAgainFromWhatASessionRecords) {
 }
 
 TEST(LiveScan, RefusesARecordedProgressThatNoScanHas) {
-  const ScanProgress good{.frame = 1, .pixel = 5, .truth = false, .changes = {{.frame = 0, .pixel = 0, .choice = {}}}};
+  const ScanProgress good{
+      .frame = 1, .pixel = 5, .truth = false, .changes = {{.frame = 0, .pixel = 0, .choice = {}}}, .hand = {}};
   EXPECT_TRUE(LiveScan::valid(good));
   ScanProgress bad = good;
   bad.changes.clear();

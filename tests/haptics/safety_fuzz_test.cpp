@@ -59,6 +59,8 @@ TEST(GovernorFuzz, StaysFiniteWithinCapAndSlewWhateverComesIn) {
     input.pulled_off = random() % 100 == 0;
     input.turn_on = random() % 4 == 0;
     input.device_healthy = calm || random() % 100 != 0;
+    input.led = random() % 3 == 0;
+    input.damping_n_s_per_m = calm ? 2.0 : any_double(random);
     input.renderer = calm ? RendererLink::Alive : static_cast<RendererLink>(random() % 6);
 
     const glm::dvec3 force_n = governor.step(input).command.force_n();

@@ -110,6 +110,30 @@ class ServoTickOf : public testing::TestWithParam<AnyLaw> {
   }
 };
 
+TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsInAScanThatLeadsTheHandOrThatTheHandMakes) {
+  using afm::scene::ScanHand;
+  for (const ScanHand hand : {ScanHand::Led, ScanHand::Scans}) {
+    ServoBench bench(afm::test::rough_model());
+    bench.arm(afm::test::kMica);
+    bench.aim(hand == ScanHand::Led ? ServoBench::kTop : -0.004, 0.5, true);
+    int active = 0;
+    for (int tick = 0; tick < 3000; ++tick) {
+      bench.renderer.store(afm::scene::RendererHeartbeat{});
+      bench.renderer.store(afm::scene::ScanLead{
+          .time_ns = bench.now_ns, .apex_xy_m = {1e-12 * tick, 0.0}, .gain_per_s = 100.0, .hand = hand, .feedback = 1});
+      bench.now_ns += bench.loop->period_ns();
+      {
+        const NoAllocation no_allocation;
+        const NoLock no_lock;
+        bench.loop->tick(bench.now_ns, 0);
+      }
+      if (bench.state().led != 0 || bench.state().level != 0) ++active;
+    }
+    EXPECT_GT(active, 1000);
+    EXPECT_GT(bench.hand_force_n(), 0.05);
+  }
+}
+
 TEST_P(ServoTickOf, NeitherAllocatesNorLocksNorThrowsOverACycle) {
   ServoBench bench(model());
   bench.arm(afm::test::kMica);

@@ -65,11 +65,18 @@ void write_all(ServoBench& bench, Garbage& garbage) {
     side.store(garbage.noise<Selection>());
     side.store(garbage.noise<MaterialEdit>(), static_cast<std::uint32_t>(garbage.number(kMaxMaterials)));
     side.store(garbage.noise<HandScript>());
+    side.store(garbage.noise<ScanLead>());
     side.store(garbage.noise<RendererHeartbeat>());
   } else {
     side.store(garbage.flipped(good_transforms()));
     side.store(garbage.flipped(Selection{.material = kMica, .revision = 1}));
     side.store(garbage.flipped(HandScript{.target_m = {0, 0.02, 0}, .duration_s = 0.5, .revision = ++bench.script}));
+    side.store(garbage.flipped(ScanLead{.time_ns = bench.now_ns,
+                                        .apex_xy_m = {1e-9, -1e-9},
+                                        .height_m = 1e-9,
+                                        .gain_per_s = 2000.0,
+                                        .hand = garbage.coin() ? ScanHand::Led : ScanHand::Scans,
+                                        .feedback = 1}));
     RendererHeartbeat heartbeat = garbage.flipped(RendererHeartbeat{});
     heartbeat.leaving &= ~1U;  // a goodbye is believed, and so is Stop
     heartbeat.stop &= ~1U;
@@ -116,6 +123,49 @@ TEST(SharedGarbage, IsRefusedAndCountedWhileTheForceStaysWithinItsLimits) {
   EXPECT_GT(with_force, static_cast<std::uint32_t>(kRounds) / 100);
   std::printf("%u blocks refused in %d rounds, %u of them with force\n", bench.state().garbage_blocks - refused_before,
               kRounds, with_force);
+}
+
+// A hand that is led, or that scans, by a renderer that writes only places of a scan, of whatever numbers.
+TEST(SharedGarbage, OfAScanLeavesTheForceWithinItsLimits) {
+  for (const ScanHand hand : {ScanHand::Led, ScanHand::Scans}) {
+    ServoBench bench;
+    Garbage garbage;
+    if (hand == ScanHand::Led) {
+      bench.arm(kMica);
+      bench.aim(ServoBench::kTop, 0.0, true);
+    } else {
+      bench.hold_attached(kMica);
+    }
+    const double step_n = SafetyGovernor::kSlewNPerS * 1e-9 * static_cast<double>(bench.loop->period_ns());
+    std::array<double, 3> before_n{};
+    int with_force = 0, led = 0;
+    for (int round = 0; round < kRounds; ++round) {
+      const ScanLead good{.time_ns = bench.now_ns,
+                          .apex_xy_m = {1e-9 * static_cast<double>(garbage.number(2)), 0.0},
+                          .gain_per_s = 1.0,
+                          .hand = hand,
+                          .feedback = 1};
+      // long enough without for the hand to be led
+      if (round % 16 == 0) bench.renderer.store(round % 1600 < 1200 ? good : garbage.flipped(good));
+      if (round % 1600 == 1598) bench.aim(ServoBench::kTop, 0.0, false);
+      if (round % 1600 == 1599 && hand == ScanHand::Led) bench.aim(ServoBench::kTop, 0.0, true);
+      before_n = bench.state().hand.force_n;
+      bench.tick();
+      const TipState state = bench.state();
+      double force_n = 0, change_n = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        ASSERT_TRUE(std::isfinite(state.hand.force_n[axis]));
+        force_n = std::hypot(force_n, state.hand.force_n[axis]);
+        change_n = std::hypot(change_n, state.hand.force_n[axis] - before_n[axis]);
+      }
+      if (force_n > 0) ++with_force;
+      if (state.led != 0) ++led;
+      ASSERT_LE(force_n, afm::haptics::force_cap_n(bench.device.spec()) * (1 + 1e-12));
+      ASSERT_TRUE(force_n == 0 || change_n <= step_n * (1 + 1e-9)) << change_n;
+    }
+    EXPECT_GT(with_force, kRounds / 10);
+    EXPECT_EQ(led > kRounds / 4, hand == ScanHand::Led) << led;
+  }
 }
 
 }  // namespace

@@ -42,7 +42,15 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   EXPECT_FALSE(servo.new_transforms());
   renderer.store(RendererHeartbeat{.leaving = 2});
   EXPECT_FALSE(servo.new_heartbeat());
-  EXPECT_EQ(servo.refused_blocks(), 5U);
+  for (const ScanLead& bad : {ScanLead{.time_ns = -1}, ScanLead{.apex_xy_m = {kNan, 0}}, ScanLead{.height_m = kNan},
+                              ScanLead{.gain_per_s = -1}, ScanLead{.gain_per_s = 2 * kMostScanGainPerS},
+                              ScanLead{.hand = static_cast<ScanHand>(3)}, ScanLead{.feedback = 2}}) {
+    renderer.store(bad);
+    EXPECT_FALSE(servo.new_scan_lead());
+  }
+  renderer.store(ScanLead{.hand = ScanHand::Scans, .feedback = 1});
+  EXPECT_TRUE(servo.new_scan_lead());
+  EXPECT_EQ(servo.refused_blocks(), 12U);
 
   servo.store(TipState{.tip = {.z_m = kNan}});
   EXPECT_FALSE(renderer.tip_state());
@@ -102,7 +110,7 @@ int expect_every_number_is_checked(const SharedModel& model) {
 TEST(SharedBlocks, AreRefusedForAnyNumberThatIsNotFinite) {
   const SharedModel model = paper_model();
   EXPECT_EQ(expect_every_number_is_checked<TipState>(model), 5 + 3 + 3 + 6 + 4 + 6);
-  EXPECT_EQ(expect_every_number_is_checked<TipSample>(model), 5 + 3 + 2 + 9 + 1 + 2);
+  EXPECT_EQ(expect_every_number_is_checked<TipSample>(model), 5 + 3 + 2 + 9 + 1 + 2 + 4);
   EXPECT_EQ(expect_every_number_is_checked<TipEvent>(model), 3);
 }
 
@@ -127,6 +135,8 @@ TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
       EXPECT_TRUE(!state || std::isfinite(state->tip.z_m));
       servo.new_transforms();
       servo.new_hand_script();
+      const auto lead = servo.new_scan_lead();
+      EXPECT_TRUE(!lead || std::isfinite(lead->height_m));
       servo.new_heartbeat();
       const auto edit = edits.new_edit(0);
       EXPECT_FALSE(edit && validate(edit->material, 0, 0));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
@@ -75,6 +76,12 @@ class Recording {
     for (int i = 0; i < ticks; ++i, ++tick_) {
       if (heartbeats && tick_ % 16 == 0)
         renderer_.store(scene::RendererHeartbeat{.frame = ++frame_, .stop = stop ? 1U : 0U});
+      if (scan && tick_ % 16 == 0) {
+        scene::ScanLead lead = scan();
+        lead.time_ns = now_ns;
+        lead.revision = ++scan_revision_;
+        renderer_.store(lead);
+      }
       now_ns += 1'000'000 + 37'000 * (tick_ % 11) - (tick_ % 7) * 51'000;
       loop_->tick(now_ns, 0);
       while (const auto sample = renderer_.pop_sample()) record(*sample);
@@ -118,6 +125,7 @@ class Recording {
   std::vector<RecordedSession> sessions;
   bool heartbeats = true;
   bool stop = false;
+  std::function<scene::ScanLead()> scan;  // of a frame; empty: none
   std::int64_t now_ns = 7'000'000'000;
 
  private:
@@ -138,6 +146,7 @@ class Recording {
   std::unique_ptr<haptics::ServoLoop> loop_;
   std::uint32_t selection_ = 0;
   std::uint32_t script_ = 0;
+  std::uint32_t scan_revision_ = 0;
   std::uint64_t frame_ = 0;
   int tick_ = 0;
 };

@@ -189,6 +189,7 @@ TEST(SessionFile, CarriesWhatTheWallShowed) {
   frame.guidance = "Dr\u00fccken";
   frame.servo_row = {{"ticks", "12 \u00b5s", "clock"}};
   frame.scan = RecordedScan{.frame = 1, .pixel = 40, .truth = true};
+  frame.scan_hand = RecordedHandPart{.paints = true, .feedback = false, .side_m = 1e-7, .first_tick = 1234};
   frame.scan_changes = {{.frame = 0, .pixel = 0, .setpoint_n = 2e-9, .gain_per_s = 2000, .tip_radius_m = 1.0 / 3e8},
                         {.frame = 1, .pixel = 7, .setpoint_n = 1e-9, .apex_distance_m = 1e-8}};
   session.wall.push_back(frame);
@@ -221,7 +222,7 @@ TEST(SessionFile, AlteredInAnyByteIsRefused) {
 TEST(SessionFile, OfAnotherVersionNamesBoth) {
   const support::ScratchFolder folder;
   EXPECT_THAT(error_of(folder.write("new.afms", std::string("AFMS\x09\0\0\0", 8))),
-              HasSubstr("version is 9; this program reads versions 3 to 5"));
+              HasSubstr("version is 9; this program reads versions 3 to 6"));
 }
 
 TEST(SessionFile, CarriesTheCurveThatWasFelt) {

@@ -226,6 +226,19 @@
   PHRASE(ScanTipTrue, "scan-tip-true", "", kLine)                      \
   PHRASE(ScanTipFound, "scan-tip-found", "", kLine)                    \
   PHRASE(ScanTruthSubtitle, "scan-truth-subtitle", "percent", kLine)   \
+  PHRASE(ScanHeight, "scan-height", "", kLine)                         \
+  PHRASE(ScanDeflection, "scan-deflection", "", kLine)                 \
+  PHRASE(ScanHandHeight, "scan-hand-height", "", kLine)                \
+  PHRASE(ScanLateralX, "scan-lateral-x", "force", kLine)               \
+  PHRASE(ScanLateralY, "scan-lateral-y", "force", kLine)               \
+  PHRASE(ScanByHand, "scan-by-hand", "side percent", kLine)            \
+  PHRASE(ScanByHandOpen, "scan-by-hand-open", "side percent", kLine)   \
+  PHRASE(ScanHandLift, "scan-hand-lift", "", kLine)                    \
+  PHRASE(ScanHandHold, "scan-hand-hold", "", kLine)                    \
+  PHRASE(ScanHandLed, "scan-hand-led", "", kLine)                      \
+  PHRASE(ScanHandTouch, "scan-hand-touch", "", kLine)                  \
+  PHRASE(ScanHandLiftOnce, "scan-hand-lift-once", "", kLine)           \
+  PHRASE(ScanHandPaints, "scan-hand-paints", "", kLine)                \
   PHRASE(CauseNone, "scan-cause-none", "", kLine)                      \
   PHRASE(CauseLostContact, "scan-cause-lost-contact", "", kLine)       \
   PHRASE(CauseRinging, "scan-cause-ringing", "", kLine)                \
@@ -252,6 +265,8 @@
   PHRASE(KeyScan, "key-scan", "", kLine)                     \
   PHRASE(KeyTruth, "key-truth", "", kLine)                   \
   PHRASE(KeyFriction, "key-friction", "", kLine)             \
+  PHRASE(KeyScanHand, "key-scan-hand", "", kLine)            \
+  PHRASE(KeyScanFeedback, "key-scan-feedback", "", kLine)    \
   PHRASE(KeyNextSetting, "key-next-setting", "", kLine)      \
   PHRASE(KeyChangeSetting, "key-change-setting", "", kLine)  \
   PHRASE(KeyScale, "key-scale", "", kLine)                   \

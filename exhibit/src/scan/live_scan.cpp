@@ -13,6 +13,10 @@ namespace {
 constexpr std::uint32_t kPixelsOfFrame = 2 * LiveScan::kPixels * LiveScan::kPixels;
 constexpr std::uint32_t kMostFrames = 10'000'000;
 constexpr std::size_t kMostChanges = 10'000;
+constexpr std::uint32_t kMostTicks = 1U << 31U;         // of a hand that paints: weeks
+constexpr double kNarrowestM = 1e-10, kWidestM = 1e-3;  // a square
+constexpr double kLoopTickS = 10e-6;
+constexpr double kLongestTickS = 5e-3;  // of the servo, that a loop makes up for
 
 void clear(std::vector<double>& map) {
   map.assign(LiveScan::kPixels * LiveScan::kPixels, std::numeric_limits<double>::quiet_NaN());
@@ -24,16 +28,28 @@ bool precedes(const ScanChange& change, std::uint32_t frame, std::uint32_t pixel
 
 }  // namespace
 
-LiveScan::LiveScan(ScanSubject subject) : subject_(std::move(subject)) {
+LiveScan::LiveScan(ScanSubject subject, const std::optional<HandPart>& hand) : subject_(std::move(subject)) {
   usual_.tip_radius_m = subject_.tip_radius_m;
+  if (hand) subject_.side_m = hand->side_m;
+  progress_.hand = hand;
   progress_.changes = {{.choice = usual_}};
   begin_frame();
 }
 
-LiveScan::LiveScan(ScanSubject subject, const ScanProgress& progress) : subject_(std::move(subject)) {
+LiveScan::LiveScan(ScanSubject subject, const ScanProgress& progress, std::span<const scene::TipSample> samples)
+    : subject_(std::move(subject)) {
   usual_.tip_radius_m = subject_.tip_radius_m;
+  if (progress.hand) subject_.side_m = progress.hand->side_m;
   progress_ = progress;
   progress_.pixel = 0;
+  if (is_painted()) {
+    begin_frame();
+    for (const scene::TipSample& sample : samples) {
+      if (sample.tick <= progress.hand->first_tick + progress.pixel) follow_hand(sample);
+    }
+    progress_.pixel = progress.pixel;
+    return;
+  }
   // the frame before the newest is still seen below the tip
   for (std::uint32_t frame = progress.frame - std::min(progress.frame, 1U); frame <= progress.frame; ++frame) {
     progress_.frame = frame;
@@ -46,8 +62,14 @@ LiveScan::LiveScan(ScanSubject subject, const ScanProgress& progress) : subject_
 bool LiveScan::valid(const ScanProgress& progress) {
   const auto& changes = progress.changes;
   const auto later = [](const ScanChange& a, const ScanChange& b) { return !precedes(a, b.frame, b.pixel); };
-  return progress.frame <= kMostFrames && progress.pixel <= kPixelsOfFrame && !changes.empty() &&
-         changes.size() <= kMostChanges && std::adjacent_find(changes.begin(), changes.end(), later) == changes.end() &&
+  const std::optional<HandPart>& hand = progress.hand;
+  if (hand && !(hand->side_m >= kNarrowestM && hand->side_m <= kWidestM)) return false;
+  const bool painted = hand && hand->paints;
+  if (progress.frame > (painted ? 0 : kMostFrames) || progress.pixel > (painted ? kMostTicks : kPixelsOfFrame)) {
+    return false;
+  }
+  return !changes.empty() && changes.size() <= kMostChanges &&
+         std::adjacent_find(changes.begin(), changes.end(), later) == changes.end() &&
          std::all_of(changes.begin(), changes.end(), [](const ScanChange& c) { return is_valid(c.choice); });
 }
 
@@ -72,6 +94,7 @@ void LiveScan::begin_frame() {
   area.width = area.height = physics::Length(subject_.side_m);
   area.columns = area.rows = kPixels;
   scanner_.emplace(area, settings_of(applied_, subject_.adhesion_n), traced_, progress_.frame + 1);
+  if (is_painted()) loop_.emplace(scanner_->settings(), physics::Time(kLoopTickS), progress_.frame + 1);
 }
 
 void LiveScan::apply(const ScanChoice& choice) {
@@ -81,6 +104,7 @@ void LiveScan::apply(const ScanChoice& choice) {
   }
   applied_ = choice;
   scanner_->change(settings_of(choice, subject_.adhesion_n));
+  if (loop_) loop_->change(scanner_->settings(), physics::Time(kLoopTickS));
 }
 
 // False at the end of the frame.
@@ -112,7 +136,86 @@ void LiveScan::take_until(std::uint32_t pixel) {
   }
 }
 
+void LiveScan::follow_hand(const scene::TipSample& sample) {
+  if (!is_painted() || sample.tick <= progress_.hand->first_tick) return;
+  const std::uint64_t tick = std::min<std::uint64_t>(sample.tick - progress_.hand->first_tick, kMostTicks);
+  // changed before this tick
+  const auto& changes = progress_.changes;
+  const auto after = std::find_if(changes.begin() + 1, changes.end(), [&](const auto& c) { return c.pixel >= tick; });
+  if (const ScanChoice& choice = (after - 1)->choice; choice != applied_) apply(choice);
+  progress_.pixel = static_cast<std::uint32_t>(tick);
+  const bool on_sample = sample.phase == physics::Phase::Attached;
+  const bool no_force =
+      sample.servo_state == scene::ServoState::Disarmed || sample.servo_state == scene::ServoState::Fault;
+  feedback_taken_ = feedback_taken_ || !on_sample || no_force;
+  if (!on_sample || !feedback_taken_) return brush_.reset();
+  paint(sample);
+}
+
+// The height of the sample below the tip, which drifts and may have a second apex.
+double LiveScan::below_m(double x_m, double y_m, double seconds) const {
+  const double x = x_m - applied_.drift_m_per_s * seconds, y = y_m - applied_.drift_m_per_s * seconds;
+  const physics::ScanSettings& settings = scanner_->settings();
+  const double distance_m = settings.second_apex_distance.si;
+  const double first_m = traced_(x, y);
+  return distance_m > 0.0 ? std::max(first_m, traced_(x + distance_m, y) - settings.second_apex_height.si) : first_m;
+}
+
+void LiveScan::paint(const scene::TipSample& sample) {
+  const auto [x_m, y_m] = sample.surface.xy_m;
+  const double right = x_m / subject_.side_m + 0.5, down = 0.5 - y_m / subject_.side_m;
+  if (!(right >= 0.0 && right < 1.0 && down >= 0.0 && down < 1.0)) return brush_.reset();
+  if (!painting_since_ns_) painting_since_ns_ = sample.time_ns;
+  const double height_m = below_m(x_m, y_m, 1e-9 * static_cast<double>(sample.time_ns - *painting_since_ns_));
+  const std::size_t column = static_cast<std::size_t>(right * kPixels), row = static_cast<std::size_t>(down * kPixels);
+  if (!brush_) {
+    loop_->engage(height_m);
+    brush_ = {.time_ns = sample.time_ns, .below_m = height_m, .column = column, .row = row};
+  }
+  const double passed_s = 1e-9 * static_cast<double>(sample.time_ns - brush_->time_ns);
+  const auto ticks = std::llround(std::clamp(passed_s, 0.0, kLongestTickS) / kLoopTickS);
+  for (std::int64_t i = 1; i <= ticks; ++i) {
+    loop_->tick(std::lerp(brush_->below_m, height_m, static_cast<double>(i) / static_cast<double>(ticks)));
+  }
+  const auto [along_x_n, along_y_n] = sample.lateral_force_n;
+  if (progress_.hand->feedback) {
+    color_way(column, row, {loop_->topography_m(), loop_->deflection_m() - loop_->setpoint_m(), along_x_n, along_y_n});
+  } else {
+    color_way(column, row, {sample.surface.height_m + sample.tip.z_m, -sample.tip.deflection_m, along_x_n, along_y_n});
+  }
+  force_n_ = loop_->force_n();
+  brush_ = {.time_ns = sample.time_ns, .below_m = height_m, .column = column, .row = row};
+  hand_row_ = row;
+}
+
+// Height, deflection and lateral forces, from the tick before to this one.
+void LiveScan::color_way(std::size_t column, std::size_t row, const std::array<double, 4>& values) {
+  const std::array<std::vector<double>*, 4> maps{&maps_.height_m[0], &maps_.height_m[1], &maps_.lateral_n[0],
+                                                 &maps_.lateral_n[1]};
+  const auto way = [](std::size_t from, std::size_t to) { return static_cast<double>(to) - static_cast<double>(from); };
+  const double columns = way(brush_->column, column), rows = way(brush_->row, row);
+  const double steps = std::max({std::abs(columns), std::abs(rows), 1.0});
+  for (double step = 1.0; step <= steps; ++step) {
+    const auto at = [&](std::size_t from, double along) {
+      const auto pixel = static_cast<std::size_t>(std::lround(static_cast<double>(from) + along * step / steps));
+      return pixel / kCell * kCell;
+    };
+    const std::size_t left = at(brush_->column, columns), top = at(brush_->row, rows);
+    for (std::size_t pixel = 0; pixel < kCell * kCell; ++pixel) {
+      const std::size_t place = (top + pixel / kCell) * kPixels + left + pixel % kCell;
+      for (std::size_t map = 0; map < maps.size(); ++map) (*maps[map])[place] = values[map];
+    }
+  }
+}
+
+double LiveScan::seen_share() const {
+  const auto seen = std::count_if(maps_.height_m[0].begin(), maps_.height_m[0].end(),
+                                  [](double height_m) { return std::isfinite(height_m); });
+  return static_cast<double>(seen) / static_cast<double>(maps_.height_m[0].size());
+}
+
 void LiveScan::advance(double seconds) {
+  if (is_painted()) return find_truth();
   owed_s_ = std::min(owed_s_ + std::max(seconds, 0.0), kMostCatchUpS);
   while (owed_s_ > 0.0) {
     const double before_s = scanner_->time().si;
@@ -171,11 +274,15 @@ void LiveScan::reset() {
   if (choice() != usual_) change_to(usual_);
 }
 
-std::size_t LiveScan::row() const { return std::min(std::size_t{progress_.pixel} / (2 * kPixels), kPixels - 1); }
+std::size_t LiveScan::row() const {
+  if (is_painted()) return hand_row_;
+  return std::min(std::size_t{progress_.pixel} / (2 * kPixels), kPixels - 1);
+}
 
 glm::dvec3 LiveScan::apex_m() const { return {scanner_->x_m(), scanner_->y_m(), scanner_->z_m()}; }
 
 std::optional<std::size_t> LiveScan::newest_row() const {
+  if (is_painted()) return painting_since_ns_ ? std::optional(hand_row_) : std::nullopt;
   const std::size_t whole = std::size_t{progress_.pixel} / (2 * kPixels);
   if (whole > 0) return whole - 1;
   return progress_.frame > 0 ? std::optional(kPixels - 1) : std::nullopt;

@@ -49,6 +49,7 @@ double relief_m(const LiveScan& scan) {
 }  // namespace
 
 physics::ScanArtefact cause_of(const LiveScan& scan) {
+  if (scan.is_painted()) return ScanArtefact::None;                                  // a hand does not keep to lines
   if (scan.progress().frame == 0 && scan.row() < kLines) return ScanArtefact::None;  // too little to judge
   const ScanChoice& now = scan.choice();
   const physics::ScanSettings settings = settings_of(now, scan.subject().adhesion_n);

@@ -147,6 +147,53 @@ void add_truth(const ScanTruth& truth, const std::vector<double>& trace_m, const
                                  .points = nanometres(truth.revealed_tip)});
 }
 
+Range range_of(const std::vector<double>& map) { return range_of(map, {}); }
+
+// What a hand has painted: on the left what it sees, on the right what it keeps still. Cells that it has not visited
+// have no colour.
+render::ImagePanel painted_panel(const LiveScan& scan, const std::string& sample, const Phrases& phrases) {
+  const ScanMaps& maps = scan.maps();
+  const bool feedback = scan.progress().hand->feedback;
+  const double side_nm = scan.subject().side_m * 1e9;
+  const Range heights = at_least(range_of(maps.height_m[0]), kLeastRangeM);
+  const Range deflections = at_least(range_of(maps.height_m[1]), kLeastRangeM);
+  const Range x = at_least(range_of(maps.lateral_n[0]), kLeastForceN);
+  const Range y = at_least(range_of(maps.lateral_n[1]), kLeastForceN);
+  const Range& seen = feedback ? heights : deflections;
+
+  render::ImagePanel panel;
+  panel.title = phrases.text<Phrase::ScanTitle>(sample);
+  const std::string side = fmt::format("{:.3g} nm", side_nm), percent = fmt::format("{:.0f}", 100 * scan.seen_share());
+  panel.subtitle =
+      feedback ? phrases.text<Phrase::ScanByHand>(side, percent) : phrases.text<Phrase::ScanByHandOpen>(side, percent);
+  panel.decimal_mark = phrases.decimal_mark();
+  const render::ImageMap height{phrases[feedback ? Phrase::ScanHeight : Phrase::ScanHandHeight],
+                                colored(maps.height_m[0], heights, height_colour)};
+  const render::ImageMap deflection{phrases[Phrase::ScanDeflection],
+                                    colored(maps.height_m[1], deflections, height_colour)};
+  panel.heights = {feedback ? height : deflection, feedback ? deflection : height};
+  panel.smaller = {{phrases.text<Phrase::ScanLateralX>(nanonewtons(x)), colored(maps.lateral_n[0], x, grey)},
+                   {phrases.text<Phrase::ScanLateralY>(nanonewtons(y)), colored(maps.lateral_n[1], y, grey)}};
+  const double high_nm = (seen.high - seen.low) * 1e9;
+  panel.profile = {.title = phrases[Phrase::ScanNewestLine],
+                   .low = {0.0, -0.06 * high_nm},
+                   .high = {side_nm, 1.30 * high_nm},
+                   .lines = {}};
+  if (const auto row = scan.newest_row()) {
+    panel.profile.lines = {{.label = panel.heights[0].title,
+                            .color = kTraceColor,
+                            .dashed = false,
+                            .points = line_of(maps.height_m[feedback ? 0 : 1], *row, side_nm, seen.low)}};
+    panel.line = (static_cast<double>(*row) + 0.5) / static_cast<double>(LiveScan::kPixels);
+  }
+  panel.side_nm = side_nm;
+  panel.scale_bar_nm = scale_bar(side_nm, 0.30).length_m;
+  panel.bar_low_nm = 0.0;
+  panel.bar_high_nm = high_nm;
+  for (const Srgb& c : kHeightColours) panel.bar.push_back(glm::vec3(c[0], c[1], c[2]) / 255.0F);
+  return panel;
+}
+
 // In the order of ScanRow.
 constexpr std::array<Phrase, 7> kRowNames{Phrase::ScanSetpoint,  Phrase::ScanGain,  Phrase::ScanRate,
                                           Phrase::TipRadius,     Phrase::ScanNoise, Phrase::ScanDrift,
@@ -160,6 +207,7 @@ bool hand_uses_tip(physics::Phase phase, scene::ServoState state) {
 }  // namespace
 
 render::ImagePanel image_panel(const LiveScan& scan, const std::string& sample, const Phrases& phrases) {
+  if (scan.is_painted()) return painted_panel(scan, sample, phrases);
   const ScanMaps& maps = scan.maps();
   const double side_nm = scan.subject().side_m * 1e9;
   const Range heights = at_least(range_of(maps.height_m[0], maps.height_m[1]), kLeastRangeM);
@@ -214,6 +262,7 @@ void show_scan(const LiveScan& scan, Moment& moment) {
   WallState& wall = moment.wall;
   wall.scan = true;
   moment.scan = &scan;
+  if (scan.is_painted()) return;  // the hand has the tip
   const glm::dvec3 apex_m = scan.apex_m();
   constexpr int kSamples = 64;
   const double half_m = 0.5 * scan.subject().side_m;
@@ -222,7 +271,7 @@ void show_scan(const LiveScan& scan, Moment& moment) {
     highest_m = std::max(highest_m, scan.surface_m(half_m * (2.0 * i / kSamples - 1.0), apex_m.y));
   }
   wall.scan_line = {glm::dvec3(-half_m, apex_m.y, highest_m), glm::dvec3(half_m, apex_m.y, highest_m)};
-  if (hand_uses_tip(moment.phase, moment.servo_state)) return;
+  if (!scan.progress().hand && hand_uses_tip(moment.phase, moment.servo_state)) return;
   wall.surface = {.xy_m = {apex_m.x, apex_m.y}, .height_m = apex_m.z};
   const double deflection_m = -scan.force_n() / settings_of(scan.choice(), 0.0).spring_constant.si;
   wall.tip = {.z_m = deflection_m, .force_n = scan.force_n(), .height_m = 0.0, .deflection_m = deflection_m};

@@ -13,6 +13,7 @@
 
 #include "core/result.h"
 #include "haptics/device.h"
+#include "haptics/energy_tank.h"
 #include "haptics/felt_friction.h"
 #include "haptics/passivity_observer.h"
 #include "haptics/potential_energy.h"
@@ -36,6 +37,14 @@ double largest_curvature_per_m(const Scaling& fit, const DeviceSpec& device);
 core::Result<std::shared_ptr<const physics::LawTables>> build_tables(
     const scene::SharedContact& material, std::span<const scene::SharedMeasuredCurve> curves);
 
+// A scan's feedback, which moves the tip up and down in the hand's place (scene::ScanLead).
+struct ScanFeedback {
+  bool on = false;
+  double gain_per_s = 0;
+  double elapsed_s = 0;       // since the step before
+  bool without_force = true;  // no hand feels a step
+};
+
 // One step of the tip over the sample; places and forces in the sample's frame.
 struct Touch {
   physics::TipResponse response;
@@ -45,6 +54,7 @@ struct Touch {
   double surface_height_m = 0;
   glm::dvec3 normal{0.0, 0.0, 1.0};  // of the surface below the tip, unit
   glm::dvec3 hand_force_n{0.0};      // for the hand
+  double level_given_j = 0;          // on the hand: by the feedback's motion
 };
 
 // One material under the tip, as the hand meets it: its law of force, its surface, and its scales.
@@ -54,6 +64,12 @@ struct Touch {
 // on a branch of the law, and the jumps have the law's forces wherever they happen. Sideways a hand's metre is as many
 // metres of the nanoworld as along z, or fewer on the scale Atoms, on which the slopes are as much flatter. Friction
 // (haptics/felt_friction.h) comes on top of that and takes energy.
+//
+// Under a scan's feedback (ScanFeedback) the sample is felt level: the loop, z' = gain (h - z), takes the heights away
+// before the hand meets them. What it has not yet followed is felt, kMostResidualM of the hand at most: the residual
+// deflection. Friction is felt as before, slopes are not. The loop moves by itself, so what it adds to the potential
+// comes from an EnergyTank, full whenever the tip leaves the sample; where that is empty the felt residual waits.
+// Feedback begins and ends where no hand feels a step: with the tip off the sample, or without force.
 //
 // create() takes milliseconds (on a topography, tenths of a second) and allocates; the rest is for a tick of the servo.
 class ContactModel {
@@ -67,8 +83,11 @@ class ContactModel {
                                                             const scene::FeltHeights& drawn, const CommonScale& common,
                                                             const DeviceSpec& device, std::int64_t period_ns);
 
+  static constexpr double kMostResidualM = 0.001;
+
   // `hand_m`: from the device's contact point, along the sample's axes.
-  Touch step(const glm::dvec3& hand_m) noexcept;
+  Touch step(const glm::dvec3& hand_m, const ScanFeedback& feedback = {}) noexcept;
+  bool is_level() const noexcept { return level_; }  // under a scan's feedback, in the newest step
   void wait_for_lift() noexcept;
   physics::Phase phase() const noexcept;
   double slow_motion() const noexcept { return slow_motion_; }  // as in scene::ActiveContact
@@ -98,6 +117,9 @@ class ContactModel {
                std::uint32_t edit_revision);
 
   physics::TipResponse step_law(physics::Length z) noexcept;
+  bool may_change_level(double hand_z_m, double height_m, const ScanFeedback& feedback) const noexcept;
+  void follow_surface(double hand_z_m, double height_m, const ScanFeedback& feedback, Touch& touch) noexcept;
+  double attached_j(double z_m) const noexcept;
   double stiffness_n_per_m() const noexcept;
 
   Model model_;  // never without a value, so that visiting it cannot throw
@@ -111,6 +133,10 @@ class ContactModel {
   std::shared_ptr<const physics::LawTables> tables_;  // at rest
   scene::ScaleMode mode_ = scene::ScaleMode::Fit;
   double slow_motion_;
+  bool level_ = false;
+  double loop_m_ = 0;      // the height that the feedback has followed
+  double residual_m_ = 0;  // that is felt of what it has not
+  EnergyTank tank_;        // of its motion
   std::uint32_t edit_revision_;
 };
 

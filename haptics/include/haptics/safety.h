@@ -47,6 +47,8 @@ struct GovernorInput {
   RendererLink renderer = RendererLink::Absent;
   PassivityObserver::Law law_energy;  // at this height in this phase
   bool sample_moved = false;          // since the tick before, by another hand, whose work is not this one's
+  bool led = false;                   // by a scan (haptics/scan_guide.h); the law of force is silent then
+  double damping_n_s_per_m = 0;       // that is asked for
 };
 
 // The last thing between a force law and a hand. Owns the servo's state (haptics/safety_states.h) and is the only maker
@@ -103,6 +105,7 @@ class SafetyGovernor {
     double law_gain = 0;
     double stop_gain = 0;
     physics::Phase phase = physics::Phase::WaitForLift;
+    bool led = false;
     PassivityObserver::Law law;
     double stop_stored_j = 0;
   };

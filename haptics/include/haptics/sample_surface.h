@@ -44,6 +44,9 @@ class SampleSurface {
   // Wait-free, for a tick of the servo, wherever the tip is.
   Place at(const glm::dvec2& xy_m) const noexcept;
 
+  // True for a place that is no farther out than the rim; a plane has none.
+  bool covers(const glm::dvec2& xy_m) const noexcept;
+
   // Bounds of the length of the slope and of the norm of its derivative, anywhere.
   double steepest_slope() const noexcept;
   double largest_curvature_per_m() const noexcept;

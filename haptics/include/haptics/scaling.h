@@ -61,6 +61,9 @@ class Scaling {
   // `period_m`: of the lattice, 0 for none.
   static core::Result<Scaling> atoms(const physics::LawTables& tables, const DeviceSpec& device, double period_m);
 
+  // Metres of hand sideways for a metre of the nanoworld, on a scale that has so many along the normal.
+  static double lateral_m_per_m(scene::ScaleMode mode, double hand_m_per_m, double period_m) noexcept;
+
   // `scale`, or less of it where this material alone would not suit the device: one that was changed since the scale
   // was made. Faint forces stay faint.
   static core::Result<Scaling> common(const physics::LawTables& tables, const DeviceSpec& device,

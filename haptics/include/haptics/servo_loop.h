@@ -18,6 +18,7 @@
 #include "haptics/realtime.h"
 #include "haptics/safety.h"
 #include "haptics/sample_axes.h"
+#include "haptics/scan_guide.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::haptics {
@@ -78,7 +79,17 @@ class ServoLoop {
             HapticDevice& device, const ServoSettings& settings, std::vector<std::unique_ptr<ContactModel>> models,
             const CommonScale& common);
 
+  // What sample and scan want to do with the hand in this tick.
+  struct Wanted {
+    glm::dvec3 force_n{0.0};  // device frame
+    double hand_height_m = 0;
+    PassivityObserver::Law energy;
+    bool led = false;
+  };
+
   void read_shared_blocks(std::int64_t now_ns) noexcept;
+  Wanted meet_sample(std::int64_t elapsed_ns) noexcept;
+  std::optional<ScanGuide::Target> guide_target() const noexcept;
   void change_model() noexcept;
   void select_material(std::size_t material, scene::ScaleMode mode) noexcept;
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
@@ -98,6 +109,9 @@ class ServoLoop {
 
   ContactModel* model_ = nullptr;  // of the material under the tip, null before the first choice
   scene::Selection chosen_;        // the newest choice, perhaps not in effect yet
+  scene::ScanLead newest_scan_;
+  scene::ScanLead scan_;  // in effect in this tick
+  ScanGuide guide_;
   SampleAxes sample_;
   bool sample_moved_ = false;  // in this tick
   PositionCheck position_check_;

@@ -141,22 +141,70 @@ ContactModel::ContactModel(Model model, SampleSurface surface, std::optional<Fel
       slow_motion_(std::visit([](const auto& m) { return slow_motion_of(m); }, model_)),
       edit_revision_(edit_revision) {}
 
-Touch ContactModel::step(const glm::dvec3& hand_m) noexcept {
+Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback) noexcept {
   const Scaling& scale = scaling();
   Touch touch;
   touch.tip_xy_m = glm::dvec2(hand_m) / scale.lateral_m_per_m();
-  const SampleSurface::Place below = surface_.at(touch.tip_xy_m);
+  SampleSurface::Place below = surface_.at(touch.tip_xy_m);
   touch.surface_height_m = below.height_m;
   touch.z_m = scale.z_m(hand_m.z) - below.height_m;
+  if (feedback.on != level_ && may_change_level(scale.z_m(hand_m.z), below.height_m, feedback)) level_ = feedback.on;
+  if (level_) {
+    follow_surface(scale.z_m(hand_m.z), below.height_m, feedback, touch);
+    below.slope = glm::dvec2(0.0);
+  }
   touch.response = step_law(physics::Length(touch.z_m));
   touch.normal = glm::normalize(glm::dvec3(-below.slope, 1.0));
   const glm::dvec3 gradient(-below.slope * scale.flattening(), 1.0);
   touch.hand_force_n = scale.hand_force_n(touch.response.force.si) * gradient;
   if (friction_) {
-    touch.friction = friction_->step(touch.tip_xy_m, touch.z_m, below, touch.response, scale);
+    // the loop keeps the load
+    const double load_z_m = level_ ? scale.z_m(hand_m.z) : touch.z_m;
+    touch.friction = friction_->step(touch.tip_xy_m, load_z_m, below, touch.response, scale);
     touch.hand_force_n += touch.friction.hand_force_n;
   }
   return touch;
+}
+
+// Nothing is felt when the tip is off the sample before and after.
+bool ContactModel::may_change_level(double hand_z_m, double height_m, const ScanFeedback& feedback) const noexcept {
+  const double release_z_m = scaling().release_z_m();
+  const bool off = phase() == physics::Phase::Free && hand_z_m > release_z_m && hand_z_m - height_m > release_z_m;
+  return feedback.without_force || off || phase() == physics::Phase::WaitForLift;
+}
+
+// The loop follows the surface while the tip is on it; elsewhere it is where the surface is.
+void ContactModel::follow_surface(double hand_z_m, double height_m, const ScanFeedback& feedback,
+                                  Touch& touch) noexcept {
+  if (phase() != physics::Phase::Attached) {
+    loop_m_ = height_m;
+    residual_m_ = 0.0;
+    tank_.fill();
+    touch.z_m = hand_z_m;
+    return;
+  }
+  tank_.refill(feedback.elapsed_s);
+  loop_m_ += -std::expm1(-feedback.gain_per_s * feedback.elapsed_s) * (height_m - loop_m_);
+  const double most_m = kMostResidualM / scaling().hand_m_per_m();
+  const double next_m = std::clamp(height_m - loop_m_, -most_m, most_m);
+  const double given_j = attached_j(hand_z_m - next_m) - attached_j(hand_z_m - residual_m_);
+  if (given_j <= tank_.held_j()) {
+    tank_.take(given_j);
+    residual_m_ = next_m;
+    touch.level_given_j = given_j;
+  }
+  touch.z_m = hand_z_m - residual_m_;
+}
+
+// The potential on the attached branch, on the hand.
+double ContactModel::attached_j(double z_m) const noexcept {
+  const double stored_j = stored_energy().at(physics::Phase::Attached, scaling().hand_height_m(z_m));
+  const auto* model = std::get_if<physics::ApproachRetractModel>(&model_);
+  if (model == nullptr) return stored_j;
+  // the potential is that of the attached branch, and where the tip jumps to contact all is that of the free one
+  const physics::Length in = tables_->figures.z_jtc;
+  return stored_j + (turn_energy_j(*tables_, scaling(), physics::Length(z_m), model->lowest_z()) -
+                     turn_energy_j(*tables_, scaling(), in, in));
 }
 
 // Of F (-slope, 1): the law's stiffness along the steepest way, and the strongest force on the most bent place.
@@ -186,17 +234,13 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
   PassivityObserver::Law law{.stiffness_n_per_m = stiffness_n_per_m(),
                              .is_dynamic = std::holds_alternative<physics::DynamicModel>(model_)};
   if (touch.response.phase == physics::Phase::WaitForLift) return law;
-  law.stored_j = stored_energy().at(touch.response.phase, scaling().hand_height_m(touch.z_m));
-  if (const auto* model = std::get_if<physics::ApproachRetractModel>(&model_); model != nullptr && attached) {
-    // the potential is that of the attached branch, and where the tip jumps to contact all is that of the free one
-    const physics::Length in = tables_->figures.z_jtc;
-    law.stored_j += turn_energy_j(*tables_, scaling(), physics::Length(touch.z_m), model->lowest_z()) -
-                    turn_energy_j(*tables_, scaling(), in, in);
-  }
+  law.stored_j =
+      attached ? attached_j(touch.z_m) : stored_energy().at(touch.response.phase, scaling().hand_height_m(touch.z_m));
   if (friction_) {
     law.stored_j += friction_->stored_j(scaling());
     law.given_j = touch.friction.given_j;
   }
+  if (level_) law.given_j += touch.level_given_j;
   if (law.is_dynamic) {
     const auto& branch = attached ? tables_->attached : tables_->free;
     const double at_rest_n = scaling().hand_force_n(branch.force(physics::Length(touch.z_m)).si);

@@ -225,6 +225,11 @@ SampleSurface::Place SampleSurface::at(const glm::dvec2& xy_m) const noexcept {
 }
 
 // The slopes of a spline are averages of its controls' differences, and their derivatives of second differences.
+bool SampleSurface::covers(const glm::dvec2& xy_m) const noexcept {
+  return columns_ == 0 ||
+         (std::abs(xy_m.x) <= 0.5 * spacing_m_ * (columns_ - 1) && std::abs(xy_m.y) <= 0.5 * spacing_m_ * (rows_ - 1));
+}
+
 double SampleSurface::steepest_slope() const noexcept {
   double steepest_x = 0, steepest_y = 0;
   for (int row = 0; row < rows_; ++row) {

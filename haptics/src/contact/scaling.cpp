@@ -193,8 +193,13 @@ core::Result<Scaling> Scaling::atoms(const physics::LawTables& tables, const Dev
   auto scaling = fit(tables, device);
   if (!scaling) return scaling;
   scaling->mode_ = scene::ScaleMode::Atoms;
-  scaling->lateral_m_per_m_ = std::max(scaling->hand_m_per_m_, kAtomM / (period_m > 0.0 ? period_m : kUsualPeriodM));
+  scaling->lateral_m_per_m_ = lateral_m_per_m(scene::ScaleMode::Atoms, scaling->hand_m_per_m_, period_m);
   return scaling;
+}
+
+double Scaling::lateral_m_per_m(scene::ScaleMode mode, double hand_m_per_m, double period_m) noexcept {
+  if (mode != scene::ScaleMode::Atoms) return hand_m_per_m;
+  return std::max(hand_m_per_m, kAtomM / (period_m > 0.0 ? period_m : kUsualPeriodM));
 }
 
 double Scaling::common_zero_m(const DeviceSpec& device) noexcept {

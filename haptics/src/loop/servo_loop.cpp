@@ -17,6 +17,7 @@ namespace {
 constexpr double kSlowestHz = 100.0;
 constexpr double kFastestHz = 10'000.0;
 constexpr std::uint64_t kTimingStoresPerSecond = 5;
+constexpr std::int64_t kMostTicksOfMotion = 3;  // that what moves by itself makes up for
 
 void count(std::array<std::uint32_t, scene::kHistogramBins>& bins, std::uint32_t& largest, std::uint32_t us) {
   ++bins[std::min<std::uint32_t>(us, scene::kHistogramBins - 1)];
@@ -105,6 +106,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
              {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count},
              std::move(topography), common, spec_, period_ns_, exchange_),
       governor_(safety_limits(spec_, period_ns_, Scaling::kStrokeM, settings.dead_man)),
+      guide_(spec_),
       position_check_(spec_.measures),
       hand_position_m_(spec_.contact_point_m) {
   shared_.store(shared(spec_));
@@ -140,14 +142,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   }
   turn_on_ = hand.turn_on;
 
-  touch_ = {};
-  double height_m = glm::dot(hand_from_contact_m_, sample_.normal());
-  PassivityObserver::Law law_energy;
-  if (model_ != nullptr) {
-    touch_ = model_->step(sample_.in_sample(hand_from_contact_m_));
-    height_m = model_->scaling().hand_height_m(touch_.z_m);
-    law_energy = model_->energy(touch_);
-  }
+  const Wanted wanted = meet_sample(elapsed_ns);
   bool pulled_off = false;
   for (std::uint32_t i = 0; i < touch_.response.event_count; ++i) {
     pulled_off = pulled_off || touch_.response.events[i].kind == physics::EventKind::JumpOffContact;
@@ -157,16 +152,18 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   renderer_ = renderer_link(now_ns);
   const auto output = governor_.step({.time_ns = now_ns,
                                       .hand_position_m = hand.position_m - spec_.contact_point_m,
-                                      .wanted_force_n = sample_.in_device(touch_.hand_force_n),
-                                      .hand_height_m = height_m,
+                                      .wanted_force_n = wanted.force_n,
+                                      .hand_height_m = wanted.hand_height_m,
                                       .phase = touch_.response.phase,
                                       .pulled_off = pulled_off,
                                       .turn_on = hand.turn_on,
                                       .device_healthy = hand.healthy,
                                       .motor_heat = hand.motor_heat,
                                       .renderer = renderer_,
-                                      .law_energy = law_energy,
-                                      .sample_moved = std::exchange(sample_moved_, false)});
+                                      .law_energy = wanted.energy,
+                                      .sample_moved = std::exchange(sample_moved_, false),
+                                      .led = wanted.led,
+                                      .damping_n_s_per_m = wanted.led ? ScanGuide::kDampingNSPerM : 0.0});
   device_.write(output.command);
   if (output.dropped && model_ != nullptr) model_->wait_for_lift();
 
@@ -176,6 +173,43 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   publish(now_ns, wake_us);
   previous_ns_ = now_ns;
   change_model();
+}
+
+// While the scan leads the hand, the law of force is silent and waits for a lift.
+ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
+  touch_ = {};
+  Wanted wanted{.hand_height_m = glm::dot(hand_from_contact_m_, sample_.normal()), .energy = {}};
+  if (model_ == nullptr) return wanted;
+  const double elapsed_s = 1e-9 * static_cast<double>(std::min(elapsed_ns, kMostTicksOfMotion * period_ns_));
+  const ScanGuide::Pull pull = guide_.step({.hand_m = hand_from_contact_m_,
+                                            .target = guide_target(),
+                                            .force_on = governor_.state() == scene::ServoState::Running,
+                                            .turn_on = turn_on_ && device_healthy_,
+                                            .elapsed_s = elapsed_s});
+  if (pull.leads) model_->wait_for_lift();
+  touch_ = model_->step(sample_.in_sample(hand_from_contact_m_),
+                        {.on = scan_.hand == scene::ScanHand::Scans && scan_.feedback != 0,
+                         .gain_per_s = scan_.gain_per_s,
+                         .elapsed_s = elapsed_s,
+                         .without_force = governor_.released()});
+  wanted = {.force_n = sample_.in_device(touch_.hand_force_n),
+            .hand_height_m = model_->scaling().hand_height_m(touch_.z_m),
+            .energy = model_->energy(touch_),
+            .led = pull.leads};
+  if (!pull.leads) return wanted;
+  wanted.force_n = pull.force_n;
+  wanted.energy = {.stored_j = pull.stored_j, .stiffness_n_per_m = pull.stiffness_n_per_m, .given_j = pull.given_j};
+  return wanted;
+}
+
+// Where the scan's tip is for the hand. A hand that feels the sample is not taken off it.
+std::optional<ScanGuide::Target> ServoLoop::guide_target() const noexcept {
+  const glm::dvec2 apex_m(scan_.apex_xy_m[0], scan_.apex_xy_m[1]);
+  if (scan_.hand != scene::ScanHand::Led || model_->phase() == physics::Phase::Attached) return std::nullopt;
+  if (!model_->surface().covers(apex_m)) return std::nullopt;
+  const Scaling& scaling = model_->scaling();
+  const glm::dvec3 place_m(scaling.lateral_m_per_m() * apex_m, scaling.hand_height_m(scan_.height_m));
+  return ScanGuide::Target{.time_ns = scan_.time_ns, .in_sample_m = place_m, .in_device_m = sample_.in_device(place_m)};
 }
 
 void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
@@ -193,6 +227,10 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
   }
   if (const auto selection = shared_.new_selection()) chosen_ = *selection;
   if (const auto script = shared_.new_hand_script()) device_.follow(*script);
+  if (const auto scan = shared_.new_scan_lead()) newest_scan_ = *scan;
+  const std::int64_t age_ns = now_ns - newest_scan_.time_ns;
+  const bool fresh = age_ns >= 0 && age_ns <= scene::kScanLeadLastsNs;
+  scan_ = fresh && newest_scan_.hand != scene::ScanHand::Apart ? newest_scan_ : scene::ScanLead{};
 }
 
 // The paper's procedure: choose, lift, press Turn-On. A choice waits until the tip is off the sample, then the force is
@@ -226,6 +264,7 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
   model_ = &exchange_.current(material);
   model_->wait_for_lift();
   governor_.forget_motion();
+  guide_.reset();
   changing_ = false;
   model_->use(mode);
   const Scaling& scaling = model_->scaling();
@@ -291,6 +330,8 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   state_.servo_state = governor_.state();
   state_.fault = governor_.fault();
   state_.dead_man = governor_.dead_man() ? 1 : 0;
+  state_.led = guide_.leads() ? 1 : 0;
+  state_.level = model_ != nullptr && model_->is_level() ? 1 : 0;
   state_.acknowledged.refused_edit = edits_.refused();
   state_.garbage_blocks = shared_.refused_blocks() + refused_transforms_;
   shared_.store(state_);
@@ -319,7 +360,8 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                 .motor_heat = state_.safety.motor_heat,
                                 .device_healthy = device_healthy_ ? 1U : 0U,
                                 .changing = changing_ ? 1U : 0U,
-                                .lateral_force_n = {touch_.friction.lateral.x.si, touch_.friction.lateral.y.si}});
+                                .lateral_force_n = {touch_.friction.lateral.x.si, touch_.friction.lateral.y.si},
+                                .scan = scan_});
 }
 
 bool ServoLoop::finished() const noexcept {

@@ -22,7 +22,8 @@ bool is_number(const GovernorInput& input) {
   return std::isfinite(force_n.x) && std::isfinite(force_n.y) && std::isfinite(force_n.z) &&
          is_within_reach(input.hand_position_m) && std::isfinite(input.hand_height_m) &&
          std::isfinite(input.law_energy.stored_j) && std::isfinite(input.law_energy.stiffness_n_per_m) &&
-         std::isfinite(input.law_energy.oscillation_n) && std::isfinite(input.law_energy.given_j);
+         std::isfinite(input.law_energy.oscillation_n) && std::isfinite(input.law_energy.given_j) &&
+         std::isfinite(input.damping_n_s_per_m);
 }
 
 }  // namespace
@@ -117,9 +118,10 @@ SafetyConditions SafetyGovernor::evaluate(const GovernorInput& input, std::int64
 
 // What has passed between the hand and its device since the tick before.
 void SafetyGovernor::observe_energy(const GovernorInput& input) noexcept {
-  const bool fresh = high_and_free(input) && input.time_ns >= damping_until_ns_;
+  const bool fresh = !input.led && high_and_free(input) && input.time_ns >= damping_until_ns_;
   if (!state_.armed() || fresh) observer_.reset();
-  if (!previous_.valid || input.phase == Phase::WaitForLift || input.sample_moved) return;
+  if (!previous_.valid || (input.phase == Phase::WaitForLift && !input.led) || input.sample_moved) return;
+  if (input.led != previous_.led) return;
   if (input.law_energy.is_dynamic && input.phase != previous_.phase) return;
   const double stop_j = output_.stop().stored_j(input.hand_position_m);
   const bool in_stop = stop_j > 0.0 || previous_.stop_stored_j > 0.0;
@@ -171,17 +173,18 @@ FaultCode SafetyGovernor::limit_force(const GovernorInput& input, std::int64_t e
                        .velocity_m_per_s = motion_.velocity_m_per_s(),
                        .arm_gain = gain_,
                        .thermal_gain = motors_.gain(),
-                       .damping_n_s_per_m = std::max(observer_damping_, release_damping),
+                       .damping_n_s_per_m = std::max({observer_damping_, release_damping, input.damping_n_s_per_m}),
                        .slew_n_per_s = slew_n_per_s_,
                        .elapsed_s = period_s,
                        .too_fast = motion_.too_fast() && state_.armed()});
 }
 
 void SafetyGovernor::remember(const GovernorInput& input) noexcept {
-  previous_ = {.valid = state_.armed() && input.phase != Phase::WaitForLift,
+  previous_ = {.valid = state_.armed() && (input.phase != Phase::WaitForLift || input.led),
                .law_gain = gain_ * motors_.gain(),
                .stop_gain = gain_,
                .phase = input.phase,
+               .led = input.led,
                .law = input.law_energy,
                .stop_stored_j = output_.stop().stored_j(input.hand_position_m)};
 }

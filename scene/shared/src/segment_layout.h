@@ -14,11 +14,11 @@ namespace afm::scene {
 inline constexpr std::uint64_t kSegmentMagic = 0x314D46414D464154;  // "TAFMAFM1" in memory
 
 // The sizes of the blocks in this build, in the order of SegmentLayout: two builds that disagree refuse each other.
-using BlockSizes = std::array<std::uint32_t, 11>;
+using BlockSizes = std::array<std::uint32_t, 12>;
 inline constexpr BlockSizes kBlockSizes{sizeof(SharedModel),  sizeof(SceneTransforms), sizeof(Selection),
                                         sizeof(MaterialEdit), sizeof(HandScript),      sizeof(RendererHeartbeat),
                                         sizeof(TipState),     sizeof(TipSample),       sizeof(TipEvent),
-                                        sizeof(ServoTiming),  sizeof(SharedDevice)};
+                                        sizeof(ServoTiming),  sizeof(SharedDevice),    sizeof(ScanLead)};
 
 struct SegmentHeader {
   std::uint64_t magic = kSegmentMagic;
@@ -39,6 +39,7 @@ struct SegmentLayout {
   core::LatestValue<Selection> selection;
   std::array<core::LatestValue<MaterialEdit>, kMaxMaterials> edits;  // of every material the newest
   core::LatestValue<HandScript> hand_script;
+  core::LatestValue<ScanLead> scan_lead;
   core::LatestValue<RendererHeartbeat> heartbeat;
 
   // written by touchafm-servo (of a ring, touchafm writes the tail)

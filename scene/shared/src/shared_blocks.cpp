@@ -245,6 +245,11 @@ bool is_valid(const HandScript& script) {
   return all_sane(script.target_m) && sane(script.duration_s) && script.duration_s >= 0 && script.turn_on_pressed <= 1;
 }
 
+bool is_valid(const ScanLead& lead) {
+  return is_field_valid(lead) && lead.time_ns >= 0 && lead.feedback <= 1 && lead.gain_per_s >= 0 &&
+         lead.gain_per_s <= kMostScanGainPerS;
+}
+
 bool is_valid(const RendererHeartbeat& heartbeat) { return heartbeat.leaving <= 1 && heartbeat.stop <= 1; }
 
 bool is_valid(const SharedDevice& device) {
@@ -259,7 +264,8 @@ bool is_valid(const TipState& state, const SharedModel& model) {
 }
 
 bool is_valid(const TipSample& sample, const SharedModel& model) {
-  return is_field_valid(sample) && sample.device_healthy <= 1 && sample.changing <= 1 && within(sample.material, model);
+  return is_field_valid(sample) && sample.device_healthy <= 1 && sample.changing <= 1 && is_valid(sample.scan) &&
+         within(sample.material, model);
 }
 
 bool is_valid(const TipEvent& event, const SharedModel& model) {

@@ -166,6 +166,7 @@ void RendererSide::store(const MaterialEdit& edit, std::uint32_t material) noexc
   layout_->edits[material].store(edit);
 }
 void RendererSide::store(const HandScript& script) noexcept { layout_->hand_script.store(script); }
+void RendererSide::store(const ScanLead& lead) noexcept { layout_->scan_lead.store(lead); }
 void RendererSide::store(const RendererHeartbeat& heartbeat) noexcept { layout_->heartbeat.store(heartbeat); }
 
 std::optional<TipState> RendererSide::tip_state() noexcept {
@@ -217,6 +218,12 @@ std::optional<HandScript> ServoSide::new_hand_script() noexcept {
   auto script = layout_->hand_script.try_load_newer(seen_script_);
   check(script, refused_);
   return script;
+}
+
+std::optional<ScanLead> ServoSide::new_scan_lead() noexcept {
+  auto lead = layout_->scan_lead.try_load_newer(seen_lead_);
+  check(lead, refused_);
+  return lead;
 }
 
 std::optional<RendererHeartbeat> ServoSide::new_heartbeat() noexcept {

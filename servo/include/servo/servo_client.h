@@ -82,6 +82,9 @@ class ServoClient {
   void place(const scene::SceneTransforms& transforms);
   void script(const scene::HandScript& script);
 
+  // Once a frame of a scan that has to do with the hand; its revision is set here.
+  void lead(const scene::ScanLead& lead);
+
  private:
   ServoClient(scene::SharedSegment segment, const haptics::ServoSettings& settings)
       : settings_(settings), segment_(std::move(segment)), side_(segment_.renderer_side()) {}
@@ -106,6 +109,7 @@ class ServoClient {
   scene::TipState tip_;
   std::optional<Heard> heard_;     // when its tick last changed
   std::uint32_t script_base_ = 0;  // the predecessor's newest script
+  std::uint32_t leads_ = 0;
   std::uint64_t beats_ = 0;
   std::optional<std::int64_t> stopped_ns_;  // when stop() was called last
   std::unique_ptr<Servo> servo_;            // last: it ends before its segment goes

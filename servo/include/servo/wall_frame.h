@@ -52,6 +52,16 @@ struct RecordedScan {
   bool operator==(const RecordedScan&) const = default;
 };
 
+// The part of a hand in that scan. SI.
+struct RecordedHandPart {
+  bool paints = false;
+  bool feedback = false;
+  double side_m = 0;
+  std::uint64_t first_tick = 0;
+
+  bool operator==(const RecordedHandPart&) const = default;
+};
+
 // State of the wall in one frame. With the servo's tick at the same time, it determines the picture. Names are those of
 // the files and of the command line; empty: none.
 struct WallFrame {
@@ -74,6 +84,7 @@ struct WallFrame {
   std::vector<std::array<std::string, 3>> servo_row{};  // name, value, source
   std::optional<RecordedScan> scan{};                   // absent in older sessions
   std::vector<RecordedScanChange> scan_changes{};       // of that scan
+  std::optional<RecordedHandPart> scan_hand{};          // absent in older sessions
 
   bool operator==(const WallFrame&) const = default;
 };

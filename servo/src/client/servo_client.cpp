@@ -133,6 +133,12 @@ void ServoClient::script(const scene::HandScript& script) {
   side_.store(next);
 }
 
+void ServoClient::lead(const scene::ScanLead& lead) {
+  scene::ScanLead next = lead;
+  next.revision = ++leads_;
+  side_.store(next);
+}
+
 // Takes the place of a renderer that died: revisions go on from its own, its edits are undone, and what it left unread
 // is of the past.
 void ServoClient::go_on() {

@@ -114,6 +114,7 @@ class Player {
     const bool changes = index + 1 < session_.samples.size() && session_.samples[index + 1].changing != 0;
     if (changes != (chosen_ != 0)) choose(changes ? 1 : 0);
     turn_to(sample);
+    lead(sample.scan);
     hand_.show(sample, sample.device_healthy != 0);
     loop_->tick(sample.time_ns, sample.wake_us);
     while (const auto event = renderer_.pop_event()) events_.push_back(*event);
@@ -132,6 +133,12 @@ class Player {
   void beat(scene::RendererHeartbeat heartbeat) {
     heartbeat.frame = ++frame_;
     renderer_.store(heartbeat);
+  }
+
+  void lead(const scene::ScanLead& scan) {
+    if (scan == scan_) return;
+    scan_ = scan;
+    renderer_.store(scan);
   }
 
   void choose(std::int32_t material) {
@@ -187,6 +194,7 @@ class Player {
   haptics::SampleAxes axes_;    // as placed last
   std::size_t next_frame_ = 0;  // of the wall, that may turn the sample
   std::uint32_t selection_ = 0;
+  scene::ScanLead scan_;  // as sent last
   TipSample sample_;
   std::vector<TipEvent> events_;
 };

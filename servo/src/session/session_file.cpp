@@ -28,6 +28,7 @@ using scene::TipSample;
 
 constexpr std::uint32_t kVersionOf010 = 3;            // TouchAFM 0.1.0 wrote it
 constexpr std::uint32_t kVersionWithoutFriction = 4;  // as the newest, but for shorter samples
+constexpr std::uint32_t kVersionWithoutScan = 5;      // likewise
 constexpr double kFarthestM = 1e6;
 constexpr double kUnitWithin = 1e-3;
 constexpr double kMostOrders = 9.0;
@@ -101,7 +102,7 @@ std::string read_part(std::string_view payload, std::size_t sample_bytes, Record
   return {};
 }
 
-// Versions 4 and 5. What is wrong, or nothing.
+// Versions 4 to 6. What is wrong, or nothing.
 std::string read_chunks(std::string_view file, std::size_t sample_bytes, RecordedSession& session) {
   SessionDecoder decoder(file);
   nlohmann::json last_frame;
@@ -237,7 +238,9 @@ core::Result<RecordedSession> load_session(const std::string& path) {
     return bad(fmt::format("its version is {}; this program reads versions {} to {}", version, kVersionOf010,
                            kSessionVersion));
   }
-  const std::size_t sample_bytes = version <= kVersionWithoutFriction ? kSampleBytesBefore5 : sizeof(TipSample);
+  const std::size_t sample_bytes = version <= kVersionWithoutFriction ? kSampleBytesBefore5
+                                   : version <= kVersionWithoutScan   ? kSampleBytesBefore6
+                                                                      : sizeof(TipSample);
   RecordedSession session;
   try {
     const std::string wrong =

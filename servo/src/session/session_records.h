@@ -17,10 +17,12 @@ namespace afm::servo {
 
 static_assert(std::endian::native == std::endian::little, "session records are little-endian");
 
-// The records of versions 3 to 5, to the byte. A sample of version 5 ends with the lateral force, which there was not
-// before.
+// The records of versions 3 to 6, to the byte. A sample of version 5 ends with the lateral force and one of version 6
+// with the scan, which there were not before.
 inline constexpr std::size_t kSampleBytesBefore5 = 216;
-static_assert(sizeof(scene::TipSample) == 232 && offsetof(scene::TipSample, lateral_force_n) == kSampleBytesBefore5 &&
+inline constexpr std::size_t kSampleBytesBefore6 = 232;
+static_assert(sizeof(scene::TipSample) == 288 && offsetof(scene::TipSample, scan) == kSampleBytesBefore6 &&
+              offsetof(scene::TipSample, lateral_force_n) == kSampleBytesBefore5 &&
               offsetof(scene::TipSample, tip) == 16 && offsetof(scene::TipSample, hand_height_m) == 56 &&
               offsetof(scene::TipSample, servo_state) == 72 && offsetof(scene::TipSample, hand_from_contact_m) == 104 &&
               offsetof(scene::TipSample, surface) == 176 && offsetof(scene::TipSample, motor_heat) == 200);

@@ -54,6 +54,15 @@ void visit_members(auto&& visit, auto& scan)
   visit("truth", scan.truth);
 }
 
+void visit_members(auto&& visit, auto& part)
+  requires std::same_as<std::remove_cvref_t<decltype(part)>, RecordedHandPart>
+{
+  visit("paints", part.paints);
+  visit("feedback", part.feedback);
+  visit("side_m", part.side_m);
+  visit("first_tick", part.first_tick);
+}
+
 void visit_members(auto&& visit, auto& frame)
   requires std::same_as<std::remove_cvref_t<decltype(frame)>, WallFrame>
 {
@@ -76,11 +85,13 @@ void visit_members(auto&& visit, auto& frame)
   visit("servo_row", frame.servo_row);
   visit("scan", frame.scan);
   visit("scan_changes", frame.scan_changes);
+  visit("scan_hand", frame.scan_hand);
 }
 
 template <class T>
-concept Visited = std::same_as<T, RecordedPose> || std::same_as<T, RecordedWand> ||
-                  std::same_as<T, RecordedScanChange> || std::same_as<T, RecordedScan> || std::same_as<T, WallFrame>;
+concept Visited =
+    std::same_as<T, RecordedPose> || std::same_as<T, RecordedWand> || std::same_as<T, RecordedScanChange> ||
+    std::same_as<T, RecordedScan> || std::same_as<T, RecordedHandPart> || std::same_as<T, WallFrame>;
 
 template <class T>
 constexpr bool kIsList = false;

@@ -149,6 +149,31 @@ struct HandScript {
   std::uint32_t turn_on_pressed = 0;  // 1 while the Turn-On button is held
 };
 
+// What a scan on the wall and the hand have to do with each other.
+enum class ScanHand : std::uint32_t {
+  Apart = 0,  // nothing
+  Led = 1,    // the hand is led along the scan's path by a weak spring
+  Scans = 2,  // the hand is the scanner
+};
+
+// The scan as the hand meets it, once a frame. The servo believes it as long as is_valid() does and it is no older than
+// kScanLeadLastsNs; any other one is Apart.
+struct ScanLead {
+  std::int64_t time_ns = 0;           // CLOCK_MONOTONIC, of the frame
+  std::array<double, 2> apex_xy_m{};  // of the scan's tip, in the sample's frame; of Led alone
+  double height_m = 0;                // likewise
+  double gain_per_s = 0;              // of the integral controller, of Scans with feedback; 0 to kMostScanGainPerS
+  ScanHand hand = ScanHand::Apart;    // Apart: the other fields do not count
+  std::uint32_t feedback = 0;         // 1: the loop moves the tip up and down; of Scans alone
+  std::uint32_t revision = 0;         // grows by one with every one that is sent
+  std::uint32_t padding = 0;
+
+  bool operator==(const ScanLead&) const = default;
+};
+
+inline constexpr std::int64_t kScanLeadLastsNs = 350'000'000;
+inline constexpr double kMostScanGainPerS = 1e6;
+
 struct RendererHeartbeat {
   std::int64_t time_ns = 0;
   std::uint64_t frame = 0;

@@ -19,7 +19,7 @@
 namespace afm::scene {
 
 // Raised whenever the meaning of a block changes; a change of a block's size is noticed by itself.
-inline constexpr std::uint32_t kSegmentVersion = 6;
+inline constexpr std::uint32_t kSegmentVersion = 7;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;
@@ -40,6 +40,7 @@ physics::LawOptions law_options(const SharedContact& material);
 bool is_valid(const SceneTransforms& transforms, const SharedModel& model);
 bool is_valid(const Selection& selection, const SharedModel& model);
 bool is_valid(const HandScript& script);
+bool is_valid(const ScanLead& lead);
 bool is_valid(const RendererHeartbeat& heartbeat);
 bool is_valid(const SharedDevice& device);
 bool is_valid(const TipState& state, const SharedModel& model);
@@ -61,6 +62,7 @@ class RendererSide {
   void store(const Selection& selection) noexcept;
   void store(const MaterialEdit& edit, std::uint32_t material) noexcept;  // material < material_count
   void store(const HandScript& script) noexcept;
+  void store(const ScanLead& lead) noexcept;
   void store(const RendererHeartbeat& heartbeat) noexcept;
 
   // The last value that this side stored, for a process that replaces one that died and must continue its revisions.
@@ -98,6 +100,7 @@ class ServoSide {
   std::optional<SceneTransforms> new_transforms() noexcept;
   std::optional<Selection> new_selection() noexcept;
   std::optional<HandScript> new_hand_script() noexcept;
+  std::optional<ScanLead> new_scan_lead() noexcept;
   std::optional<RendererHeartbeat> new_heartbeat() noexcept;
 
   void store(const TipState& state) noexcept;
@@ -116,6 +119,7 @@ class ServoSide {
   std::uint64_t seen_transforms_ = 0;
   std::uint64_t seen_selection_ = 0;
   std::uint64_t seen_script_ = 0;
+  std::uint64_t seen_lead_ = 0;
   std::uint64_t seen_heartbeat_ = 0;
   std::uint32_t refused_ = 0;
 };

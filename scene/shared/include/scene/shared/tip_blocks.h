@@ -145,6 +145,8 @@ struct TipState {
   std::uint32_t dead_man = 0;        // 1: the force lasts only as long as the button is held
   std::uint32_t realtime = 0;        // 1: SCHED_FIFO and locked pages were granted
   std::uint32_t garbage_blocks = 0;  // shared blocks refused as out of range
+  std::uint32_t led = 0;             // 1: the scan leads the hand
+  std::uint32_t level = 0;           // 1: the hand feels the sample level, as a scan's feedback has it
 };
 
 template <class Visit, std::same_as<TipState>... Record>
@@ -165,8 +167,23 @@ constexpr void for_each_field(Visit&& visit, const Record&... state) {
   visit("dead_man", state.dead_man...);
   visit("realtime", state.realtime...);
   visit("garbage_blocks", state.garbage_blocks...);
+  visit("led", state.led...);
+  visit("level", state.level...);
 }
 static_assert(all_fields_described<TipState>());
+
+template <class Visit, std::same_as<ScanLead>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... lead) {
+  visit("scan_time_ns", lead.time_ns...);
+  visit("scan_apex_m", lead.apex_xy_m...);
+  visit("scan_height_m", lead.height_m...);
+  visit("scan_gain_per_s", lead.gain_per_s...);
+  visit("scan_hand", lead.hand...);
+  visit("scan_feedback", lead.feedback...);
+  visit("scan_revision", lead.revision...);
+  visit("padding", lead.padding...);
+}
+static_assert(all_fields_described<ScanLead>());
 
 // Every tick, for curves and sessions. Its bytes are the record of a session file (servo/session_file.h): another field
 // is another version of that.
@@ -194,6 +211,7 @@ struct TipSample {
   std::uint32_t device_healthy = 1;         // 0: the device failed, and the hand's place is the last known
   std::uint32_t changing = 0;               // 1: another choice, or an edit, has taken the force away
   std::array<double, 2> lateral_force_n{};  // of friction on the lever by the sample, along the sample's x and y
+  ScanLead scan{};                          // in effect in this tick; as by default: none
 };
 
 // Results of the tick: a replay must reproduce them bit for bit.
@@ -226,6 +244,7 @@ constexpr void for_each_input(Visit&& visit, const Record&... sample) {
   visit("motor_heat", sample.motor_heat...);
   visit("device_healthy", sample.device_healthy...);
   visit("changing", sample.changing...);
+  visit("scan", sample.scan...);
 }
 
 template <class Visit, std::same_as<TipSample>... Record>
