@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "core/whole_file.h"
-#include "exhibit/sound/stream_clock.h"
 #include "exhibit/sound/synthesizer.h"
+#include "render/frame.h"
 #include "servo/session_file.h"
 #include "support/live_program.h"
 #include "support/run_program.h"
@@ -101,19 +101,7 @@ class HeardView : public ::testing::Test {
   support::VirtualDisplay display_{640, 480};
 };
 
-// How alike the sound is to a signal from each sample on; both thinned out.
-std::vector<double> likeness(const std::vector<double>& sound, const std::vector<double>& signal) {
-  std::vector<double> alike(sound.size() > signal.size() ? sound.size() - signal.size() : 0);
-  for (std::size_t at = 0; at < alike.size(); ++at) {
-    double product = 0;
-    for (std::size_t i = 0; i < signal.size(); ++i) product += sound[at + i] * signal[i];
-    alike[at] = product;
-  }
-  return alike;
-}
-
 constexpr std::size_t kThin = 8;
-constexpr double kThinRate = exhibit::kSoundRateHz / static_cast<double>(kThin);
 
 std::vector<double> thinned(const std::vector<double>& samples) {
   std::vector<double> thin;
@@ -131,6 +119,20 @@ std::vector<double> signal_of(exhibit::HeardEvent event) {
   std::vector<float> samples(2 * static_cast<std::size_t>(exhibit::row_of(event).signal.length_s() * 48e3));
   synthesizer.add_to(samples);
   return thinned(test::channel(samples, 0));
+}
+
+// How alike a part of the sound and a signal are at best: 1, the same but for the volume.
+double likeness(const std::vector<double>& sound, const std::vector<double>& signal) {
+  double best = 0;
+  for (std::size_t at = 0; at + signal.size() < sound.size(); ++at) {
+    double product = 0, power = 1e-9;
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+      product += sound[at + i] * signal[i];
+      power += sound[at + i] * sound[at + i];
+    }
+    best = std::max(best, product / std::sqrt(power));
+  }
+  return best / (test::rms(signal) * std::sqrt(static_cast<double>(signal.size())));
 }
 
 TEST_F(HeardView, GoesThroughTheWholeProcedureByWhatIsSaidAlone) {
@@ -152,46 +154,15 @@ TEST_F(HeardView, GoesThroughTheWholeProcedureByWhatIsSaidAlone) {
   xdotool("key Escape");
   EXPECT_EQ(live->ends(), 0) << live->said();
 
-  // the same by the sound alone: each jump at its own time, although a frame takes longer than 80 ms
+  // the same by the sound alone, whatever the tone and the voice do meanwhile
   const auto session = servo::load_session(folder_.file("kept/session-mica.afms"));
   ASSERT_TRUE(session.has_value()) << session.error().message;
+  EXPECT_NE(session->find(physics::EventKind::JumpOffContact), nullptr);
   const auto sound = thinned(test::channel(test::floats_of(core::read_file(folder_.file("sound.raw")).value()), 0));
-  struct Jump {
-    std::vector<double> alike;
-    double time_s = 0;
-  };
-  std::vector<Jump> jumps;
-  for (const scene::TipEvent& event : session->events) {
-    const bool in = event.kind == physics::EventKind::JumpToContact;
-    jumps.push_back({likeness(sound, signal_of(in ? exhibit::HeardEvent::SnapIn : exhibit::HeardEvent::PullOff)),
-                     session->seconds_since_start(event.time_ns)});
-  }
-  ASSERT_GE(jumps.size(), 2U);
-  const auto place = [](double time_s) { return static_cast<std::ptrdiff_t>(time_s * kThinRate); };
-  // where the session begins in the sound: where all signals fit best, give or take a frame
-  const auto best_near = [](const std::vector<double>& alike, std::ptrdiff_t from, std::ptrdiff_t to) {
-    from = std::clamp<std::ptrdiff_t>(from, 0, static_cast<std::ptrdiff_t>(alike.size()) - 1);
-    to = std::clamp<std::ptrdiff_t>(to, from + 1, static_cast<std::ptrdiff_t>(alike.size()));
-    return std::max_element(alike.begin() + from, alike.begin() + to) - alike.begin();
-  };
-  std::ptrdiff_t start = 0;
-  double most = 0;
-  const std::ptrdiff_t frame = place(0.1);
-  for (std::ptrdiff_t at = 0; at < static_cast<std::ptrdiff_t>(sound.size()) - place(jumps.back().time_s); at += 1) {
-    double sum = 0;
-    for (const Jump& jump : jumps) {
-      const auto i = static_cast<std::size_t>(at + place(jump.time_s));
-      if (i < jump.alike.size()) sum += jump.alike[i];
-    }
-    if (sum > most) {
-      most = sum;
-      start = at;
-    }
-  }
-  for (const Jump& jump : jumps) {
-    const std::ptrdiff_t expected = start + place(jump.time_s);
-    const std::ptrdiff_t heard = best_near(jump.alike, expected - frame, expected + frame);
-    EXPECT_LT(std::abs(heard - expected) / kThinRate, 0.030) << "at " << jump.time_s << " s";
+  using exhibit::HeardEvent;
+  for (const HeardEvent event : {HeardEvent::SampleChosen, HeardEvent::TurnOnReady, HeardEvent::ForceOn,
+                                 HeardEvent::SnapIn, HeardEvent::PullOff, HeardEvent::ForceOff}) {
+    EXPECT_GT(likeness(sound, signal_of(event)), 0.5) << exhibit::row_of(event).signal.length_s();
   }
   // sound changes no force
   const auto replayed =
@@ -205,29 +176,27 @@ TEST_F(HeardView, GoesThroughTheWholeProcedureByWhatIsSaidAlone) {
 TEST_F(HeardView, BlanksThePictureAndShowsItAgain) {
   const auto live = view({});
   ASSERT_TRUE(live->says("F1 shows the keys")) << live->said();
-  const auto colours = [&] {
+  // text is nearly white, the background is not
+  const auto brightest = [&] {
     const render::Image image = display_.screenshot();
-    std::vector<std::uint32_t> seen;
-    for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) {
-      seen.push_back(image.rgba[i] << 16U | image.rgba[i + 1] << 8U | image.rgba[i + 2]);
-    }
-    std::sort(seen.begin(), seen.end());
-    return std::unique(seen.begin(), seen.end()) - seen.begin();
+    int most = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) most = std::max(most, i % 4 == 3 ? 0 : int{image.rgba[i]});
+    return most;
   };
   const auto shows = [&](auto&& condition) {
     for (int i = 0; i < 500; ++i) {
-      if (condition(colours())) return true;
+      if (condition(brightest())) return true;
       std::this_thread::sleep_for(milliseconds(20));
     }
     return false;
   };
-  EXPECT_TRUE(shows([](auto count) { return count > 200; }));
+  EXPECT_TRUE(shows([](int level) { return level > 200; }));
   xdotool("key x");
   ASSERT_TRUE(live->says("the picture is blank")) << live->said();
-  EXPECT_TRUE(shows([](auto count) { return count < 120; })) << colours() << " colours: more than a background";
+  EXPECT_TRUE(shows([](int level) { return level < 150; })) << brightest() << " is brighter than the background";
   xdotool("key x");
   ASSERT_TRUE(live->says("the picture is shown")) << live->said();
-  EXPECT_TRUE(shows([](auto count) { return count > 200; }));
+  EXPECT_TRUE(shows([](int level) { return level > 200; }));
   xdotool("key q");
   ASSERT_TRUE(live->says("sound off")) << live->said();
   xdotool("key y");
