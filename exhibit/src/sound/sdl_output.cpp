@@ -39,10 +39,24 @@ core::Error no_sound(const std::string& why) {
           fmt::format("no sound: {}; connect a sound card and start again, captions go on", why)};
 }
 
+void say_nothing(const char* /*file*/, int /*line*/, const char* /*function*/, int /*error*/, const char* /*format*/,
+                 ...) {}
+
+// Where there is no card, ALSA, which SDL loads, writes its own lines to stderr: the one line is ours.
+void quieten_alsa() {
+  using Handler = void (*)(const char* file, int line, const char* function, int error, const char* format, ...);
+  int (*set_handler)(Handler) = nullptr;
+  void* const alsa = ::dlopen("libasound.so.2", RTLD_NOW | RTLD_LOCAL);
+  if (alsa != nullptr && bind(alsa, "snd_lib_error_set_handler", set_handler)) {
+    set_handler(&say_nothing);
+  }
+}
+
 // Once and for the life of the process, as SDL's own threads may outlast a call.
 core::Result<SdlAudio> load_audio() {
   void* const library = ::dlopen(kSdl, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return tl::unexpected(no_sound(fmt::format("{} cannot be loaded", kSdl)));
+  quieten_alsa();
   SdlAudio sdl;
   const bool whole =
       bind(library, "SDL_SetHint", sdl.set_hint) && bind(library, "SDL_InitSubSystem", sdl.init) &&

@@ -67,7 +67,10 @@ std::optional<Heard> TipEar::add(const scene::TipSample& sample) {
   const std::int64_t before_ns = std::exchange(last_ns_, sample.time_ns);
   const bool touch = touches(sample);
   if (const auto change = change_of_force(sample.servo_state)) {
-    return Heard{.event = *change, .time_ns = sample.time_ns, .material = sample.material};
+    // Stop was pressed: no fault, whatever state the governor is in
+    const bool stopped = *change == HeardEvent::Fault && sample.renderer == scene::RendererLink::Stopped;
+    return Heard{
+        .event = stopped ? HeardEvent::ForceOff : *change, .time_ns = sample.time_ns, .material = sample.material};
   }
   if (!touch) return std::nullopt;
   // where the force crossed zero between the two ticks

@@ -200,10 +200,12 @@ class TipEarTest : public ::testing::Test {
     sample.servo_state = state;
     sample.phase = phase;
     sample.tip.force_n = force_n;
+    sample.renderer = renderer_;
     return ear_.add(sample);
   }
   TipEar ear_;
   std::int64_t now_ns_ = 0;
+  scene::RendererLink renderer_ = scene::RendererLink::Alive;
 };
 
 TEST_F(TipEarTest, HearsTheForceComeAndGo) {
@@ -217,6 +219,12 @@ TEST_F(TipEarTest, HearsTheForceComeAndGo) {
   sample(State::Running, Phase::Free, 0);
   EXPECT_EQ(sample(State::Fault, Phase::Free, 0)->event, HeardEvent::Fault);
   EXPECT_FALSE(sample(State::Disarmed, Phase::Free, 0).has_value());
+}
+
+TEST_F(TipEarTest, TakesAStopForNoFault) {
+  sample(State::Running, physics::Phase::Free, 0);
+  renderer_ = scene::RendererLink::Stopped;
+  EXPECT_EQ(sample(State::Fault, physics::Phase::Free, 0)->event, HeardEvent::ForceOff);
 }
 
 TEST_F(TipEarTest, HearsATouchWhereTheForceCrossesZero) {
