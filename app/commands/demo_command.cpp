@@ -20,11 +20,13 @@
 #include "app/options/exhibit_options.h"
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
+#include "app/options/sound_options.h"
 #include "core/log.h"
 #include "curves/measured_material.h"
 #include "curves/sweep.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/shared_model.h"
+#include "exhibit/sound/session_sound.h"
 #include "exhibit/topography_model.h"
 #include "haptics/scaling.h"
 #include "haptics/simulated_device.h"
@@ -52,8 +54,10 @@ struct DemoOptions {
   curves::ModelName model{.text = "paper"};
   scene::ScaleMode scale = scene::ScaleMode::Fit;
   physics::FrictionLaw friction = physics::FrictionLaw::None;
-  std::string probe;              // a lever and tip instead of the materials' own; empty: none
-  std::string measured;           // a curve file to be felt too; empty: none
+  std::string probe;     // a lever and tip instead of the materials' own; empty: none
+  std::string measured;  // a curve file to be felt too; empty: none
+  bool sound = false;    // a file for each session
+  SoundOptions sound_options;
   std::vector<std::string> vary;  // "spring-constant=0.1N/m:0.4N/m:3"
 };
 
@@ -189,23 +193,29 @@ core::Result<void> draw_figures(render::Context& context, const exhibit::Stage& 
   return draw_journey(frames, *renderer, out, pictures, phrases);
 }
 
-core::Result<void> write_session(const servo::RecordedSession& session, const std::string& name, OutputFolder& out) {
+core::Result<void> write_session(const servo::RecordedSession& session, const std::string& name,
+                                 const DemoOptions& options, OutputFolder& out) {
   if (auto saved = servo::save_session(session, out.staged("session-" + name + ".afms")); !saved) return saved;
+  if (options.sound) {
+    const auto wav = exhibit::wav_of(session, options.sound_options.channels(), options.sound_options.gain());
+    if (!wav) return tl::unexpected(wav.error());
+    if (auto written = out.write("sound-" + name + ".wav", *wav); !written) return written;
+  }
   return out.write("curve-" + name + ".csv", session_csv(session));
 }
 
 core::Result<void> write_results(const DemoResult& result, const std::vector<ReportPicture>& pictures,
-                                 const exhibit::Phrases& phrases, OutputFolder& out) {
+                                 const exhibit::Phrases& phrases, const DemoOptions& options, OutputFolder& out) {
   std::vector<LabelledSession> plotted;
   for (std::size_t i = 0; i < result.sessions.size(); ++i) {
     const servo::RecordedSession& session = result.sessions[i];
-    if (auto saved = write_session(session, session.material, out); !saved) return saved;
+    if (auto saved = write_session(session, session.material, options, out); !saved) return saved;
     plotted.push_back({result.measurements[i].title, &session});
     int number = 0;
     for (const Variation& variation : result.variations) {
       if (variation.material != i) continue;
       const std::string name = fmt::format("{}-vary-{}", session.material, ++number);
-      if (auto saved = write_session(variation.session, name, out); !saved) return saved;
+      if (auto saved = write_session(variation.session, name, options, out); !saved) return saved;
       plotted.push_back({variation.measurement.title, &variation.session});
     }
   }
@@ -228,15 +238,6 @@ core::Result<void> measure_all(const DemoPlan& plan, DemoResult& result) {
     variation.measurement = std::move(*measured);
   }
   return {};
-}
-
-core::Result<void> check_accuracy(const Measurement& m) {
-  if (m.worst_error() <= m.error_bound()) return {};
-  return core::failure(
-      core::ErrorCategory::Failed,
-      fmt::format("{}: {} differs by {:.3g} % from the {}; the limit is {} %; see summary.json", m.title,
-                  m.recorded ? "an event or the loop energy" : "an event", 100.0 * m.worst_error(),
-                  m.recorded ? "recorded curve" : "equations", 100.0 * m.error_bound()));
 }
 
 core::Result<void> check_accuracy(const DemoResult& result) {
@@ -301,7 +302,7 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   say("drawing the figures");
   if (auto drawn = draw_figures(*context, *stage, *plan, result, *out, pictures); !drawn) return drawn;
   result.seconds = static_cast<double>(clock.now_ns() - start_ns) * 1e-9;
-  if (auto written = write_results(result, pictures, stage->phrases(), *out); !written) return written;
+  if (auto written = write_results(result, pictures, stage->phrases(), options, *out); !written) return written;
   if (auto accurate = check_accuracy(result); !accurate) return accurate;
 
   std::printf("open %s/report.html\n", options.out.c_str());
@@ -387,6 +388,8 @@ void add_demo_command(OptionList& program, const CommandContext& context) {
       .show_default("30mm/s");
   add_sample_options(command, *options, context);
   add_servo_mode_option(command, options->servo.mode);
+  command.add_flag("--sound", options->sound, "write what each session sounds like, sound-NAME.wav");
+  add_sound_options(command, options->sound_options);
   command.when_chosen([options, &context] { return run_demo(*options, context.program_path); });
 }
 

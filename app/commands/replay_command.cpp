@@ -8,7 +8,10 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/options/sound_options.h"
 #include "core/log.h"
+#include "core/whole_file.h"
+#include "exhibit/sound/session_sound.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
 
@@ -20,6 +23,8 @@ struct ReplayOptions {
   std::string session;
   servo::ReplayRange range;
   bool json = false;
+  std::string sound;  // a file; empty: none is written
+  SoundOptions sound_options;
 };
 
 nlohmann::json json_of(const std::optional<servo::Difference>& first) {
@@ -102,6 +107,15 @@ std::string difference_text(const servo::RecordedSession& session, const servo::
                      first.quantity, first.recorded, first.replayed);
 }
 
+core::Result<void> write_sound(const servo::RecordedSession& session, const ReplayOptions& options) {
+  const auto sound = exhibit::wav_of(session, options.sound_options.channels(), options.sound_options.gain());
+  if (!sound) {
+    return core::failure(sound.error().category,
+                         fmt::format("session file {}: {}", options.session, sound.error().message));
+  }
+  return core::write_file(options.sound, *sound);
+}
+
 core::Result<void> run_replay(const ReplayOptions& options) {
   const auto session = servo::load_session(options.session);
   if (!session) return tl::unexpected(session.error());
@@ -116,6 +130,9 @@ core::Result<void> run_replay(const ReplayOptions& options) {
   if (!replayed) {
     return core::failure(replayed.error().category,
                          fmt::format("session file {}: {}", options.session, replayed.error().message));
+  }
+  if (!options.sound.empty()) {
+    if (auto written = write_sound(*session, options); !written) return written;
   }
   std::fputs((options.json ? json(*session, *replayed, range) : plain(*session, *replayed, range)).c_str(), stdout);
   if (replayed->identical()) return {};
@@ -139,10 +156,17 @@ void add_replay_command(OptionList& program, const CommandContext&) {
       .type_name("SECONDS");
   command.add_option("--to", options->range.to_s, "end of the comparison in seconds; default: the end of the session")
       .type_name("SECONDS");
+  command
+      .add_option("--sound", options->sound,
+                  "write what the whole session sounds like: the tone of the force and a signal for each event, at its "
+                  "own time")
+      .type_name("FILE.wav");
+  add_sound_options(command, options->sound_options);
   command.add_flag("--json", options->json, "print the comparison as JSON, with the unit in each key");
   command.footer(
       "example: touchafm replay out/session-gold.afms\n"
       "         touchafm replay out/session-gold.afms --from 2 --to 3.5\n"
+      "         touchafm replay out/session-gold.afms --sound gold.wav\n"
       "The exit code is 0 if every force is identical, otherwise 1. A truncated file is compared as far as it goes. "
       "touchafm view --haptics replay:FILE shows the session on the wall.");
   command.when_chosen([options] { return run_replay(*options); });

@@ -11,6 +11,7 @@
 
 #include "app/command.h"
 #include "app/live/live_view.h"
+#include "app/live/speech_choice.h"
 #include "app/live/view_display.h"
 #include "app/live/view_wand.h"
 #include "app/options/dynamic_resolution.h"
@@ -18,6 +19,7 @@
 #include "app/options/pixel_size_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
+#include "app/options/sound_options.h"
 #include "core/exit_code.h"
 #include "core/interruption.h"
 #include "core/log.h"
@@ -47,7 +49,8 @@ struct ViewOptions {
   ViewSettings settings;
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   double frame_rate = 0;  // 0: the display's
-  bool kiosk = false;     // an unattended window that is opened again whenever it fails
+  bool speech = false;
+  bool kiosk = false;  // an unattended window that is opened again whenever it fails
   servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = kLingerS}};
   std::int64_t spin_us = 0;
   WandOptions wand;
@@ -128,6 +131,11 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   if (!wand_choice) return tl::unexpected(wand_choice.error());
   settings.head_script = wand_choice->head_script;
   if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
+  if (options.speech) {
+    auto program_that_speaks = choose_speech_program(stage->phrases()[exhibit::Phrase::Language]);
+    if (!program_that_speaks) return tl::unexpected(program_that_speaks.error());
+    settings.sound.speech = std::move(*program_that_speaks);
+  }
   auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
   if (!wand) return tl::unexpected(wand.error());
   const auto model =
@@ -203,6 +211,17 @@ void add_wand_options(OptionList& command, ViewOptions& options) {
                   "script of lines \"seconds, x, y, z\" in metres; default: the wand file's, otherwise the wall's "
                   "sweet spot, which the arrow keys move")
       .type_name("SOURCE");
+}
+
+void add_hearing_options(OptionList& command, ViewOptions& options) {
+  command.add_flag(
+      "--sound", options.settings.sound.sound,
+      "make the force audible: its pitch rises with the force, a pull is heard on the left and a push on the "
+      "right; every event has a sound and, also without this option, a caption; Q turns the sound off and on");
+  command.add_flag("--speech", options.speech,
+                   "speak guidance, samples, events and values in the wall's language, by espeak-ng or by the screen "
+                   "reader's voice; Y says what is going on, X blanks the picture");
+  add_sound_options(command, options.settings.sound.options);
 }
 
 void add_servo_options(OptionList& command, ViewOptions& options) {
@@ -285,6 +304,7 @@ void add_view_command(OptionList& program, const CommandContext& context) {
   add_servo_mode_option(command, options->servo.mode);
   add_wand_options(command, *options);
   add_servo_options(command, *options);
+  add_hearing_options(command, *options);
   command.add_flag("--validate", options->display.validate,
                    "check every Vulkan call; any validation message leads to exit code 1");
   command.when_chosen([options, &context]() -> core::Result<void> {

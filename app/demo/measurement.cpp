@@ -111,4 +111,13 @@ core::Result<Measurement> measure(const servo::RecordedSession& session, const c
   return m;
 }
 
+core::Result<void> check_accuracy(const Measurement& m) {
+  if (m.worst_error() <= m.error_bound()) return {};
+  return core::failure(
+      core::ErrorCategory::Failed,
+      fmt::format("{}: {} differs by {:.3g} % from the {}; the limit is {} %; see summary.json", m.title,
+                  m.recorded ? "an event or the loop energy" : "an event", 100.0 * m.worst_error(),
+                  m.recorded ? "recorded curve" : "equations", 100.0 * m.error_bound()));
+}
+
 }  // namespace afm::app

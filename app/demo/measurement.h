@@ -61,4 +61,7 @@ inline constexpr double kRecordingErrorBound = 1e-2;
 core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::SampleModel& material,
                                   const physics::CurveFeatures* recorded = nullptr);
 
+// Failed, with one line, if it is worse than its error bound.
+core::Result<void> check_accuracy(const Measurement& m);
+
 }  // namespace afm::app

@@ -14,6 +14,7 @@
 
 #include "core/interruption.h"
 #include "core/log.h"
+#include "exhibit/blank_picture.h"
 #include "exhibit/recorded_wall.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/servo_rows.h"
@@ -48,10 +49,11 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::Sample
       swatches_(stage.wall_scene.swatch_targets()),
       picture_(picture),
       panels_(stage.wall_scene, materials),
+      sound_(settings.sound, stage.phrases(), stage.titles(), clock),
       servo_(
           std::move(start_servo),
           [this](servo::ServoClient& servo, std::optional<std::size_t> felt_before) { begin_with(servo, felt_before); },
-          stage.materials.materials.size(), settings.record_folder),
+          stage.materials.materials.size(), settings.record_folder, sound_.narrator()),
       wand_(stage.screen, stage.wall_scene.wand_grip_m()),
       view_wand_(view_wand),
       head_(stage.wall),
@@ -68,6 +70,7 @@ void LiveView::begin_with(servo::ServoClient& servo, std::optional<std::size_t> 
   if (scan_has_hand()) end_scan();  // its ticks are those of the servo before
   hand_ = hand_over(stage_.wall_scene);
   panels_.edits().resend(servo);
+  sound_.attach(servo, felt_);
   if (const auto material = felt_before ? felt_before : settings_.first_material) choose(*material);
 }
 
@@ -307,14 +310,6 @@ exhibit::Hint LiveView::next_hint(std::int64_t now_ns) {
   return procedure_.update(tip, {ascending, cycles.pressed(), cycles.cycles()}, now_ns);
 }
 
-std::string LiveView::guidance(const exhibit::Phrases& phrases) const {
-  if (!servo_.running()) return exhibit::step_text(phrases, exhibit::Hint::ServoEnded, controls());
-  // without a visitor it invites
-  if (visitor_.away()) return exhibit::step_text(phrases, exhibit::Hint::ChooseSample, controls());
-  if (const auto line = scan_guidance(phrases)) return *line;
-  return exhibit::guidance_line(phrases, hint_, servo_.link().tip(), controls());
-}
-
 exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) {
   const servo::ServoClient& servo = servo_.link();
   const exhibit::CycleHistory& cycles = servo_.cycles();
@@ -348,6 +343,7 @@ void LiveView::follow_edits() {
   const bool taken = state == exhibit::ChangeState::Applied || state == exhibit::ChangeState::AsLoaded;
   if (!taken || felt_[*current].tables == edited.tables) return;
   felt_[*current] = edited;
+  sound_.set_ear(*current, edited);
   core::log_line("the changed parameters are now in effect");
 }
 
@@ -376,6 +372,7 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   servo_.link().place(exhibit::shared_transforms(frame.room_from_node));
   record(now);
 
+  follow_sound();
   const std::string said = guidance(stage_.english);
   if (std::exchange(logged_guidance_, said) != said) core::log_line(said);
 
@@ -383,7 +380,8 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   panels_.add_to(frame, pointed, material,
                  material ? stage_.phrases().word(stage_.materials.materials[*material].title) : "",
                  servo_.link().tip(), hand());
-  panels_.add_note(frame, now.wall.centerpiece);
+  panels_.add_note(frame, now.wall.centerpiece, sound_.narrator().caption());
+  if (blank_) exhibit::blank(frame);
   const bool off_wall = std::abs(before_wall_m()) > kBesideWallM;
   picture_.show(frame, off_wall ? exhibit::Relief::BringToWall : exhibit::Relief::NarrowEyes, now_ns, beat);
   const std::int64_t presented_ns = clock_.now_ns();

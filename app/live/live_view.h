@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/live/live_sound.h"
 #include "app/live/mouse_hand.h"
 #include "app/live/mouse_wand.h"
 #include "app/live/servo_supervisor.h"
@@ -41,6 +42,7 @@ struct ViewSettings {
   bool unattended = false;    // keys of staff are locked; without a visitor it begins again and shows itself
   double idle_s = 60;         // without a visitor, until then
   std::string record_folder;  // for the sessions of what is felt; empty: none is kept
+  LiveSoundSettings sound;
 };
 
 // The live window: a person's mouse points, chooses and moves the hand of the servo; every frame shows the newest state
@@ -96,6 +98,8 @@ class LiveView {
   void go_with_scan(double frame_s);
   void give_hand_back();
   void paint_with(const scene::TipSample& sample);
+  void follow_sound();
+  void toggle_picture();
   void mark_next_setting();
   void step_setting(int steps);
 
@@ -126,6 +130,7 @@ class LiveView {
   std::vector<input::Target> swatches_;
   ViewPicture& picture_;
   ViewPanels panels_;
+  LiveSound sound_;  // before the servo, whose listener it hears
   ServoSupervisor servo_;
   MouseWand wand_;
   ViewWand& view_wand_;  // in its place, if there is one
@@ -159,6 +164,7 @@ class LiveView {
   glm::dvec3 hand_seen_m_{0.0};  // of a device that a hand moves, at its last motion
   std::int64_t wand_seen_ns_ = 0;
   glm::dvec2 cursor_seen_px_{0.0};
+  bool blank_ = false;  // for who goes by ear and hand
   bool leaving_ = false;
 };
 

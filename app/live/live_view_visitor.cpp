@@ -28,6 +28,8 @@ void LiveView::follow_visitor(const ViewInput& input, std::int64_t now_ns) {
 void LiveView::begin_for_visitors() {
   if (travel_.orders() && travel_.away()) turn_journey_round();
   analogy_ = false;
+  blank_ = false;
+  sound_.unmute();
   panels_.show("samples");
   bring_home();
   begin_again();

@@ -23,11 +23,13 @@ std::string text_of(const scene::TipEvent& event) {
 
 }  // namespace
 
-ServoSupervisor::ServoSupervisor(Starter starter, Started started, std::size_t materials, std::string record_folder)
+ServoSupervisor::ServoSupervisor(Starter starter, Started started, std::size_t materials, std::string record_folder,
+                                 servo::TipAudience& audience)
     : starter_(std::move(starter)),
       started_(std::move(started)),
       materials_(materials),
       record_folder_(std::move(record_folder)),
+      audience_(audience),
       cycles_(materials) {}
 
 core::Result<void> ServoSupervisor::start() {
@@ -73,6 +75,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         cycles_.add(sample);
         friction_.add(sample);
         if (hears_) hears_(sample);
+        audience_.heard(sample);
         if (!folder_) return;
         if (recorder_.add(sample, *link_)) recorder_.set_earlier(curves_on_wall());
         keep_finished();
@@ -80,6 +83,8 @@ void ServoSupervisor::update(std::int64_t now_ns) {
       [&](const scene::TipEvent& event) {
         cycles_.add(event);
         recorder_.add(event);
+        audience_.heard(event);
+        if (event.kind == physics::EventKind::Slip) return;  // many times a second
         newest_event_ = event;
         has_event_ = true;
         core::log_line(text_of(event));

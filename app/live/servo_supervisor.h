@@ -15,6 +15,7 @@
 #include "servo/servo_client.h"
 #include "servo/session_folder.h"
 #include "servo/session_recorder.h"
+#include "servo/tip_listener.h"
 #include "servo/tip_stream.h"
 
 namespace afm::app {
@@ -28,8 +29,10 @@ class ServoSupervisor {
   // Called with every servo that has been started, and the material that was under the tip of the one before it.
   using Started = std::function<void(servo::ServoClient& servo, std::optional<std::size_t> felt_before)>;
 
-  // `record_folder`: for the sessions of what is felt; empty: none is kept.
-  ServoSupervisor(Starter starter, Started started, std::size_t materials, std::string record_folder);
+  // `record_folder`: for the sessions of what is felt; empty: none is kept. `audience` hears of every sample and event
+  // that update() receives, and must outlive this.
+  ServoSupervisor(Starter starter, Started started, std::size_t materials, std::string record_folder,
+                  servo::TipAudience& audience);
 
   // The first servo, or another after one has ended for good. Failed if it cannot be started or nothing can be kept in
   // the folder.
@@ -80,6 +83,7 @@ class ServoSupervisor {
   Started started_;
   std::size_t materials_;
   std::string record_folder_;
+  servo::TipAudience& audience_;
   std::unique_ptr<servo::ServoClient> link_;
   std::optional<core::Error> error_;      // the servo has ended
   std::deque<std::int64_t> restarts_ns_;  // of servos that died, within the last minute

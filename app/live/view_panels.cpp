@@ -151,8 +151,13 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
   if (shown || parameters.changed()) exhibit::add_prediction(parameters, phrases(), frame.force_panel);
 }
 
-void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece) const {
+void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece,
+                          const std::string& caption) const {
   using exhibit::Note;
+  if (!caption.empty()) {
+    frame.labels.push_back({.text = caption, .highlighted = false, .placement = wall_scene_.note_placement()});
+    return;
+  }
   std::string text;
   if (centerpiece == exhibit::Centerpiece::Journey) text = note_text(phrases(), Note::LeaveJourney);
   if (centerpiece == exhibit::Centerpiece::Analogy) text = note_text(phrases(), Note::LeaveAnalogy);

@@ -64,8 +64,9 @@ class ViewPanels {
 
   ParameterEdits& edits() { return edits_; }
 
-  // A short note below the left panel: how to leave what is shown, and, until F1 was used, where the keys are listed.
-  void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece) const;
+  // A short note below the left panel: the caption of what is heard; without one how to leave what is shown, and, until
+  // F1 was used, where the keys are listed.
+  void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece, const std::string& caption) const;
 
   // Adds the panels of this moment to a frame: the parameters or the tab that opens them, the curve that follows from
   // what was changed, the keys; removes hidden panels.

@@ -17,6 +17,12 @@
 
 namespace afm::exhibit {
 
+std::vector<std::string> Stage::titles() const {
+  std::vector<std::string> titles;
+  for (const scene::MaterialEntry& entry : materials.materials) titles.push_back(phrases().word(entry.title));
+  return titles;
+}
+
 render::RendererOptions Stage::renderer_options(std::uint32_t eye_width) const {
   render::RendererOptions options;
   options.eye_width = eye_width;

@@ -11,6 +11,7 @@
 #include "app/options/enum_option.h"
 #include "app/options/pixel_size_option.h"
 #include "app/options/quantity_option.h"
+#include "app/options/sound_options.h"
 
 namespace afm::app {
 namespace {
@@ -147,6 +148,21 @@ TEST_F(OptionsTest, ASizeIsTwoNumbersWithinItsRange) {
     EXPECT_THAT(refusal(wrong), HasSubstr("is not WIDTHxHEIGHT in pixels of 64 to 16384 each")) << wrong;
   }
   EXPECT_THAT(help(), HasSubstr("--option WIDTHxHEIGHT in 64 to 16384 each"));
+}
+
+TEST_F(OptionsTest, AVolumeIsALevelWithItsUnit) {
+  SoundOptions sound;
+  add_sound_options(command_, sound);
+  EXPECT_NEAR(sound.gain(), 0.501187, 1e-6) << "-6 dB";
+  ASSERT_TRUE(parse({"--volume", "-20dB", "--mono-sound"}));
+  EXPECT_DOUBLE_EQ(sound.gain(), 0.1);
+  EXPECT_EQ(sound.channels(), exhibit::Channels::Mono);
+  for (const char* text : {"-20", "20dB", "-61dB", "-20db", "nandB", "dB", "-20dBm"}) {
+    const auto answer = parse({"--volume", text});
+    ASSERT_FALSE(answer) << text;
+    EXPECT_EQ(answer.error().category, core::ErrorCategory::WrongUsage);
+    EXPECT_THAT(answer.error().message, AllOf(HasSubstr(text), HasSubstr("-60dB to 0dB with its unit")));
+  }
 }
 
 TEST(PixelSize, IsWidthAndHeight) {

@@ -67,6 +67,9 @@ struct Stage {
 
   const Phrases& phrases() const { return wall_scene.phrases(); }
 
+  // Of the materials, in the language of the wall.
+  std::vector<std::string> titles() const;
+
   // Square pixels: the height follows the wall's proportions.
   render::RendererOptions renderer_options(std::uint32_t eye_width) const;
 

@@ -250,6 +250,51 @@
   PHRASE(CauseBlur, "scan-cause-blur", "", kLine)                      \
   PHRASE(CauseBluntTip, "scan-cause-blunt-tip", "", kLine)
 
+// Captions of what is heard, and what is said of it, both in the order of HeardEvent; numbers with their units, for one
+// and for others, from pico to micro; the answer to the key Y.
+#define AFM_FOR_EACH_SOUND_PHRASE(PHRASE)                       \
+  PHRASE(HeardSnapIn, "heard-snap-in", kEventPlaces, kLine)     \
+  PHRASE(HeardPullOff, "heard-pull-off", kEventPlaces, kLine)   \
+  PHRASE(HeardSlip, "heard-slip", kEventPlaces, kLine)          \
+  PHRASE(HeardTouch, "heard-touch", kEventPlaces, kLine)        \
+  PHRASE(HeardForceOn, "heard-force-on", kEventPlaces, kLine)   \
+  PHRASE(HeardForceOff, "heard-force-off", kEventPlaces, kLine) \
+  PHRASE(HeardFault, "heard-fault", kEventPlaces, kLine)        \
+  PHRASE(HeardSample, "heard-sample", kEventPlaces, kLine)      \
+  PHRASE(HeardReady, "heard-ready", kEventPlaces, kLine)        \
+  PHRASE(HeardScanLine, "heard-scan-line", kEventPlaces, kLine) \
+  PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)         \
+  PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)       \
+  PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)              \
+  PHRASE(SayTouch, "say-touch", kEventPlaces, kLine)            \
+  PHRASE(SayForceOn, "say-force-on", kEventPlaces, kLine)       \
+  PHRASE(SayForceOff, "say-force-off", kEventPlaces, kLine)     \
+  PHRASE(SayFault, "say-fault", kEventPlaces, kLine)            \
+  PHRASE(SaySample, "say-sample", kEventPlaces, kLine)          \
+  PHRASE(SayReady, "say-ready", kEventPlaces, kLine)            \
+  PHRASE(SayScanLine, "say-scan-line", kEventPlaces, kLine)     \
+  PHRASE(OnePiconewton, "piconewton", "number", kLine)          \
+  PHRASE(Piconewtons, "piconewtons", "number", kLine)           \
+  PHRASE(OneNanonewton, "nanonewton", "number", kLine)          \
+  PHRASE(Nanonewtons, "nanonewtons", "number", kLine)           \
+  PHRASE(OneMicronewton, "micronewton", "number", kLine)        \
+  PHRASE(Micronewtons, "micronewtons", "number", kLine)         \
+  PHRASE(OnePicometre, "picometre", "number", kLine)            \
+  PHRASE(Picometres, "picometres", "number", kLine)             \
+  PHRASE(OneNanometre, "nanometre", "number", kLine)            \
+  PHRASE(Nanometres, "nanometres", "number", kLine)             \
+  PHRASE(OneMicrometre, "micrometre", "number", kLine)          \
+  PHRASE(Micrometres, "micrometres", "number", kLine)           \
+  PHRASE(SayNoForce, "say-no-force", "", kLine)                 \
+  PHRASE(SayPull, "say-pull", "force", kLine)                   \
+  PHRASE(SayPush, "say-push", "force", kLine)                   \
+  PHRASE(SayHeight, "say-height", "height", kLine)              \
+  PHRASE(SayDepth, "say-depth", "height", kLine)                \
+  PHRASE(SoundOff, "sound-off", "", kLine)                      \
+  PHRASE(SoundOn, "sound-on", "", kLine)                        \
+  PHRASE(PictureShown, "picture-shown", "", kLine)              \
+  PHRASE(PictureBlank, "picture-blank", "", kLine)
+
 // The list of keys (F1).
 #define AFM_FOR_EACH_KEY_PHRASE(PHRASE)                      \
   PHRASE(Keys, "key-list", "", kLine)                        \
@@ -272,6 +317,9 @@
   PHRASE(KeyScale, "key-scale", "", kLine)                   \
   PHRASE(KeyJourney, "key-journey", "", kLine)               \
   PHRASE(KeyAnalogy, "key-analogy", "", kLine)               \
+  PHRASE(KeySay, "key-say", "", kLine)                       \
+  PHRASE(KeySound, "key-sound", "", kLine)                   \
+  PHRASE(KeyBlank, "key-blank", "", kLine)                   \
   PHRASE(KeyStartAgain, "key-start-again", "", kLine)        \
   PHRASE(KeyHome, "key-home", "", kLine)                     \
   PHRASE(KeyHeadAcross, "key-head-across", "", kLine)        \
@@ -348,4 +396,5 @@
   AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)           \
   AFM_FOR_EACH_SCAN_PHRASE(PHRASE)               \
   AFM_FOR_EACH_KEY_PHRASE(PHRASE)                \
+  AFM_FOR_EACH_SOUND_PHRASE(PHRASE)              \
   AFM_FOR_EACH_REPORT_PHRASE(PHRASE)

@@ -19,6 +19,9 @@ inline constexpr std::size_t kLine = 100, kParagraph = 700;
 // Placeholders of a guidance line: the controls of the device in the hand.
 inline constexpr std::string_view kControlPlaces = "up? down? turn-on? choose?";
 
+// Placeholders of a caption and of what is said of an event: its force, and the material under the tip.
+inline constexpr std::string_view kEventPlaces = "force? sample?";
+
 #define AFM_PHRASE_NAME(name, key, places, limit) name,
 enum class Phrase : std::size_t { AFM_FOR_EACH_PHRASE(AFM_PHRASE_NAME) };
 #undef AFM_PHRASE_NAME

@@ -110,4 +110,12 @@ class Scaling {
 // Magnitude of the strongest attraction on either branch: at the jumps, or on the way to them where the lever is stiff.
 double strongest_pull_n(const physics::LawTables& tables);
 
+// Magnitude of the force that a scale makes as strong as the device may be: the strongest pull, or the deepest push of
+// a material that hardly pulls.
+double strongest_force_n(const physics::LawTables& tables);
+
+// F0 of the compressed scale as it would be on a device without limits: half the snap-in; without one a tenth of the
+// strongest force. Not above that force.
+double compression_bend_n(const physics::LawTables& tables);
+
 }  // namespace afm::haptics

@@ -143,6 +143,15 @@ double strongest_pull_n(const physics::LawTables& tables) {
   return strongest_n;
 }
 
+double strongest_force_n(const physics::LawTables& tables) { return extent_of(tables).strong_n; }
+
+double compression_bend_n(const physics::LawTables& tables) {
+  const double strong_n = strongest_force_n(tables);
+  const double snap_n = std::abs(tables.figures.force_after_jtc.si);
+  if (!tables.figures.hysteretic || !(snap_n > 0.0)) return kBendShareOfPull * strong_n;
+  return std::min(kBendShareOfSnap * snap_n, strong_n);
+}
+
 core::Result<Scaling> Scaling::fit(const physics::LawTables& tables, const DeviceSpec& device) {
   if (auto enough = check_force(device); !enough) return tl::unexpected(enough.error());
   if (auto enough = check_workspace(device); !enough) return tl::unexpected(enough.error());
@@ -172,9 +181,7 @@ core::Result<Scaling> Scaling::compressed(const physics::LawTables& tables, cons
   if (!scaling) return scaling;
   scaling->mode_ = scene::ScaleMode::Compressed;
   const double strong_n = extent_of(tables).strong_n;
-  const double snap_n = std::abs(tables.figures.force_after_jtc.si);
-  double bend_n = tables.figures.hysteretic && snap_n > 0.0 ? std::min(kBendShareOfSnap * snap_n, strong_n)
-                                                            : kBendShareOfPull * strong_n;
+  double bend_n = compression_bend_n(tables);
   while (bend_n < kLargestBend * strong_n) {
     scaling->bend_n_ = bend_n;
     scaling->bend_gain_n_ = scaling->hand_n_per_n_ * strong_n / std::asinh(strong_n / bend_n);

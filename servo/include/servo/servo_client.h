@@ -13,6 +13,7 @@
 #include "core/result.h"
 #include "scene/shared/shared_segment.h"
 #include "servo/servo_process.h"
+#include "servo/tip_listener.h"
 
 namespace afm::servo {
 
@@ -48,6 +49,10 @@ class ServoClient {
   // servo runs but has been silent for 200 ms, tip() reports Fault with ServoSilent until its next state arrives.
   core::Result<Update> poll(std::int64_t now_ns);
 
+  // From now on what poll() gives reaches `audience` first, in a separate thread and within milliseconds: for what must
+  // not wait for a frame. It must outlive this. Once.
+  void listen(TipAudience& audience);
+
   // Sends the frame loop's heartbeat; poll() does so too. After 250 ms without one, the servo assumes that the loop
   // hangs.
   void beat(std::int64_t now_ns);
@@ -67,7 +72,7 @@ class ServoClient {
   // Parameters of a material after this edit; edit 0: as loaded.
   const scene::SharedContact& parameters(std::size_t material, std::uint32_t edit_revision) const;
 
-  std::uint64_t lost_samples() const { return side_.lost_samples(); }
+  std::uint64_t lost_samples() const { return side_.lost_samples() + (listener_ ? listener_->lost_samples() : 0); }
 
   // Selects the material under the tip and its scale; both take effect once the tip is off the sample, after the force
   // has been removed. Without a mode: the previous one, initially Fit.
@@ -112,7 +117,8 @@ class ServoClient {
   std::uint32_t leads_ = 0;
   std::uint64_t beats_ = 0;
   std::optional<std::int64_t> stopped_ns_;  // when stop() was called last
-  std::unique_ptr<Servo> servo_;            // last: it ends before its segment goes
+  std::unique_ptr<TipListener> listener_;
+  std::unique_ptr<Servo> servo_;  // last: it ends before its segment goes
 };
 
 }  // namespace afm::servo

@@ -85,8 +85,9 @@ core::Result<ServoClient::Update> ServoClient::poll(std::int64_t now_ns) {
   take_state(now_ns);
 
   Update update;
-  while (const auto sample = side_.pop_sample()) update.samples.push_back(*sample);
-  while (const auto event = side_.pop_event()) update.events.push_back(*event);
+  while (const auto sample = listener_ ? listener_->pop_sample() : side_.pop_sample())
+    update.samples.push_back(*sample);
+  while (const auto event = listener_ ? listener_->pop_event() : side_.pop_event()) update.events.push_back(*event);
 
   // stored before the servo's first tick
   if (device_.name.front() == '\0') device_ = side_.device().value_or(device_);
@@ -94,6 +95,11 @@ core::Result<ServoClient::Update> ServoClient::poll(std::int64_t now_ns) {
     return tl::unexpected(ended(servo_->exit_status().value_or(-1)));
   }
   return update;
+}
+
+void ServoClient::listen(TipAudience& audience) {
+  AFM_CHECK(!listener_);
+  listener_ = std::make_unique<TipListener>(segment_.renderer_side(), audience);
 }
 
 void ServoClient::take_state(std::int64_t now_ns) {

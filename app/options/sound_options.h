@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "app/options/command_line.h"
+#include "exhibit/sound/synthesizer.h"
+
+namespace afm::app {
+
+struct SoundOptions {
+  double volume_db = -6;
+  bool mono = false;
+
+  exhibit::Channels channels() const { return mono ? exhibit::Channels::Mono : exhibit::Channels::Stereo; }
+  double gain() const;  // of the volume
+};
+
+inline constexpr double kQuietestDb = -60, kLoudestDb = 0;
+
+// A number with its unit, "-12dB" or "-12 dB"; none if it is not that.
+std::optional<double> parse_decibels(std::string_view text);
+
+// --volume and --mono-sound.
+void add_sound_options(OptionList& command, SoundOptions& options);
+
+}  // namespace afm::app

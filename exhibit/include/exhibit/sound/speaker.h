@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "core/clock.h"
+#include "core/interruption.h"
+#include "exhibit/sound/sound_mixer.h"
+#include "exhibit/sound/speech_program.h"
+#include "exhibit/sound/speech_queue.h"
+
+namespace afm::exhibit {
+
+// Speaks texts in its own thread, in the order of a SpeechQueue. A program that fails costs one line of the log,
+// however often it fails. offer() is for one thread, and waits for nothing.
+class Speaker {
+ public:
+  // `mixer` gets the voice of a program that writes to a pipe; it and the clock must outlive this.
+  Speaker(SpeechProgram program, SoundMixer& mixer, const core::Clock& clock);
+  Speaker(const Speaker&) = delete;
+  Speaker& operator=(const Speaker&) = delete;
+  ~Speaker();
+
+  void offer(SpeechText text);
+
+ private:
+  void run();
+  void speak(const SpeechText& text);
+  void play(const std::string& wav);
+  void spoken_until(std::int64_t end_ns);
+  bool cut_off() const { return newer_.load() || ending_.load(); }
+  void log_once(const std::string& line);
+
+  SpeechProgram program_;
+  SoundMixer& mixer_;
+  const core::Clock& clock_;
+  SpeechChild child_;
+  core::OnInterruption ended_;
+  std::mutex mutex_;  // of the queue
+  std::condition_variable wake_;
+  SpeechQueue queue_;
+  std::atomic<bool> newer_{false};  // what is spoken is cut off
+  std::atomic<bool> ending_{false};
+  std::uint32_t phrase_ = 0;
+  bool logged_ = false;
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace afm::exhibit

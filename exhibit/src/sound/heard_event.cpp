@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/sound/heard_event.h"
+
+#include <algorithm>
+
+#include "core/enumerators.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+using enum HeardEvent;
+
+// Notes of the equal temperament, rounded to a hertz: a glide down for what closes, up for what opens; two notes up for
+// what may begin, down for what ended; a rough low one, three times, for what failed; a click for what repeats.
+constexpr std::array kRows{
+    HeardEventRow{
+        SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},
+    HeardEventRow{PullOff,
+                  Phrase::HeardPullOff,
+                  Phrase::SayPullOff,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.160, 523, 2093, 0.30, 0}}}},
+    HeardEventRow{
+        Slip, Phrase::HeardSlip, Phrase::SaySlip, Spoken::OnRequest, {{SignalNote{0, 0.010, 2637, 1976, 0.16, 0}}}},
+    HeardEventRow{
+        Touch, Phrase::HeardTouch, Phrase::SayTouch, Spoken::AtOnce, {{SignalNote{0, 0.050, 294, 196, 0.30, 1.0}}}},
+    HeardEventRow{ForceOn,
+                  Phrase::HeardForceOn,
+                  Phrase::SayForceOn,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.060, 523, 523, 0.22, 0}, SignalNote{0.070, 0.060, 659, 659, 0.22, 0},
+                    SignalNote{0.140, 0.100, 784, 784, 0.22, 0}}}},
+    HeardEventRow{ForceOff,
+                  Phrase::HeardForceOff,
+                  Phrase::SayForceOff,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.080, 784, 784, 0.22, 0}, SignalNote{0.090, 0.120, 523, 523, 0.22, 0}}}},
+    HeardEventRow{Fault,
+                  Phrase::HeardFault,
+                  Phrase::SayFault,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.120, 233, 220, 0.30, 1}, SignalNote{0.180, 0.120, 233, 220, 0.30, 1},
+                    SignalNote{0.360, 0.160, 233, 196, 0.30, 1}}}},
+    HeardEventRow{SampleChosen,
+                  Phrase::HeardSample,
+                  Phrase::SaySample,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.060, 988, 988, 0.20, 0.5}}}},
+    HeardEventRow{TurnOnReady,
+                  Phrase::HeardReady,
+                  Phrase::SayReady,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.070, 784, 784, 0.20, 0}, SignalNote{0.090, 0.110, 1175, 1175, 0.20, 0}}}},
+    HeardEventRow{ScanLine,
+                  Phrase::HeardScanLine,
+                  Phrase::SayScanLine,
+                  Spoken::OnRequest,
+                  {{SignalNote{0, 0.016, 1568, 1568, 0.10, 0}}}},
+};
+static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
+static_assert([] {
+  for (std::size_t i = 0; i < kRows.size(); ++i) {
+    if (kRows[i].event != core::kEnumerators<HeardEvent>[i]) return false;
+  }
+  return true;
+}());
+
+}  // namespace
+
+double Signal::length_s() const {
+  double end_s = 0;
+  for (const SignalNote& note : notes) end_s = std::max(end_s, note.start_s + note.length_s);
+  return end_s;
+}
+
+const HeardEventRow& row_of(HeardEvent event) { return kRows[core::index_of(event)]; }
+
+}  // namespace afm::exhibit

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/sound/narrator.h"
+
+#include <utility>
+
+#include "exhibit/sound/spoken_text.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+bool is_ready(Hint hint) { return hint == Hint::TurnOn || hint == Hint::TurnOnAndHold; }
+
+}  // namespace
+
+Narrator::Narrator(const Phrases& phrases, std::vector<std::string> titles, const core::Clock& clock, Signal signal,
+                   Say say)
+    : phrases_(phrases), titles_(std::move(titles)), clock_(clock), signal_(std::move(signal)), say_(std::move(say)) {}
+
+std::string Narrator::title(std::int32_t material) const {
+  const auto index = static_cast<std::size_t>(material);
+  return material < 0 || index >= titles_.size() ? std::string() : titles_[index];
+}
+
+void Narrator::tell(const Heard& heard) {
+  last_ = heard;
+  const std::string sample = title(heard.material);
+  captions_.add(heard.event, caption_of(phrases_, heard, sample), clock_.now_ns());
+  if (row_of(heard.event).spoken == Spoken::AtOnce) say_({said_of(phrases_, heard, sample), SpeechKind::Event});
+}
+
+void Narrator::heard(const scene::TipSample& sample) {
+  if (const auto heard = ear_.add(sample)) tell(*heard);
+}
+
+void Narrator::heard(const scene::TipEvent& event) { tell(heard_of(event)); }
+
+void Narrator::happened(HeardEvent event, std::int32_t material) {
+  const Heard heard{.event = event, .time_ns = clock_.now_ns(), .material = material};
+  signal_(heard);
+  tell(heard);
+}
+
+void Narrator::follow(const scene::TipState& tip, const Step& step) {
+  if (std::exchange(material_, tip.material) != tip.material && tip.material >= 0) {
+    happened(HeardEvent::SampleChosen, tip.material);
+  }
+  if (is_ready(step.hint) && !is_ready(std::exchange(hint_, step.hint))) {
+    happened(HeardEvent::TurnOnReady, tip.material);
+  }
+  hint_ = step.hint;
+  // such a servo sends no samples
+  const bool silent = step.hint == Hint::ServoEnded || tip.fault == scene::FaultCode::ServoSilent;
+  if (silent && !std::exchange(servo_silent_, silent)) happened(HeardEvent::Fault, tip.material);
+  servo_silent_ = silent;
+  if (const std::uint32_t lines = step.scan_lines.value_or(0); std::exchange(scan_lines_, lines) < lines) {
+    happened(HeardEvent::ScanLine, tip.material);
+  }
+  if (std::exchange(guidance_, step.guidance) != step.guidance) say_({step.guidance, SpeechKind::Guidance});
+}
+
+void Narrator::say_state(const scene::TipState& tip) {
+  std::string text = last_ ? said_of(phrases_, *last_, title(last_->material)) + ". " : "";
+  text += said_of_state(phrases_, tip, title(tip.material), guidance_);
+  say_({std::move(text), SpeechKind::Event});
+}
+
+void Narrator::note(const std::string& text) {
+  captions_.add(HeardEvent::SampleChosen, text, clock_.now_ns());
+  say_({text, SpeechKind::Event});
+}
+
+}  // namespace afm::exhibit

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/sound/pitch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/scaling.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+constexpr double kNoteOfA = 69, kHzOfA = 440, kNotesInOctave = 12;
+constexpr double kLevelWithoutForce = 0.2;
+constexpr double kFarSide = 0.75;  // one ear is never left without any sound
+
+}  // namespace
+
+double note_hz(double note) { return kHzOfA * std::exp2((note - kNoteOfA) / kNotesInOctave); }
+
+Ear::Ear(double bend_n, double strongest_n) : bend_n_(bend_n), whole_(std::asinh(strongest_n / bend_n)) {}
+
+Ear::Ear(const physics::LawTables& tables)
+    : Ear(haptics::compression_bend_n(tables), haptics::strongest_force_n(tables)) {}
+
+double Ear::share(double force_n) const { return std::asinh(std::abs(force_n) / bend_n_) / whole_; }
+
+double Ear::hz(double force_n) const {
+  return note_hz(kLowestNote + std::min(kNotesToPull * share(force_n), kNotesToPull + kNotesBeyond));
+}
+
+Tone Ear::tone(double force_n) const {
+  const double turn = std::tanh(force_n / bend_n_);  // from side to side without a jump where the force is zero
+  return {.hz = hz(force_n),
+          .level = kLevelWithoutForce + (1.0 - kLevelWithoutForce) * std::min(1.0, share(force_n)),
+          .side = kFarSide * turn,
+          .edge = std::max(0.0, turn)};
+}
+
+}  // namespace afm::exhibit

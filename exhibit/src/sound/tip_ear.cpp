@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/sound/tip_ear.h"
+
+#include <utility>
+
+namespace afm::exhibit {
+
+Heard heard_of(const scene::TipEvent& event) {
+  Heard heard{.event = HeardEvent::Slip, .time_ns = event.time_ns, .material = event.material};
+  switch (event.kind) {
+    case physics::EventKind::JumpToContact:
+      heard.event = HeardEvent::SnapIn;
+      heard.force_n = event.force_after_n;
+      break;
+    case physics::EventKind::JumpOffContact:
+      heard.event = HeardEvent::PullOff;
+      heard.force_n = event.force_before_n;
+      break;
+    case physics::EventKind::Slip:
+      heard.force_n = event.force_before_n;
+      break;
+  }
+  return heard;
+}
+
+double side_of(const Heard& heard, const Ear& ear) {
+  const bool jump = heard.event == HeardEvent::SnapIn || heard.event == HeardEvent::PullOff;
+  return jump ? ear.tone(heard.force_n).side : 0.0;
+}
+
+bool is_audible(const scene::TipSample& sample) {
+  return sample.servo_state == scene::ServoState::Running && sample.phase != physics::Phase::WaitForLift;
+}
+
+std::optional<HeardEvent> TipEar::change_of_force(scene::ServoState state) {
+  using enum scene::ServoState;
+  const scene::ServoState before = std::exchange(state_, state);
+  if (state == before) return std::nullopt;
+  if (state == Fault) {
+    on_ = false;
+    return HeardEvent::Fault;
+  }
+  if (state == Running) {
+    on_ = true;
+    return HeardEvent::ForceOn;
+  }
+  // fading out, or cut at once
+  if (on_ && (state == Fading || state == Disarmed)) {
+    on_ = false;
+    return HeardEvent::ForceOff;
+  }
+  return std::nullopt;
+}
+
+bool TipEar::touches(const scene::TipSample& sample) {
+  const bool pushed = sample.tip.force_n > 0.0;
+  const bool felt = is_audible(sample);
+  // a law without a pull pushes from where it touches
+  if (!felt || sample.phase == physics::Phase::Free) may_touch_ = felt && !pushed;
+  const bool touch = felt && pushed && may_touch_;
+  if (touch) may_touch_ = false;
+  return touch;
+}
+
+std::optional<Heard> TipEar::add(const scene::TipSample& sample) {
+  const double before_n = std::exchange(last_force_n_, sample.tip.force_n);
+  const std::int64_t before_ns = std::exchange(last_ns_, sample.time_ns);
+  const bool touch = touches(sample);
+  if (const auto change = change_of_force(sample.servo_state)) {
+    // Stop was pressed: no fault, whatever state the governor is in
+    const bool stopped = *change == HeardEvent::Fault && sample.renderer == scene::RendererLink::Stopped;
+    return Heard{
+        .event = stopped ? HeardEvent::ForceOff : *change, .time_ns = sample.time_ns, .material = sample.material};
+  }
+  if (!touch) return std::nullopt;
+  // where the force crossed zero between the two ticks
+  const double rise_n = sample.tip.force_n - before_n;
+  const double share = before_n <= 0.0 && rise_n > 0.0 ? -before_n / rise_n : 1.0;
+  const auto part_ns = static_cast<std::int64_t>(share * static_cast<double>(sample.time_ns - before_ns));
+  return Heard{.event = HeardEvent::Touch, .time_ns = before_ns + part_ns, .material = sample.material};
+}
+
+}  // namespace afm::exhibit

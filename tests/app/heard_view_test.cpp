@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/whole_file.h"
+#include "exhibit/sound/synthesizer.h"
+#include "render/frame.h"
+#include "servo/session_file.h"
+#include "support/live_program.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+#include "support/sound_analysis.h"
+#include "support/virtual_display.h"
+
+// The live window by ear: what is said, and what SDL's disk driver wrote. No picture is read but to see that it is
+// blank.
+namespace afm::app {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+
+// A variable of the environment of what is started, until the end of this.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    ::setenv(name, value.c_str(), 1);
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+  ~Variable() { before_.empty() ? ::unsetenv(name_) : ::setenv(name_, before_.c_str(), 1); }
+
+ private:
+  const char* name_;
+  std::string before_;
+};
+
+class HeardView : public ::testing::Test {
+ protected:
+  static constexpr double kHandPerPixel = 0.085 / 0.30 / 480;
+
+  std::unique_ptr<support::LiveProgram> view(std::vector<std::string> more) const {
+    std::vector<std::string> all{AFM_PROGRAM,   "view", "--size",  "640x480",      "--frame-rate", "12",
+                                 "--eye-width", "320",  "--servo", AFM_SERVO_MODE, "--linger",     "0"};
+    if (std::find(more.begin(), more.end(), "--language") == more.end()) more.insert(more.end(), {"--language", "en"});
+    all.insert(all.end(), more.begin(), more.end());
+    return std::make_unique<support::LiveProgram>(all, display_.name());
+  }
+  void xdotool(const std::string& what) const {
+    const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool " + what);
+    ASSERT_EQ(done.exit_code, 0) << "xdotool " << what << ": " << done.err << " (package xdotool)";
+  }
+  // The hand up or down, wherever the pointer is.
+  void move_hand(double height_m) const {
+    const int rise = static_cast<int>(std::lround(height_m / kHandPerPixel));
+    xdotool("mousemove 320 240 mousedown 3 mousemove 320 " + std::to_string(240 - rise) + " mouseup 3");
+  }
+  std::string program(const std::string& name, const std::string& lines) const {
+    const std::string path = folder_.write(name, "#!/bin/sh\n" + lines + "\n");
+    ::chmod(path.c_str(), 0755);
+    return path;
+  }
+  std::string own_path() const { return folder_.path() + ":/usr/bin:/bin"; }
+
+  // A cycle by what is said. A busy machine lets go of the hand now and then: then again, as it says.
+  bool feel_a_cycle(support::LiveProgram& view) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(4);
+    while (std::chrono::steady_clock::now() < end) {
+      move_hand(0.150);
+      for (int presses = 0; presses < 40; ++presses) {
+        xdotool("key t");
+        if (view.says("says: The force is on", seconds(2))) break;
+      }
+      move_hand(-0.100);
+      const std::vector<std::string> down{"says: The tip snapped to contact. 0.24 nanonewtons", "says: Force off",
+                                          "says: The force is off", "says: Fault"};
+      if (view.says_one_of(down) != down.front()) continue;
+      move_hand(0.120);
+      const std::vector<std::string> up{"says: The tip let go. 1.4 nanonewtons", "says: Force off",
+                                        "says: The force is off", "says: Fault"};
+      if (view.says_one_of(up) == up.front()) return true;
+    }
+    return false;
+  }
+
+  support::ScratchFolder folder_;
+  support::VirtualDisplay display_{640, 480};
+};
+
+constexpr std::size_t kThin = 8;
+
+std::vector<double> thinned(const std::vector<double>& samples) {
+  std::vector<double> thin;
+  for (std::size_t i = 0; i + kThin <= samples.size(); i += kThin) {
+    double sum = 0;
+    for (std::size_t j = 0; j < kThin; ++j) sum += samples[i + j];
+    thin.push_back(sum / kThin);
+  }
+  return thin;
+}
+
+std::vector<double> signal_of(exhibit::HeardEvent event) {
+  exhibit::Synthesizer synthesizer(exhibit::Channels::Mono);
+  synthesizer.play(0, event, 0.0);
+  std::vector<float> samples(2 * static_cast<std::size_t>(exhibit::row_of(event).signal.length_s() * 48e3));
+  synthesizer.add_to(samples);
+  return thinned(test::channel(samples, 0));
+}
+
+// How alike a part of the sound and a signal are at best: 1, the same but for the volume.
+double likeness(const std::vector<double>& sound, const std::vector<double>& signal) {
+  double best = 0;
+  for (std::size_t at = 0; at + signal.size() < sound.size(); ++at) {
+    double product = 0, power = 1e-9;
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+      product += sound[at + i] * signal[i];
+      power += sound[at + i] * sound[at + i];
+    }
+    best = std::max(best, product / std::sqrt(power));
+  }
+  return best / (test::rms(signal) * std::sqrt(static_cast<double>(signal.size())));
+}
+
+TEST_F(HeardView, GoesThroughTheWholeProcedureByWhatIsSaidAlone) {
+  const Variable driver("SDL_AUDIODRIVER", "disk"), file("SDL_DISKAUDIOFILE", folder_.file("sound.raw"));
+  std::filesystem::create_directory(folder_.file("kept"));
+  const auto live = view({"--sound", "--speech", "--record", folder_.file("kept")});
+  ASSERT_TRUE(live->says("sound: disk")) << live->said();
+  ASSERT_TRUE(live->says("speech: /")) << live->said();
+  ASSERT_TRUE(live->says("says: Choose a sample: ")) << live->said();
+  xdotool("key x");
+  ASSERT_TRUE(live->says("says: The picture is off")) << live->said();
+  xdotool("key 1");
+  ASSERT_TRUE(live->says("says: Mica")) << live->said();
+  ASSERT_TRUE(feel_a_cycle(*live)) << live->said();
+  xdotool("key y");
+  ASSERT_TRUE(live->says("says: The tip let go. 1.4 nanonewtons. Mica. FORCE")) << live->said();
+  xdotool("key Return");
+  ASSERT_TRUE(live->says("says: The force is off")) << live->said();
+  xdotool("key Escape");
+  EXPECT_EQ(live->ends(), 0) << live->said();
+
+  // the same by the sound alone, whatever the tone and the voice do meanwhile
+  const auto session = servo::load_session(folder_.file("kept/session-mica.afms"));
+  ASSERT_TRUE(session.has_value()) << session.error().message;
+  EXPECT_NE(session->find(physics::EventKind::JumpOffContact), nullptr);
+  const auto sound = thinned(test::channel(test::floats_of(core::read_file(folder_.file("sound.raw")).value()), 0));
+  using exhibit::HeardEvent;
+  for (const HeardEvent event : {HeardEvent::SampleChosen, HeardEvent::TurnOnReady, HeardEvent::ForceOn,
+                                 HeardEvent::SnapIn, HeardEvent::PullOff, HeardEvent::ForceOff}) {
+    EXPECT_GT(likeness(sound, signal_of(event)), 0.5) << exhibit::row_of(event).signal.length_s();
+  }
+  // sound changes no force
+  const auto replayed =
+      support::run_program(std::string(AFM_PROGRAM) + " replay " + folder_.file("kept/session-mica.afms") +
+                           " --sound " + folder_.file("mica.wav"));
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+  EXPECT_THAT(replayed.out, HasSubstr("identical, bit for bit"));
+  EXPECT_GT(std::filesystem::file_size(folder_.file("mica.wav")), 100'000U);
+}
+
+TEST_F(HeardView, BlanksThePictureAndShowsItAgain) {
+  const auto live = view({});
+  ASSERT_TRUE(live->says("F1 shows the keys")) << live->said();
+  // text is nearly white, the background is not
+  const auto brightest = [&] {
+    const render::Image image = display_.screenshot();
+    int most = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) most = std::max(most, i % 4 == 3 ? 0 : int{image.rgba[i]});
+    return most;
+  };
+  const auto shows = [&](auto&& condition) {
+    for (int i = 0; i < 500; ++i) {
+      if (condition(brightest())) return true;
+      std::this_thread::sleep_for(milliseconds(20));
+    }
+    return false;
+  };
+  EXPECT_TRUE(shows([](int level) { return level > 200; }));
+  xdotool("key x");
+  ASSERT_TRUE(live->says("the picture is blank")) << live->said();
+  EXPECT_TRUE(shows([](int level) { return level < 150; })) << brightest() << " is brighter than the background";
+  xdotool("key x");
+  ASSERT_TRUE(live->says("the picture is shown")) << live->said();
+  EXPECT_TRUE(shows([](int level) { return level > 200; }));
+  xdotool("key q");
+  ASSERT_TRUE(live->says("sound off")) << live->said();
+  xdotool("key y");
+  ASSERT_TRUE(live->says("says: FORCE OFF. Choose a sample: ")) << live->said();
+  xdotool("key Escape");
+  EXPECT_EQ(live->ends(), 0) << live->said();
+}
+
+TEST_F(HeardView, GoesOnWithoutASoundCardAndWhenItIsLost) {
+  {
+    const Variable driver("SDL_AUDIODRIVER", "no-such-driver");
+    const auto live = view({"--sound"});
+    ASSERT_TRUE(live->says("no sound: SDL says: ")) << live->said();
+    ASSERT_TRUE(live->says("Choose a sample")) << live->said();
+    xdotool("key Escape");
+    EXPECT_EQ(live->ends(), 0) << live->said();
+  }
+  // a card that takes nothing
+  const Variable driver("SDL_AUDIODRIVER", "disk"), file("SDL_DISKAUDIOFILE", "/dev/full");
+  const auto live = view({"--sound"});
+  ASSERT_TRUE(live->says("no sound: the sound card is gone")) << live->said();
+  xdotool("key 1");
+  ASSERT_TRUE(live->says("chosen: Mica")) << live->said();
+  xdotool("key Escape");
+  EXPECT_EQ(live->ends(), 0) << live->said();
+  const std::string said = live->said();
+  EXPECT_EQ(said.find("no sound", said.find("no sound") + 1), std::string::npos) << said;
+}
+
+TEST_F(HeardView, WithoutEspeakEndsWhereSpeechWasAskedForAndElseSaysSoOnce) {
+  const Variable driver("SDL_AUDIODRIVER", "dummy");
+  std::unique_ptr<support::LiveProgram> asked, pressed;
+  {
+    const Variable path("PATH", folder_.path());
+    asked = view({"--speech"});
+    pressed = view({});
+  }
+  EXPECT_EQ(asked->ends(), 4) << asked->said();
+  EXPECT_THAT(asked->said(), HasSubstr("--speech needs the program espeak-ng"));
+  ASSERT_TRUE(pressed->says("F1 shows the keys")) << pressed->said();
+  xdotool("key y");
+  ASSERT_TRUE(pressed->says("says: FORCE OFF")) << pressed->said();
+  xdotool("key y");
+  ASSERT_TRUE(pressed->says("says: FORCE OFF")) << pressed->said();
+  xdotool("key Escape");
+  EXPECT_EQ(pressed->ends(), 0) << pressed->said();
+  const std::string said = pressed->said();
+  const std::size_t first = said.find("espeak-ng");
+  ASSERT_NE(first, std::string::npos) << said;
+  EXPECT_EQ(said.find("--speech needs", first), std::string::npos) << said;
+}
+
+TEST_F(HeardView, EndsAtOnceWhileTheProgramThatSpeaksHangs) {
+  const Variable driver("SDL_AUDIODRIVER", "dummy");
+  program("espeak-ng", "echo $$ > " + folder_.file("pid") + "\nsleep 1000");
+  const Variable path("PATH", own_path());
+  const auto live = view({"--sound", "--speech"});
+  ASSERT_TRUE(live->says("says: Choose a sample")) << live->said();
+  ASSERT_TRUE(live->says("did not answer within 2 s and was ended")) << live->said();
+  xdotool("key 2");  // frames go on
+  ASSERT_TRUE(live->says("says: Gold")) << live->said();
+  const auto begin = std::chrono::steady_clock::now();
+  live->signal(SIGINT);
+  EXPECT_EQ(live->ends(), 0) << live->said();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, milliseconds(2 * 500));
+  const std::string pid = core::read_file(folder_.file("pid")).value();
+  EXPECT_FALSE(std::filesystem::exists("/proc/" + pid.substr(0, pid.find('\n')))) << "no orphan";
+}
+
+TEST_F(HeardView, LeavesSpeechToAScreenReaderThatRuns) {
+  const Variable driver("SDL_AUDIODRIVER", "dummy");
+  program("spd-say", "echo \"$@\" >> " + folder_.file("said"));
+  const std::string orca = program("orca", "sleep 1000; true");
+  support::LiveProgram reader({orca}, "");
+  for (int i = 0; i < 500; ++i) {  // until it has its name
+    const auto name = core::read_file("/proc/" + std::to_string(reader.pid()) + "/comm");
+    if (name && *name == "orca\n") break;
+    std::this_thread::sleep_for(milliseconds(10));
+  }
+  const Variable path("PATH", own_path());
+  const auto live = view({"--speech", "--language", "de"});
+  ASSERT_TRUE(live->says("speech: " + folder_.file("spd-say"))) << live->said();
+  ASSERT_TRUE(live->says("says: Eine Probe w")) << live->said();
+  xdotool("key Escape");
+  EXPECT_EQ(live->ends(), 0) << live->said();
+  EXPECT_THAT(core::read_file(folder_.file("said")).value(), HasSubstr("--wait -l de -- Eine Probe w"));
+}
+
+}  // namespace
+}  // namespace afm::app
