@@ -106,6 +106,31 @@ TEST(SharedBlocks, AreRefusedForAnyNumberThatIsNotFinite) {
   EXPECT_EQ(expect_every_number_is_checked<TipEvent>(model), 3);
 }
 
+TEST(SharedBlocks, SayYesOrNoByOneOrZeroAlone) {
+  const SharedModel model = paper_model();
+  SharedDevice device{.max_force_n = 1,
+                      .max_continuous_force_n = 1,
+                      .max_stiffness_n_per_m = 1,
+                      .max_slew_n_per_s = 1,
+                      .max_speed_m_per_s = 1};
+  for (const std::uint32_t answer : {0U, 1U, 2U, ~0U}) {
+    const bool good = answer <= 1;
+    EXPECT_EQ(is_valid(HandScript{.turn_on_pressed = answer}), good) << answer;
+    EXPECT_EQ(is_valid(RendererHeartbeat{.leaving = answer}), good) << answer;
+    EXPECT_EQ(is_valid(RendererHeartbeat{.stop = answer}), good) << answer;
+    EXPECT_EQ(is_valid(TipSample{.device_healthy = answer}, model), good) << answer;
+    EXPECT_EQ(is_valid(TipSample{.changing = answer}, model), good) << answer;
+    device.has_own_hand = answer;
+    EXPECT_EQ(is_valid(device), good) << answer;
+  }
+}
+
+TEST(SharedContact, WhoseHeightFieldIsNotThereLiesOnAPlane) {
+  for (const std::uint32_t missing : {0U, 1U, kNoHeightField}) {
+    EXPECT_EQ(surface_of({.height_field = missing}, {}, {}).columns, 0U) << missing;
+  }
+}
+
 TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
   SharedSegment segment = create_segment();
   const auto size = static_cast<std::size_t>(::lseek(segment.descriptor(), 0, SEEK_END));
