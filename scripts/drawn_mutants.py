@@ -54,7 +54,7 @@ def variants(line, opens_function):
         yield ("swapped comparison", code[: place.start(1)] + other + code[place.end(1):],
                code[: place.end(1)] + f" afm_mutants::{name}<N>() " + place[1] + code[place.end(1):])
     for place in re.finditer(r"(?<![\w.'])(\d[\d']*\.\d+(?:e-?\d+)?F?|[1-9]\d*)(?![\w.'])", bare):
-        for factor in ("0", "2") if float(place[1].replace("'", "").rstrip("F")) != 0 else ():
+        for factor in ("0", "2"):
             both = code[: place.start(1)] + f"({place[1]} * afm_mutants::factor<N, {factor}>())" + code[place.end(1):]
             # what is a constant of the compiler could not sleep
             both = re.sub(r"\bstatic constexpr\b|\bconstexpr\b", lambda m: m[0].replace("constexpr", "const"), both)
@@ -96,7 +96,9 @@ def drawn_edits(seed):
         if not choices or (path, number) in seen:
             continue
         seen.add((path, number))
-        yield DrawnEdit(str(path.relative_to(ROOT)), number, line, *chance.choice(choices))
+        edit = DrawnEdit(str(path.relative_to(ROOT)), number, line, *chance.choice(choices))
+        if not re.search(r"\(0\.0+F? \* [02]\)", edit.changed):  # nothing is still nothing
+            yield edit
 
 
 def kept_draw(path, count, seed):
@@ -169,11 +171,11 @@ class Build:
         return subprocess.run([str(part) for part in command], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True)
 
-    def targets(self):
+    def targets(self, folders):
         """The test programs of the folders, and what they start."""
         listed = self.run("ninja", "-C", "build/release", "-t", "targets", "all").stdout
-        names = set(re.findall(rf"^(test_(?:{'|'.join(self.folders)})_\w+): phony", listed, re.M))
-        return sorted(names | {"touchafm-servo"} | ({"touchafm"} if "app" in self.folders else set()))
+        names = set(re.findall(rf"^(test_(?:{'|'.join(folders)})_\w+): phony", listed, re.M))
+        return sorted(names | {"touchafm-servo"} | ({"touchafm"} if "app" in folders else set()))
 
     def make(self, edits):
         """Returns those of the edits that sleep beside one another."""
@@ -185,7 +187,7 @@ class Build:
             write_tree(self.folder, texts)
             if not (self.folder / "build" / "release" / "build.ninja").exists():
                 self.run("cmake", "--preset", "release")
-            built = self.run("cmake", "--build", "--preset", "release", "--target", *self.targets(), "--", "-k", "0")
+            built = self.run("cmake", "--build", "--preset", "release", "--target", *self.targets(self.folders), "--", "-k", "0")
             if built.returncode == 0:
                 return edits
             found = set()
@@ -313,27 +315,22 @@ class Judge:
         return None
 
 
-def judge_alone(edit):
-    """For an edit that cannot sleep: by the tests of its own folder, in the tree of the given edits."""
-    folder = ROOT / "build" / "mutants"
-    folder.mkdir(parents=True, exist_ok=True)
+def judge_alone(build, edit):
+    """For an edit that cannot sleep: made alone, by the tests of its own folder, then by those of all."""
     lines = (ROOT / edit.file).read_text().splitlines()
     lines[edit.number] = edit.changed
-    write_tree(folder, {edit.file: "\n".join(lines) + "\n"})
-
-    def run(*command):
-        return subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-
-    top = edit.file.split("/")[0]
-    run("scripts/build", "release", "help")
-    targets = [line.split(":")[0] for line in run("ninja", "-C", "build/release", "-t", "targets", "all").stdout.splitlines()]
-    targets = sorted({name for name in targets if re.fullmatch(rf"test_{top}_\w+", name)} | {"touchafm", "touchafm-servo"})
-    if run("scripts/build", "release", *targets).returncode != 0:
-        return "does not compile", ""
-    done = run("ctest", "--preset", "release", "-R", rf"^{top}\.", "--timeout", "120", "--stop-on-failure", "-E", "installation|soak")
-    if done.returncode == 0:
-        return "SURVIVED", "the tests of its folder"
-    return "noticed", next(iter(re.findall(r"^\s+\d+ - (\S+) \(", done.stdout, re.M)), "?")
+    write_tree(build.folder, {edit.file: "\n".join(lines) + "\n"})
+    own = edit.file.split("/")[0]
+    for folders in ([own], [folder for folder in build.folders if folder != own]):
+        if not folders:
+            continue
+        if build.run("cmake", "--build", "--preset", "release", "--target", *build.targets(folders)).returncode != 0:
+            return "does not compile", ""
+        done = build.run("ctest", "--preset", "release", "-R", rf"^({'|'.join(folders)})\.", "-E", "installation|soak", "-LE",
+                         "^(" + "|".join(sorted(LEFT_OUT)) + ")$", "--timeout", 120, "--stop-on-failure")
+        if failed := re.findall(r"^\s+\d+ - (\S+) \(", done.stdout, re.M):
+            return "noticed", failed[0]
+    return "SURVIVED", ""
 
 
 def judge_drawn(count, seed, folders, copy):
@@ -349,7 +346,7 @@ def judge_drawn(count, seed, folders, copy):
     def judged(number):
         edit = drawn[number]
         if number not in sleeping:
-            return judge_alone(edit)
+            return judge_alone(build, edit)
         if by := judge.notice(number, edit):
             return "noticed", by
         return "SURVIVED", "" if any(number in test.reached for test in judge.tests) else "no test reaches it"
