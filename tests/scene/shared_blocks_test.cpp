@@ -131,6 +131,22 @@ TEST(SharedContact, WhoseHeightFieldIsNotThereLiesOnAPlane) {
   }
 }
 
+// Each friction with each law, and what a law of force must have for it.
+TEST(SharedContact, HasFrictionWhereItsLawOfForceHasWhatItNeeds) {
+  using namespace afm::physics;
+  const Pressure modulus(1e9), rigid(std::numeric_limits<double>::infinity());
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(Law::Count); ++i) {
+    const Law law = static_cast<Law>(i);
+    const bool contact = law == Law::Hertz || law == Law::Dmt || law == Law::Jkr || law == Law::MaugisDugdale;
+    EXPECT_EQ(why_no_friction(FrictionLaw::None, law, rigid), "") << name_of(law);
+    for (const FrictionLaw friction : {FrictionLaw::Amontons, FrictionLaw::Lattice}) {
+      EXPECT_EQ(why_no_friction(friction, law, rigid).empty(), law != Law::Paper) << name_of(law);
+    }
+    EXPECT_EQ(why_no_friction(FrictionLaw::ContactArea, law, modulus).empty(), contact) << name_of(law);
+    EXPECT_FALSE(why_no_friction(FrictionLaw::ContactArea, law, rigid).empty()) << name_of(law);
+  }
+}
+
 TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
   SharedSegment segment = create_segment();
   const auto size = static_cast<std::size_t>(::lseek(segment.descriptor(), 0, SEEK_END));
