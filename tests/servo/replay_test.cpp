@@ -157,6 +157,19 @@ TEST(Replay, GivesFaultsHangsAndLateTicksAgain) {
   for (const RecordedSession& session : recording.sessions) expect_same(session);
 }
 
+TEST(Replay, OfASessionThatBeginsInAFaultBeginsInIt) {
+  const auto recording = std::make_unique<Recording>();
+  recording->device.healthy = false;
+  recording->choose(1);
+  recording->run(50);
+  recording->device.healthy = true;
+  recording->run(100);
+  ASSERT_FALSE(recording->sessions.empty());
+  const RecordedSession& session = recording->sessions.front();
+  ASSERT_EQ(session.samples.front().servo_state, scene::ServoState::Fault);
+  expect_same(session);
+}
+
 TEST(Replay, GivesForcesThatWerePutDownForHotMotorsAgain) {
   Recording recording;
   recording.choose(test::kMica);
