@@ -55,9 +55,10 @@ def variants(line, opens_function):
                code[: place.end(1)] + f" afm_mutants::{name}<N>() " + place[1] + code[place.end(1):])
     for place in re.finditer(r"(?<![\w.'])(\d[\d']*\.\d+(?:e-?\d+)?F?|[1-9]\d*)(?![\w.'])", bare):
         for factor in ("0", "2"):
-            both = code[: place.start(1)] + f"({place[1]} * afm_mutants::factor<N, {factor}>())" + code[place.end(1):]
+            call = "factor_at_run_time" if "constexpr" in code else "factor"
+            both = code[: place.start(1)] + f"({place[1]} * afm_mutants::{call}<N, {factor}>())" + code[place.end(1):]
             # what is a constant of the compiler could not sleep
-            both = re.sub(r"\bstatic constexpr\b|\bconstexpr\b", lambda m: m[0].replace("constexpr", "const"), both)
+            both = both.replace("constexpr", "const")
             yield f"constant x {factor}", code[: place.start(1)] + f"({place[1]} * {factor})" + code[place.end(1):], both
     if opens_function:
         value = "return;" if re.match(r"^(static )?void |^\w+::~?\w+\(", code) else "return {};"

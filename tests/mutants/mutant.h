@@ -79,12 +79,18 @@ constexpr int factor() {
   return is_awake<kNumber>() ? kFactor : 1;
 }
 
+// The same for what was a constant of the compiler, which would evaluate the above while it sleeps.
+template <int kNumber, int kFactor>
+int factor_at_run_time() {
+  return is_awake<kNumber>() ? kFactor : 1;
+}
+
 // `a + Sign<7, -1>() * b` is a - b asleep, and a + b awake; `a + Sign<7, 1>() * b` the other way round.
 template <int kNumber, int kAsleep>
 struct Sign {
   template <class T>
   friend constexpr auto operator*(Sign, const T& b) {
-    return (is_awake<kNumber>() ? -kAsleep : kAsleep) < 0 ? -b : +b;
+    return (is_awake<kNumber>() ? -kAsleep : kAsleep) < 0 ? -b : -(-b);  // of units there is no +b
   }
 };
 
