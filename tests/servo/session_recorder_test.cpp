@@ -94,7 +94,10 @@ TipSample at(std::int64_t time_ns, std::int32_t material = 1) {
 
 TEST(TipStream, GivesAnEventJustBeforeTheSampleAtOrAfterIt) {
   const auto event = [](std::int64_t time_ns, std::int32_t material = 1) {
-    return scene::TipEvent{.time_ns = time_ns, .material = material};
+    scene::TipEvent of;
+    of.time_ns = time_ns;
+    of.material = material;
+    return of;
   };
   ServoClient::Update both;
   both.samples = {at(1), at(2), at(3)};
