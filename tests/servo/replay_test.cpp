@@ -159,13 +159,15 @@ TEST(Replay, GivesFaultsHangsAndLateTicksAgain) {
 
 TEST(Replay, OfASessionThatBeginsInAFaultBeginsInIt) {
   const auto recording = std::make_unique<Recording>();
-  recording->device.healthy = false;
-  recording->choose(1);
+  recording->choose(test::kMica);
   recording->run(50);
-  recording->device.healthy = true;
+  recording->device.healthy = false;
+  recording->run(20);
+  recording->device.healthy = true;  // which ends no fault
+  recording->choose(test::kGold);
   recording->run(100);
-  ASSERT_FALSE(recording->sessions.empty());
-  const RecordedSession& session = recording->sessions.front();
+  ASSERT_EQ(recording->sessions.size(), 2U);
+  const RecordedSession& session = recording->sessions.back();
   ASSERT_EQ(session.samples.front().servo_state, scene::ServoState::Fault);
   expect_same(session);
 }
