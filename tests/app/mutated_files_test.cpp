@@ -42,7 +42,7 @@ constexpr Reading kReadings[]{
     {"AnalyseTouchafmCsv", "analyse ", "", AFM_CORPUS "curve_files/touchafm.csv", ".csv"},
     {"AnalyseWorkshopCsv", "analyse ", "", AFM_CORPUS "curve_files/workshop-volts.csv", ".csv"},
     {"AnalyseTab", "analyse ", "", AFM_CORPUS "curve_files/adhesive.tab", ".tab"},
-    {"AnalyseHdf5", "analyse ", "", AFM_CORPUS "curve_files/adhesive.h5", ".h5"},
+    {"AnalyseHdf5", "analyse ", "", AFM_CORPUS "hdf5/adhesive.h5", ".h5"},
     {"AnalyseJpk", "analyse ", "", AFM_CORPUS "curve_files/adhesive.jpk-force", ".jpk-force"},
     {"AnalyseIgor", "analyse ", "", AFM_CORPUS "curve_files/adhesive.ibw", ".ibw"},
     {"AnalyseGsf", "analyse ", "", AFM_CORPUS "image_files/relief.gsf", ".gsf"},

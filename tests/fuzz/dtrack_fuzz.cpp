@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "fuzz/accepted.h"
 #include "input/dtrack.h"
 
 // Whatever comes by UDP: a frame of bodies that are somewhere, or nothing.
@@ -9,6 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   using namespace afm::input;
   const auto frame = parse_dtrack({reinterpret_cast<const char*>(bytes), size});
   if (!frame) return 0;
+  ++afm::fuzz::accepted_inputs;
   if (frame->body_count > frame->bodies.size() || frame->flystick_count > frame->flysticks.size()) std::abort();
   for (std::size_t i = 0; i < frame->body_count; ++i) {
     const DtrackBody& body = frame->bodies[i];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
+#include "fuzz/accepted.h"
 #include "fuzz/memory_file.h"
 #include "scene/gltf/gltf_loader.h"
 #include "scene/graph/pose.h"
@@ -60,6 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const afm::fuzz::MemoryFile file(bytes, size);
   auto scene = afm::scene::load_gltf(file.path());
   if (!scene) return 0;
+  ++afm::fuzz::accepted_inputs;
   afm::check(*scene);
   afm::check(afm::scene::posed(std::move(*scene), 0.5F));
   return 0;

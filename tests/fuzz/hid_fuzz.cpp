@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "fuzz/accepted.h"
 #include "input/dualsense.h"
 #include "input/hid_mapping.h"
 #include "input/hid_wand.h"
@@ -63,6 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
       if (answer.empty()) std::abort();
     }
     const WandState state = wand.state(now_ns);
+    if (state.connected) ++afm::fuzz::accepted_inputs;
     const glm::dvec3 d = ray_of(state).direction;
     if (!(std::abs(d.x * d.x + d.y * d.y + d.z * d.z - 1.0) < 1e-6)) std::abort();
     if (!(std::abs(state.push.x) <= 1.0 && std::abs(state.turn.y) <= 1.0)) std::abort();

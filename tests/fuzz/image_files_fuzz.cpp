@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "curves/image_file.h"
+#include "fuzz/accepted.h"
 #include "physics/imaging/levelling.h"
 
 // Whatever the bytes, and whichever format they claim: an image whose channels fill its grid, and which can be levelled
@@ -14,6 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const std::string_view text(reinterpret_cast<const char*>(bytes), size);
   const auto loaded = afm::curves::parse_image(text, "fuzz", {.channel = {}, .confined = false});
   if (!loaded) return 0;
+  ++afm::fuzz::accepted_inputs;
   const auto& image = loaded->image;
   if (loaded->chosen >= image.channels.size()) std::abort();
   for (const auto& channel : image.channels) {

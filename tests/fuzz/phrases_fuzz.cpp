@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "exhibit/phrases.h"
+#include "fuzz/accepted.h"
 #include "fuzz/memory_file.h"
 
 // Whatever the bytes: phrases within their limits with the placeholders that they need, or an error.
@@ -11,6 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const afm::fuzz::MemoryFile file(bytes, size);
   const auto phrases = Phrases::load(file.path(), Phrases{});
   if (!phrases) return 0;
+  ++afm::fuzz::accepted_inputs;
   if ((*phrases)[Phrase::Lift].size() > 4 * afm::exhibit::kLine) std::abort();
   const std::string journey = phrases->text<Phrase::Journey>(std::string("1.5"));
   if (!(*phrases)[Phrase::Journey].empty() && journey.find("{place}") != std::string::npos) std::abort();

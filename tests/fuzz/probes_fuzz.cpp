@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "fuzz/accepted.h"
 #include "fuzz/memory_file.h"
 #include "physics/contact_parameters.h"
 #include "scene/samples/probe_library.h"
@@ -8,6 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const afm::fuzz::MemoryFile file(bytes, size);
   const auto library = afm::scene::load_probes(file.path());
   if (!library) return 0;
+  ++afm::fuzz::accepted_inputs;
   afm::scene::MaterialEntry material;
   material.contact.sample_stiffness = afm::physics::Stiffness(1.0);
   material.contact.hamaker = afm::physics::Energy(1e-20);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fnv1a.h"
+#include "fuzz/accepted.h"
 #include "fuzz/memory_file.h"
 #include "servo/session_file.h"
 
@@ -53,6 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const afm::fuzz::MemoryFile file(whole.data(), whole.size());
   const auto session = afm::servo::load_session(file.path());
   if (!session) return 0;
+  ++afm::fuzz::accepted_inputs;
   if (session->samples.empty()) std::abort();
   for (const afm::scene::TipSample& sample : session->samples) {
     if (!std::isfinite(sample.tip.z_m) || !std::isfinite(sample.tip.force_n)) std::abort();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
+#include "fuzz/accepted.h"
 #include "fuzz/memory_file.h"
 #include "scene/display/wall.h"
 
@@ -10,6 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const afm::fuzz::MemoryFile file(bytes, size);
   const auto wall = load_wall(file.path());
   if (!wall) return 0;
+  ++afm::fuzz::accepted_inputs;
   for (const Viewer& viewer : wall->viewers) {
     for (const Screen& screen : wall->screens) {
       for (const Eye eye : kEyes) {

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "fuzz/accepted.h"
 #include "fuzz/memory_file.h"
 #include "input/wand_file.h"
 
@@ -11,7 +12,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   using namespace afm::input;
   const afm::fuzz::MemoryFile file(bytes, size);
   const auto wand = load_wand_file(file.path());
-  if (!wand || !wand->device) return 0;
+  if (!wand) return 0;
+  ++afm::fuzz::accepted_inputs;
+  if (!wand->device) return 0;
   const auto driver = mapped_driver(*wand->device);
   for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{64}, std::size_t{1024}}) {
     std::vector<std::uint8_t> report(length, 0xA5);

@@ -143,7 +143,7 @@ TEST_F(GamepadDeviceTest, MovesTheHandUpAndSidewaysAtABoundedSpeed) {
   ASSERT_TRUE(until(*device, no_force, [&] { return hand.position_m.y < start.y - 0.03; }));
   EXPECT_GT(hand.position_m.x, start.x + 0.01);
   const double seconds = 1e-9 * static_cast<double>(clock.now_ns() - began_ns);
-  EXPECT_LT(start.y - hand.position_m.y, GamepadDevice::kFastestMPerS * seconds + 0.002);
+  EXPECT_LT(start.y - hand.position_m.y, 0.1 * seconds + 0.002);  // 10 cm/s at most
 
   // at the end of its reach it stays, and it comes back
   push(SDL_CONTROLLER_AXIS_LEFTY, 0.0);

@@ -7,6 +7,7 @@
 
 #include "core/clock.h"
 #include "devices/hdapi_device.h"
+#include "hdapi_bench.h"
 #include "mock_control.h"
 
 // The mock's scheduler and the device's supervisor as threads of their own, in real time.
@@ -86,6 +87,18 @@ TEST_F(HdapiScheduler, IsRefusedWhenItNeverCalls) {
   ASSERT_FALSE(device);
   EXPECT_THAT(device.error().message, testing::HasSubstr("did not call within 1 s"));
   EXPECT_EQ(calls().back(), "disable_device");
+}
+
+// The frame that would set zero never comes, and stopping the scheduler may hang in the driver.
+TEST(StalledHdapi, IsSwitchedOffBeforeItsSchedulerIsStopped) {
+  afm::test::HdapiBench bench;
+  bench.hold_attached();
+  mock_hd_stall(1);
+  const std::size_t before = calls().size();
+  bench.device.reset();
+  const auto all = calls();
+  ASSERT_GT(all.size(), before);
+  EXPECT_EQ(all[before], "output_off");
 }
 
 }  // namespace

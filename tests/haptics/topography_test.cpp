@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "haptics/contact_model.h"
+#include "haptics/safety.h"
 #include "haptics/sample_axes.h"
 #include "physics/contact.h"
 #include "servo_bench.h"
@@ -252,6 +253,50 @@ TEST_F(TurnedSample, TurnsHeightAxesAndForceTogether) {
     EXPECT_NEAR(state.surface.xy_m[0], level.surface.xy_m[0], 0.2e-9);
     EXPECT_NEAR(state.surface.xy_m[1], level.surface.xy_m[1], 0.2e-9);
   }
+}
+
+// Somebody turns the sample to and fro under a tip that hangs on it: the spring is stretched by another hand than the
+// one that feels it.
+TEST_F(TurnedSample, GivesTheHandNothingThatWouldHaveToBeDamped) {
+  ServoBench bench(rough_model());
+  bench.hold_attached(kMica);
+  const double before_j = bench.state().safety.excess_energy_j;
+  afm::scene::SceneTransforms transforms;
+  transforms.count = 2;
+  for (int i = 1; i <= 2000; ++i) {
+    const double angle = glm::radians(25.0) * std::sin(glm::radians(0.36 * i));
+    transforms.room_from_node[1] = turned(glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(0, 0, 1)));
+    bench.renderer.store(transforms);
+    bench.tick();
+    ASSERT_EQ(bench.state().phase, Phase::Attached) << i;
+    ASSERT_LE(bench.state().safety.excess_energy_j, before_j + 1e-4) << i;
+  }
+}
+
+// On a plateau, 14 mm high for the hand: it is lifted, comes down to this height above the plateau at which Turn-On is
+// safe, and presses.
+afm::scene::ServoState after_turn_on_above_a_plateau(double height_m) {
+  const auto plain = afm::test::model_of(afm::test::paper_model().materials[kGold]);
+  const double plateau_m = 0.014;
+  auto model = std::make_unique<afm::scene::SharedModel>(rough_model());
+  afm::scene::SharedHeightField& field = model->height_fields[0];
+  field.height_m.fill(static_cast<float>(plateau_m / plain->scaling().hand_m_per_m()));
+  ServoBench bench(*model);
+  const double safe_m = plain->scaling().release_height_m() + SafetyGovernor::kArmingMarginM;
+  bench.choose(kGold);
+  bench.move(plateau_m + safe_m + 0.01, 0.3);
+  bench.run(1.0);
+  bench.move(plateau_m + safe_m + height_m, 0.3);
+  bench.run(0.5);
+  EXPECT_EQ(bench.state().phase, Phase::Free) << height_m;
+  bench.aim(plateau_m + safe_m + height_m, 0.0, true);
+  bench.run(0.3);
+  return bench.state().servo_state;
+}
+
+TEST(TopographyOfAPlateau, IsArmedAtAHeightAboveItselfAndNotAboveThePlane) {
+  EXPECT_NE(after_turn_on_above_a_plateau(0.005), afm::scene::ServoState::Disarmed);
+  EXPECT_EQ(after_turn_on_above_a_plateau(-0.004), afm::scene::ServoState::Disarmed);
 }
 
 TEST(SampleAxes, TurnWhatTheHandMeetsExactly) {

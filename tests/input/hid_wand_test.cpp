@@ -123,6 +123,7 @@ TEST(RateResponse, IsOddDeadInTheMiddleAndGrowsToOne) {
   EXPECT_EQ(rate_response(-0.05), 0.0);
   EXPECT_NEAR(rate_response(1.0), 1.0, 1e-12);
   EXPECT_EQ(rate_response(3.0), rate_response(1.0));
+  EXPECT_NEAR(rate_response(0.55), 0.2227, 1e-4);  // half of the way: (exp(1.25) - 1) / (exp(2.5) - 1)
   EXPECT_EQ(rate_response(-0.6), -rate_response(0.6));
   EXPECT_EQ(rate_response(std::nan("")), 0.0);
   for (double d = 0.12; d < 1.0; d += 0.01) {

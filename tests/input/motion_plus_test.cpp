@@ -110,6 +110,25 @@ TEST(MotionPlus, IsWokenWhenTheRemoteOpensAndWheneverItsPlugChanges) {
   EXPECT_FALSE(remote->read(flat_with(kAtRest))->has_gyro);
 }
 
+TEST(Wiimote, HandsEachOfItsButtonsOn) {
+  struct {
+    unsigned raw;  // 256 times the second byte and the first
+    WandButton button;
+  } constexpr kRows[]{{0x0800, WandButton::Select},
+                      {0x0400, WandButton::Grab},
+                      {0x0010, WandButton::Scale},
+                      {0x8000, WandButton::Home},
+                      {0x1000, WandButton::Recenter}};
+  const auto remote = wiimote_driver();
+  for (const auto& row : kRows) {
+    Report report = from_hex("31 00 00 80 80 9a");
+    report[1] = static_cast<std::uint8_t>(row.raw & 0xFFU);
+    report[2] = static_cast<std::uint8_t>(row.raw >> 8U);
+    EXPECT_EQ(remote->read(report)->buttons, bit(row.button)) << row.raw;
+  }
+  EXPECT_EQ(remote->read(from_hex("31 00 00 80 80 9a"))->buttons, 0U);
+}
+
 TEST(MotionPlus, RefusesShortReports) {
   for (Report report : {kMotionPlus, kChanged, from_hex("35 00 00 80 80 9a 00 00 00 83 82 82 0 0 0 0 0 0 0 0 0 0")}) {
     EXPECT_TRUE(parse_wiimote(report));

@@ -38,6 +38,9 @@ TEST(Sweep, EndsExactlyEvenIfTheStepDoesNotFit) {
 
 TEST(Sweep, HasThreeSamplesIfTheStepIsLongerThanItself) { EXPECT_EQ(sample_count({10_nm, 0_nm, 1_um}), 3U); }
 
+// the range is less than what counts as a rounding error of so long a step
+TEST(Sweep, HasItsEndsHoweverLongTheStepIs) { EXPECT_EQ(sample_count({10_nm, 0_nm, Length(1e3)}), 3U); }
+
 std::string refusal(const SweepPlan& plan) {
   try {
     sample_count(plan);

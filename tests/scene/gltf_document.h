@@ -45,6 +45,25 @@ inline nlohmann::json square_json() {
     "buffers": [{"byteLength": 60}]})");
 }
 
+// Adds bytes as a buffer view of their own; returns its place.
+inline std::size_t add_view(nlohmann::json& document, std::string& binary, const std::string& bytes) {
+  while (binary.size() % 4 != 0) binary += '\0';
+  document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}});
+  binary += bytes;
+  document["buffers"][0]["byteLength"] = binary.size();
+  return document["bufferViews"].size() - 1;
+}
+
+inline std::size_t add_accessor(nlohmann::json& document, std::size_t view, int component_type, int count,
+                                const char* type, bool normalized = false) {
+  document["accessors"].push_back({{"bufferView", view},
+                                   {"componentType", component_type},
+                                   {"count", count},
+                                   {"type", type},
+                                   {"normalized", normalized}});
+  return document["accessors"].size() - 1;
+}
+
 // A PNG image of one red pixel, half seen through.
 inline std::string tiny_png() {
   constexpr unsigned char kBytes[]{0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48,

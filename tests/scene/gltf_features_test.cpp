@@ -18,25 +18,6 @@ namespace {
 using nlohmann::json;
 using testing::ElementsAre;
 
-// Adds bytes as a buffer view of their own; returns its place.
-std::size_t add_view(json& document, std::string& binary, const std::string& bytes) {
-  while (binary.size() % 4 != 0) binary += '\0';
-  document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}});
-  binary += bytes;
-  document["buffers"][0]["byteLength"] = binary.size();
-  return document["bufferViews"].size() - 1;
-}
-
-std::size_t add_accessor(json& document, std::size_t view, int component_type, int count, const char* type,
-                         bool normalized = false) {
-  document["accessors"].push_back({{"bufferView", view},
-                                   {"componentType", component_type},
-                                   {"count", count},
-                                   {"type", type},
-                                   {"normalized", normalized}});
-  return document["accessors"].size() - 1;
-}
-
 std::string bytes_of(std::initializer_list<int> values) {
   std::string bytes;
   for (const int value : values) bytes.push_back(static_cast<char>(value));

@@ -114,6 +114,47 @@ TEST(SharedBlocks, AreRefusedForAnyNumberThatIsNotFinite) {
   EXPECT_EQ(expect_every_number_is_checked<TipEvent>(model), 3);
 }
 
+TEST(SharedBlocks, SayYesOrNoByOneOrZeroAlone) {
+  const SharedModel model = paper_model();
+  SharedDevice device{.max_force_n = 1,
+                      .max_continuous_force_n = 1,
+                      .max_stiffness_n_per_m = 1,
+                      .max_slew_n_per_s = 1,
+                      .max_speed_m_per_s = 1};
+  for (const std::uint32_t answer : {0U, 1U, 2U, ~0U}) {
+    const bool good = answer <= 1;
+    EXPECT_EQ(is_valid(HandScript{.turn_on_pressed = answer}), good) << answer;
+    EXPECT_EQ(is_valid(RendererHeartbeat{.leaving = answer}), good) << answer;
+    EXPECT_EQ(is_valid(RendererHeartbeat{.stop = answer}), good) << answer;
+    EXPECT_EQ(is_valid(TipSample{.device_healthy = answer}, model), good) << answer;
+    EXPECT_EQ(is_valid(TipSample{.changing = answer}, model), good) << answer;
+    device.has_own_hand = answer;
+    EXPECT_EQ(is_valid(device), good) << answer;
+  }
+}
+
+TEST(SharedContact, WhoseHeightFieldIsNotThereLiesOnAPlane) {
+  for (const std::uint32_t missing : {0U, 1U, kNoHeightField}) {
+    EXPECT_EQ(surface_of({.height_field = missing}, {}, {}).columns, 0U) << missing;
+  }
+}
+
+// Each friction with each law, and what a law of force must have for it.
+TEST(SharedContact, HasFrictionWhereItsLawOfForceHasWhatItNeeds) {
+  using namespace afm::physics;
+  const Pressure modulus(1e9), rigid(std::numeric_limits<double>::infinity());
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(Law::Count); ++i) {
+    const Law law = static_cast<Law>(i);
+    const bool contact = law == Law::Hertz || law == Law::Dmt || law == Law::Jkr || law == Law::MaugisDugdale;
+    EXPECT_EQ(why_no_friction(FrictionLaw::None, law, rigid), "") << name_of(law);
+    for (const FrictionLaw friction : {FrictionLaw::Amontons, FrictionLaw::Lattice}) {
+      EXPECT_EQ(why_no_friction(friction, law, rigid).empty(), law != Law::Paper) << name_of(law);
+    }
+    EXPECT_EQ(why_no_friction(FrictionLaw::ContactArea, law, modulus).empty(), contact) << name_of(law);
+    EXPECT_FALSE(why_no_friction(FrictionLaw::ContactArea, law, rigid).empty()) << name_of(law);
+  }
+}
+
 TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
   SharedSegment segment = create_segment();
   const auto size = static_cast<std::size_t>(::lseek(segment.descriptor(), 0, SEEK_END));

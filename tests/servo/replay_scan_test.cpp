@@ -4,16 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 
-#include "core/fnv1a.h"
-#include "core/whole_file.h"
 #include "servo/recorded_servo.h"
 #include "servo/session_file.h"
-#include "session_chunks.h"
-#include "session_records.h"
 #include "support/paper_model.h"
 #include "support/rough_surface.h"
 #include "support/scratch_folder.h"
@@ -91,57 +85,6 @@ TEST(Replay, GivesAHandThatScansAgain) {
   RecordedSession without = loaded;
   for (auto& sample : without.samples) sample.scan = {};
   EXPECT_FALSE(replay(without)->identical());
-}
-
-// The same session as a version before 6 wrote it: shorter samples, and their size in the header.
-std::string as_version(std::string_view file, std::uint32_t version, std::size_t sample_bytes) {
-  std::string written(kSessionMagic);
-  put(written, version);
-  const auto add_sum = [&] {
-    core::Fnv1a sum;
-    for (const char byte : written) sum.add(static_cast<unsigned char>(byte));
-    put(written, sum.value());
-  };
-  SessionDecoder decoder(file);
-  for (auto step = decoder.next(); step == SessionDecoder::Step::Chunk; step = decoder.next()) {
-    std::string payload(decoder.payload());
-    if (decoder.name() == kHeadChunk) {
-      auto header = nlohmann::json::parse(payload);
-      header["sample_bytes"] = sample_bytes;
-      payload = header.dump();
-    } else if (decoder.name() == kPartChunk) {
-      std::string_view rest = decoder.payload();
-      std::vector<scene::TipSample> samples;
-      EXPECT_TRUE(take_all(rest, samples));
-      payload.clear();
-      put(payload, std::uint64_t{samples.size()});
-      for (const auto& sample : samples) payload.append(reinterpret_cast<const char*>(&sample), sample_bytes);
-      payload.append(rest);
-    }
-    written.append(decoder.name());
-    put(written, static_cast<std::uint32_t>(payload.size()));
-    add_sum();
-    written += payload;
-    add_sum();
-  }
-  return written;
-}
-
-TEST(OldFormats, OfASessionWithoutScansReplaysBitForBit) {
-  Recording recording;
-  recording.choose(test::kGold);
-  recording.cycle();
-  const support::ScratchFolder folder;
-  ASSERT_TRUE(save_session(recording.sessions.front(), folder.file("new.afms")));
-  const std::string file = core::read_file(folder.file("new.afms")).value();
-  for (const auto& [version, bytes] : {std::pair{4U, kSampleBytesBefore5}, std::pair{5U, kSampleBytesBefore6}}) {
-    const auto old = load_session(folder.write("old.afms", as_version(file, version, bytes)));
-    ASSERT_TRUE(old) << old.error().message;
-    EXPECT_TRUE(old->complete);
-    EXPECT_EQ(old->samples.size(), recording.sessions.front().samples.size());
-    EXPECT_EQ(old->samples.back().scan, ScanLead{});
-    expect_same(*old);
-  }
 }
 
 }  // namespace

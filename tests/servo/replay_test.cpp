@@ -157,6 +157,21 @@ TEST(Replay, GivesFaultsHangsAndLateTicksAgain) {
   for (const RecordedSession& session : recording.sessions) expect_same(session);
 }
 
+TEST(Replay, OfASessionThatBeginsInAFaultBeginsInIt) {
+  const auto recording = std::make_unique<Recording>();
+  recording->choose(test::kMica);
+  recording->run(50);
+  recording->device.healthy = false;
+  recording->run(20);
+  recording->device.healthy = true;  // which ends no fault
+  recording->choose(test::kGold);
+  recording->run(100);
+  ASSERT_EQ(recording->sessions.size(), 2U);
+  const RecordedSession& session = recording->sessions.back();
+  ASSERT_EQ(session.samples.front().servo_state, scene::ServoState::Fault);
+  expect_same(session);
+}
+
 TEST(Replay, GivesForcesThatWerePutDownForHotMotorsAgain) {
   Recording recording;
   recording.choose(test::kMica);

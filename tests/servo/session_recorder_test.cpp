@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
+#include "servo/tip_stream.h"
+
 namespace afm::servo {
 namespace {
 
@@ -58,6 +63,61 @@ TEST(SessionRecorder, WaitsForTheStateOfTheSampleItIsGiven) {
   TipState other = state();
   other.material = 2;
   EXPECT_FALSE(can_begin_with(sample(Phase::Free, 1.1 * kRelease_m), other, false));
+}
+
+TEST(SessionRecorder, KeepsNothingOfTheTimeBeforeASession) {
+  SessionRecorder recorder;
+  recorder.add(WallFrame{.time_ns = 1});
+  recorder.add(scene::TipEvent{.time_ns = 1});
+  EXPECT_TRUE(recorder.session().wall.empty());
+  EXPECT_TRUE(recorder.session().events.empty());
+}
+
+// What a stream of these updates gives: "s" and "e" with their times, in order.
+std::string order_of(const std::vector<ServoClient::Update>& updates) {
+  TipStream stream;
+  std::string order;
+  for (const auto& update : updates) {
+    stream.consume(
+        update, [&](const TipSample& s) { order += "s" + std::to_string(s.time_ns) + " "; },
+        [&](const scene::TipEvent& e) { order += "e" + std::to_string(e.time_ns) + " "; });
+  }
+  return order;
+}
+
+TipSample at(std::int64_t time_ns, std::int32_t material = 1) {
+  TipSample s;
+  s.time_ns = time_ns;
+  s.material = material;
+  return s;
+}
+
+TEST(TipStream, GivesAnEventJustBeforeTheSampleAtOrAfterIt) {
+  const auto event = [](std::int64_t time_ns, std::int32_t material = 1) {
+    scene::TipEvent of;
+    of.time_ns = time_ns;
+    of.material = material;
+    return of;
+  };
+  ServoClient::Update both;
+  both.samples = {at(1), at(2), at(3)};
+  both.events = {event(2), event(3)};
+  EXPECT_EQ(order_of({both}), "s1 e2 s2 e3 s3 ");
+
+  // it waits for the sample of its tick
+  ServoClient::Update early;
+  early.samples = {at(1)};
+  early.events = {event(3)};
+  ServoClient::Update late;
+  late.samples = {at(2), at(3)};
+  EXPECT_EQ(order_of({early, late}), "s1 s2 e3 s3 ");
+  EXPECT_EQ(order_of({early, {}, late}), "s1 s2 e3 s3 ");
+
+  // neither of no material
+  ServoClient::Update none;
+  none.samples = {at(1, -1), at(2)};
+  none.events = {event(1, -1), event(2)};
+  EXPECT_EQ(order_of({none}), "e2 s2 ");
 }
 
 }  // namespace

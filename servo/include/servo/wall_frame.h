@@ -82,9 +82,9 @@ struct WallFrame {
   bool retracting = false;
   double release_z_m = 0;                               // as in ActiveContact
   std::vector<std::array<std::string, 3>> servo_row{};  // name, value, source
-  std::optional<RecordedScan> scan{};                   // absent in older sessions
-  std::vector<RecordedScanChange> scan_changes{};       // of that scan
-  std::optional<RecordedHandPart> scan_hand{};          // absent in older sessions
+  std::optional<RecordedScan> scan{};
+  std::vector<RecordedScanChange> scan_changes{};  // of that scan
+  std::optional<RecordedHandPart> scan_hand{};
 
   bool operator==(const WallFrame&) const = default;
 };

@@ -9,7 +9,7 @@
 #include "core/fnv1a.h"
 #include "servo/session_file.h"
 
-// A session file of version 4 to 6: "AFMS", the version, then chunks. A chunk is a name of four letters and the size of
+// A session file of version 6: "AFMS", the version, then chunks. A chunk is a name of four letters and the size of
 // its payload in 32 bits, the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a of all
 // bytes from the beginning of the file up to it, so that no chunk can be altered, left out or exchanged; where a file
 // ends inside a chunk, it was cut, and all chunks before it are whole.

@@ -26,9 +26,7 @@ using scene::SharedHeightField;
 using scene::TipEvent;
 using scene::TipSample;
 
-constexpr std::uint32_t kVersionOf010 = 3;            // TouchAFM 0.1.0 wrote it
-constexpr std::uint32_t kVersionWithoutFriction = 4;  // as the newest, but for shorter samples
-constexpr std::uint32_t kVersionWithoutScan = 5;      // likewise
+constexpr std::uint32_t kVersionOf010 = 3;  // TouchAFM 0.1.0 wrote it
 constexpr double kFarthestM = 1e6;
 constexpr double kUnitWithin = 1e-3;
 constexpr double kMostOrders = 9.0;
@@ -69,12 +67,12 @@ std::string read_records(std::string_view file, RecordedSession& session) {
     return "its checksum is wrong: the file is truncated or altered";
   }
   if (!take(body, header_size) || header_size > body.size()) return "it is truncated";
-  if (std::string wrong = read_header(body.substr(0, header_size), kSampleBytesBefore5, session); !wrong.empty())
+  if (std::string wrong = read_header(body.substr(0, header_size), kSampleBytesOf010, session); !wrong.empty())
     return wrong;
   body.remove_prefix(header_size);
   std::vector<SharedHeightField> surface;
-  if (!take_samples(body, session.samples, kSampleBytesBefore5) || !take_all(body, session.events) ||
-      !take_all(body, surface) || surface.size() > 1 || !body.empty()) {
+  if (!take_samples_of_010(body, session.samples) || !take_all(body, session.events) || !take_all(body, surface) ||
+      surface.size() > 1 || !body.empty()) {
     return "its records do not fill the file";
   }
   if (!surface.empty()) session.surface = surface.front();
@@ -92,18 +90,16 @@ bool read_topography(std::string_view payload, scene::Topography& topography) {
 }
 
 // What is wrong with a part, or nothing.
-std::string read_part(std::string_view payload, std::size_t sample_bytes, RecordedSession& session,
-                      nlohmann::json& last_frame) {
-  if (!take_samples(payload, session.samples, sample_bytes) || !take_all(payload, session.events))
-    return "a part of it is damaged";
+std::string read_part(std::string_view payload, RecordedSession& session, nlohmann::json& last_frame) {
+  if (!take_all(payload, session.samples) || !take_all(payload, session.events)) return "a part of it is damaged";
   for (WallFrame& frame : frames_of(nlohmann::json::parse(payload), last_frame)) {
     session.wall.push_back(std::move(frame));
   }
   return {};
 }
 
-// Versions 4 to 6. What is wrong, or nothing.
-std::string read_chunks(std::string_view file, std::size_t sample_bytes, RecordedSession& session) {
+// Version 6. What is wrong, or nothing.
+std::string read_chunks(std::string_view file, RecordedSession& session) {
   SessionDecoder decoder(file);
   nlohmann::json last_frame;
   for (bool first = true;; first = false) {
@@ -116,7 +112,7 @@ std::string read_chunks(std::string_view file, std::size_t sample_bytes, Recorde
     if (first != (decoder.name() == kHeadChunk)) return "its parts are out of order";
     std::string_view payload = decoder.payload();
     if (first) {
-      if (std::string wrong = read_header(payload, sample_bytes, session); !wrong.empty()) return wrong;
+      if (std::string wrong = read_header(payload, sizeof(TipSample), session); !wrong.empty()) return wrong;
     } else if (decoder.name() == kSurfaceChunk) {
       if (payload.size() != sizeof(SharedHeightField) || !take(payload, session.surface.emplace())) {
         return "the size of its surface differs from this program's";
@@ -124,7 +120,7 @@ std::string read_chunks(std::string_view file, std::size_t sample_bytes, Recorde
     } else if (decoder.name() == kTopographyChunk) {
       if (!read_topography(payload, session.topography)) return "its topography is damaged";
     } else if (decoder.name() == kPartChunk) {
-      if (std::string wrong = read_part(payload, sample_bytes, session, last_frame); !wrong.empty()) return wrong;
+      if (std::string wrong = read_part(payload, session, last_frame); !wrong.empty()) return wrong;
     } else if (decoder.name() == kEndChunk) {
       session.complete = true;
     }  // else of a later TouchAFM: what this one does not know does not change the forces
@@ -234,17 +230,13 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  if (version < kVersionOf010 || version > kSessionVersion) {
-    return bad(fmt::format("its version is {}; this program reads versions {} to {}", version, kVersionOf010,
+  if (version != kVersionOf010 && version != kSessionVersion) {
+    return bad(fmt::format("its version is {}; this program reads versions {} and {}", version, kVersionOf010,
                            kSessionVersion));
   }
-  const std::size_t sample_bytes = version <= kVersionWithoutFriction ? kSampleBytesBefore5
-                                   : version <= kVersionWithoutScan   ? kSampleBytesBefore6
-                                                                      : sizeof(TipSample);
   RecordedSession session;
   try {
-    const std::string wrong =
-        version == kVersionOf010 ? read_records(*file, session) : read_chunks(*file, sample_bytes, session);
+    const std::string wrong = version == kVersionOf010 ? read_records(*file, session) : read_chunks(*file, session);
     if (!wrong.empty()) return bad(wrong);
   } catch (const nlohmann::json::exception& error) {
     return bad(fmt::format("its header is damaged ({})", error.what()));

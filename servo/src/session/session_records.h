@@ -17,12 +17,11 @@ namespace afm::servo {
 
 static_assert(std::endian::native == std::endian::little, "session records are little-endian");
 
-// The records of versions 3 to 6, to the byte. A sample of version 5 ends with the lateral force and one of version 6
-// with the scan, which there were not before.
-inline constexpr std::size_t kSampleBytesBefore5 = 216;
-inline constexpr std::size_t kSampleBytesBefore6 = 232;
-static_assert(sizeof(scene::TipSample) == 288 && offsetof(scene::TipSample, scan) == kSampleBytesBefore6 &&
-              offsetof(scene::TipSample, lateral_force_n) == kSampleBytesBefore5 &&
+// The records of versions 3 and 6, to the byte. A sample of version 6 ends with the lateral force and the scan, which
+// 0.1.0 did not have.
+inline constexpr std::size_t kSampleBytesOf010 = 216;
+static_assert(sizeof(scene::TipSample) == 288 && offsetof(scene::TipSample, scan) == 232 &&
+              offsetof(scene::TipSample, lateral_force_n) == kSampleBytesOf010 &&
               offsetof(scene::TipSample, tip) == 16 && offsetof(scene::TipSample, hand_height_m) == 56 &&
               offsetof(scene::TipSample, servo_state) == 72 && offsetof(scene::TipSample, hand_from_contact_m) == 104 &&
               offsetof(scene::TipSample, surface) == 176 && offsetof(scene::TipSample, motor_heat) == 200);
@@ -63,15 +62,15 @@ bool take_all(std::string_view& bytes, std::vector<T>& values) {
                      [&](T& value) { return take(bytes, value); });
 }
 
-// The same of samples of `size` bytes: what they do not have keeps its default.
-inline bool take_samples(std::string_view& bytes, std::vector<scene::TipSample>& samples, std::size_t size) {
+// The same of version 3's samples: the lateral force that they do not have stays 0.
+inline bool take_samples_of_010(std::string_view& bytes, std::vector<scene::TipSample>& samples) {
   std::uint64_t count = 0;
-  if (!take(bytes, count) || count > bytes.size() / size) return false;
+  if (!take(bytes, count) || count > bytes.size() / kSampleBytesOf010) return false;
   samples.reserve(samples.size() + count);
   for (std::uint64_t i = 0; i < count; ++i) {
     scene::TipSample& sample = samples.emplace_back();
-    std::copy_n(bytes.begin(), size, reinterpret_cast<char*>(&sample));
-    bytes.remove_prefix(size);
+    std::copy_n(bytes.begin(), kSampleBytesOf010, reinterpret_cast<char*>(&sample));
+    bytes.remove_prefix(kSampleBytesOf010);
   }
   return true;
 }

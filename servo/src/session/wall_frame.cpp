@@ -98,10 +98,6 @@ constexpr bool kIsList = false;
 template <Visited T>
 constexpr bool kIsList<std::vector<T>> = true;
 
-// What was added to the files later: absent means empty.
-template <class T>
-constexpr bool kMayBeAbsent = kIsOptional<T> || kIsList<T>;
-
 template <class T>
 json to_json_value(const T& value) {
   if constexpr (kIsOptional<T>) {
@@ -119,26 +115,14 @@ json to_json_value(const T& value) {
   }
 }
 
+// `to` is new, and stays empty where nothing was written.
 template <class T>
 void from_json_value(const json& value, T& to) {
   if constexpr (kIsOptional<T>) {
-    if (value.is_null()) {
-      to.reset();
-    } else {
-      from_json_value(value, to.emplace());
-    }
+    if (!value.is_null()) from_json_value(value, to.emplace());
   } else if constexpr (Visited<T>) {
-    visit_members(
-        [&]<class Member>(const char* key, Member& member) {
-          if (kMayBeAbsent<Member> && !value.contains(key)) {
-            member = {};
-          } else {
-            from_json_value(value.at(key), member);
-          }
-        },
-        to);
+    visit_members([&](const char* key, auto& member) { from_json_value(value.at(key), member); }, to);
   } else if constexpr (kIsList<T>) {
-    to.clear();
     for (const json& entry : value) from_json_value(entry, to.emplace_back());
   } else {
     value.get_to(to);

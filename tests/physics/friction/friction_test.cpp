@@ -56,6 +56,11 @@ TEST(Friction, RefusesWhatALawNeedsAndHasNot) {
   EXPECT_EQ(refused({}), "");
 }
 
+TEST(Friction, FindsEachLatticeByItsWord) {
+  for (const LatticeKindText& row : kLatticeKinds) EXPECT_EQ(lattice_kind_of(row.word), row.kind) << row.word;
+  EXPECT_FALSE(lattice_kind_of("diamond"));
+}
+
 TEST(ContactArea, IsThatOfTheLawInUse) {
   const ContactParameters mica = elastic_mica();
   const AdhesiveContact adhesive = adhesive_contact(mica);
