@@ -19,8 +19,9 @@ namespace {
 constexpr std::uint8_t kDrawn = 1, kCasts = 2, kMirrored = 4, kPerVertex = 8;
 
 constexpr std::size_t kMostChanged = 64;  // draws; where more have changed, drawing everything costs about as much
-constexpr double kMostOfPicture = 0.7;    // likewise
-constexpr int kMarginPx = 2;              // the device computes with floats
+constexpr double kMostOfPicture =
+    0.35;                     // likewise: a CPU device resolves more than a box, and places its vertices again
+constexpr int kMarginPx = 2;  // the device computes with floats
 constexpr double kFarPx = 1e6;
 
 // A surface looks up its shadow a step of up to two texels off itself, half a texel beside it and between four texels,
