@@ -101,7 +101,7 @@ vec3 eye_light(int eye, Source source) {
       return vec3(0.0);
     }
   }
-  uv = min(uv * compose.drawn.xy, compose.drawn.xy - 0.5 / vec2(textureSize(eyes, 0).xy));
+  uv = min(uv * compose.drawn.xy, compose.drawn.xy - (0.5 + compose.drawn.w) / vec2(textureSize(eyes, 0).xy));
   return textureLod(linear_eyes, vec3(uv, layer_of(eye)), 0.0).rgb;
 }
 

@@ -93,7 +93,7 @@ struct CanvasBlock {
 struct ComposeBlock {
   ivec4 mode;  // x: scene::EyeArrangement, y: 1 swaps the eyes, z: 1 for a keystone, w: which of the anaglyphs
   vec4 drawn;  // xy: share of the eye images, from their upper left corner, that is drawn; z: 1: the right eye sees the
-               // left one's
+               // left one's; w: so many pixels before the last one's middle nothing more is blended
   ivec4 place;   // xy: where the picture begins in the target, zw: its size
   ivec4 screen;  // xy: where the target's first pixel lies on its screen; z: lines of a packed eye, w: lines between
   vec4 picture_from_output[3];  // columns of the keystone

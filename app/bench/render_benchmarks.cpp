@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,7 +29,9 @@ namespace {
 
 constexpr std::uint32_t kHills = 256;  // quads each way
 constexpr std::uint32_t kBoxes = 10;   // each way
-constexpr double kFrameBar_ms = 1000.0 / 15.0;
+constexpr double kWallBar_ms = 1000.0 / 30.0;
+constexpr double kHeadMovingBar_ms = 1000.0 / 15.0;
+constexpr double kAtRestBar_ms = 5.0;  // of all processors
 constexpr double kFirstFrameBar_ms = 1000.0;
 
 struct RenderBenchOptions {
@@ -52,7 +56,7 @@ core::Result<double> first_frame_ms(const RenderBenchOptions& options) {
   const core::MonotonicClock clock;
   const auto stage = load_wall(options);
   if (!stage) return tl::unexpected(stage.error());
-  const auto subject = wall_subject(*stage, options.eye_width);
+  const auto subject = wall_subject(*stage, options.eye_width, WallMotion::None);
   if (!subject) return tl::unexpected(subject.error());
   const std::int64_t start_ns = clock.now_ns();
   auto context = render::Context::open();
@@ -95,9 +99,11 @@ core::Result<std::vector<RenderSubject>> subjects_of(const RenderBenchOptions& o
   const auto stage = load_wall(options);
   if (!stage) return tl::unexpected(stage.error());
   std::vector<RenderSubject> subjects;
-  auto wall = wall_subject(*stage, options.eye_width);
-  if (!wall) return tl::unexpected(wall.error());
-  subjects.push_back(std::move(*wall));
+  for (const WallMotion motion : {WallMotion::Tip, WallMotion::TipAndHead, WallMotion::None}) {
+    auto wall = wall_subject(*stage, options.eye_width, motion);
+    if (!wall) return tl::unexpected(wall.error());
+    subjects.push_back(std::move(*wall));
+  }
   const glm::uvec2 eye_px(options.eye_width, std::max(1U, options.eye_width * 9 / 16));
   subjects.push_back(hills_subject(kHills, eye_px));
   subjects.push_back(boxes_subject(kBoxes, eye_px));
@@ -109,16 +115,36 @@ core::Result<std::vector<RenderSubject>> subjects_of(const RenderBenchOptions& o
   return subjects;
 }
 
+// The figures of the wall that have a bar: of the first way, which is the usual one.
+struct WallFigures {
+  double frame_ms = 0, head_moving_ms = 0, at_rest_processor_ms = 0;
+};
+
+WallFigures wall_figures(const RenderFigures& result) {
+  const auto first_of = [&](std::string_view subject) {
+    return *std::find_if(result.figures.begin(), result.figures.end(),
+                         [&](const RenderFigure& each) { return each.subject == subject; });
+  };
+  return {.frame_ms = first_of("wall").frame_ms.p50,
+          .head_moving_ms = first_of("wall, head moving").frame_ms.p50,
+          .at_rest_processor_ms = first_of("wall at rest").processor_ms};
+}
+
+std::string rate_line(std::string_view what, double frame_ms, double bar_ms) {
+  return fmt::format("{}: {:.1f} frames/s, target {:.0f}: {}\n", what, 1000.0 / frame_ms, 1000.0 / bar_ms,
+                     frame_ms <= bar_ms ? "met" : "not met");
+}
+
 std::string table(const RenderFigures& result, const FirstFrame& first, const RenderBenchOptions& options) {
   std::string text = fmt::format(
       "ms per frame, {} samples, {} rounds of {} frames on {}\n"
-      "{:<34}{:>8}{:>8}{:>8}{:>8}{:>8}   {:>8}{:>8}{:>8}{:>8}{:>8}\n",
+      "{:<34}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}   {:>8}{:>8}{:>8}{:>8}{:>8}\n",
       options.plan.samples, options.plan.rounds, options.plan.frames, result.device, "", "p50", "p99", "max", "ratio",
-      "cpu", "panels", "shadow", "eyes", "compose", "read");
+      "redrawn", "cpu", "panels", "shadow", "eyes", "compose", "read");
   for (const RenderFigure& each : result.figures) {
     text += fmt::format("{:<34}{:>8.1f}{:>8.1f}{:>8.1f}{:>8.2f}", each.subject + ", " + each.way, each.frame_ms.p50,
                         each.frame_ms.p99, each.frame_ms.max, each.ratio);
-    if (each.processor_ms > 0.0) text += fmt::format("{:>8.1f}", each.processor_ms);
+    if (each.processor_ms > 0.0) text += fmt::format("{:>6.0f} %{:>8.1f}", 100.0 * each.redrawn, each.processor_ms);
     if (each.pass_ms) {
       text +=
           fmt::format("   {:>8.1f}{:>8.1f}{:>8.1f}{:>8.1f}{:>8.1f}", each.pass_ms->panels_ms, each.pass_ms->shadow_ms,
@@ -126,9 +152,12 @@ std::string table(const RenderFigures& result, const FirstFrame& first, const Re
     }
     text += "\n";
   }
-  const double wall_ms = result.figures.front().frame_ms.p50;
-  text += fmt::format("\nthe wall: {:.1f} frames/s, target {:.0f}: {}\n", 1000.0 / wall_ms, 1000.0 / kFrameBar_ms,
-                      wall_ms <= kFrameBar_ms ? "met" : "not met");
+  const WallFigures wall = wall_figures(result);
+  text += "\n" + rate_line("the wall", wall.frame_ms, kWallBar_ms);
+  text += rate_line("the wall, head moving", wall.head_moving_ms, kHeadMovingBar_ms);
+  text += fmt::format("the wall at rest: {:.2f} ms of all processors a frame, target {:.0f}: {}\n",
+                      wall.at_rest_processor_ms, kAtRestBar_ms,
+                      wall.at_rest_processor_ms < kAtRestBar_ms ? "met" : "not met");
   text += fmt::format(
       "first frame: {:.0f} ms with an empty shader cache, {:.0f} ms with a full one, target {:.0f} when empty: {}\n",
       first.cold_ms, first.warm_ms, kFirstFrameBar_ms, first.cold_ms <= kFirstFrameBar_ms ? "met" : "not met");
@@ -139,12 +168,18 @@ std::string table(const RenderFigures& result, const FirstFrame& first, const Re
 
 std::string json(const RenderFigures& result, const FirstFrame& first, const RenderBenchOptions& options) {
   constexpr double kMillisecond = 1e-3;
+  const WallFigures wall = wall_figures(result);
   nlohmann::ordered_json root{{"version", core::kVersion},
                               {"device", result.device},
                               {"samples", options.plan.samples},
                               {"rounds", options.plan.rounds},
                               {"frames", options.plan.frames},
-                              {"bar_wall_frame_s", kMillisecond * kFrameBar_ms},
+                              {"wall_frames_per_s", 1000.0 / wall.frame_ms},
+                              {"bar_wall_frame_s", kMillisecond * kWallBar_ms},
+                              {"wall_head_moving_frames_per_s", 1000.0 / wall.head_moving_ms},
+                              {"bar_wall_head_moving_frame_s", kMillisecond * kHeadMovingBar_ms},
+                              {"wall_at_rest_processor_s", kMillisecond * wall.at_rest_processor_ms},
+                              {"bar_wall_at_rest_processor_s", kMillisecond * kAtRestBar_ms},
                               {"first_frame_cold_s", kMillisecond * first.cold_ms},
                               {"first_frame_warm_s", kMillisecond * first.warm_ms},
                               {"bar_first_frame_cold_s", kMillisecond * kFirstFrameBar_ms},
@@ -157,7 +192,10 @@ std::string json(const RenderFigures& result, const FirstFrame& first, const Ren
                                   {"p99_s", kMillisecond * each.frame_ms.p99},
                                   {"max_s", kMillisecond * each.frame_ms.max},
                                   {"ratio", each.ratio}};
-    if (each.processor_ms > 0.0) figure["processor_s"] = kMillisecond * each.processor_ms;
+    if (each.processor_ms > 0.0) {
+      figure["redrawn"] = each.redrawn;
+      figure["processor_s"] = kMillisecond * each.processor_ms;
+    }
     if (each.pass_ms) {
       figure["passes"] = {{"panels_s", kMillisecond * each.pass_ms->panels_ms},
                           {"shadow_s", kMillisecond * each.pass_ms->shadow_ms},

@@ -2,6 +2,7 @@
 #include "app/bench/render_subjects.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -13,6 +14,7 @@
 #include "exhibit/cycle_curve.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/guidance.h"
+#include "exhibit/wall_pictures.h"
 #include "scene/gltf/gltf_loader.h"
 
 namespace afm::app {
@@ -26,6 +28,7 @@ constexpr int kFrames = 24;
 constexpr std::size_t kFeltMaterial = 1;
 constexpr double kTopOfRelease = 1.3, kBottomOfRelease = -0.3;  // of Z_joc
 constexpr int kTicksPerFrame = 40;
+constexpr double kHeadSway_m = 0.03;
 
 double height_at(double turn, double release_m) {
   const double down = std::abs(2.0 * turn - 1.0);  // 1, 0, 1
@@ -145,17 +148,28 @@ scene::Primitive cube() {
   return primitive;
 }
 
+// A viewer who sways before the screen, as far as a person who stands does.
+core::Result<std::array<scene::EyeView, 2>> eyes_of_moved_head(const exhibit::Stage& stage, double turn_rad) {
+  const scene::Viewer& viewer = stage.wall.viewers.front();
+  scene::HeadPose head = viewer.sweet_spot;
+  head.position_m += kHeadSway_m * glm::dvec3(std::cos(turn_rad), 0.3 * std::sin(turn_rad), std::sin(turn_rad));
+  return exhibit::eyes_before(stage.screen, head, viewer.ipd_m);
+}
+
 }  // namespace
 
-core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint32_t eye_width_px) {
+core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint32_t eye_width_px, WallMotion motion) {
   std::vector<curves::SampleModel> materials;
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
     auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
     if (!model) return tl::unexpected(model.error());
     materials.push_back(std::move(*model));
   }
-  RenderSubject subject{
-      .name = "wall", .scene = stage.wall_scene.scene(), .drawing = stage.renderer_options(eye_width_px)};
+  static constexpr std::array kNames{"wall", "wall, head moving", "wall at rest"};
+  RenderSubject subject{.name = kNames[static_cast<std::size_t>(motion)],
+                        .scene = stage.wall_scene.scene(),
+                        .drawing = stage.renderer_options(eye_width_px),
+                        .eyes_move = motion == WallMotion::TipAndHead};
   const std::size_t material = std::min(kFeltMaterial, materials.size() - 1);
   const double release_m = materials[material].scaling.release_z_m();
   const double stiffness = materials[material].setup.material.contact.spring_constant.si;
@@ -180,7 +194,12 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
     moment.guidance = exhibit::step_text(stage.phrases(), exhibit::Hint::LetGo, {});
     moment.curves = curves;
     subject.frames.push_back(frames.build(moment));
+    if (motion != WallMotion::TipAndHead) continue;
+    const auto eyes = eyes_of_moved_head(stage, 2.0 * glm::pi<double>() * i / kFrames);
+    if (!eyes) return tl::unexpected(eyes.error());
+    subject.frames.back().eyes = *eyes;
   }
+  if (motion == WallMotion::None) subject.frames.erase(subject.frames.begin(), subject.frames.end() - 1);
   return subject;
 }
 

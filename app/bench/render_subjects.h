@@ -20,12 +20,16 @@ struct RenderSubject {
   std::string name;
   scene::Scene scene;
   render::RendererOptions drawing{};  // the size of the eyes, and of the panels
+  bool eyes_move = true;
   std::vector<render::FrameState> frames{};
 };
 
-// The demo's wall while gold is felt: the tip goes down and up, the lever bends, the curve grows, the panels are
-// painted again for every frame. As high as the wall's proportions make `eye_width_px`.
-core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint32_t eye_width_px);
+// What happens before the demo's wall while gold is felt: the tip goes down and up, the lever bends, the curve grows,
+// the panels are painted again for every frame; the head also moves; or nothing does, with the tip on the sample.
+enum class WallMotion { Tip, TipAndHead, None };
+
+// As high as the wall's proportions make `eye_width_px`.
+core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint32_t eye_width_px, WallMotion motion);
 
 // A glTF file before a viewer that sways: 30 degrees of height show its whole box, the wall cuts the box in the middle,
 // and the eyes are 3 % of the distance to it apart.

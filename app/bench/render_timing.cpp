@@ -29,12 +29,14 @@ constexpr std::size_t kMostOutput = 65536;
 struct Way {
   const char* name;
   render::PassMode pass_mode;
-  bool one_eye;
+  bool one_eye = false;
+  render::Redraw redraw = render::Redraw::Changes;
 };
 
-constexpr std::array<Way, 3> kWays{{{"multiview", render::PassMode::Multiview, false},
-                                    {"two passes", render::PassMode::TwoPasses, false},
-                                    {"mono", render::PassMode::Automatic, true}}};
+constexpr std::array<Way, 4> kWays{{{"multiview", render::PassMode::Multiview},
+                                    {"two passes", render::PassMode::TwoPasses},
+                                    {"mono", render::PassMode::Automatic, true},
+                                    {"all redrawn", render::PassMode::Automatic, false, render::Redraw::Everything}}};
 
 double median(std::vector<double> values) { return core::percentiles(std::move(values)).p50; }
 
@@ -69,12 +71,14 @@ class Drawing {
       renderer_.render(next());
       const std::int64_t now_ns = clock.now_ns();
       times_ms.push_back(static_cast<double>(now_ns - std::exchange(last_ns, now_ns)) * 1e-6);
+      redrawn_ += renderer_.redrawn_share();
     }
     renderer_.wait();
     processor_ms_.push_back(1e3 * (processor_seconds() - start_s) / (kSettlingFrames + count));
     figure.processor_ms = median(processor_ms_);
     times_ms_.insert(times_ms_.end(), times_ms.begin(), times_ms.end());
     figure.round_ms.push_back(median(std::move(times_ms)));
+    figure.redrawn = redrawn_ / static_cast<double>(times_ms_.size());
     figure.frame_ms = core::percentiles(times_ms_);
     take_pass_times(figure);
   }
@@ -111,6 +115,7 @@ class Drawing {
   std::vector<render::FrameState> frames_;
   std::size_t drawn_ = 0;
   std::vector<double> times_ms_, processor_ms_;
+  double redrawn_ = 0;  // the sum of all frames
   std::vector<render::PassTimes> passes_;
 };
 
@@ -157,9 +162,11 @@ core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& sub
   for (const RenderSubject& subject : subjects) {
     for (const Way& way : kWays) {
       if (way.pass_mode == render::PassMode::Multiview && !context->draws_both_eyes_at_once()) continue;
+      if (way.redraw == render::Redraw::Everything && subject.eyes_move) continue;  // nothing else ever is
       render::RendererOptions drawing = subject.drawing;
       drawing.samples = plan.samples;
       drawing.pass_mode = way.pass_mode;
+      drawing.redraw = way.redraw;
       drawing.time_passes = true;
       auto renderer = render::Renderer::create(*context, subject.scene, drawing);
       if (!renderer) return tl::unexpected(renderer.error());

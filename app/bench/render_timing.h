@@ -26,6 +26,7 @@ struct RenderFigure {
   std::string subject, way;
   core::Percentiles frame_ms{};
   double ratio = 1.0;                          // of the medians of the rounds to those of the subject's first way
+  double redrawn = 0;                          // share of the eyes' pixels, the mean of the frames
   double processor_ms = 0;                     // of all threads of the process, a frame; median of the rounds
   std::optional<render::PassTimes> pass_ms{};  // medians; a round composes and reads back one picture, side by side
   std::vector<double> round_ms{};              // the median of each round

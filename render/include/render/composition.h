@@ -16,6 +16,8 @@ struct Composition {
   // Keystone of a projector: takes a place on the output to the place in each eye's image that it shows, both in unit
   // coordinates from the top left corner. What lies beyond the image is black.
   glm::dmat3 picture_from_output{1.0};
+
+  bool operator==(const Composition&) const = default;
 };
 
 // Area of a composed picture to read: its size, and the screen position of its first pixel, which interleaving depends

@@ -20,11 +20,16 @@ namespace afm::render {
 // drawn.
 enum class PassMode { Automatic, Multiview, TwoPasses };
 
+// What a frame draws of the pictures of the eyes: what has changed in them since the last one, or always everything,
+// with identical results: to measure, and to check the former.
+enum class Redraw { Changes, Everything };
+
 struct RendererOptions {
   std::uint32_t eye_width = 960;
   std::uint32_t eye_height = 720;
   std::uint32_t samples = 4;  // 1 or 4
   PassMode pass_mode = PassMode::Automatic;
+  Redraw redraw = Redraw::Changes;
   // Resolution of the panels' textures. Text is sharpest at twice the eye image's pixels per metre of wall: then each
   // pixel's bilinear sample covers just the texels below it.
   double panel_texels_per_m = 640.0;
@@ -42,7 +47,7 @@ struct FrameQuality {
   bool operator==(const FrameQuality&) const = default;
 };
 
-// Device times of the parts of a frame.
+// Device times of the parts of a frame; 0 where it did not need them.
 struct PassTimes {
   double panels_ms = 0;  // painting those that have changed
   double shadow_ms = 0;
@@ -54,9 +59,9 @@ struct PassTimes {
   double total_ms() const { return panels_ms + shadow_ms + eyes_ms + compose_ms; }
 };
 
-// Draws frames of one Scene, which it uploads when it is made. Two frames are in flight: render() returns once a frame
-// is submitted and waits only for the frame before the previous one. Nothing is read back unless asked for. One thread.
-// A lost device and a lack of memory are exceptions: DeviceFailure.
+// Draws frames of one Scene, which it uploads when it is made; of each what differs from the last one. Two frames are
+// in flight: render() returns once a frame is submitted and waits only for the frame before the previous one. Nothing
+// is read back unless asked for. One thread. A lost device and a lack of memory are exceptions: DeviceFailure.
 class Renderer {
  public:
   // Failed: no font for the panels, sizes or samples that this device cannot do, or no memory for them. `context` must
@@ -67,7 +72,8 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
-  // `frame.room_from_node` and, unless empty, `frame.visible` have one entry per node of the scene.
+  // `frame.room_from_node` and, unless empty, `frame.visible` have one entry per node of the scene. Does nothing where
+  // the frame looks as the last one.
   void render(const FrameState& frame);
 
   // True if render() would return without waiting for an earlier frame. Does not wait.
@@ -92,6 +98,9 @@ class Renderer {
   // Of the newest frame that is finished. Nothing without RendererOptions::time_passes, or where the device has no
   // clock.
   std::optional<PassTimes> pass_times() const;
+
+  // Share of the eyes' pixels that the newest frame drew; 0 where it looks as the one before it.
+  double redrawn_share() const;
 
   // Waits until everything submitted is done: for measuring, and before a pause.
   void wait();

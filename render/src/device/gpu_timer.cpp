@@ -21,10 +21,10 @@ double GpuTimer::between_ms(Mark begin, Mark end) const {
   return stopwatch_.between_ms(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
 }
 
-PassTimes GpuTimer::times(bool panels_painted, bool shadow_drawn) const {
+PassTimes GpuTimer::times(bool panels_painted, bool shadow_drawn, bool eyes_drawn) const {
   return {.panels_ms = panels_painted ? between_ms(Mark::PanelsBegin, Mark::PanelsEnd) : 0.0,
           .shadow_ms = shadow_drawn ? between_ms(Mark::ShadowBegin, Mark::ShadowEnd) : 0.0,
-          .eyes_ms = between_ms(Mark::EyesBegin, Mark::EyesEnd)};
+          .eyes_ms = eyes_drawn ? between_ms(Mark::EyesBegin, Mark::EyesEnd) : 0.0};
 }
 
 }  // namespace afm::render

@@ -11,15 +11,15 @@ class GpuTimer {
  public:
   explicit GpuTimer(const Device& device);
 
-  // In the order in which a frame reaches them; the first two only where panels are painted, the next two only where
-  // the shadow map is drawn.
+  // In the order in which a frame reaches them; two each only where panels are painted, the shadow map is drawn, the
+  // eyes are.
   enum class Mark : std::uint32_t { PanelsBegin, PanelsEnd, ShadowBegin, ShadowEnd, EyesBegin, EyesEnd };
 
   // Outside any rendering.
   void mark(const vk::raii::CommandBuffer& command, Mark mark) const;
 
   // Of a frame that is finished.
-  PassTimes times(bool panels_painted, bool shadow_drawn) const;
+  PassTimes times(bool panels_painted, bool shadow_drawn, bool eyes_drawn) const;
 
  private:
   double between_ms(Mark begin, Mark end) const;

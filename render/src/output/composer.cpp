@@ -73,6 +73,9 @@ EyeArrangement arrangement_of(scene::StereoMode mode, std::uint32_t layer) {
   return layer == 0 ? EyeArrangement::Left : EyeArrangement::Right;
 }
 
+// What is not drawn of an image must not count, not even with the weight of a rounded coordinate.
+constexpr float kOffUndrawn = 1.0F / 1024.0F;
+
 ComposeBlock compose_block(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place,
                            std::uint32_t layer) {
   const auto mode = composition.mode;
@@ -84,7 +87,7 @@ ComposeBlock compose_block(const EyeTargets& eyes, const Composition& compositio
                static_cast<int>(anaglyph_index(mode))},
       .drawn = {static_cast<float>(drawn.width) / static_cast<float>(whole.width),
                 static_cast<float>(drawn.height) / static_cast<float>(whole.height), eyes.same_eyes() ? 1.0F : 0.0F,
-                0.0F},
+                drawn == whole ? 0.0F : kOffUndrawn},
       .place = {place.area.offset.x, place.area.offset.y, place.area.extent.width, place.area.extent.height},
       .screen = {place.screen_px.x, place.screen_px.y, 0, 0},
       .picture_from_output = {}};
@@ -121,6 +124,35 @@ bool shows_eyes_alone(const EyeTargets& eyes, const Composition& composition, co
          glm::uvec2(place.target.width, place.target.height) == size;
 }
 
+// Where a target shows pixels of an eye: each eye's image fills one box or the same one.
+struct EyeBoxes {
+  std::array<PixelBox, 2> boxes;
+  std::size_t count = 1;
+};
+
+EyeBoxes boxes_of_eyes(EyeArrangement arrangement, const vk::Rect2D& area) {
+  const glm::ivec2 low(area.offset.x, area.offset.y);
+  const glm::ivec2 size(static_cast<int>(area.extent.width), static_cast<int>(area.extent.height));
+  if (arrangement != EyeArrangement::SideBySide && arrangement != EyeArrangement::TopBottom) {
+    return {.boxes = {PixelBox{low, low + size}, {}}};
+  }
+  const glm::length_t axis = arrangement == EyeArrangement::SideBySide ? 0 : 1;
+  glm::ivec2 half = size, step(0);
+  half[axis] = std::max(1, size[axis] / 2);
+  step[axis] = half[axis];
+  return {.boxes = {PixelBox{low, low + half}, PixelBox{low + step, low + step + half}}, .count = 2};
+}
+
+// The pixels of `shown`, which an eye's image of that size fills, that a box of it reaches. What is scaled is blended
+// of neighbours.
+PixelBox scaled_into(const PixelBox& shown, const PixelBox& box, vk::Extent2D eye) {
+  const glm::dvec2 scale = glm::dvec2(shown.high - shown.low) / glm::dvec2(eye.width, eye.height);
+  if (scale == glm::dvec2(1.0)) return {shown.low + box.low, shown.low + box.high};
+  const glm::ivec2 low(glm::floor(scale * glm::dvec2(box.low - 1)));
+  const glm::ivec2 high(glm::ceil(scale * glm::dvec2(box.high + 1)));
+  return PixelBox{shown.low + low - 1, shown.low + high + 1}.within(shown);
+}
+
 }  // namespace
 
 vk::Pipeline ComposePipeline::get(std::uint32_t variant) {
@@ -137,9 +169,10 @@ vk::Pipeline ComposePipeline::get(std::uint32_t variant) {
   return *pipeline;
 }
 
-Composer::Composer(const Device& device, const EyeTargets& eyes)
+Composer::Composer(const Device& device, const EyeTargets& eyes, const EyeChanges& changes)
     : device_(device),
       eyes_(eyes),
+      changes_(changes),
       set_layout_(create_composing_set_layout(device)),
       layout_(create_pipeline_layout(device, {.sets = {&*set_layout_, 1},
                                               .push_stages = vk::ShaderStageFlagBits::eFragment,
@@ -184,62 +217,115 @@ vk::Extent2D Composer::extent(scene::StereoMode mode) const {
   return {size.x, size.y};
 }
 
+// Pixels of the target that do not show the eyes as they are now.
+PixelArea Composer::changed_in(const ComposeInto& into, const Composition& composition,
+                               const ComposePlace& place) const {
+  PixelArea changed;
+  const auto& shown = *into.shown;
+  if (!shown || shown->composition != composition || shown->place != place) {
+    changed.add_everything();
+    return changed;
+  }
+  const PixelArea in_eyes = changes_.since(shown->eye_changes);
+  const bool simple =
+      composition.picture_from_output == glm::dmat3(1.0) && !scene::frame_packing(composition.mode).has_value();
+  if (in_eyes.everything() || (!simple && !in_eyes.empty())) {
+    changed.add_everything();
+    return changed;
+  }
+  const EyeBoxes eyes = boxes_of_eyes(scene::traits_of(composition.mode).arrangement, place.area);
+  for (const PixelBox& box : in_eyes.boxes()) {
+    for (std::size_t i = 0; i < eyes.count; ++i) {
+      changed.add(scaled_into(eyes.boxes[i], box, eyes_.drawing().extent).within(PixelBox::whole(place.target)));
+    }
+  }
+  return changed;
+}
+
 void Composer::draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
-                    const ComposePlace& place, std::uint32_t layer) const {
+                    const ComposePlace& place, const vk::Rect2D& part, std::uint32_t layer) const {
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
   set_viewport(command, place.target);
-  command.setScissor(0, place.area);
+  command.setScissor(0, part);
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
   command.pushConstants<ComposeBlock>(*layout_, vk::ShaderStageFlagBits::eFragment, 0,
                                       compose_block(eyes_, composition, place, layer));
   command.draw(4, 1, 0, 0);
 }
 
-void Composer::copy(const vk::raii::CommandBuffer& command, const Composition& composition,
-                    const ComposeInto& into) const {
+void Composer::draw_parts(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline,
+                          const Composition& composition, const ComposePlace& place, const ComposeInto& into,
+                          const PixelArea& changed) const {
+  const vk::Pipeline chosen = pipeline.get(composing_variant_of(eyes_, composition, place));
+  const auto pass = [&](std::uint32_t layer, const vk::Rect2D& filled, const vk::Rect2D& part) {
+    const vk::RenderingAttachmentInfo color{
+        .imageView = into.layers[layer],
+        .imageLayout = kColorWritten.layout,
+        .loadOp = filled == part ? vk::AttachmentLoadOp::eDontCare : vk::AttachmentLoadOp::eClear,
+        .storeOp = vk::AttachmentStoreOp::eStore,
+        .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
+    command.beginRendering(
+        {.renderArea = filled, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &color});
+    draw(command, chosen, composition, place, part, layer);
+    command.endRendering();
+  };
+  for (std::uint32_t layer = 0; layer < into.layers.size(); ++layer) {
+    if (changed.everything()) pass(layer, {.extent = place.target}, place.area);
+    for (const PixelBox& box : changed.boxes()) pass(layer, box.rect(), box.rect());
+  }
+}
+
+void Composer::copy(const vk::raii::CommandBuffer& command, const Composition& composition, const ComposeInto& into,
+                    const PixelBox& box) const {
   const bool swapped = composition.order == scene::EyeOrder::Swapped && composition.mode != scene::StereoMode::Mono;
   const auto put = [&](scene::Eye eye, std::uint32_t layer, vk::Offset2D place) {
     const bool left = (eye == scene::Eye::Left) != swapped;
-    eyes_.copy(command, left ? scene::Eye::Left : scene::Eye::Right, into.image, layer, place);
+    eyes_.copy(command, left ? scene::Eye::Left : scene::Eye::Right, box, into.image, layer, place);
   };
   const auto width = static_cast<std::int32_t>(eyes_.extent().width);
   const auto height = static_cast<std::int32_t>(eyes_.extent().height);
-  eyes_.begin_copies(command);
   for (std::uint32_t layer = 0; layer < into.layers.size(); ++layer) {
     const EyeArrangement arrangement = arrangement_of(composition.mode, layer);
     put(arrangement == EyeArrangement::Right ? scene::Eye::Right : scene::Eye::Left, layer, {0, 0});
     if (arrangement == EyeArrangement::SideBySide) put(scene::Eye::Right, layer, {width, 0});
     if (arrangement == EyeArrangement::TopBottom) put(scene::Eye::Right, layer, {0, height});
   }
+}
+
+// The eyes' pixels are the target's.
+void Composer::copy_parts(const vk::raii::CommandBuffer& command, const Composition& composition,
+                          const ComposeInto& into, const PixelArea& changed) const {
+  eyes_.begin_copies(command);
+  if (changed.everything()) {
+    copy(command, composition, into, PixelBox::whole(eyes_.extent()));
+  } else {
+    const PixelArea in_eyes = changes_.since((*into.shown)->eye_changes);
+    for (const PixelBox& box : in_eyes.boxes()) copy(command, composition, into, box);
+  }
   eyes_.end_copies(command);
 }
 
 void Composer::record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
                       const ComposePlace& place, const ComposeInto& into) const {
-  if (into.takes_copies && shows_eyes_alone(eyes_, composition, place)) {
-    record_barriers(command, {image_barrier(into.image, kColorAspect, into.before.discarded(), kCopiedTo)});
-    copy(command, composition, into);
-    record_barriers(command, {image_barrier(into.image, kColorAspect, kCopiedTo, into.after)});
-    return;
+  const PixelArea changed = changed_in(into, composition, place);
+  const ImageUse found{into.before.stages, into.before.access, into.after.layout};
+  if (changed.empty()) {
+    if (found.stages != into.after.stages) {
+      record_barriers(command, {image_barrier(into.image, kColorAspect, found, into.after)});
+    }
+  } else {
+    const bool copied = into.takes_copies && shows_eyes_alone(eyes_, composition, place);
+    const ImageUse& used = copied ? kCopiedTo : kColorWritten;
+    const ImageUse from = changed.everything() ? found.discarded() : found;
+    record_barriers(command, {image_barrier(into.image, kColorAspect, from, used)});
+    if (copied) {
+      copy_parts(command, composition, into, changed);
+    } else {
+      draw_parts(command, pipeline, composition, place, into, changed);
+    }
+    record_barriers(command, {image_barrier(into.image, kColorAspect, used, into.after)});
   }
-  const vk::Pipeline chosen = pipeline.get(composing_variant_of(eyes_, composition, place));
-  const bool covered = place.area.extent == place.target;
-  record_barriers(command, {image_barrier(into.image, kColorAspect, into.before.discarded(), kColorWritten)});
-  for (std::uint32_t i = 0; i < into.layers.size(); ++i) {
-    const vk::RenderingAttachmentInfo color{
-        .imageView = into.layers[i],
-        .imageLayout = kColorWritten.layout,
-        .loadOp = covered ? vk::AttachmentLoadOp::eDontCare : vk::AttachmentLoadOp::eClear,
-        .storeOp = vk::AttachmentStoreOp::eStore,
-        .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
-    command.beginRendering({.renderArea = {.extent = place.target},
-                            .layerCount = 1,
-                            .colorAttachmentCount = 1,
-                            .pColorAttachments = &color});
-    draw(command, chosen, composition, place, i);
-    command.endRendering();
-  }
-  record_barriers(command, {image_barrier(into.image, kColorAspect, kColorWritten, into.after)});
+  *into.shown = ComposedPicture{composition, place, changes_.count()};
 }
 
 void Composer::record(const vk::raii::CommandBuffer& command, const Composition& composition, const ReadArea& area,
@@ -255,6 +341,7 @@ void Composer::record(const vk::raii::CommandBuffer& command, const Composition&
                                           vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
                                  .layers = count});
     for (std::uint32_t i = 0; i < count; ++i) target.views[i] = create_view(device_, target.image, kColorAspect, i, 1);
+    target.shown.reset();
   }
   const std::array layers{*target.views[0], *target.views[1]};
   record(command, pipeline_, composition, {.target = size, .area = {.extent = size}, .screen_px = area.screen_px},
@@ -262,7 +349,8 @@ void Composer::record(const vk::raii::CommandBuffer& command, const Composition&
           .layers = std::span(layers).first(count),
           .before = kCopiedFrom,
           .after = kCopiedFrom,
-          .takes_copies = true});
+          .takes_copies = true,
+          .shown = &target.shown});
 }
 
 std::vector<Image> Composer::compose(const Composition& composition, const ReadArea& area) {

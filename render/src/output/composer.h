@@ -2,10 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "device/barriers.h"
+#include "passes/damage.h"
 #include "passes/eye_targets.h"
 #include "render/composition.h"
 #include "render/frame.h"
@@ -18,20 +21,32 @@ struct ComposePlace {
   vk::Extent2D target;      // the whole image
   vk::Rect2D area;          // what the picture fills
   glm::ivec2 screen_px{0};  // where the target's first pixel lies on its screen
+
+  bool operator==(const ComposePlace&) const = default;
 };
 
-// Target of a composition: an image with one layer for each picture of the mode. Its previous contents are discarded.
+// What an image of the target shows, so that the next picture changes only what differs from it.
+struct ComposedPicture {
+  Composition composition;
+  ComposePlace place;
+  std::uint64_t eye_changes = 0;  // EyeChanges::count() of the eyes in it
+};
+
+// Target of a composition: an image with one layer for each picture of the mode.
 struct ComposeInto {
   vk::Image image;
   std::span<const vk::ImageView> layers;  // views of single layers
-  ImageUse before, after;                 // how the image is found and left
+  ImageUse before;                        // what last used the image; its layout is that of `after`
+  ImageUse after;                         // how the image is left
   bool takes_copies = false;              // it has the eyes' format, and may be copied to
+  std::optional<ComposedPicture>* shown;  // nothing before the first picture
 };
 
 // An image that pictures are composed into to be read, with as many layers as the mode has pictures.
 struct ComposeTarget {
   DeviceImage image;
   std::array<vk::raii::ImageView, 2> views{nullptr, nullptr};  // of each layer alone
+  std::optional<ComposedPicture> shown;
 };
 
 // Composes into images of one format: one pipeline for each kind of picture, created at first use.
@@ -55,7 +70,8 @@ class ComposePipeline {
 // mode of one full-screen shader.
 class Composer {
  public:
-  Composer(const Device& device, const EyeTargets& eyes);
+  // `changes` are those of `eyes`; both must outlive it.
+  Composer(const Device& device, const EyeTargets& eyes, const EyeChanges& changes);
 
   // The picture, or both, of the eyes' newest contents; waits for it. The device can make an image of that size.
   std::vector<Image> compose(const Composition& composition, const ReadArea& area);
@@ -71,7 +87,8 @@ class Composer {
 
   // Draws the picture, or each of two into its layer, scaled to fill its area and black around it: into what a window
   // shows and into what is read alike. Where the picture is nothing but the eyes' images beside each other, these are
-  // copied: on a CPU device that takes a fifth of the time.
+  // copied: on a CPU device that takes a fifth of the time. Of a picture that the image already shows with older eyes,
+  // only what has changed is drawn.
   void record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
               const ComposePlace& place, const ComposeInto& into) const;
 
@@ -81,12 +98,19 @@ class Composer {
               ComposeTarget& target);
 
  private:
+  PixelArea changed_in(const ComposeInto& into, const Composition& composition, const ComposePlace& place) const;
   void draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
-            const ComposePlace& place, std::uint32_t layer) const;
-  void copy(const vk::raii::CommandBuffer& command, const Composition& composition, const ComposeInto& into) const;
+            const ComposePlace& place, const vk::Rect2D& part, std::uint32_t layer) const;
+  void draw_parts(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
+                  const ComposePlace& place, const ComposeInto& into, const PixelArea& changed) const;
+  void copy(const vk::raii::CommandBuffer& command, const Composition& composition, const ComposeInto& into,
+            const PixelBox& box) const;
+  void copy_parts(const vk::raii::CommandBuffer& command, const Composition& composition, const ComposeInto& into,
+                  const PixelArea& changed) const;
 
   const Device& device_;
   const EyeTargets& eyes_;
+  const EyeChanges& changes_;
   vk::raii::DescriptorSetLayout set_layout_;
   vk::raii::PipelineLayout layout_;
   ComposePipeline pipeline_;

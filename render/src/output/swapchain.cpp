@@ -63,10 +63,11 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
                                        .preTransform = capabilities.currentTransform,
                                        .compositeAlpha = choose_alpha(capabilities),
                                        .presentMode = vk::PresentModeKHR::eFifo,
-                                       .clipped = VK_TRUE,
+                                       .clipped = VK_FALSE,  // what lies under another window is kept too
                                        .oldSwapchain = old == nullptr ? vk::SwapchainKHR() : *old->swapchain_});
   for (const VkImage image : swapchain_.getImages()) {
     images_.emplace_back(image);
+    shown_.emplace_back();
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
       views_.emplace_back(*device,
                           vk::ImageViewCreateInfo{.image = image,

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "device/device.h"
+#include "output/composer.h"
 
 namespace afm::render {
 
@@ -26,6 +28,10 @@ class Swapchain {
   vk::Image image(std::uint32_t index) const { return images_[index]; }
   std::uint32_t layer_count() const { return layer_count_; }
   bool takes_copies() const { return takes_copies_; }
+
+  // Images keep what they show from one time they are presented to the next.
+  std::optional<ComposedPicture>& shown(std::uint32_t index) { return shown_[index]; }
+
   // A view of each layer.
   std::span<const vk::ImageView> layers(std::uint32_t index) const {
     return std::span(layers_).subspan(index * layer_count_, layer_count_);
@@ -40,6 +46,7 @@ class Swapchain {
   bool takes_copies_ = false;
   vk::raii::SwapchainKHR swapchain_{nullptr};
   std::vector<vk::Image> images_;  // owned by the swapchain
+  std::vector<std::optional<ComposedPicture>> shown_;
   std::vector<vk::raii::ImageView> views_;
   std::vector<vk::ImageView> layers_;  // of each image in turn
   std::vector<vk::raii::Semaphore> drawn_;

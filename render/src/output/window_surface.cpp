@@ -93,7 +93,8 @@ void WindowSurface::record(const vk::raii::CommandBuffer& command, const WindowP
        .layers = swapchain_->layers(*index_),
        .before = kAcquired,
        .after = kPresented,
-       .takes_copies = swapchain_->takes_copies() && format_.format == kEyeFormat});
+       .takes_copies = swapchain_->takes_copies() && format_.format == kEyeFormat,
+       .shown = &swapchain_->shown(*index_)});
 }
 
 void WindowSurface::replace() {

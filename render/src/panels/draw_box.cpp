@@ -8,15 +8,11 @@
 
 namespace afm::render {
 
-DrawBox bent_box(const Draw& draw, const FrameState& frame) {
+DrawBox bent_box(const Draw& draw, const glm::vec4& bend) {
   DrawBox box{glm::dvec3(draw.center), glm::dvec3(draw.half_size)};
-  for (const auto& bend : frame.bends) {
-    if (bend.node == draw.node && bend.length > 0.0F) {
-      // beyond its end a loaded beam is straight, with 3/2 of the mean slope
-      const double reach = (box.center.x + box.half_size.x) / static_cast<double>(bend.length);
-      box.half_size.z += std::abs(static_cast<double>(bend.end_deflection)) * (1.0 + 1.5 * std::max(reach - 1.0, 0.0));
-    }
-  }
+  // beyond its end a loaded beam is straight, with 3/2 of the mean slope
+  const double reach = (box.center.x + box.half_size.x) * static_cast<double>(bend.x);
+  box.half_size.z += std::abs(static_cast<double>(bend.y)) * (1.0 + 1.5 * std::max(reach - 1.0, 0.0));
   return box;
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "passes/scene_geometry.h"
-#include "render/frame.h"
 
 namespace afm::render {
 
@@ -16,8 +15,8 @@ struct DrawBox {
   glm::dvec3 half_size;
 };
 
-// Bounding box of a draw, with the bend of the frame.
-DrawBox bent_box(const Draw& draw, const FrameState& frame);
+// Bounding box of a draw that is bent as its DrawBlock says.
+DrawBox bent_box(const Draw& draw, const glm::vec4& bend);
 
 // The least and the largest value of dot(form, (place, 1)) over the box.
 std::pair<double, double> range(const glm::dvec4& form, const DrawBox& box);

@@ -252,6 +252,7 @@ void Panels::update(Panel& panel, const Content& content, const PanelPlacement& 
   const Content* painted = std::get_if<Content>(&panel.painted);
   if (resized || painted == nullptr || !(*painted == content)) {
     panel.painted = content;
+    ++panel.painting;
     paint_on(panel, content);
   }
 }
@@ -281,6 +282,16 @@ bool Panels::update(const FrameState& frame, std::size_t slot) {
            frame.calibration.eye_marks ? mark_placement(frame.calibration_placement, scene::kEyes[i]) : kNoPlacement);
   }
   return !paintings_.empty();
+}
+
+void Panels::list(std::vector<PanelState>& states) const {
+  states.clear();
+  const auto add = [&](const Panel& panel) {
+    states.push_back(panel.shown ? PanelState{true, panel.placement, panel.painting} : PanelState{});
+  };
+  for (const Panel* panel : {&force_, &image_, &data_, &banner_, &control_, &calibration_}) add(*panel);
+  std::for_each(eye_marks_.begin(), eye_marks_.end(), add);
+  std::for_each(labels_.begin(), labels_.end(), add);
 }
 
 void Panels::record_textures(const vk::raii::CommandBuffer& command, std::size_t slot) {

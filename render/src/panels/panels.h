@@ -20,6 +20,15 @@ namespace afm::render {
 
 inline constexpr std::size_t kFramesInFlight = 2;
 
+// What one panel adds to the pictures of the eyes.
+struct PanelState {
+  bool shown = false;
+  PanelPlacement placement = kNoPlacement;
+  std::uint64_t painting = 0;  // which of its paintings the texture shows
+
+  bool operator==(const PanelState&) const = default;
+};
+
 // The panels of a frame: each is painted into its texture, and again only when its content or size has changed, and
 // shown on its rectangle in the room, the banner over all that is there. Panels without area are neither painted nor
 // shown.
@@ -41,6 +50,9 @@ class Panels {
                          vk::DescriptorSet frame_set);
   std::uint64_t revision() const { return revision_; }
 
+  // All panels as they are shown now, each always at the same place; `states` keeps its memory.
+  void list(std::vector<PanelState>& states) const;
+
  private:
   struct ContextDeleter {
     void operator()(ImGuiContext* context) const;
@@ -58,6 +70,7 @@ class Panels {
         painted;  // what the texture shows
     Texture texture;
     glm::vec2 canvas_texels{1.0F};  // what is painted, which a texture of the largest size shows smaller
+    std::uint64_t painting = 0;     // how many times it has been painted
     bool shown = false;
     std::optional<scene::Eye> only_eye;  // whose picture alone shows it
   };

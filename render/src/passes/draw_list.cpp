@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
+#include "device/frame_blocks.h"
 #include "panels/draw_box.h"
 
 namespace afm::render {
@@ -76,7 +77,7 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
     const auto& room_from_node = frame.room_from_node[draw.node];
     list.mirrored[i] = glm::determinant(glm::dmat3(room_from_node)) < 0.0 ? 1 : 0;
     list.per_vertex[i] = !list.hazy && is_fine(draw, frame.eyes[0], room_from_node, pixels_high) ? 1 : 0;
-    const DrawBox box = bent_box(draw, frame);
+    const DrawBox box = bent_box(draw, bend_of(frame, draw.node));
     bool seen = false;
     for (const auto& eye : frame.eyes) {
       const Sight its = sight(eye, room_from_node, box, static_cast<double>(guard_band));

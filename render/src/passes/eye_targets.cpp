@@ -22,12 +22,11 @@ constexpr ImageUse kEyesRead{vk::PipelineStageFlagBits2::eFragmentShader | vk::P
 // Objects may reach this many half screens beyond the screen's middle.
 constexpr float kLargestGuardBand = 8.0F;
 
-// The attachment is drawn with many samples, and what it held goes, with one, to where it pointed before.
+// The attachment is drawn with many samples, and what it holds goes, with one, to where it pointed before.
 void resolve(vk::RenderingAttachmentInfo& attachment, vk::ImageView multisampled, vk::ResolveModeFlagBits mode) {
   attachment.resolveImageView = std::exchange(attachment.imageView, multisampled);
   attachment.resolveImageLayout = attachment.imageLayout;
   attachment.resolveMode = mode;
-  attachment.storeOp = vk::AttachmentStoreOp::eDontCare;
 }
 
 }  // namespace
@@ -66,14 +65,14 @@ EyeTargets::Multisampled EyeTargets::create_multisampled(std::uint32_t layers) c
   using Usage = vk::ImageUsageFlagBits;
   ImageRequest request{.format = kEyeFormat,
                        .extent = extent_,
-                       .usage = Usage::eColorAttachment | Usage::eTransientAttachment,
+                       .usage = Usage::eColorAttachment,
                        .layers = layers,
                        .samples = drawing_.samples};
   Multisampled made;
   made.color = create_image(*device_, "eyes multisampled", request);
   made.color_view = create_view(*device_, made.color, kColorAspect, 0, layers);
   request.format = kDepthFormat;
-  request.usage = Usage::eDepthStencilAttachment | Usage::eTransientAttachment;
+  request.usage = Usage::eDepthStencilAttachment;
   made.depth = create_image(*device_, "eyes multisampled depth", request);
   made.depth_view = create_view(*device_, made.depth, kDepthAspect, 0, layers);
   return made;
@@ -81,9 +80,10 @@ EyeTargets::Multisampled EyeTargets::create_multisampled(std::uint32_t layers) c
 
 void EyeTargets::begin_frame(const EyePassConfig& drawing) {
   drawing_ = drawing;
-  if (resolves() && !*multisampled().color_view) {
-    const bool both = drawing.pass == EyePass::Both;
-    multisampled_[both ? 0 : 1] = create_multisampled(both ? 2 : 1);
+  const bool both = drawing.pass == EyePass::Both;
+  for (std::size_t pass = 0; resolves() && pass < drawing.pass_count; ++pass) {
+    Multisampled& drawn = multisampled_[both ? 0 : 1 + pass];
+    if (!*drawn.color_view) drawn = create_multisampled(both ? 2 : 1);
   }
   if (resolves() && drawing.pass_count == 2 && second_color_.single.empty()) {
     second_color_ = create_target("second eye", kEyeFormat, 1);
@@ -102,9 +102,11 @@ EyeTargets::Filled EyeTargets::filled(std::size_t pass) const {
   return {.color = color_, .depth = depth_, .layer = layer, .layers = {layer, 1}};
 }
 
-void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass) const {
+void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass,
+                       const std::optional<PixelBox>& box) const {
   const bool both = drawing_.pass == EyePass::Both;
   const Filled to = filled(pass);
+  const auto held = [&](const ImageUse& use) { return box ? use : use.discarded(); };
 
   // the background covers every pixel that nothing else does, so no colour needs to be cleared
   vk::RenderingAttachmentInfo color{.imageView = both ? *to.color.both : *to.color.single[to.layer],
@@ -117,46 +119,56 @@ void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass)
                                     .storeOp = vk::AttachmentStoreOp::eStore,
                                     .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};
   record_barriers(command,
-                  {image_barrier(*to.color.image.image, kColorAspect, kEyesRead.discarded(), kColorWritten, to.layers),
-                   image_barrier(*to.depth.image.image, kDepthAspect, kEyesRead.discarded(),
+                  {image_barrier(*to.color.image.image, kColorAspect, held(kEyesRead), kColorWritten, to.layers),
+                   image_barrier(*to.depth.image.image, kDepthAspect, held(kEyesRead),
                                  resolves() ? kDepthResolved : kDepthTested, to.layers)});
   if (resolves()) {
-    const Multisampled& drawn = multisampled();
-    record_barriers(command, {image_barrier(*drawn.color.image, kColorAspect, kColorWritten.discarded(), kColorWritten),
-                              image_barrier(*drawn.depth.image, kDepthAspect, kDepthTested.discarded(), kDepthTested)});
+    const Multisampled& drawn = multisampled(pass);
+    record_barriers(command, {image_barrier(*drawn.color.image, kColorAspect, held(kColorWritten), kColorWritten),
+                              image_barrier(*drawn.depth.image, kDepthAspect, held(kDepthTested), kDepthTested)});
     resolve(color, *drawn.color_view, vk::ResolveModeFlagBits::eAverage);
     resolve(depth, *drawn.depth_view, vk::ResolveModeFlagBits::eSampleZero);
   }
-  command.beginRendering({.renderArea = {.extent = drawing_.extent},
+  const vk::Rect2D area = box.value_or(PixelBox::whole(drawing_.extent)).rect();
+  command.beginRendering({.renderArea = area,
                           .layerCount = 1,
                           .viewMask = both ? kBothEyes : 0U,
                           .colorAttachmentCount = 1,
                           .pColorAttachments = &color,
                           .pDepthAttachment = &depth});
   set_viewport(command, drawing_.extent, guard_band_);
+  command.setScissor(0, area);
 }
 
-void EyeTargets::end(const vk::raii::CommandBuffer& command, std::size_t pass) const {
+void EyeTargets::end(const vk::raii::CommandBuffer& command, std::size_t pass,
+                     const std::optional<PixelBox>& box) const {
   const Filled to = filled(pass);
   command.endRendering();
   record_barriers(command, {image_barrier(*to.color.image.image, kColorAspect, kColorWritten, kEyesRead, to.layers),
                             image_barrier(*to.depth.image.image, kDepthAspect,
                                           resolves() ? kDepthResolved : kDepthTested, kEyesRead, to.layers)});
   if (copies(pass)) {
-    copy_second(command);
+    copy_second(command, box.value_or(PixelBox::whole(drawing_.extent)));
   }
 }
 
-void EyeTargets::copy_second(const vk::raii::CommandBuffer& command) const {
+void EyeTargets::copy_second(const vk::raii::CommandBuffer& command, const PixelBox& box) const {
   const LayerRange second{1, 1};
+  const bool whole = box == PixelBox::whole(drawing_.extent);
   const auto copy = [&](const Target& from, const Target& to, vk::ImageAspectFlags aspect) {
     record_barriers(command, {image_barrier(*from.image.image, aspect, kEyesRead, kCopiedFrom),
-                              image_barrier(*to.image.image, aspect, kEyesRead.discarded(), kCopiedTo, second)});
+                              image_barrier(*to.image.image, aspect, whole ? kEyesRead.discarded() : kEyesRead,
+                                            kCopiedTo, second)});
+    const vk::Rect2D area = box.rect();
+    const vk::Offset3D offset{area.offset.x, area.offset.y, 0};
     const vk::ImageCopy region{.srcSubresource = {.aspectMask = aspect, .baseArrayLayer = 0, .layerCount = 1},
+                               .srcOffset = offset,
                                .dstSubresource = {.aspectMask = aspect, .baseArrayLayer = 1, .layerCount = 1},
-                               .extent = {drawing_.extent.width, drawing_.extent.height, 1}};
+                               .dstOffset = offset,
+                               .extent = {area.extent.width, area.extent.height, 1}};
     command.copyImage(*from.image.image, kCopiedFrom.layout, *to.image.image, kCopiedTo.layout, region);
-    record_barriers(command, {image_barrier(*to.image.image, aspect, kCopiedTo, kEyesRead, second)});
+    record_barriers(command, {image_barrier(*from.image.image, aspect, kCopiedFrom, kEyesRead),
+                              image_barrier(*to.image.image, aspect, kCopiedTo, kEyesRead, second)});
   };
   copy(second_color_, color_, kColorAspect);
   copy(second_depth_, depth_, kDepthAspect);
@@ -166,13 +178,15 @@ void EyeTargets::begin_copies(const vk::raii::CommandBuffer& command) const {
   record_barriers(command, {image_barrier(*color_.image.image, kColorAspect, kEyesRead, kCopiedFrom)});
 }
 
-void EyeTargets::copy(const vk::raii::CommandBuffer& command, scene::Eye eye, vk::Image to, std::uint32_t to_layer,
-                      vk::Offset2D place) const {
+void EyeTargets::copy(const vk::raii::CommandBuffer& command, scene::Eye eye, const PixelBox& box, vk::Image to,
+                      std::uint32_t to_layer, vk::Offset2D place) const {
+  const vk::Rect2D area = box.rect();
   const vk::ImageCopy region{
       .srcSubresource = {.aspectMask = kColorAspect, .baseArrayLayer = layer(eye), .layerCount = 1},
+      .srcOffset = {area.offset.x, area.offset.y, 0},
       .dstSubresource = {.aspectMask = kColorAspect, .baseArrayLayer = to_layer, .layerCount = 1},
-      .dstOffset = {place.x, place.y, 0},
-      .extent = {extent_.width, extent_.height, 1}};
+      .dstOffset = {place.x + area.offset.x, place.y + area.offset.y, 0},
+      .extent = {area.extent.width, area.extent.height, 1}};
   command.copyImage(*color_.image.image, kCopiedFrom.layout, to, vk::ImageLayout::eTransferDstOptimal, region);
 }
 

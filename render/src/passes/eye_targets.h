@@ -7,6 +7,7 @@
 #include "device/barriers.h"
 #include "device/memory.h"
 #include "passes/eye_pipelines.h"
+#include "passes/pixel_area.h"
 #include "render/renderer.h"
 
 namespace afm::render {
@@ -29,9 +30,10 @@ struct EyePassConfig {
 };
 
 // The images that eyes are drawn into: colour and depth of two layers, the left eye's first. What is drawn with more
-// samples goes through attachments that are made when first needed. Mesa 22.3's lavapipe neither draws into layer 1 of
-// a multisampled image as a base layer, nor resolves into one: so single passes share attachments of one layer, and the
-// second one resolves into separate images, which are copied.
+// samples goes through attachments that are made when first needed. All of them keep what is drawn, so that a part of
+// it can be drawn again. Mesa 22.3's lavapipe neither draws into layer 1 of a multisampled image as a base layer, nor
+// resolves into one: so single passes have attachments of one layer each, and the second one resolves into separate
+// images, which are copied.
 class EyeTargets {
  public:
   EyeTargets(const Device& device, const RendererOptions& options);
@@ -46,10 +48,10 @@ class EyeTargets {
   // To be called before a frame is recorded; from then on the getters below speak of that frame.
   void begin_frame(const EyePassConfig& drawing);
 
-  // Everything between them is drawn into the eyes of that pass; viewport and scissor are set. Afterwards the eye
-  // images can be sampled.
-  void begin(const vk::raii::CommandBuffer& command, std::size_t pass) const;
-  void end(const vk::raii::CommandBuffer& command, std::size_t pass) const;
+  // Everything between them is drawn into the eyes of that pass, all of them or the box alone, which is empty before
+  // and must be filled; viewport and scissor are set. Afterwards the eye images can be sampled.
+  void begin(const vk::raii::CommandBuffer& command, std::size_t pass, const std::optional<PixelBox>& box) const;
+  void end(const vk::raii::CommandBuffer& command, std::size_t pass, const std::optional<PixelBox>& box) const;
 
   const EyePassConfig& drawing() const { return drawing_; }
 
@@ -63,11 +65,11 @@ class EyeTargets {
   // Only drawing().extent of it is drawn.
   EyeImage eye(scene::Eye eye) const;
 
-  // Copies all of an eye's colour to a place of an image that lies in eTransferDstOptimal; between begin_copies() and
-  // end_copies().
+  // Copies a box of an eye's colour into an image that lies in eTransferDstOptimal and shows the eye's first pixel at
+  // `place`; between begin_copies() and end_copies().
   void begin_copies(const vk::raii::CommandBuffer& command) const;
-  void copy(const vk::raii::CommandBuffer& command, scene::Eye eye, vk::Image to, std::uint32_t layer,
-            vk::Offset2D place) const;
+  void copy(const vk::raii::CommandBuffer& command, scene::Eye eye, const PixelBox& box, vk::Image to,
+            std::uint32_t layer, vk::Offset2D place) const;
   void end_copies(const vk::raii::CommandBuffer& command) const;
 
   // Of the colour in both layers, the left eye's first: as it is stored, and in kEyeLinearFormat. Where both eyes see
@@ -98,10 +100,12 @@ class EyeTargets {
   };
   Filled filled(std::size_t pass) const;
   bool copies(std::size_t pass) const { return resolves() && pass == 1; }
-  void copy_second(const vk::raii::CommandBuffer& command) const;
+  void copy_second(const vk::raii::CommandBuffer& command, const PixelBox& box) const;
   Target create_target(const char* name, vk::Format format, std::uint32_t layers) const;
   Multisampled create_multisampled(std::uint32_t layers) const;
-  const Multisampled& multisampled() const { return multisampled_[drawing_.pass == EyePass::Both ? 0 : 1]; }
+  const Multisampled& multisampled(std::size_t pass) const {
+    return multisampled_[drawing_.pass == EyePass::Both ? 0 : 1 + pass];
+  }
   std::uint32_t layer(scene::Eye eye) const { return eye == scene::Eye::Left || same_eyes() ? 0 : 1; }
   bool resolves() const { return drawing_.samples != vk::SampleCountFlagBits::e1; }
 
@@ -112,7 +116,7 @@ class EyeTargets {
   Target depth_;
   Target second_color_;  // where the second of two passes resolves into
   Target second_depth_;
-  std::array<Multisampled, 2> multisampled_;  // of two layers, and of one
+  std::array<Multisampled, 3> multisampled_;  // of two layers, and of one for each pass
   EyePassConfig drawing_;
 };
 

@@ -79,7 +79,7 @@ FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::D
                      const ShadowMap& shadow_map, std::size_t draw_count)
     : pool_(*device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                .queueFamilyIndex = device.queue_family()}),
-      commands_(*device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 3}),
+      commands_(*device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 4}),
       draw_stride_(aligned_stride(device, sizeof(DrawBlock))),
       draw_blocks_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * draw_stride_,
                                       vk::BufferUsageFlagBits::eUniformBuffer)),
@@ -111,15 +111,16 @@ bool FrameSlot::Recorded::take(const DrawList& new_draws, const EyePassConfig& n
   return true;
 }
 
-void FrameSlot::write(const FrameState& frame, const SceneGeometry& geometry, const EyePassConfig& drawing,
+void FrameSlot::write(const FrameState& frame, std::span<const DrawBlock> blocks, const EyePassConfig& drawing,
                       float guard_band) {
   const glm::vec2 size(static_cast<float>(drawing.extent.width), static_cast<float>(drawing.extent.height));
   for (std::size_t pass = 0; pass < uniforms_.size(); ++pass) {
     const FrameBlock block = make_frame_block(frame, pass, size, guard_band);
     std::memcpy(uniforms_[pass].mapped, &block, sizeof(block));
   }
-  mark_highlighted(frame, geometry, glowing_);
-  write_draw_blocks(frame, geometry, glowing_, draw_blocks_.mapped, draw_stride_);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    std::memcpy(draw_blocks_.mapped + i * draw_stride_, &blocks[i], sizeof(DrawBlock));
+  }
 }
 
 }  // namespace afm::render

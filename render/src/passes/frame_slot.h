@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "device/frame_blocks.h"
 #include "device/memory.h"
 #include "passes/draw_list.h"
 #include "passes/eye_targets.h"
+#include "passes/pixel_area.h"
 #include "passes/shadow_map.h"
 
 namespace afm::render {
@@ -24,8 +26,9 @@ class FrameSlot {
   FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::DescriptorSetLayout shadow_layout,
             const ShadowMap& shadow_map, std::size_t draw_count);
 
-  // Writes everything that the frame's shaders read.
-  void write(const FrameState& frame, const SceneGeometry& geometry, const EyePassConfig& drawing, float guard_band);
+  // Writes everything that the frame's shaders read; `blocks` has one for each draw.
+  void write(const FrameState& frame, std::span<const DrawBlock> blocks, const EyePassConfig& drawing,
+             float guard_band);
 
   // The frame's set of a pass: with the left eye's view first, or the right one's.
   vk::DescriptorSet set(std::size_t pass) const { return *sets_[pass]; }
@@ -39,11 +42,12 @@ class FrameSlot {
   // Draws of the frame; the slot only keeps their memory.
   DrawList draws;
 
-  // Commands that are recorded for one frame.
+  // Commands that are recorded for one frame; patching() draws parts of the eyes.
   const vk::raii::CommandBuffer& painting() const { return commands_[0]; }
   const vk::raii::CommandBuffer& shadow() const { return commands_[1]; }
+  const vk::raii::CommandBuffer& patching() const { return commands_[3]; }
 
-  // Commands that stay for as many frames as `recorded` says.
+  // Commands that draw the eyes and stay for as many frames as `recorded` says.
   const vk::raii::CommandBuffer& drawing() const { return commands_[2]; }
 
   // All that the commands of drawing() depend on.
@@ -58,8 +62,11 @@ class FrameSlot {
   };
   Recorded recorded;
 
-  bool painted = false;           // panels, in the slot's newest frame
-  bool shadowed = false;          // the shadow map was drawn again, in the slot's newest frame
+  // in the slot's newest frame
+  bool painted = false;   // panels
+  bool shadowed = false;  // the shadow map was drawn again
+  PixelArea area;         // of the eyes, that was drawn
+
   std::uint64_t finished_at = 0;  // the timeline's value when the slot's newest frame is finished
 
  private:
@@ -68,7 +75,6 @@ class FrameSlot {
   std::vector<Buffer> uniforms_;  // one for each pass
   std::uint32_t draw_stride_;
   Buffer draw_blocks_;
-  std::vector<std::uint8_t> glowing_;
   vk::raii::DescriptorPool descriptor_pool_{nullptr};
   std::vector<vk::raii::DescriptorSet> sets_;
   vk::raii::DescriptorSet shadow_set_{nullptr};

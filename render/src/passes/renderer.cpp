@@ -79,7 +79,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       shadow_set_layout(create_frame_set_layout(device, ShadowMapUse::Drawn)),
       scene_pass(device, *frame_set_layout, *shadow_set_layout, materials, geometry.variants()),
       panels(device, std::move(fonts), *frame_set_layout),
-      composer(device, eyes),
+      composer(device, eyes, eye_changes),
       timeline(create_timeline(device)) {
   for (std::size_t i = 0; i < kFramesInFlight; ++i) {
     slots.emplace_back(device, *frame_set_layout, *shadow_set_layout, shadow_map, geometry.draws().size());
@@ -145,19 +145,35 @@ void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
   command.end();
 }
 
-void Renderer::Parts::record_drawing(std::size_t slot_index) {
-  FrameSlot& slot = slots[slot_index];
+// All of the eyes, or what lies in a box.
+void Renderer::Parts::record_eyes(const vk::raii::CommandBuffer& command, std::size_t slot_index,
+                                  const std::optional<PixelBox>& box) {
+  const FrameSlot& slot = slots[slot_index];
   const EyePassConfig& drawing = eyes.drawing();
-  const auto& command = slot.drawing();
-  command.begin({});
-  mark(command, slot_index, GpuTimer::Mark::EyesBegin);
   for (std::size_t pass = 0; pass < drawing.pass_count; ++pass) {
-    eyes.begin(command, pass);
-    scene_pass.record_eyes(command, drawing, {geometry, materials, slot.draws, slot.set(pass), slot.draw_stride()});
+    eyes.begin(command, pass, box);
+    scene_pass.record_eyes(command, drawing,
+                           {geometry, materials, slot.draws, slot.set(pass), slot.draw_stride(), &now, box});
     panels.record_rectangles(command, drawing, slot.set(pass));
-    eyes.end(command, pass);
+    eyes.end(command, pass, box);
   }
-  mark(command, slot_index, GpuTimer::Mark::EyesEnd);
+}
+
+void Renderer::Parts::record_drawing(std::size_t slot) {
+  const auto& command = slots[slot].drawing();
+  command.begin({});
+  mark(command, slot, GpuTimer::Mark::EyesBegin);
+  record_eyes(command, slot, {});
+  mark(command, slot, GpuTimer::Mark::EyesEnd);
+  command.end();
+}
+
+void Renderer::Parts::record_patching(std::size_t slot) {
+  const auto& command = slots[slot].patching();
+  command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  mark(command, slot, GpuTimer::Mark::EyesBegin);
+  for (const PixelBox& box : slots[slot].area.boxes()) record_eyes(command, slot, box);
+  mark(command, slot, GpuTimer::Mark::EyesEnd);
   command.end();
 }
 
@@ -172,7 +188,9 @@ void Renderer::Parts::submit(std::size_t slot_index) {
   if (slot.shadowed) {
     commands[count++].commandBuffer = *slot.shadow();
   }
-  commands[count++].commandBuffer = *slot.drawing();
+  if (!slot.area.empty()) {
+    commands[count++].commandBuffer = slot.area.everything() ? *slot.drawing() : *slot.patching();
+  }
   const vk::SemaphoreSubmitInfo signal{
       .semaphore = *timeline, .value = slot.finished_at, .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
   device.queue().submit2(vk::SubmitInfo2{.commandBufferInfoCount = count,
@@ -187,23 +205,38 @@ void Renderer::Parts::render(const FrameState& frame) {
   wait_for(slot.finished_at);
   lister.list(frame, geometry, eyes.guard_band(), quality.scale * eyes.extent().height, slot.draws);
   eyes.begin_frame(choose_drawing(frame, slot.draws));
-  slot.write(frame, geometry, eyes.drawing(), eyes.guard_band());
   slot.painted = panels.update(frame, slot_index);
+  now.take(frame, geometry, slot.draws, eyes.drawing(), eyes.guard_band(), panels, drawn);
+  if (options.redraw == Redraw::Everything) drawn.forget();
+  slot.area = damage.between(drawn, now, geometry);
+  const ShadowStep step = shadow_casters.update(frame, geometry, slot.draws);
+  slot.shadowed = step != ShadowStep::Nothing;
+  redrawn_share = slot.area.share_of(eyes.drawing().extent);
+  rested = slot.area.empty() && !slot.painted && !slot.shadowed;
+  if (rested) {
+    return;
+  }
+  slot.write(frame, now.blocks(), eyes.drawing(), eyes.guard_band());
   if (slot.painted) {
     record_painting(slot_index);
   }
-  const ShadowStep step = shadow_casters.update(frame, geometry, slot.draws);
-  slot.shadowed = step != ShadowStep::Nothing;
   if (slot.shadowed) {
     record_shadow(slot_index, step);
   }
 
-  // What is recorded here is submitted again as it is while the slot's Recorded stays the same: what changes from frame
-  // to frame comes from the slot's buffers.
-  if (slot.recorded.take(slot.draws, eyes.drawing(), panels.revision())) {
+  // Where everything is drawn, what is recorded is submitted again as it is while the slot's Recorded stays the same:
+  // what changes from frame to frame comes from the slot's buffers.
+  if (!slot.area.everything()) {
+    if (!slot.area.empty()) record_patching(slot_index);
+  } else if (slot.recorded.take(slot.draws, eyes.drawing(), panels.revision())) {
     record_drawing(slot_index);
   }
+  drawn.forget();
   submit(slot_index);
+  std::swap(drawn, now);
+  if (!slot.area.empty()) {
+    eye_changes.add(slot.area);
+  }
   eyes_drawn = true;
   near_m = frame.eyes[0].projection[3][2];
 }
@@ -294,6 +327,10 @@ core::Result<void> Renderer::resize(std::uint32_t eye_width, std::uint32_t eye_h
   for (FrameSlot& slot : parts_->slots) {
     slot.recorded = {};
   }
+  parts_->drawn.forget();
+  PixelArea everything;
+  everything.add_everything();
+  parts_->eye_changes.add(everything);
   parts_->composer.eyes_changed();
   parts_->eyes_drawn = false;
   return {};
@@ -314,11 +351,15 @@ std::optional<PassTimes> Renderer::pass_times() const {
     return std::nullopt;
   }
   const std::size_t slot = (finished - 1) % kFramesInFlight;
-  PassTimes times = parts_->clocks[slot].times(parts_->slots[slot].painted, parts_->slots[slot].shadowed);
+  const FrameSlot& newest = parts_->slots[slot];
+  PassTimes times;
+  if (!parts_->rested) times = parts_->clocks[slot].times(newest.painted, newest.shadowed, !newest.area.empty());
   times.compose_ms = parts_->compose_ms;
   times.readback_ms = parts_->readback_ms;
   return times;
 }
+
+double Renderer::redrawn_share() const { return parts_->redrawn_share; }
 
 void Renderer::wait() {
   rethrow_as_device_failure(parts_->device, "drawing a frame", [this] { parts_->wait_for(parts_->frames); });

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "device/gpu_timer.h"
 #include "output/composer.h"
 #include "panels/panels.h"
+#include "passes/damage.h"
 #include "passes/eye_targets.h"
 #include "passes/frame_slot.h"
 #include "passes/scene_geometry.h"
@@ -28,7 +30,9 @@ struct Renderer::Parts {
   void mark(const vk::raii::CommandBuffer& command, std::size_t slot, GpuTimer::Mark mark) const;
   void record_painting(std::size_t slot);
   void record_shadow(std::size_t slot, ShadowStep step);
+  void record_eyes(const vk::raii::CommandBuffer& command, std::size_t slot, const std::optional<PixelBox>& box);
   void record_drawing(std::size_t slot);
+  void record_patching(std::size_t slot);
   void submit(std::size_t slot);
   void render(const FrameState& frame);
 
@@ -36,6 +40,7 @@ struct Renderer::Parts {
   RendererOptions options;
   FrameQuality quality;
   EyeTargets eyes;
+  EyeChanges eye_changes;
   SceneGeometry geometry;
   SceneMaterials materials;
   std::size_t node_count;
@@ -45,12 +50,16 @@ struct Renderer::Parts {
   Panels panels;
   Composer composer;
   DrawListBuilder lister;
+  Damage damage;
+  DrawnFrame drawn, now;  // the frame that the eyes show, and the one that is being drawn
   ShadowCasters shadow_casters;
   std::vector<FrameSlot> slots;
   std::vector<GpuTimer> clocks;  // one a slot, or none
   vk::raii::Semaphore timeline;
   std::uint64_t frames = 0;                // submitted
   bool eyes_drawn = false;                 // since the eye images were made
+  bool rested = false;                     // the newest frame looks as the one before it, so that nothing was submitted
+  double redrawn_share = 0;                // as Renderer::redrawn_share()
   double near_m = 0;                       // of the newest frame: its depth is near_m / distance
   double compose_ms = 0, readback_ms = 0;  // as in PassTimes, set by the caller
 };

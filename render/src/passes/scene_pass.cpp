@@ -132,6 +132,7 @@ void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const Eye
                                std::span<const std::uint32_t> draws, BothSides& plain) {
   const EyePipeline* bound = nullptr;
   for (const std::uint32_t i : draws) {
+    if (input.box && input.frame->bounds(i).within(*input.box).empty()) continue;
     const Draw& draw = input.geometry.draws()[i];
     EyePipeline& pipeline = draw.variant                     ? variants_[*draw.variant]
                             : input.draws.per_vertex[i] != 0 ? fine_

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
+#include "passes/damage.h"
 #include "passes/draw_list.h"
 #include "passes/eye_targets.h"
 #include "passes/scene_geometry.h"
@@ -22,7 +24,9 @@ class ScenePass {
     const SceneMaterials& materials;
     const DrawList& draws;
     vk::DescriptorSet frame_set;
-    std::uint32_t draw_stride = 0;  // as FrameSlot::draw_stride()
+    std::uint32_t draw_stride = 0;      // as FrameSlot::draw_stride()
+    const DrawnFrame* frame = nullptr;  // with a box: what lies beside it is left out
+    std::optional<PixelBox> box{};
   };
   // `draws` of the input's geometry; the input's set is FrameSlot::shadow_set().
   void record_shadow(const vk::raii::CommandBuffer& command, const Input& input,

@@ -58,7 +58,7 @@ vk::Rect2D ShadowCasters::drawn_by_dynamic(const FrameState& frame, const SceneG
   glm::dvec2 low(kSize), high(0.0);
   for (const std::uint32_t i : dynamic_) {
     const Draw& draw = geometry.draws()[i];
-    const DrawBox box = bent_box(draw, frame);
+    const DrawBox box = bent_box(draw, bend_of(frame, draw.node));
     const glm::dmat4 rows = glm::transpose(glm::dmat4(map_from_room_) * frame.room_from_node[draw.node]);
     for (glm::length_t axis = 0; axis < 2; ++axis) {
       const auto [least, largest] = range(rows[axis], box);

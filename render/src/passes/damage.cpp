@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/damage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+
+#include "device/frame_blocks.h"
+#include "panels/draw_box.h"
+
+namespace afm::render {
+namespace {
+
+// A draw's flags in a DrawnFrame.
+constexpr std::uint8_t kDrawn = 1, kCasts = 2, kMirrored = 4, kPerVertex = 8;
+
+constexpr std::size_t kMostChanged = 64;  // draws; where more have changed, drawing everything costs about as much
+constexpr double kMostOfPicture =
+    0.35;                     // likewise: a CPU device resolves more than a box, and places its vertices again
+constexpr int kMarginPx = 2;  // the device computes with floats
+constexpr double kFarPx = 1e6;
+
+// A surface looks up its shadow a step of up to two texels off itself, half a texel beside it and between four texels,
+// which are drawn with a device's precision.
+constexpr double kShadowTexels = 8.0;
+constexpr int kShadowParts = 4;  // of what casts one
+
+// Radii of the shade about the contact beyond which 1 - 0.72 * exp2(-2 r * r) is 1 in 32 bits (shaders/contact.glsl),
+// and beyond a ring of light there its light is lost in that of any surface: exp2(-(3.5 * 2)^2).
+constexpr double kShadeReach = 3.6, kRingReach = 2.0;
+
+template <class Block>
+bool same_bytes(const Block& a, const Block& b) {
+  return std::memcmp(&a, &b, sizeof(Block)) == 0;
+}
+
+// The draw's matrix as the shaders use it: they take the first three rows. One of zeros hides what is drawn in a point.
+glm::dmat4 placing(const DrawBlock& block) {
+  glm::dmat4 m(block.room_from_node);
+  for (glm::length_t column = 0; column < 4; ++column) m[column][3] = column == 3 ? 1.0 : 0.0;
+  return m;
+}
+
+// Of a draw's triangles in the room, with the beam's bend.
+double longest_edge_m(const Draw& draw, const DrawBlock& block) {
+  const glm::dmat4 m(block.room_from_node);
+  const double scale = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
+  const double slope = 1.5 * std::abs(static_cast<double>(block.bend.x) * static_cast<double>(block.bend.y));
+  return static_cast<double>(draw.longest_edge) * scale * (1.0 + slope);
+}
+
+// The axis along which the box is longest on the map.
+glm::length_t longest_axis(const glm::dmat4& map_from_node, const DrawBox& box) {
+  const auto length = [&](glm::length_t axis) {
+    return box.half_size[axis] * glm::length(glm::dvec2(map_from_node[axis]));
+  };
+  glm::length_t longest = 0;
+  for (const glm::length_t axis : {1, 2}) {
+    if (length(axis) > length(longest)) longest = axis;
+  }
+  return longest;
+}
+
+}  // namespace
+
+// ---- a frame ----
+
+PixelBox DrawnFrame::seen(const glm::dmat4& room_from_box, const glm::dvec3& low, const glm::dvec3& high) const {
+  const PixelBox whole = PixelBox::whole(drawing_.extent);
+  const glm::dvec2 size(whole.high);
+  PixelBox box;
+  for (std::size_t eye = 0; eye < clip_from_room_.size(); ++eye) {
+    const glm::dmat4 clip_from_box = clip_from_room_[eye] * room_from_box;
+    glm::dvec2 least(kFarPx), largest(-kFarPx);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 place((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                             (corner & 4) != 0 ? high.z : low.z);
+      const glm::dvec4 clip = clip_from_box * glm::dvec4(place, 1.0);
+      if (!(clip.w > near_m_[eye])) return whole;
+      const glm::dvec2 pixel = (0.5 * glm::dvec2(clip) / clip.w + 0.5) * size;
+      least = glm::min(least, pixel);
+      largest = glm::max(largest, pixel);
+    }
+    const glm::ivec2 from(glm::floor(glm::clamp(least, -kFarPx, kFarPx)));
+    const glm::ivec2 to(glm::ceil(glm::clamp(largest, -kFarPx, kFarPx)));
+    box = box.with({from - kMarginPx, to + kMarginPx});
+  }
+  return box.within(whole);
+}
+
+PixelBox DrawnFrame::seen(const PanelState& panel) const {
+  if (!panel.shown) return {};
+  const PanelPlacement& place = panel.placement;
+  const glm::dmat4 room_from_panel(glm::dvec4(place.right_m, 0.0), glm::dvec4(place.up_m, 0.0), glm::dvec4(0.0),
+                                   glm::dvec4(place.lower_left_m, 1.0));
+  return seen(room_from_panel, glm::dvec3(0.0), glm::dvec3(1.0, 1.0, 0.0));
+}
+
+void DrawnFrame::take(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list,
+                      const EyePassConfig& drawing, float guard_band, const Panels& panels, const DrawnFrame& before) {
+  const auto& draws = geometry.draws();
+  known_ = true;
+  drawing_ = drawing;
+  hazy_ = list.hazy;
+  rest_ = make_frame_block(frame, 0, {drawing.extent.width, drawing.extent.height}, guard_band);
+  contact_ = std::exchange(rest_.contact, glm::vec4(0.0F));
+  contact_ring_ = std::exchange(rest_.contact_ring, glm::vec4(0.0F));
+  for (std::size_t eye = 0; eye < frame.eyes.size(); ++eye) {
+    clip_from_room_[eye] = frame.eyes[eye].projection * frame.eyes[eye].view;
+    near_m_[eye] = frame.eyes[eye].projection[3][2];
+  }
+
+  mark_highlighted(frame, geometry, glowing_);
+  blocks_.resize(draws.size());
+  write_draw_blocks(frame, geometry, glowing_, std::as_writable_bytes(std::span(blocks_)).data(), sizeof(DrawBlock));
+  order_.assign(list.opaque.begin(), list.opaque.end());
+  order_.insert(order_.end(), list.blended.begin(), list.blended.end());
+  how_.assign(draws.size(), 0);
+  for (const std::uint32_t i : order_) how_[i] |= kDrawn;
+  for (const std::uint32_t i : list.shadow) how_[i] |= kCasts;
+  for (std::uint32_t i = 0; i < draws.size(); ++i) {
+    how_[i] |=
+        static_cast<std::uint8_t>((list.mirrored[i] != 0 ? kMirrored : 0) | (list.per_vertex[i] != 0 ? kPerVertex : 0));
+  }
+
+  bounds_.assign(draws.size(), {});
+  const bool same_eyes = same_for_all(before);
+  for (const std::uint32_t i : order_) {
+    if (same_eyes && same(before, i)) {
+      bounds_[i] = before.bounds_[i];
+    } else {
+      const DrawBox box = bent_box(draws[i], blocks_[i].bend);
+      bounds_[i] = seen(placing(blocks_[i]), box.center - box.half_size, box.center + box.half_size);
+    }
+  }
+  panels.list(panels_);
+}
+
+bool DrawnFrame::same_for_all(const DrawnFrame& other) const {
+  return known_ && other.known_ && drawing_ == other.drawing_ && hazy_ == other.hazy_ &&
+         blocks_.size() == other.blocks_.size() && same_bytes(rest_, other.rest_);
+}
+
+bool DrawnFrame::same(const DrawnFrame& other, std::uint32_t draw) const {
+  return how_[draw] == other.how_[draw] && same_bytes(blocks_[draw], other.blocks_[draw]);
+}
+
+bool DrawnFrame::casts_same_shadow(const DrawnFrame& other, std::uint32_t draw) const {
+  constexpr std::uint8_t kMatters = kCasts | kMirrored;
+  return (how_[draw] & kMatters) == (other.how_[draw] & kMatters) &&
+         same_bytes(blocks_[draw].room_from_node, other.blocks_[draw].room_from_node) &&
+         same_bytes(blocks_[draw].bend, other.blocks_[draw].bend);
+}
+
+// ---- what differs ----
+
+// False where too many have.
+bool Damage::find_changed(const DrawnFrame& before, const DrawnFrame& now) {
+  changed_.assign(now.blocks_.size(), 0);
+  changes_.clear();
+  for (std::uint32_t i = 0; i < now.blocks_.size(); ++i) {
+    const bool counts = ((before.how_[i] | now.how_[i]) & (kDrawn | kCasts)) != 0;
+    if (!counts || now.same(before, i)) continue;
+    changed_[i] = 1;
+    changes_.push_back(i);
+    if (changes_.size() > kMostChanged) return false;
+  }
+  return true;
+}
+
+// Whether what has not changed is drawn in the order in which it was.
+bool Damage::same_order(const DrawnFrame& before, const DrawnFrame& now) const {
+  const auto unchanged = [this](std::uint32_t draw) { return changed_[draw] == 0; };
+  auto was = before.order_.begin();
+  for (const std::uint32_t draw : now.order_) {
+    if (!unchanged(draw)) continue;
+    was = std::find_if(was, before.order_.end(), unchanged);
+    if (was == before.order_.end() || *was != draw) return false;
+    ++was;
+  }
+  return std::find_if(was, before.order_.end(), unchanged) == before.order_.end();
+}
+
+// What has not changed itself, where the volume lies on it. What is shaded by vertex passes it on along its triangles.
+void Damage::add_reached(const Volume& volume, const DrawnFrame& now, const SceneGeometry& geometry,
+                         PixelArea& area) const {
+  const glm::dmat4 room_from_box = glm::inverse(volume.box_from_room);
+  for (const std::uint32_t i : now.order_) {
+    if (changed_[i] != 0) continue;
+    const DrawBlock& block = now.blocks_[i];
+    const Draw& draw = geometry.draws()[i];
+    const DrawBox box = bent_box(draw, block.bend);
+    const glm::dmat4 rows = glm::transpose(volume.box_from_room * placing(block));
+    const glm::dvec3 edge = now.is(i, kPerVertex) ? longest_edge_m(draw, block) * volume.per_m : glm::dvec3(0.0);
+    glm::dvec3 low, high;
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+      const auto [least, largest] = range(rows[axis], box);
+      low[axis] = std::max(least, volume.low[axis] - edge[axis]);
+      high[axis] = std::min(largest, volume.high[axis] + edge[axis]);
+    }
+    if (low.x > high.x || low.y > high.y || low.z > high.z) continue;
+    area.add(now.seen(room_from_box, low, high).within(now.bounds_[i]));
+  }
+}
+
+// The columns behind the draw along the light, in the shadow map's clip space: one for each part of what is long.
+void Damage::add_shadow(const DrawnFrame& of, std::uint32_t draw, const DrawnFrame& now, const SceneGeometry& geometry,
+                        PixelArea& area) const {
+  if (!of.is(draw, kCasts)) return;
+  const glm::dmat4 map_from_room(of.rest_.shadow_from_room);
+  const glm::dmat4 directions = glm::transpose(map_from_room);
+  const glm::dmat4 map_from_node = map_from_room * placing(of.blocks_[draw]);
+  const glm::dmat4 rows = glm::transpose(map_from_node);
+  constexpr double kTexel = 1.0 / kShadowMapSize;  // in depth as much of the room as 2 * kTexel across
+  const glm::dvec3 reach = kShadowTexels * kTexel * glm::dvec3(2.0, 2.0, 1.0);
+  DrawBox part = bent_box(geometry.draws()[draw], of.blocks_[draw].bend);
+  const glm::length_t along = longest_axis(map_from_node, part);
+  part.half_size[along] /= kShadowParts;
+  part.center[along] -= (kShadowParts - 1) * part.half_size[along];
+  for (int i = 0; i < kShadowParts; ++i) {
+    Volume column{.box_from_room = map_from_room};
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+      const auto [least, largest] = range(rows[axis], part);
+      column.low[axis] = least - reach[axis];
+      column.high[axis] = axis == 2 ? std::numeric_limits<double>::max() : largest + reach[axis];
+      column.per_m[axis] = glm::length(glm::dvec3(directions[axis]));
+    }
+    add_reached(column, now, geometry, area);
+    part.center[along] += 2.0 * part.half_size[along];
+  }
+}
+
+void Damage::add_contact(const DrawnFrame& of, const DrawnFrame& now, const SceneGeometry& geometry,
+                         PixelArea& area) const {
+  if (!(of.contact_.w > 0.0F)) return;
+  double reach = kShadeReach;
+  if (glm::vec3(of.contact_ring_) != glm::vec3(0.0F)) {
+    reach = std::max(reach, static_cast<double>(of.contact_ring_.w) + kRingReach);
+  }
+  const glm::dvec3 place(of.contact_);
+  const glm::dvec3 half(reach / static_cast<double>(of.contact_.w));
+  add_reached({.low = place - half, .high = place + half}, now, geometry, area);
+}
+
+void Damage::add_panels(const DrawnFrame& before, const DrawnFrame& now, PixelArea& area) {
+  const std::size_t count = std::max(before.panels_.size(), now.panels_.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const PanelState was = i < before.panels_.size() ? before.panels_[i] : PanelState{};
+    const PanelState is = i < now.panels_.size() ? now.panels_[i] : PanelState{};
+    if (was == is) continue;
+    area.add(before.seen(was));
+    area.add(now.seen(is));
+  }
+}
+
+PixelArea Damage::between(const DrawnFrame& before, const DrawnFrame& now, const SceneGeometry& geometry) {
+  PixelArea area;
+  if (!now.same_for_all(before) || !find_changed(before, now) || !same_order(before, now)) {
+    area.add_everything();
+    return area;
+  }
+  for (const std::uint32_t draw : changes_) {
+    area.add(before.bounds_[draw]);
+    area.add(now.bounds_[draw]);
+    if (now.casts_same_shadow(before, draw)) continue;
+    add_shadow(before, draw, now, geometry, area);
+    add_shadow(now, draw, now, geometry, area);
+  }
+  if (before.contact_ != now.contact_ || before.contact_ring_ != now.contact_ring_) {
+    add_contact(before, now, geometry, area);
+    add_contact(now, now, geometry, area);
+  }
+  add_panels(before, now, area);
+  if (area.share_of(now.drawing_.extent) > kMostOfPicture) area.add_everything();
+  return area;
+}
+
+// ---- what follows the eyes ----
+
+void EyeChanges::add(const PixelArea& area) { newest_[count_++ % kKept] = area; }
+
+PixelArea EyeChanges::since(std::uint64_t count) const {
+  PixelArea area;
+  if (count_ - count > kKept) area.add_everything();
+  for (std::uint64_t i = count; i < count_ && !area.everything(); ++i) area.add(newest_[i % kKept]);
+  return area;
+}
+
+}  // namespace afm::render

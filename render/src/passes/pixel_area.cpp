@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/pixel_area.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <limits>
+
+namespace afm::render {
+namespace {
+
+// Work that a rectangle of its own costs, in pixels.
+constexpr std::int64_t kPixelsOfBox = 8192;
+
+}  // namespace
+
+std::int64_t PixelBox::pixels() const { return empty() ? 0 : std::int64_t{high.x - low.x} * (high.y - low.y); }
+
+PixelBox PixelBox::within(const PixelBox& other) const {
+  return {glm::max(low, other.low), glm::min(high, other.high)};
+}
+
+PixelBox PixelBox::with(const PixelBox& other) const {
+  if (empty()) return other;
+  if (other.empty()) return *this;
+  return {glm::min(low, other.low), glm::max(high, other.high)};
+}
+
+vk::Rect2D PixelBox::rect() const {
+  return {.offset = {low.x, low.y},
+          .extent = {static_cast<std::uint32_t>(high.x - low.x), static_cast<std::uint32_t>(high.y - low.y)}};
+}
+
+PixelBox PixelBox::whole(vk::Extent2D extent) {
+  return {glm::ivec2(0), glm::ivec2(static_cast<int>(extent.width), static_cast<int>(extent.height))};
+}
+
+void PixelArea::add(const PixelBox& box) {
+  if (everything_ || box.empty()) return;
+  boxes_[count_++] = box;
+  join();
+}
+
+void PixelArea::add(const PixelArea& other) {
+  if (other.everything_) {
+    everything_ = true;
+    return;
+  }
+  for (const PixelBox& box : other.boxes()) add(box);
+}
+
+// Where one rectangle costs less than two, and where there are too many, the two that belong together most become one.
+void PixelArea::join() {
+  while (count_ > 1) {
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    std::size_t first = 0, second = 0;
+    for (std::size_t a = 0; a < count_; ++a) {
+      for (std::size_t b = a + 1; b < count_; ++b) {
+        const std::int64_t more = boxes_[a].with(boxes_[b]).pixels() - boxes_[a].pixels() - boxes_[b].pixels();
+        if (more < least) {
+          least = more;
+          first = a;
+          second = b;
+        }
+      }
+    }
+    if (least > kPixelsOfBox && count_ <= kMostBoxes) return;
+    boxes_[first] = boxes_[first].with(boxes_[second]);
+    boxes_[second] = boxes_[--count_];
+  }
+}
+
+double PixelArea::share_of(vk::Extent2D extent) const {
+  const std::int64_t all = PixelBox::whole(extent).pixels();
+  std::int64_t sum = everything_ ? all : 0;
+  for (const PixelBox& box : boxes()) sum += box.pixels();
+  return std::min(1.0, static_cast<double>(sum) / static_cast<double>(all));
+}
+
+}  // namespace afm::render

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+
+#include "device/vulkan.h"
+
+namespace afm::render {
+
+// A rectangle of pixels; `high` lies outside it. Empty where it has no width or no height.
+struct PixelBox {
+  glm::ivec2 low{0}, high{0};
+
+  bool operator==(const PixelBox&) const = default;
+
+  bool empty() const { return high.x <= low.x || high.y <= low.y; }
+  std::int64_t pixels() const;
+  PixelBox within(const PixelBox& other) const;  // what both have
+  PixelBox with(const PixelBox& other) const;    // the smallest that has both; an empty one has nothing to add
+  vk::Rect2D rect() const;                       // low is not negative
+
+  static PixelBox whole(vk::Extent2D extent);
+};
+
+// A part of a picture: all of it, or a few rectangles, which may overlap. Adding may make it larger than what was
+// added, never smaller. Allocates nothing.
+class PixelArea {
+ public:
+  static constexpr std::size_t kMostBoxes = 4;
+
+  void add(const PixelBox& box);
+  void add(const PixelArea& other);
+  void add_everything() { everything_ = true; }
+
+  bool everything() const { return everything_; }
+  bool empty() const { return !everything_ && count_ == 0; }
+
+  // Unless it is everything.
+  std::span<const PixelBox> boxes() const { return {boxes_.data(), count_}; }
+  double share_of(vk::Extent2D extent) const;  // the sum of its boxes, at most 1
+
+ private:
+  void join();
+
+  std::array<PixelBox, kMostBoxes + 1> boxes_;  // one more than is kept, while it is added
+  std::size_t count_ = 0;
+  bool everything_ = false;
+};
+
+}  // namespace afm::render

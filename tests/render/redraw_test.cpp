@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+#include <string>
+
+#include "support/pictures.h"
+#include "support/vulkan_fixture.h"
+
+// A frame draws only what differs from the last one: the pictures are byte for byte those of drawing everything.
+namespace afm::test {
+namespace {
+
+constexpr int kFrames = 60;
+constexpr std::array<unsigned, 3> kSeeds{1, 2, 4};
+
+render::RendererOptions with(render::RendererOptions options, render::Redraw redraw) {
+  options.redraw = redraw;
+  return options;
+}
+
+// The rectangle in which two pictures differ; empty if nowhere.
+std::string where_differ(const render::Image& a, const render::Image& b) {
+  if (a.width != b.width || a.height != b.height) return "in size";
+  if (a.rgba == b.rgba) return "";
+  glm::uvec2 low(a.width, a.height), high(0);
+  for (std::uint32_t y = 0; y < a.height; ++y) {
+    for (std::uint32_t x = 0; x < a.width; ++x) {
+      const std::size_t at = std::size_t{4} * (std::size_t{y} * a.width + x);
+      if (std::equal(&a.rgba[at], &a.rgba[at] + 4, &b.rgba[at])) continue;
+      low = glm::min(low, glm::uvec2(x, y));
+      high = glm::max(high, glm::uvec2(x, y));
+    }
+  }
+  return "from " + std::to_string(low.x) + ", " + std::to_string(low.y) + " to " + std::to_string(high.x) + ", " +
+         std::to_string(high.y) + " of " + std::to_string(a.width) + " x " + std::to_string(a.height);
+}
+
+// A wall in use: in most frames the tip moves a little, the number in a panel changes, or nothing does; now and then
+// something else.
+class Story {
+ public:
+  Story(const TestScene& test, unsigned seed) : test_(&test), random_(seed), frame_(full_frame(test)) {
+    frame_.visible.assign(test.scene.nodes.size(), 1);
+  }
+
+  const render::FrameState& next() {
+    told.clear();
+    for (int i = 0; i < 1 + whole(0, 1); ++i) change();
+    return frame_;
+  }
+
+  int whole(int low, int high) { return std::uniform_int_distribution(low, high)(random_); }
+  double real(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
+
+  std::string told;  // what has changed in the newest frame
+
+ private:
+  void change() {
+    const std::array<std::pair<const char*, std::function<void()>>, 18> all{{
+        {"the bend", [&] { frame_.bends.front().end_deflection = static_cast<float>(real(-0.15, 0.15)); }},
+        {"the lever's place", [&] { move(test_->lever, 0.02); }},
+        {"the beam's place", [&] { move(test_->beam, 0.05); }},
+        {"the contact", [&] { touch(); }},
+        {"nothing", [] {}},
+        {"a number", [&] { frame_.data_panel.rows[0].value = std::to_string(whole(0, 999)); }},
+        {"the cursor", [&] { frame_.force_panel.cursor->z_nm = real(-4.0, 19.0); }},
+        {"a label", [&] { frame_.labels[0].highlighted = !frame_.labels[0].highlighted; }},
+        {"a label that comes or goes",
+         [&] { frame_.labels.resize(frame_.labels.size() == 3 ? 2 : 3, frame_.labels[0]); }},
+        {"a sample's place", [&] { move(test_->gold, 0.1); }},
+        {"a far place", [&] { move(test_->mica, 2.0); }},
+        {"the highlight", [&] { frame_.highlighted = {whole(0, 1) == 0 ? test_->gold : test_->nitride}; }},
+        {"what is shown", [&] { frame_.visible[static_cast<std::size_t>(whole(0, 5))] ^= 1U; }},
+        {"a panel's place", [&] { frame_.data_placement.lower_left_m.x = real(0.0, 0.6); }},
+        {"a mirror",
+         [&] {
+           auto& placed = frame_.room_from_node[test_->nitride];
+           placed = glm::scale(placed, glm::dvec3(-1.0, 1.0, 1.0));
+         }},
+        {"the head", [&] { look(); }},
+        {"the light", [&] { frame_.key_light.direction_to_light.x = static_cast<float>(real(-0.6, 0.6)); }},
+        {"the fog", [&] { frame_.fog.fade = whole(0, 1) == 0 ? 0.0F : 0.3F; }},
+    }};
+    // what changes everything is rare
+    const int drawn = whole(0, 99);
+    const auto& [what, happens] = all[static_cast<std::size_t>(drawn < 94 ? drawn % 15 : whole(15, 17))];
+    told += std::string(told.empty() ? "" : ", ") + what;
+    happens();
+  }
+
+  void move(scene::NodeIndex node, double far) {
+    const glm::dvec3 by{real(-far, far), real(-far, far), real(-far, far)};
+    auto& placed = frame_.room_from_node[node];
+    const glm::dvec3 home(full_frame(*test_).room_from_node[node][3]);
+    placed[3] = glm::dvec4(home + by, 1.0);
+  }
+
+  void touch() {
+    frame_.contact = {};
+    if (whole(0, 4) == 0) return;
+    frame_.contact = {.place_m = glm::vec3(glm::dvec3{real(-0.5, 0.5), real(-0.6, 0.2), real(-0.2, 0.2)}),
+                      .shade_radius_m = static_cast<float>(real(0.01, 0.08))};
+    if (whole(0, 1) == 0) return;
+    frame_.contact.ring_color = {2.0F, 1.4F, 0.6F};
+    frame_.contact.ring_radius_m = static_cast<float>(real(0.0, 0.2));
+  }
+
+  void look() {
+    const glm::dvec3 head{real(-0.8, 0.8), real(-0.3, 0.3), real(1.2, 2.8)};
+    const double ipd_m = whole(0, 3) == 0 ? 0.0 : 0.063;
+    frame_.eyes = {eye_view(scene::Eye::Left, head, ipd_m), eye_view(scene::Eye::Right, head, ipd_m)};
+  }
+
+  const TestScene* test_;
+  std::mt19937 random_;
+  render::FrameState frame_;
+};
+
+class Redraw : public VulkanTest {
+ protected:
+  // Both renderers draw the same story; sizes and quality change too, and pictures are composed in every mode.
+  void expect_same(const render::RendererOptions& options, unsigned seed) {
+    auto changes = make_renderer(test_.scene, with(options, render::Redraw::Changes));
+    auto everything = make_renderer(test_.scene, with(options, render::Redraw::Everything));
+    const auto both = [&](const auto& work) {
+      work(changes);
+      work(everything);
+    };
+    Story story(test_, seed);
+    scene::StereoMode mode = scene::StereoMode::SideBySide;
+    glm::uvec2 size_px(0);
+    for (int i = 0; i < kFrames; ++i) {
+      const render::FrameState& frame = story.next();
+      if (story.whole(0, 29) == 0) resize(story, both);
+      if (story.whole(0, 29) == 0) detail(story, options.samples, both);
+      both([&](render::Renderer& renderer) { renderer.render(frame); });
+      const std::string what = "seed " + std::to_string(seed) + ", frame " + std::to_string(i) + ": " + story.told;
+      for (const scene::Eye eye : scene::kEyes) {
+        ASSERT_EQ(where_differ(changes.read_eye(eye), everything.read_eye(eye)), "")
+            << what << ", eye " << static_cast<int>(eye);
+      }
+      if (story.whole(0, 3) == 0) mode = any_mode(story);
+      if (story.whole(0, 3) == 0) size_px = story.whole(0, 1) == 0 ? glm::uvec2(0) : glm::uvec2(300, 170);
+      if (story.whole(0, 2) == 0) continue;
+      const render::ReadArea area{.size_px = size_px, .screen_px = {1, 1}};
+      ASSERT_EQ(
+          where_differ(changes.read_composed({.mode = mode}, area), everything.read_composed({.mode = mode}, area)), "")
+          << what << ", mode " << scene::name_of(mode);
+    }
+  }
+
+  // Of one picture, no larger than the eyes' beside each other.
+  static scene::StereoMode any_mode(Story& story) {
+    scene::StereoMode mode{};
+    do {
+      mode = scene::kStereoModes[static_cast<std::size_t>(
+                                     story.whole(0, static_cast<int>(scene::kStereoModes.size()) - 1))]
+                 .mode;
+    } while (scene::has_two_pictures(mode) || scene::frame_packing(mode));
+    return mode;
+  }
+
+  static void resize(Story& story, const auto& both) {
+    const auto width = static_cast<std::uint32_t>(story.whole(100, 300));
+    both([&](render::Renderer& renderer) { ASSERT_TRUE(renderer.resize(width, 3 * width / 4)); });
+  }
+
+  static void detail(Story& story, std::uint32_t samples, const auto& both) {
+    const render::FrameQuality quality{story.whole(0, 1) == 0 ? 1.0 : 0.7, story.whole(0, 1) == 0 ? 1 : samples};
+    both([&](render::Renderer& renderer) { renderer.set_quality(quality); });
+  }
+
+  TestScene test_ = make_test_scene();
+};
+
+TEST_F(Redraw, OfWhatChangedGivesTheBytesOfRedrawingEverything) {
+  for (const unsigned seed : kSeeds) {
+    expect_same(small(4, render::PassMode::Automatic), seed);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST_F(Redraw, EyeByEyeGivesTheBytesOfRedrawingEverything) { expect_same(small(4, render::PassMode::TwoPasses), 11); }
+
+TEST_F(Redraw, WithOneSampleGivesTheBytesOfRedrawingEverything) {
+  expect_same(small(1, render::PassMode::Multiview), 21);
+}
+
+// Also of one that was composed before more frames than are remembered.
+TEST_F(Redraw, OfAComposedPictureIsRightHoweverOldItIs) {
+  auto changes = make_renderer(test_.scene, small());
+  render::FrameState frame = full_frame(test_);
+  for (const int frames : {1, 7, 8, 9, 30}) {
+    for (int i = 0; i < frames; ++i) {
+      frame.room_from_node[test_.gold][3].x = 0.1 * ((i + frames) % 5);
+      frame.labels.front().highlighted = i == 0;
+      changes.render(frame);
+    }
+    auto everything = make_renderer(test_.scene, small());
+    everything.render(frame);
+    const render::Composition rows{.mode = scene::StereoMode::Row};
+    EXPECT_EQ(where_differ(changes.read_composed(rows), everything.read_composed(rows)), "") << frames;
+  }
+}
+
+// What looks the same, in another object too, draws nothing; what moves, its part; another head, everything.
+TEST_F(Redraw, DrawsAsMuchAsHasChanged) {
+  auto renderer = make_renderer(test_.scene, small());
+  const auto share = [&](const render::FrameState& frame) {
+    renderer.render(frame);
+    return renderer.redrawn_share();
+  };
+  render::FrameState frame = full_frame(test_);
+  EXPECT_EQ(share(frame), 1.0);
+  EXPECT_EQ(share(full_frame(test_)), 0.0);
+  frame.labels.front().highlighted = true;
+  EXPECT_GT(share(frame), 0.0);
+  EXPECT_EQ(share(frame), 0.0);
+  frame.labels.front().highlighted = false;
+  EXPECT_LT(share(frame), 0.05);
+  frame.room_from_node[test_.gold][3].x += 0.01;
+  EXPECT_LT(share(frame), 0.25);
+  frame.eyes = {eye_view(scene::Eye::Left, {0.1, 0.0, 2.5}), eye_view(scene::Eye::Right, {0.1, 0.0, 2.5})};
+  EXPECT_EQ(share(frame), 1.0);
+  EXPECT_EQ(share(frame), 0.0);
+}
+
+}  // namespace
+}  // namespace afm::test
