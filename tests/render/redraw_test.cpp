@@ -68,7 +68,7 @@ class Story {
         {"the contact", [&] { touch(); }},
         {"nothing", [] {}},
         {"a number", [&] { frame_.data_panel.rows[0].value = std::to_string(whole(0, 999)); }},
-        {"the cursor", [&] { frame_.force_panel.cursor->z_nm = real(-4.0, 19.0); }},
+        {"the cursor", [&] { frame_.force_panel.cursor->place_nm = real(-4.0, 19.0); }},
         {"a label", [&] { frame_.labels[0].highlighted = !frame_.labels[0].highlighted; }},
         {"a label that comes or goes",
          [&] { frame_.labels.resize(frame_.labels.size() == 3 ? 2 : 3, frame_.labels[0]); }},

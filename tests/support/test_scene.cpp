@@ -202,7 +202,8 @@ render::FrameState full_frame(const TestScene& test) {
                                    {render::PlotMarker::Kind::HorizontalLine, -0.24, "F_attr 0.24 nN"},
                                    {render::PlotMarker::Kind::HorizontalLine, -1.4, "F_ad 1.40 nN"}},
                        .cursor = render::PlotPoint{9.0, -0.9},
-                       .stage = "e \u2192 f   retract, held by adhesion"};
+                       .stage = "e \u2192 f   retract, held by adhesion",
+                       .figures = {}};
   frame.force_panel.curves[0].faded = true;
   frame.force_placement = {.lower_left_m = {-1.484, -0.40, 0.0}, .right_m = {0.95, 0, 0}, .up_m = {0, 0.75, 0}};
   frame.data_panel = {.title = "Mica (muscovite)",
