@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "exhibit/cycle_history.h"
-#include "exhibit/friction_history.h"
+#include "exhibit/friction/friction_history.h"
 #include "servo/servo_client.h"
 #include "servo/session_folder.h"
 #include "servo/session_recorder.h"

@@ -8,7 +8,7 @@
 
 #include "core/enumerators.h"
 #include "core/log.h"
-#include "exhibit/friction_panel.h"
+#include "exhibit/friction/friction_panel.h"
 #include "exhibit/panel_hit.h"
 #include "exhibit/scan/scan_panels.h"
 #include "render/control_layout.h"

@@ -7,7 +7,7 @@
 
 #include "app/live/parameter_edits.h"
 #include "app/live/view_keys.h"
-#include "exhibit/friction_history.h"
+#include "exhibit/friction/friction_history.h"
 #include "exhibit/guidance.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/wall_scene.h"

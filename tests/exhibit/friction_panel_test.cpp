@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/friction_panel.h"
+#include "exhibit/friction/friction_panel.h"
 
 #include <gtest/gtest.h>
 

@@ -23,7 +23,7 @@
 #include "exhibit/calibration.h"
 #include "exhibit/depth_report.h"
 #include "exhibit/exhibit_setup.h"
-#include "exhibit/friction_panel.h"
+#include "exhibit/friction/friction_panel.h"
 #include "exhibit/guidance.h"
 #include "exhibit/parameter_panel.h"
 #include "exhibit/scan/scan_panels.h"
@@ -238,7 +238,7 @@ TEST_P(ReadableWalls, CutNoWordAndShowTheStateOnPicturesOfEverySizeInEveryLangua
     files.guidance = own;
     const auto stage = load_exhibit(files);
     ASSERT_TRUE(stage) << stage.error().message;
-    const render::FrameState frame = app::wall_subject(*stage, 64).value().frames.back();
+    const render::FrameState frame = app::wall_subject(*stage, 64, app::WallMotion::Tip).value().frames.back();
     for (const std::uint32_t width_px : kWidthsPx) {
       expect_readable(*stage, frame, width_px,
                       fmt::format("{} at {} pixels, {}", GetParam(), width_px, own.empty() ? language : "pseudo"));

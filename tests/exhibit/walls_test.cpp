@@ -57,7 +57,7 @@ class ModelsOfAWall : public test::VulkanTest {
         wall_text(3.048 * scale, 2.286 * scale, 0.4 * scale, 63.0 * scale, scale * glm::dvec3(0, 1.65, 2.5)));
     const auto stage = stage_on(path);
     EXPECT_TRUE(stage) << stage.error().message;
-    auto subject = app::wall_subject(*stage, kEyeWidth).value();
+    auto subject = app::wall_subject(*stage, kEyeWidth, app::WallMotion::Tip).value();
     render::FrameState& frame = subject.frames[kFrame];
     frame.banner.scale.clear();  // a metre of another wall shows something else
     auto renderer = make_renderer(subject.scene, subject.drawing);
@@ -135,7 +135,7 @@ void expect_everything_in_its_place(const std::string& wall_file, const std::str
                         stage->screen.height_m();
   EXPECT_GE(height, 1.0 / 3.0 - 1e-12) << what;
   EXPECT_LE(height, 2.0 / 3.0 + 1e-12) << what;
-  const render::FrameState frame = app::wall_subject(*stage, kEyeWidth).value().frames[kFrame];
+  const render::FrameState frame = app::wall_subject(*stage, kEyeWidth, app::WallMotion::Tip).value().frames[kFrame];
   std::vector<Place> places{place_of("banner", frame.banner_placement, *stage),
                             place_of("force", frame.force_placement, *stage),
                             place_of("data", frame.data_placement, *stage),
@@ -237,7 +237,7 @@ TEST_F(PixelsOfAWall, MayBeFewAndMany) {
   const support::ScratchFolder folder;
   const auto stage = stage_on(folder.write("wall.toml", wall_text(7.0, 2.0, 0.5, 63.0, {0.0, 1.65, 4.0})));
   for (const double texels_per_m : {1.0, 20.0, 1e5}) {
-    auto subject = app::wall_subject(*stage, 16).value();
+    auto subject = app::wall_subject(*stage, 16, app::WallMotion::Tip).value();
     subject.drawing.panel_texels_per_m = texels_per_m;
     auto renderer = make_renderer(subject.scene, subject.drawing);
     renderer.render(subject.frames.front());

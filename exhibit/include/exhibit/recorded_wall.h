@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "exhibit/cycle_curve.h"
-#include "exhibit/friction_history.h"
+#include "exhibit/friction/friction_history.h"
 #include "exhibit/moment.h"
 #include "exhibit/scan/live_scan.h"
 #include "scene/display/wall.h"

@@ -103,7 +103,7 @@ void SoundMixer::add_voice(std::span<float> interleaved) noexcept {
 void SoundMixer::fill(std::span<float> interleaved, std::int64_t now_ns) noexcept {
   clock_.asked(synthesizer_.position(), now_ns);
   take_updates();
-  synthesizer_.set_gain(gain_.load(std::memory_order_relaxed));
+  synthesizer_.set_gain(static_cast<double>(gain_.load(std::memory_order_relaxed)));
   add_voice(interleaved);
   synthesizer_.add_to(interleaved);
 }

@@ -126,8 +126,8 @@ void Synthesizer::add_to(std::span<float> interleaved) noexcept {
     Frame frame = next_of_tone();
     for (Voice& voice : voices_) add_voice(voice, frame);
     gain_.step();
-    interleaved[i] = static_cast<float>(bent(gain_.now * (frame.left + double{interleaved[i]})));
-    interleaved[i + 1] = static_cast<float>(bent(gain_.now * (frame.right + double{interleaved[i + 1]})));
+    interleaved[i] = static_cast<float>(bent(gain_.now * (frame.left + static_cast<double>(interleaved[i]))));
+    interleaved[i + 1] = static_cast<float>(bent(gain_.now * (frame.right + static_cast<double>(interleaved[i + 1]))));
     ++position_;
   }
 }

@@ -78,7 +78,7 @@ void paint_legend(Canvas& canvas, const ForcePanel& panel, float y) {
     if (curve.retract.empty() && !curve.approach.empty()) {
       canvas.dashed_polyline(stroke, kApproachWidth, 14.0F, 9.0F, color);
     } else {
-      canvas.polyline(stroke, kRetractWidth, color);
+      canvas.line(stroke[0], stroke[1], kRetractWidth, color);
     }
     canvas.text({x + scale * kLabel, middle - scale * 17.0F}, TextStyle::Small,
                 curve.faded ? palette::kMuted : palette::kInk, curve.label, Align::Left, scale);

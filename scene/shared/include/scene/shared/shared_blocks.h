@@ -19,7 +19,7 @@
 // ranges.
 namespace afm::scene {
 
-inline constexpr std::uint32_t kMaxNodes = 128;
+inline constexpr std::uint32_t kMaxNodes = 160;
 inline constexpr std::uint32_t kMaxMaterials = 32;
 inline constexpr std::uint32_t kMaxMeasuredCurves = 4;
 inline constexpr std::uint32_t kMaxMeasuredPoints = 512;  // of one branch

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "exhibit/friction_history.h"
+#include "exhibit/friction/friction_history.h"
 #include "exhibit/phrases.h"
 #include "physics/friction/friction.h"
 #include "render/frame.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/friction_history.h"
+#include "exhibit/friction/friction_history.h"
 
 #include <utility>
 
