@@ -263,7 +263,7 @@ INSTANTIATE_TEST_SUITE_P(
     Defects, SharedModelWith,
     testing::Values(
         BadModel{"0 nodes", [](SharedModel& m) { m.node_count = 0; }},
-        BadModel{"129 nodes", [](SharedModel& m) { m.node_count = 129; }},
+        BadModel{"161 nodes", [](SharedModel& m) { m.node_count = 161; }},
         BadModel{"its surface does not exist", [](SharedModel& m) { m.materials[0].height_field = kTopography; }},
         BadModel{"scale of its topography", [](SharedModel& m) { m.materials[0].topography.vertical = 0; }},
         BadModel{"topography is not a grid", [](SharedModel& m) { m.topography = {1, 5, 1e-9}; }},
