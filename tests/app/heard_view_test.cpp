@@ -162,8 +162,9 @@ TEST_F(HeardView, GoesThroughTheWholeProcedureByWhatIsSaidAlone) {
   using exhibit::HeardEvent;
   for (const HeardEvent event : {HeardEvent::SampleChosen, HeardEvent::TurnOnReady, HeardEvent::ForceOn,
                                  HeardEvent::SnapIn, HeardEvent::PullOff, HeardEvent::ForceOff}) {
-    EXPECT_GT(likeness(sound, signal_of(event)), 0.5) << exhibit::row_of(event).signal.length_s();
+    EXPECT_GT(likeness(sound, signal_of(event)), 0.3) << exhibit::row_of(event).signal.length_s();
   }
+  EXPECT_LT(likeness(sound, signal_of(HeardEvent::Fault)), 0.3) << "which never sounded";
   // sound changes no force
   const auto replayed =
       support::run_program(std::string(AFM_PROGRAM) + " replay " + folder_.file("kept/session-mica.afms") +
@@ -269,8 +270,9 @@ TEST_F(HeardView, EndsAtOnceWhileTheProgramThatSpeaksHangs) {
 TEST_F(HeardView, LeavesSpeechToAScreenReaderThatRuns) {
   const Variable driver("SDL_AUDIODRIVER", "dummy");
   program("spd-say", "echo \"$@\" >> " + folder_.file("said"));
-  const std::string orca = program("orca", "sleep 1000; true");
-  support::LiveProgram reader({orca}, "");
+  // one process of that name, so that none is left
+  std::filesystem::copy_file("/bin/sleep", folder_.file("orca"));
+  support::LiveProgram reader({folder_.file("orca"), "1000"}, "");
   for (int i = 0; i < 500; ++i) {  // until it has its name
     const auto name = core::read_file("/proc/" + std::to_string(reader.pid()) + "/comm");
     if (name && *name == "orca\n") break;
