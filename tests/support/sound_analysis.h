@@ -18,7 +18,7 @@ namespace afm::test {
 // Left (0) or right (1) of samples that take turns.
 inline std::vector<double> channel(std::span<const float> interleaved, std::size_t which) {
   std::vector<double> samples;
-  for (std::size_t i = which; i < interleaved.size(); i += 2) samples.push_back(interleaved[i]);
+  for (std::size_t i = which; i < interleaved.size(); i += 2) samples.push_back(static_cast<double>(interleaved[i]));
   return samples;
 }
 
