@@ -19,6 +19,7 @@ namespace afm::exhibit {
 
 std::vector<std::string> Stage::titles() const {
   std::vector<std::string> titles;
+  titles.reserve(materials.materials.size());
   for (const scene::MaterialEntry& entry : materials.materials) titles.push_back(phrases().word(entry.title));
   return titles;
 }

@@ -57,6 +57,7 @@ class SpeechSpawn {
       if (error != 0) return error;
     }
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     return ::posix_spawn(&child, path.c_str(), &actions_, &attributes_, argv.data(), environ);

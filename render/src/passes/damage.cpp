@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <span>
 
 #include "device/frame_blocks.h"
 #include "panels/draw_box.h"
@@ -33,9 +34,11 @@ constexpr int kShadowParts = 4;  // of what casts one
 // and beyond a ring of light there its light is lost in that of any surface: exp2(-(3.5 * 2)^2).
 constexpr double kShadeReach = 3.6, kRingReach = 2.0;
 
+// Equal bytes draw the same; equal numbers with other bytes (0 and -0) cost a redraw and no more.
 template <class Block>
 bool same_bytes(const Block& a, const Block& b) {
-  return std::memcmp(&a, &b, sizeof(Block)) == 0;
+  const auto bytes = [](const Block& block) { return std::as_bytes(std::span(&block, 1)).data(); };
+  return std::memcmp(bytes(a), bytes(b), sizeof(Block)) == 0;
 }
 
 // The draw's matrix as the shaders use it: they take the first three rows. One of zeros hides what is drawn in a point.

@@ -48,14 +48,18 @@ void PixelArea::add(const PixelArea& other) {
   for (const PixelBox& box : other.boxes()) add(box);
 }
 
-// Where one rectangle costs less than two, and where there are too many, the two that belong together most become one.
+// Two rectangles become one where they overlap and where one costs less than two; where there are too many, those two
+// that waste least.
 void PixelArea::join() {
   while (count_ > 1) {
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
     std::size_t first = 0, second = 0;
     for (std::size_t a = 0; a < count_; ++a) {
       for (std::size_t b = a + 1; b < count_; ++b) {
-        const std::int64_t more = boxes_[a].with(boxes_[b]).pixels() - boxes_[a].pixels() - boxes_[b].pixels();
+        const bool overlap = !boxes_[a].within(boxes_[b]).empty();
+        const std::int64_t more = overlap
+                                      ? std::numeric_limits<std::int64_t>::min()
+                                      : boxes_[a].with(boxes_[b]).pixels() - boxes_[a].pixels() - boxes_[b].pixels();
         if (more < least) {
           least = more;
           first = a;

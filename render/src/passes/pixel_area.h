@@ -26,8 +26,8 @@ struct PixelBox {
   static PixelBox whole(vk::Extent2D extent);
 };
 
-// A part of a picture: all of it, or a few rectangles, which may overlap. Adding may make it larger than what was
-// added, never smaller. Allocates nothing.
+// A part of a picture: all of it, or a few rectangles that do not overlap, so that one may be written after another
+// without a barrier. Adding may make it larger than what was added, never smaller. Allocates nothing.
 class PixelArea {
  public:
   static constexpr std::size_t kMostBoxes = 4;
@@ -41,7 +41,7 @@ class PixelArea {
 
   // Unless it is everything.
   std::span<const PixelBox> boxes() const { return {boxes_.data(), count_}; }
-  double share_of(vk::Extent2D extent) const;  // the sum of its boxes, at most 1
+  double share_of(vk::Extent2D extent) const;  // at most 1
 
  private:
   void join();
