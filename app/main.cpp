@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "app/commands/standard_output.h"
 #include "app/commit.h"
 #include "app/program.h"
 #include "core/exit_code.h"
@@ -68,10 +69,11 @@ int run(int count, char** arguments) {
   if (!answer) return fail(afm::core::ExitCode::WrongUsage, answer.error().message + "; see touchafm --help");
   if (!answer->empty()) {
     std::fputs(answer->c_str(), stdout);
-    return static_cast<int>(afm::core::ExitCode::Done);
-  }
-  if (const auto done = command_line.run(); !done)
+  } else if (const auto done = command_line.run(); !done) {
     return fail(afm::core::exit_code(done.error().category), done.error().message);
+  }
+  if (const auto written = afm::app::flush_stdout(); !written)
+    return fail(afm::core::exit_code(written.error().category), written.error().message);
   return static_cast<int>(afm::core::ExitCode::Done);
 }
 

@@ -101,7 +101,7 @@ core::Result<RenderSubject> standing_alone(std::string name, scene::Scene scene,
   const Box box = box_of(scene, room);
   if (!(glm::length(box.high - box.low) > 0.0)) {
     return core::failure(core::ErrorCategory::BadInputFile,
-                         name + ": has nothing to draw: no mesh, or a mesh without size");
+                         name + " has nothing to draw: no mesh, or one of zero size");
   }
   RenderSubject subject{.name = std::move(name),
                         .scene = std::move(scene),

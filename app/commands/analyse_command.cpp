@@ -83,6 +83,57 @@ core::Result<void> check_options(const std::string& file, const std::vector<Opti
   return {};
 }
 
+// They write into `options` while the parser lives.
+std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions& options) {
+  std::vector<OptionOfKind> added;
+  const auto for_curves = [&added](const char* name, const Option& option) {
+    added.push_back({option, name, FileKind::Curve});
+  };
+  for_curves("--beside", command
+                             .add_option("--beside", options.beside,
+                                         "second curve to compare with, measured or computed by touchafm curve")
+                             .type_name("FILE"));
+  curves::CurveReading& reading = options.reading;
+  for_curves(
+      "--spring-constant",
+      quantity_option(
+          command, "--spring-constant", [&reading](physics::Stiffness lever) { reading.spring_constant = lever; },
+          physics::kStiffnessUnits, "spring constant of the lever instead of the file's; forces scale with it",
+          std::optional(kSpringConstants)));
+  const auto read_sensitivity = [&reading](const std::string& text) -> core::Result<void> {
+    const auto sensitivity = parse_sensitivity(text);
+    if (!sensitivity) return tl::unexpected(sensitivity.error());
+    reading.sensitivity_m_per_v = *sensitivity;
+    return {};
+  };
+  for_curves("--sensitivity", command
+                                  .add_parsed_option("--sensitivity", read_sensitivity,
+                                                     "sensitivity of the optical lever instead of the file's")
+                                  .type_name("SENSITIVITY in um/V, nm/V, pm/V"));
+  const auto read_method = [&options](const std::string& text) -> core::Result<void> {
+    const auto method = std::find_if(physics::kContactMethods.begin(), physics::kContactMethods.end(),
+                                     [&](const auto& each) { return each.name == text; });
+    if (method == physics::kContactMethods.end()) {
+      return wrong_usage(fmt::format("unknown method \"{}\"; choose {}", text, contact_method_names()));
+    }
+    options.contact_method = method->method;
+    return {};
+  };
+  for_curves("--contact-point",
+             command
+                 .add_parsed_option("--contact-point", read_method,
+                                    "method that finds the contact point: " + contact_method_names() +
+                                        "; default: zero-force if the tip is attracted before contact or the curve is "
+                                        "computed, otherwise fit-polynomial")
+                 .type_name("METHOD"));
+  for_curves("--curve", command.add_option("--curve", reading.index, "number of the curve in an .h5 file, from 0")
+                            .show_default()
+                            .type_name("INDEX"));
+  for_curves("--out",
+             command.add_option("--out", options.out, "write a plot of the curve (SVG) to FILE").type_name("FILE"));
+  return added;
+}
+
 }  // namespace
 
 core::Result<double> parse_sensitivity(std::string_view text) {
@@ -149,10 +200,7 @@ core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
   }
   const std::string text = options.json ? curves::features_json(*measured, compared).dump(2) + "\n"
                                         : curves::features_text(*measured, compared);
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-    return core::failure(core::ErrorCategory::Failed, "cannot write to stdout");
-  }
-  return {};
+  return write_stdout(text);
 }
 
 void add_analyse_command(OptionList& program, const CommandContext&) {
@@ -168,63 +216,17 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
           "loop")
       .required()
       .type_name("FILE");
-  // shared: like the options, for the chosen command
-  const auto of_kind = std::make_shared<std::vector<OptionOfKind>>();
-  const auto for_curves = [of_kind](const char* name, const Option& option) {
-    of_kind->push_back({option, name, FileKind::Curve});
-  };
-  for_curves("--beside", command
-                             .add_option("--beside", options->beside,
-                                         "second curve to compare with, measured or computed by touchafm curve")
-                             .type_name("FILE"));
-  curves::CurveReading& reading = options->reading;
-  for_curves(
-      "--spring-constant",
-      quantity_option(
-          command, "--spring-constant", [&reading](physics::Stiffness lever) { reading.spring_constant = lever; },
-          physics::kStiffnessUnits, "spring constant of the lever instead of the file's; forces scale with it",
-          std::optional(kSpringConstants)));
-  const auto read_sensitivity = [&reading](const std::string& text) -> core::Result<void> {
-    const auto sensitivity = parse_sensitivity(text);
-    if (!sensitivity) return tl::unexpected(sensitivity.error());
-    reading.sensitivity_m_per_v = *sensitivity;
-    return {};
-  };
-  for_curves("--sensitivity", command
-                                  .add_parsed_option("--sensitivity", read_sensitivity,
-                                                     "sensitivity of the optical lever instead of the file's")
-                                  .type_name("SENSITIVITY in um/V, nm/V, pm/V"));
-  const auto read_method = [options = options.get()](const std::string& text) -> core::Result<void> {
-    const auto method = std::find_if(physics::kContactMethods.begin(), physics::kContactMethods.end(),
-                                     [&](const auto& each) { return each.name == text; });
-    if (method == physics::kContactMethods.end()) {
-      return wrong_usage(fmt::format("unknown method \"{}\"; choose {}", text, contact_method_names()));
-    }
-    options->contact_method = method->method;
-    return {};
-  };
-  for_curves("--contact-point",
-             command
-                 .add_parsed_option("--contact-point", read_method,
-                                    "method that finds the contact point: " + contact_method_names() +
-                                        "; default: zero-force if the tip is attracted before contact or the curve is "
-                                        "computed, otherwise fit-polynomial")
-                 .type_name("METHOD"));
-  for_curves("--curve", command.add_option("--curve", reading.index, "number of the curve in an .h5 file, from 0")
-                            .show_default()
-                            .type_name("INDEX"));
+  std::vector<OptionOfKind> of_kind = add_curve_options(command, *options);
   const auto [channel, level] = add_channel_options(command, options->channel, options->levelling);
-  of_kind->push_back({channel, "--channel", FileKind::Image});
-  of_kind->push_back({level, "--level", FileKind::Image});
+  of_kind.push_back({channel, "--channel", FileKind::Image});
+  of_kind.push_back({level, "--level", FileKind::Image});
   command.add_flag("--json", options->json, "print JSON in SI units; null marks a figure that was not found");
-  for_curves("--out",
-             command.add_option("--out", options->out, "write a plot of the curve (SVG) to FILE").type_name("FILE"));
   command.footer(
       "docs/curves.md defines each figure.\n"
       "example: touchafm analyse gold.jpk-force --beside model.csv --out gold.svg\n"
       "         touchafm analyse mica.spm --channel \"Height Sensor\" --json");
-  command.when_chosen([options, of_kind]() -> core::Result<void> {
-    if (const auto checked = check_options(options->file, *of_kind); !checked) return checked;
+  command.when_chosen([options, of_kind = std::move(of_kind)]() -> core::Result<void> {
+    if (const auto checked = check_options(options->file, of_kind); !checked) return checked;
     return analyse_curve_file(*options);
   });
 }

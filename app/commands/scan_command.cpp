@@ -269,9 +269,10 @@ void add_output_options(OptionList& command, ScanOptions& options) {
                    "add what the image reveals: the sample as far as the tip reached it, where that is certain, and "
                    "the tip that the image alone gives away");
   command
-      .add_option("--channel", options.channel,
-                  "write only this channel, by its name: \"Height\", \"Error (retrace)\" and so on; default: all, in a "
-                  ".gsf the height")
+      .add_option(
+          "--channel", options.channel,
+          "write only the channel of this name, such as \"Height\" or \"Error (retrace)\"; default: all; in .gsf, "
+          "the height")
       .type_name("NAME");
   command.add_flag("--json", options.json, "print settings and figures of every channel in SI units as JSON");
   command.add_option("--picture", options.picture, "write the height, or the channel, as a picture (PNG) to FILE")

@@ -10,4 +10,7 @@ namespace afm::app {
 // Writes a result to stdout completely; the error gives the reason for a failure, such as a closed pipe.
 core::Result<void> write_stdout(std::string_view text);
 
+// Fails if anything printed before could not be written. Every command ends with it (main.cpp).
+core::Result<void> flush_stdout();
+
 }  // namespace afm::app

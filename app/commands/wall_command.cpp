@@ -40,9 +40,8 @@ struct WallOptions {
 
 core::Result<scene::HeadPose> parse_head(std::string_view text) {
   const auto wrong = [&] {
-    return core::failure(
-        core::ErrorCategory::WrongUsage,
-        fmt::format("\"{}\" is not x,y,z in metres, with or without a unit quaternion ,qx,qy,qz,qw", text));
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("\"{}\" is not x,y,z or x,y,z,qx,qy,qz,qw: metres, then a unit quaternion", text));
   };
   std::vector<double> v;
   for (std::string_view rest = text;;) {

@@ -26,7 +26,7 @@ std::optional<std::string> find_in_path(std::string_view program) {
   for (std::string_view rest = path == nullptr ? "" : path; !rest.empty();) {
     const std::string_view folder = rest.substr(0, rest.find(':'));
     rest.remove_prefix(std::min(folder.size() + 1, rest.size()));
-    const std::string file = (fs::path(folder) / program).string();
+    std::string file = (fs::path(folder) / program).string();
     struct stat found{};
     if (::stat(file.c_str(), &found) == 0 && S_ISREG(found.st_mode) && ::access(file.c_str(), X_OK) == 0) return file;
   }

@@ -128,7 +128,7 @@ void add_contact_options(OptionList& command, ContactOptions& options, const Com
         .type_name(type_word(parameter.sort));
   }
   command.add_flag("--exact-sphere", options.exact_sphere,
-                   "use Hamaker's exact sphere instead of Derjaguin's approximation");
+                   "use Hamaker's exact sphere formula, not Derjaguin's approximation");
 }
 
 core::Result<scene::MaterialLibrary> load_materials(const ContactOptions& options) {

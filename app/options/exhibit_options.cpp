@@ -23,7 +23,7 @@ void add_stereo_options(OptionList& command, exhibit::PictureOptions& options, c
   enum_option(command, "--stereo", options.mode, "a stereo mode", scene::kStereoModes, &scene::StereoModeTraits::name,
               &scene::StereoModeTraits::mode, "stereo mode; default: " + default_mode);
   command.add_flag(
-      "--swap-eyes", [&options] { options.order = scene::EyeOrder::Swapped; }, "exchange the left and right eye");
+      "--swap-eyes", [&options] { options.order = scene::EyeOrder::Swapped; }, "swap the left and right eyes");
   quantity_option(
       command, "--ipd", [&options](physics::Length distance) { options.ipd_m = distance.si; }, physics::kLengthUnits,
       "distance between the eyes; default: that of the viewer in the wall file", std::optional(kEyeDistances));
@@ -93,7 +93,7 @@ void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const 
       .type_name("FILE");
   command
       .add_option("--materials", files.materials,
-                  "your own material file (TOML), shown instead of the paper's mica, gold and silicon nitride")
+                  "show the materials of this TOML file instead of the paper's mica, gold and silicon nitride")
       .type_name("FILE");
 }
 

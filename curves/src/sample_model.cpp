@@ -38,7 +38,7 @@ scene::SharedContact parameters_of(const ContactSetup& setup) {
 
 tl::unexpected<core::Error> refusal(const scene::MaterialEntry& entry, core::ErrorCategory category,
                                     std::string_view why) {
-  return core::failure(category, fmt::format("cannot make {} felt: {}", entry.name, why));
+  return core::failure(category, fmt::format("{} cannot be felt: {}", entry.name, why));
 }
 
 core::Result<SampleModel> model_with(const ContactSetup& setup, const scene::SharedContact& parameters,

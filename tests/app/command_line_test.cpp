@@ -229,6 +229,18 @@ TEST(CommandLine, RefusesAnOutputFolderThatCannotBeWritten) {
   expect_refusal(touchafm("paper --out " + file + "/below"), 1, file);
 }
 
+// doctor, wall and devices printed into a full disk and ended with 0.
+TEST(CommandLine, FailsWhenWhatItPrintsCannotBeWritten) {
+  for (const std::string arguments :
+       {"--help", "--version", "curve --help", "curve --material gold", "material", "material mica",
+        "wall " AFM_SOURCE_DIR "/assets/walls/cave.toml", "devices --json", "doctor --seconds 0.1",
+        "render --describe --gltf " AFM_SOURCE_DIR "/assets/models/probe.glb"}) {
+    SCOPED_TRACE(arguments);
+    const ProgramResult result = support::run_program("(" AFM_PROGRAM " " + arguments + " >/dev/full)");
+    expect_refusal(result, 1, "cannot write to stdout: No space left on device");
+  }
+}
+
 TEST(CommandLine, SaysWhatToInstallWhenThereIsNoVulkanDriver) {
   const support::ScratchFolder folder;
   const ProgramResult result = support::run_program(
