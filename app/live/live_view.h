@@ -91,7 +91,7 @@ class LiveView {
   void end_scan();
   void next_scan_hand();
   void toggle_scan_feedback();
-  std::optional<exhibit::HandPart> hand_part(double side_m) const;
+  std::optional<exhibit::HandPart> hand_part(const exhibit::ScanSubject& subject) const;
   exhibit::HandSize hand_size() const;
   bool scan_has_hand() const;
   void follow_scan(std::int64_t now_ns);

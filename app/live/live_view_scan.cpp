@@ -53,13 +53,15 @@ void LiveView::begin_scan() {
   scanned_ns_ = clock_.now_ns();
   scan_size_ = hand_size();
   exhibit::ScanSubject subject = exhibit::scan_subject(stage_.wall_scene, scanned_, felt_[scanned_]);
-  const auto hand = hand_part(subject.side_m);
+  const auto hand = hand_part(subject);
   scan_.emplace(std::move(subject), hand);
   if (settings) scan_->choose(*settings);
   panels_.set_scan(&*scan_);
   if (scan_->is_painted() && this->hand() == HandSource::Mouse) hand_.scan(true);
-  core::log_line(fmt::format("scan: {}, {:.3g} nm wide, {} lines", stage_.materials.materials[scanned_].title,
-                             scan_->subject().side_m * 1e9, exhibit::LiveScan::kPixels));
+  core::log_line(
+      fmt::format("scan: {}, {} wide, {} lines", stage_.materials.materials[scanned_].title,
+                  physics::format_quantity(physics::Length(scan_->subject().side_m), physics::kLengthUnits, 3),
+                  exhibit::LiveScan::kPixels));
 }
 
 void LiveView::end_scan() {
@@ -92,14 +94,15 @@ exhibit::HandSize LiveView::hand_size() const {
   return exhibit::hand_size(servo_.link().tip().active, felt_[*servo_.material()].parameters.friction.period);
 }
 
-std::optional<exhibit::HandPart> LiveView::hand_part(double side_m) const {
+std::optional<exhibit::HandPart> LiveView::hand_part(const exhibit::ScanSubject& subject) const {
   if (scan_hand_ == scene::ScanHand::Apart) return std::nullopt;
   const servo::ServoClient& servo = servo_.link();
-  return exhibit::HandPart{
-      .paints = scan_hand_ == scene::ScanHand::Scans,
-      .feedback = scan_feedback_,
-      .side_m = exhibit::reachable_side_m(servo.device(), servo.room_from_sample(), scan_size_, side_m),
-      .first_tick = servo.tip().tick};
+  const double shown_m =
+      exhibit::reachable_side_m(servo.device(), servo.room_from_sample(), scan_size_, subject.shown_side_m());
+  return exhibit::HandPart{.paints = scan_hand_ == scene::ScanHand::Scans,
+                           .feedback = scan_feedback_,
+                           .side_m = shown_m / subject.shown.lateral,
+                           .first_tick = servo.tip().tick};
 }
 
 // The next part of the hand; where there is no scan yet, the first.
@@ -167,7 +170,7 @@ void LiveView::go_with_scan(double frame_s) {
     if (tip.phase == physics::Phase::Attached) scan_way_s_ += frame_s;
     haptics::SampleAxes axes;
     axes.set_orientation(servo_.link().room_from_sample());
-    const glm::dvec2 way_m = raster_m(scan_size_.sideways * scan_->subject().side_m, scan_way_s_);
+    const glm::dvec2 way_m = raster_m(scan_size_.sideways * scan_->subject().shown_side_m(), scan_way_s_);
     const glm::dvec3 left_m = axes.in_device(glm::dvec3(way_m, kPressedM)) - scan_aim_m_;
     scan_aim_m_ += std::min(1.0, 2.0 * kSimulatedMPerS * frame_s / std::max(glm::length(left_m), 1e-6)) * left_m;
   } else if (tip.led != 0) {

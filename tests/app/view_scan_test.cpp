@@ -109,7 +109,7 @@ TEST_F(ViewScan, IsTakenByTheHandAndDrawnAgain) {
   ASSERT_TRUE(program.says("scan: press L first")) << program.said();
   xdotool("key l");
   ASSERT_TRUE(program.says("scan: the tip leads the hand")) << program.said();
-  EXPECT_FALSE(program.says_one_of({"Hold Turn-On: the tip leads", "press Turn-On and hold it"}).empty());
+  EXPECT_FALSE(program.says_one_of({"Hold Turn-On: the tip leads", "press and hold Turn-On"}).empty());
   xdotool("key l");
   ASSERT_TRUE(program.says("scan: the hand takes the image")) << program.said();
   ASSERT_TRUE(program.says("Your hand takes the image")) << program.said();

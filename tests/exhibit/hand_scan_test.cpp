@@ -73,6 +73,30 @@ class Ticks {
 
 HandPart part(bool feedback) { return {.paints = true, .feedback = feedback, .side_m = kSideM, .first_tick = 100}; }
 
+// What was measured is felt on another scale: the servo's places are of that, the image is of the sample.
+TEST(HandScan, PaintsAMeasuredSampleInItsOwnMetres) {
+  constexpr scene::TopographyScale kShown{.lateral = 0.5, .vertical = 4.0};
+  for (const bool feedback : {true, false}) {
+    LiveScan measured_as_shown(hills(), part(feedback));
+    ScanSubject subject = hills();
+    subject.shown = kShown;
+    LiveScan scan(subject, part(feedback));
+    Ticks ticks(feedback);
+    std::vector<TipSample> samples;
+    ticks.line(10e-9, samples);
+    for (TipSample sample : samples) {
+      measured_as_shown.follow_hand(sample);
+      for (double& place_m : sample.surface.xy_m) place_m *= kShown.lateral;
+      sample.surface.height_m *= kShown.vertical;
+      scan.follow_hand(sample);
+    }
+    for (std::size_t i = 0; i < scan.maps().height_m[0].size(); ++i) {
+      const double expected = measured_as_shown.maps().height_m[0][i], painted = scan.maps().height_m[0][i];
+      ASSERT_TRUE(std::isnan(expected) ? std::isnan(painted) : std::abs(painted - expected) < 1e-18) << i;
+    }
+  }
+}
+
 double at(const std::vector<double>& map, double x_m, double y_m) {
   const auto column = static_cast<std::size_t>((x_m / kSideM + 0.5) * LiveScan::kPixels);
   const auto row = static_cast<std::size_t>((0.5 - y_m / kSideM) * LiveScan::kPixels);
@@ -250,7 +274,7 @@ TEST(LeadingScan, FollowsTheHeightsOrStaysLevel) {
 TEST(LeadingScan, SaysWhatTheHandCanDo) {
   const LiveScan led(hills(), HandPart{.side_m = kSideM}), painted(hills(), part(true));
   scene::TipState tip;
-  EXPECT_THAT(hand_guidance(led, tip, english()), testing::HasSubstr("press Turn-On and hold it"));
+  EXPECT_THAT(hand_guidance(led, tip, english()), testing::HasSubstr("press and hold Turn-On"));
   tip.servo_state = scene::ServoState::Running;
   EXPECT_THAT(hand_guidance(led, tip, english()), testing::StartsWith("Hold Turn-On"));
   tip.led = 1;

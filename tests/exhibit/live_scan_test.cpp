@@ -2,6 +2,7 @@
 #include "exhibit/scan/live_scan.h"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -143,11 +144,11 @@ TEST(LiveScan, ScansAMeasuredSampleAsItIsDrawnAndABlunterTipHigher) {
   const support::ScratchFolder folder;
   std::vector<float> heights;
   for (int i = 0; i < 40 * 40; ++i) {
-    heights.push_back(static_cast<float>(3e-9 * std::sin(0.9 * (i % 40)) * std::cos(0.5 * std::floor(i / 40.0))));
+    heights.push_back(static_cast<float>(150e-9 * std::sin(0.9 * (i % 40)) * std::cos(0.5 * std::floor(i / 40.0))));
   }
   ExhibitFiles files;
   files.assets_dir = AFM_SOURCE_DIR "/assets";
-  files.sample = folder.write("scan.gsf", test::gsf_file("XRes = 40\nYRes = 40\nXReal = 200\nYReal = 200\n"
+  files.sample = folder.write("scan.gsf", test::gsf_file("XRes = 40\nYRes = 40\nXReal = 2000\nYReal = 2000\n"
                                                          "XYUnits = nm\nZUnits = m\n",
                                                          heights));
   const auto measured = load_exhibit(files);
@@ -155,6 +156,7 @@ TEST(LiveScan, ScansAMeasuredSampleAsItIsDrawnAndABlunterTipHigher) {
   const auto model = curves::make_sample_model(curves::ContactSetup{measured->materials.materials[kMica], {}, {}});
   const ScanSubject subject = scan_subject(measured->wall_scene, kMica, model.value());
   const double usual_m = subject.tip_radius_m, side_m = subject.side_m;
+  EXPECT_NEAR(side_m, 0.92 * 39.0 / 40.0 * 2e-6, 0.03e-6) << "as it was measured, not as it is shown";
   const auto traced = subject.traced(usual_m), sharper = subject.traced(0.1 * usual_m),
              blunter = subject.traced(4.0 * usual_m);
   double relief_m = 0, raised_m = 0;
@@ -167,11 +169,42 @@ TEST(LiveScan, ScansAMeasuredSampleAsItIsDrawnAndABlunterTipHigher) {
     relief_m = std::max(relief_m, std::abs(drawn_m));
     raised_m = std::max(raised_m, blunter(x_m, y_m) - drawn_m);
   }
-  EXPECT_GT(relief_m, 0.2e-9);
-  EXPECT_GT(raised_m, 0.01 * relief_m);
+  EXPECT_GT(relief_m, 150e-9) << "likewise";
+  EXPECT_LT(relief_m, 450e-9);
+  EXPECT_GT(raised_m, 0.001 * relief_m);
   LiveScan scan(subject);
   scan_lines(scan, 10);
   EXPECT_GT(measured_points(scan), 8 * LiveScan::kPixels);
+  EXPECT_THAT(image_panel(scan, "", stage().phrases()).subtitle, testing::StartsWith("1.79 \u00b5m wide"));
+
+  // the wall shows the sample on another scale
+  const scene::TopographyScale shown = measured->wall_scene.topography_scale(kMica);
+  EXPECT_LT(shown.lateral, 0.1);
+  Moment moment;
+  show_scan(scan, moment);
+  EXPECT_NEAR((*moment.wall.scan_line)[1].x, 0.5 * shown.lateral * side_m, 1e-15);
+  EXPECT_EQ(scan.surface_m(shown.lateral * 1e-7, 0.0), shown.vertical * traced(1e-7, 0.0));
+  EXPECT_LT(std::abs(scan.apex_m().y), 0.5 * shown.lateral * side_m);
+  EXPECT_NEAR(scan.apex_m().z, scan.surface_m(scan.apex_m().x, scan.apex_m().y), relief_m * shown.vertical);
+}
+
+// Over 100 um of waves the usual settings of a small image would let the tip fly over most of them.
+TEST(LiveScan, BeginsSlowAndFirmEnoughForItsSubject) {
+  constexpr double kSideM = 100e-6, kWave = 2.0 * 3.14159265358979 / 10e-6, kHighM = 40e-9;
+  ScanSubject subject;
+  subject.drawn_m = [](double x_m, double) { return kHighM * std::sin(kWave * x_m); };
+  subject.traced = [&](double) { return subject.drawn_m; };
+  subject.side_m = kSideM;
+  subject.tip_radius_m = 10e-9;
+  EXPECT_EQ(LiveScan(subject).usual(), ScanChoice{}) << "a slope of 0: those of a small image";
+  subject.slope = kHighM * kWave;
+  LiveScan scan(subject);
+  EXPECT_LT(scan.usual().line_rate_hz, ScanChoice{}.line_rate_hz);
+  EXPECT_GT(scan.usual().setpoint_n, ScanChoice{}.setpoint_n);
+  scan_lines(scan, 10);
+  EXPECT_EQ(cause_of(scan), physics::ScanArtefact::None);
+  scan.step(ScanRow::SecondApex, 1);
+  EXPECT_TRUE(LiveScan::valid(scan.progress())) << "a session takes it";
 }
 
 // ---- it grows line by line, in bounded time ----

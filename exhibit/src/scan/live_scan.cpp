@@ -29,7 +29,7 @@ bool precedes(const ScanChange& change, std::uint32_t frame, std::uint32_t pixel
 }  // namespace
 
 LiveScan::LiveScan(ScanSubject subject, const std::optional<HandPart>& hand) : subject_(std::move(subject)) {
-  usual_.tip_radius_m = subject_.tip_radius_m;
+  usual_ = usual_choice(subject_.tip_radius_m, subject_.side_m, subject_.slope, subject_.adhesion_n);
   if (hand) subject_.side_m = hand->side_m;
   progress_.hand = hand;
   progress_.changes = {{.choice = usual_}};
@@ -38,7 +38,7 @@ LiveScan::LiveScan(ScanSubject subject, const std::optional<HandPart>& hand) : s
 
 LiveScan::LiveScan(ScanSubject subject, const ScanProgress& progress, std::span<const scene::TipSample> samples)
     : subject_(std::move(subject)) {
-  usual_.tip_radius_m = subject_.tip_radius_m;
+  usual_ = usual_choice(subject_.tip_radius_m, subject_.side_m, subject_.slope, subject_.adhesion_n);
   if (progress.hand) subject_.side_m = progress.hand->side_m;
   progress_ = progress;
   progress_.pixel = 0;
@@ -162,7 +162,8 @@ double LiveScan::below_m(double x_m, double y_m, double seconds) const {
 }
 
 void LiveScan::paint(const scene::TipSample& sample) {
-  const auto [x_m, y_m] = sample.surface.xy_m;
+  const scene::TopographyScale& shown = subject_.shown;
+  const double x_m = sample.surface.xy_m[0] / shown.lateral, y_m = sample.surface.xy_m[1] / shown.lateral;
   const double right = x_m / subject_.side_m + 0.5, down = 0.5 - y_m / subject_.side_m;
   if (!(right >= 0.0 && right < 1.0 && down >= 0.0 && down < 1.0)) return brush_.reset();
   if (!painting_since_ns_) painting_since_ns_ = sample.time_ns;
@@ -181,7 +182,8 @@ void LiveScan::paint(const scene::TipSample& sample) {
   if (progress_.hand->feedback) {
     color_way(column, row, {loop_->topography_m(), loop_->deflection_m() - loop_->setpoint_m(), along_x_n, along_y_n});
   } else {
-    color_way(column, row, {sample.surface.height_m + sample.tip.z_m, -sample.tip.deflection_m, along_x_n, along_y_n});
+    const double apex_m = sample.surface.height_m / shown.vertical + sample.tip.z_m;
+    color_way(column, row, {apex_m, -sample.tip.deflection_m, along_x_n, along_y_n});
   }
   force_n_ = loop_->force_n();
   brush_ = {.time_ns = sample.time_ns, .below_m = height_m, .column = column, .row = row};
@@ -279,7 +281,15 @@ std::size_t LiveScan::row() const {
   return std::min(std::size_t{progress_.pixel} / (2 * kPixels), kPixels - 1);
 }
 
-glm::dvec3 LiveScan::apex_m() const { return {scanner_->x_m(), scanner_->y_m(), scanner_->z_m()}; }
+glm::dvec3 LiveScan::apex_m() const {
+  const scene::TopographyScale& shown = subject_.shown;
+  return {shown.lateral * scanner_->x_m(), shown.lateral * scanner_->y_m(), shown.vertical * scanner_->z_m()};
+}
+
+double LiveScan::surface_m(double x_m, double y_m) const {
+  const scene::TopographyScale& shown = subject_.shown;
+  return shown.vertical * traced_(x_m / shown.lateral, y_m / shown.lateral);
+}
 
 std::optional<std::size_t> LiveScan::newest_row() const {
   if (is_painted()) return painting_since_ns_ ? std::optional(hand_row_) : std::nullopt;

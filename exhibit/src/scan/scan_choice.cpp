@@ -19,8 +19,9 @@ namespace {
 // The lever of the scan, in air or liquid: stiff enough that no sample here holds its tip down over all of its relief,
 // so that a tip that is too slow does come off.
 constexpr double kSpring = 5.0;
-constexpr double kApexShare = 0.18;   // of the side: a second apex stands so far beside the first
-constexpr double kApexHeightM = 0.0;  // as high as the first: both are seen on every bump
+constexpr double kApexShare = 0.18;      // of the side: a second apex stands so far beside the first
+constexpr double kFarthestApexM = 1e-5;  // as in physics::kScanFields
+constexpr double kApexHeightM = 0.0;     // as high as the first: both are seen on every bump
 
 enum class Below { Nothing, Zero, Negative };
 
@@ -43,6 +44,9 @@ constexpr std::array kSeries{
 static_assert(kSeries.size() + 1 == core::kEnumerators<ScanRow>.size());
 
 constexpr double kSame = 1e-6;  // relative: the same value
+
+constexpr double kSlowestUsualHz = 2.0;  // a minute for an image; rather press harder than be slower
+constexpr double kMostLag = 0.5;         // of the way that the lever is bent and adhesion holds: the tip stays on
 
 // The member of the series above or below a value, which need not be one.
 double neighbour(double value, int direction) {
@@ -70,8 +74,8 @@ double stepped(const Series& series, double value, int direction) {
 }  // namespace
 
 bool is_valid(const ScanChoice& choice) {
-  constexpr double kSharpest = 1e-10, kBluntest = 1e-4, kFarthest = 1e-5;  // of tips of the user's own
-  if (!(choice.apex_distance_m >= 0.0 && choice.apex_distance_m <= kFarthest)) return false;
+  constexpr double kSharpest = 1e-10, kBluntest = 1e-4;  // of tips of the user's own
+  if (!(choice.apex_distance_m >= 0.0 && choice.apex_distance_m <= kFarthestApexM)) return false;
   return std::all_of(kSeries.begin(), kSeries.end(), [&](const Series& series) {
     const double value = choice.*series.value;
     const bool radius = series.value == &ScanChoice::tip_radius_m;
@@ -85,12 +89,26 @@ bool is_valid(const ScanChoice& choice) {
 bool step(ScanChoice& choice, ScanRow row, int steps, double side_m) {
   const ScanChoice before = choice;
   if (row == ScanRow::SecondApex) {
-    choice.apex_distance_m = steps > 0 ? kApexShare * side_m : 0.0;
+    choice.apex_distance_m = steps > 0 ? std::min(kApexShare * side_m, kFarthestApexM) : 0.0;
     return choice != before;
   }
   const Series& series = kSeries[core::index_of(row)];
   for (int i = 0; i < std::abs(steps); ++i) choice.*series.value = stepped(series, choice.*series.value, steps);
   return choice != before;
+}
+
+ScanChoice usual_choice(double tip_radius_m, double side_m, double slope, double adhesion_n) {
+  ScanChoice choice{.tip_radius_m = tip_radius_m};
+  const auto comes_off = [&] {
+    const double lag_m = slope * 2.0 * side_m * choice.line_rate_hz / choice.gain_per_s;
+    return lag_m > kMostLag * (choice.setpoint_n + adhesion_n) / kSpring;
+  };
+  while (comes_off() && choice.line_rate_hz > kSlowestUsualHz) step(choice, ScanRow::Rate, -1, side_m);
+  while (comes_off() && step(choice, ScanRow::Setpoint, 1, side_m)) {
+  }
+  while (comes_off() && step(choice, ScanRow::Rate, -1, side_m)) {
+  }
+  return choice;
 }
 
 std::string value_text(const ScanChoice& choice, ScanRow row) {

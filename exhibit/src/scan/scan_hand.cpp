@@ -42,7 +42,7 @@ double reachable_side_m(const scene::SharedDevice& device, const std::array<doub
 }
 
 double LeadingScan::slow_motion(const LiveScan& scan, const HandSize& size) {
-  const double m_per_s = 2.0 * scan.subject().side_m * size.sideways * scan.choice().line_rate_hz;
+  const double m_per_s = 2.0 * scan.subject().shown_side_m() * size.sideways * scan.choice().line_rate_hz;
   return std::max(1.0, m_per_s / kHandMPerS);
 }
 

@@ -22,6 +22,7 @@ namespace {
 constexpr glm::vec3 kTraceColor{0.337F, 0.706F, 0.914F}, kRetraceColor{0.902F, 0.624F, 0.0F};
 constexpr double kOutliers = 0.003;       // of all values at each end: spikes do not use up the colours
 constexpr double kLeastRangeM = 0.2e-9;   // of the colours: a flat sample does not look rough
+constexpr double kTipOfRelief = 1.5;      // times the sample's range: so much of a tip is shown, more touches nothing
 constexpr double kLeastForceN = 0.05e-9;  // of the shades of forces, likewise
 
 struct Range {
@@ -69,6 +70,27 @@ render::ColorGrid colored(const std::vector<double>& map, const Range& range, Sr
 }
 
 std::string nanonewtons(const Range& range) { return fmt::format("{:.2g}", 0.5e9 * (range.high - range.low)); }
+
+// The largest unit in which the side of the area is at least 1.
+struct SideUnit {
+  double m;
+  const char* name;
+};
+SideUnit side_unit(double side_m) { return side_m < 1e-6 ? SideUnit{1e-9, "nm"} : SideUnit{1e-6, "\u00b5m"}; }
+
+std::string side_text(const LiveScan& scan) {
+  const double side_m = scan.subject().side_m;
+  const SideUnit unit = side_unit(side_m);
+  return fmt::format("{:.3g} {}", side_m / unit.m, unit.name);
+}
+
+void show_side(const LiveScan& scan, render::ImagePanel& panel) {
+  const double side_m = scan.subject().side_m;
+  const SideUnit unit = side_unit(side_m);
+  panel.side_unit = unit.name;
+  panel.side = side_m / unit.m;
+  panel.scale_bar = scale_bar(panel.side, 0.30).length_m;
+}
 
 // A row of the image from left to right, in nanometres above `low_m`.
 std::vector<glm::vec2> line_of(const std::vector<double>& map, std::size_t row, double side_nm, double low_m) {
@@ -133,6 +155,7 @@ void add_truth(const ScanTruth& truth, const std::vector<double>& trace_m, const
   const double reach_nm = truth.true_tip.points_m.back().x * 1e9;
   double highest_nm = truth.true_tip.points_m.back().y * 1e9;
   for (const glm::dvec2& point : truth.revealed_tip.points_m) highest_nm = std::max(highest_nm, 1e9 * point.y);
+  highest_nm = std::min(highest_nm, kTipOfRelief * (*high - *low) * 1e9);
   panel.profile = {.title = phrases[Phrase::ScanTipShape],
                    .low = {-reach_nm, -0.06 * highest_nm},
                    .high = {reach_nm, 1.35 * highest_nm},
@@ -163,7 +186,7 @@ render::ImagePanel painted_panel(const LiveScan& scan, const std::string& sample
 
   render::ImagePanel panel;
   panel.title = phrases.text<Phrase::ScanTitle>(sample);
-  const std::string side = fmt::format("{:.3g} nm", side_nm), percent = fmt::format("{:.0f}", 100 * scan.seen_share());
+  const std::string side = side_text(scan), percent = fmt::format("{:.0f}", 100 * scan.seen_share());
   panel.subtitle =
       feedback ? phrases.text<Phrase::ScanByHand>(side, percent) : phrases.text<Phrase::ScanByHandOpen>(side, percent);
   panel.decimal_mark = phrases.decimal_mark();
@@ -186,8 +209,7 @@ render::ImagePanel painted_panel(const LiveScan& scan, const std::string& sample
                             .points = line_of(maps.height_m[feedback ? 0 : 1], *row, side_nm, seen.low)}};
     panel.line = (static_cast<double>(*row) + 0.5) / static_cast<double>(LiveScan::kPixels);
   }
-  panel.side_nm = side_nm;
-  panel.scale_bar_nm = scale_bar(side_nm, 0.30).length_m;
+  show_side(scan, panel);
   panel.bar_low_nm = 0.0;
   panel.bar_high_nm = high_nm;
   for (const Srgb& c : kHeightColours) panel.bar.push_back(glm::vec3(c[0], c[1], c[2]) / 255.0F);
@@ -209,7 +231,6 @@ bool hand_uses_tip(physics::Phase phase, scene::ServoState state) {
 render::ImagePanel image_panel(const LiveScan& scan, const std::string& sample, const Phrases& phrases) {
   if (scan.is_painted()) return painted_panel(scan, sample, phrases);
   const ScanMaps& maps = scan.maps();
-  const double side_nm = scan.subject().side_m * 1e9;
   const Range heights = at_least(range_of(maps.height_m[0], maps.height_m[1]), kLeastRangeM);
   const Range errors = at_least(range_of(maps.error_n[0], {}), kLeastForceN);
   const Range lateral = at_least(range_of(maps.lateral_n[0], {}), kLeastForceN);
@@ -217,7 +238,7 @@ render::ImagePanel image_panel(const LiveScan& scan, const std::string& sample, 
   render::ImagePanel panel;
   panel.title = phrases.text<Phrase::ScanTitle>(sample);
   panel.subtitle =
-      phrases.text<Phrase::ScanSubtitle>(fmt::format("{:.3g} nm", side_nm), value_text(scan.choice(), ScanRow::Rate),
+      phrases.text<Phrase::ScanSubtitle>(side_text(scan), value_text(scan.choice(), ScanRow::Rate),
                                          fmt::format("{}", scan.row() + 1), fmt::format("{}", LiveScan::kPixels));
   panel.decimal_mark = phrases.decimal_mark();
   panel.heights = {render::ImageMap{phrases[Phrase::ScanTrace], colored(maps.height_m[0], heights, height_colour)},
@@ -226,8 +247,7 @@ render::ImagePanel image_panel(const LiveScan& scan, const std::string& sample, 
       {phrases.text<Phrase::ScanError>(nanonewtons(errors)), colored(maps.error_n[0], errors, grey)},
       {phrases.text<Phrase::ScanLateral>(nanonewtons(lateral)), colored(maps.lateral_n[0], lateral, grey)}};
   panel.profile = newest_line(scan, heights, phrases);
-  panel.side_nm = side_nm;
-  panel.scale_bar_nm = scale_bar(side_nm, 0.30).length_m;
+  show_side(scan, panel);
   panel.line = (static_cast<double>(scan.row()) + 0.5) / static_cast<double>(LiveScan::kPixels);
   panel.bar_low_nm = 0.0;
   panel.bar_high_nm = (heights.high - heights.low) * 1e9;
@@ -265,7 +285,7 @@ void show_scan(const LiveScan& scan, Moment& moment) {
   if (scan.is_painted()) return;  // the hand has the tip
   const glm::dvec3 apex_m = scan.apex_m();
   constexpr int kSamples = 64;
-  const double half_m = 0.5 * scan.subject().side_m;
+  const double half_m = 0.5 * scan.subject().shown_side_m();
   double highest_m = apex_m.z;
   for (int i = 0; i <= kSamples; ++i) {
     highest_m = std::max(highest_m, scan.surface_m(half_m * (2.0 * i / kSamples - 1.0), apex_m.y));

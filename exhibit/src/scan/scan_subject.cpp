@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "haptics/sample_surface.h"
 #include "physics/imaging/height_grid.h"
@@ -19,15 +21,17 @@ namespace {
 constexpr double kPlaneSideM = 500e-9;   // of a sample that has no relief
 constexpr double kShareOfSample = 0.92;  // of the drawn sample's width that is scanned
 
-physics::HeightGrid grid_of(const scene::FeltHeights& heights) {
+// Metres as they were measured.
+physics::HeightGrid grid_of(const scene::FeltHeights& heights, const scene::TopographyScale& shown) {
+  const double spacing_m = heights.spacing_m / shown.lateral;
   physics::HeightGrid grid{.columns = heights.columns,
                            .rows = heights.rows,
-                           .x_first_m = -0.5 * (heights.columns - 1.0) * heights.spacing_m,
-                           .y_first_m = -0.5 * (heights.rows - 1.0) * heights.spacing_m,
-                           .column_step_m = heights.spacing_m,
-                           .row_step_m = heights.spacing_m,
+                           .x_first_m = -0.5 * (heights.columns - 1.0) * spacing_m,
+                           .y_first_m = -0.5 * (heights.rows - 1.0) * spacing_m,
+                           .column_step_m = spacing_m,
+                           .row_step_m = spacing_m,
                            .height_m = {heights.height_m.begin(), heights.height_m.end()}};
-  for (double& height_m : grid.height_m) height_m *= heights.height_factor;
+  for (double& height_m : grid.height_m) height_m *= heights.height_factor / shown.vertical;
   return grid;
 }
 
@@ -47,6 +51,22 @@ std::function<physics::Scanner::Surface(double)> traced_again(std::shared_ptr<co
   };
 }
 
+// The slope along the lines, except for the steepest percent of all places.
+double slope_of(const physics::HeightGrid& grid) {
+  constexpr double kOfPlaces = 0.99;
+  std::vector<double> slopes;
+  slopes.reserve(grid.height_m.size());
+  for (std::size_t row = 0; row < grid.rows; ++row) {
+    for (std::size_t column = 1; column < grid.columns; ++column) {
+      slopes.push_back(std::abs(grid.at(column, row) - grid.at(column - 1, row)) / std::abs(grid.column_step_m));
+    }
+  }
+  if (slopes.empty()) return 0.0;
+  const auto steep = slopes.begin() + static_cast<std::ptrdiff_t>(kOfPlaces * static_cast<double>(slopes.size() - 1));
+  std::nth_element(slopes.begin(), steep, slopes.end());
+  return *steep;
+}
+
 }  // namespace
 
 ScanSubject scan_subject(const WallScene& wall_scene, std::size_t material, const curves::SampleModel& model) {
@@ -62,10 +82,12 @@ ScanSubject scan_subject(const WallScene& wall_scene, std::size_t material, cons
     subject.traced = [](double) { return [](double, double) { return 0.0; }; };
     return subject;
   }
-  subject.side_m = kShareOfSample * heights.spacing_m * (std::min(heights.columns, heights.rows) - 1.0);
-  auto grid = std::make_shared<const physics::HeightGrid>(grid_of(heights));
+  if (heights.heights == scene::Heights::Traced) subject.shown = laid.topography;
+  auto grid = std::make_shared<const physics::HeightGrid>(grid_of(heights, subject.shown));
+  subject.side_m = kShareOfSample * grid->column_step_m * (std::min(heights.columns, heights.rows) - 1.0);
   subject.drawn_m = surface_of(grid);
   if (heights.heights == scene::Heights::Traced) {
+    subject.slope = slope_of(*grid);
     subject.traced = traced_again(std::move(grid), subject.tip_radius_m);
     return subject;
   }

@@ -230,8 +230,9 @@ struct ImagePanel {
   std::array<ImageMap, 2> heights;  // trace, retrace
   std::vector<ImageMap> smaller;    // error signal, lateral force
   ProfilePlot profile;              // the newest line
-  double side_nm = 1;               // of the area, which is a square
-  double scale_bar_nm = 1;          // a round length
+  std::string side_unit;            // of the two below
+  double side = 1;                  // of the area, which is a square
+  double scale_bar = 1;             // a round length
   std::optional<double> line;       // 0 at the top to 1: where the tip scans now
   double bar_low_nm = 0, bar_high_nm = 1;
   std::vector<glm::vec3> bar;  // colours from the lowest height to the highest

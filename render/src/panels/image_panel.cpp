@@ -94,15 +94,15 @@ void paint_map(Canvas& canvas, const ImageMap& map, const Square& at, TextStyle 
   canvas.outline(at.from, at.to(), 2.0F, palette::kAxis);
 }
 
-// Round distances along the area, in nanometres, with as many ticks as their numbers have room for.
+// Round distances along the area, with as many ticks as their numbers have room for.
 double tick_of(const Canvas& canvas, const ImagePanel& panel, float side_mm) {
   int most = 5;
-  double step = tick_step(panel.side_nm, most);
+  double step = tick_step(panel.side, most);
   while (most > 1) {
-    const std::string widest = tick_text(panel.side_nm, step, panel.decimal_mark);
-    const double apart_mm = step / panel.side_nm * static_cast<double>(side_mm);
+    const std::string widest = tick_text(panel.side, step, panel.decimal_mark);
+    const double apart_mm = step / panel.side * static_cast<double>(side_mm);
     if (static_cast<double>(canvas.text_width_mm(TextStyle::Small, widest)) + 14.0 < apart_mm) break;
-    step = tick_step(panel.side_nm, --most);
+    step = tick_step(panel.side, --most);
   }
   return step;
 }
@@ -110,12 +110,12 @@ double tick_of(const Canvas& canvas, const ImagePanel& panel, float side_mm) {
 void paint_axes(Canvas& canvas, const ImagePanel& panel, const Layout& layout) {
   const Square& trace = layout.heights[0];
   const double step = tick_of(canvas, panel, trace.side);
-  const float per_nm = trace.side / static_cast<float>(panel.side_nm);
+  const float per_unit = trace.side / static_cast<float>(panel.side);
   const float em = text_height_mm(TextStyle::Small);
-  for (int i = 0; static_cast<double>(i) * step <= panel.side_nm * (1.0 + 1e-9); ++i) {
-    const double at_nm = static_cast<double>(i) * step;
-    const std::string number = tick_text(at_nm, step, panel.decimal_mark);
-    const float along = static_cast<float>(at_nm) * per_nm;
+  for (int i = 0; static_cast<double>(i) * step <= panel.side * (1.0 + 1e-9); ++i) {
+    const double at_unit = static_cast<double>(i) * step;
+    const std::string number = tick_text(at_unit, step, panel.decimal_mark);
+    const float along = static_cast<float>(at_unit) * per_unit;
     for (const Square& height : layout.heights) {
       const glm::vec2 foot(height.from.x + along, height.to().y);
       canvas.line(foot, foot + glm::vec2(0.0F, kTickLength), 2.5F, palette::kAxis);
@@ -129,14 +129,14 @@ void paint_axes(Canvas& canvas, const ImagePanel& panel, const Layout& layout) {
                   Align::Right);
     }
   }
-  canvas.text({trace.from.x - kTickLength - 6.0F, trace.to().y - em}, TextStyle::Small, palette::kMuted, "nm",
-              Align::Right);
+  canvas.text({trace.from.x - kTickLength - 6.0F, trace.to().y - em}, TextStyle::Small, palette::kMuted,
+              panel.side_unit, Align::Right);
 }
 
 // In the picture's lower right corner, on a plate, so that it is seen on every colour.
 void paint_scale_bar(Canvas& canvas, const ImagePanel& panel, const Square& at) {
-  const float length = static_cast<float>(panel.scale_bar_nm / panel.side_nm) * at.side;
-  const std::string text = fmt::format("{:g} nm", panel.scale_bar_nm);
+  const float length = static_cast<float>(panel.scale_bar / panel.side) * at.side;
+  const std::string text = fmt::format("{:g} {}", panel.scale_bar, panel.side_unit);
   const float em = text_height_mm(TextStyle::Small);
   const float scale = std::min(1.0F, 0.42F * at.side / canvas.text_width_mm(TextStyle::Small, text));
   const float width = std::max(length, canvas.text_width_mm(TextStyle::Small, text, scale)) + 20.0F;
@@ -241,9 +241,9 @@ void paint(Canvas& canvas, const ImagePanel& panel) {
   const float width = canvas.size_mm().x - 2.0F * kMargin;
   canvas.shrunk_text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title, width);
   canvas.shrunk_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.subtitle, width);
-  const double step = tick_step(panel.side_nm, 5);
+  const double step = tick_step(panel.side, 5);
   const float labels =
-      canvas.text_width_mm(TextStyle::Small, tick_text(panel.side_nm, step, panel.decimal_mark)) + kTickLength + 8.0F;
+      canvas.text_width_mm(TextStyle::Small, tick_text(panel.side, step, panel.decimal_mark)) + kTickLength + 8.0F;
   const Layout layout = layout_of(canvas.size_mm(), labels);
   for (std::size_t i = 0; i < panel.heights.size(); ++i) {
     paint_map(canvas, panel.heights[i], layout.heights[i], TextStyle::Body);

@@ -27,7 +27,8 @@ Bytes read_plain_file(const fs::path& path, std::uint64_t most_bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw GltfError("there is no such file; check the path");
-  if (!fs::is_regular_file(status)) throw GltfError("it is not a regular file; give the path of a .glb or .gltf file");
+  if (!fs::is_regular_file(status))
+    throw GltfError("it is not a regular file; give the path of a file, not of a folder");
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw GltfError(fmt::format("cannot read its size ({}); check the path", error.message()));
   if (size > most_bytes) {

@@ -14,18 +14,24 @@
 #include "exhibit/scan/scan_truth.h"
 #include "physics/imaging/scan_loop.h"
 #include "physics/imaging/scanner.h"
+#include "scene/shared/shared_blocks.h"
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
 
-// The sample as a scan meets it. Metres, in the sample's frame.
+// The sample as a scan meets it, in metres as a microscope has them. What an instrument measured is shown and felt on
+// another scale, the sample's frame: micrometres would be steps of nanometres for a lever.
 struct ScanSubject {
   // The height that the apex of a tip of this radius traces, everywhere finite.
   std::function<physics::Scanner::Surface(double tip_radius_m)> traced;
   std::function<double(double x_m, double y_m)> drawn_m;  // the sample itself
   double side_m = 500e-9;                                 // of the square around the origin that is scanned
+  scene::TopographyScale shown{};                         // metres of the sample's frame for one of these
   double tip_radius_m = 0;                                // of the probe in use
   double adhesion_n = 0;                                  // the pull-off force, a magnitude
+  double slope = 0;                                       // of nearly all places; 0: the usual settings suit it
+
+  double shown_side_m() const { return shown.lateral * side_m; }
 };
 
 // A change of the settings, from the pixel of a frame on.
@@ -41,7 +47,7 @@ struct ScanChange {
 struct HandPart {
   bool paints = false;
   bool feedback = true;          // of one that paints: the height is the loop's; without it, the hand's own
-  double side_m = 0;             // of the square, which the hand can reach
+  double side_m = 0;             // of the square, which the hand can reach, as in ScanSubject
   std::uint64_t first_tick = 0;  // of the servo: those after it paint
 
   bool operator==(const HandPart&) const = default;
@@ -133,7 +139,8 @@ class LiveScan {
   std::size_t row() const;                                                // that is scanned now, 0 is the top one
   glm::dvec3 apex_m() const;                                              // in the sample's frame
   double force_n() const { return force_n_; }                             // on the lever, of the newest pixel
-  double surface_m(double x_m, double y_m) const { return traced_(x_m, y_m); }
+  // The height that the apex traces, both in the sample's frame.
+  double surface_m(double x_m, double y_m) const;
 
   // The newest whole line of both passes, by its row; none before the first.
   std::optional<std::size_t> newest_row() const;

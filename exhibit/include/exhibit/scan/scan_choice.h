@@ -31,6 +31,10 @@ bool is_valid(const ScanChoice& choice);
 // scanned square's, which gives the distance of a second apex. True if something changed.
 bool step(ScanChoice& choice, ScanRow row, int steps, double side_m);
 
+// The settings that a scan of a square of `side_m` begins with: slow and firm enough that the loop, which lags behind
+// by the speed of the heights over its gain, keeps the tip on slopes up to `slope`.
+ScanChoice usual_choice(double tip_radius_m, double side_m, double slope, double adhesion_n);
+
 // "1 nN", "500 pm"; a decimal point as in English.
 std::string value_text(const ScanChoice& choice, ScanRow row);
 
