@@ -64,10 +64,12 @@ std::set<std::string> names_in(const std::string& folder, std::string_view prefi
 
 std::string text_in(const nlohmann::json& table, const char* key) {
   constexpr std::size_t kLongest = 200;
-  const auto found = table.find(key);
+  auto found = table.find(key);
   if (found == table.end()) return {};
-  // a title has a text for each language
-  if (found->is_object() && found->contains("en")) return text_in(*found, "en");
+  if (const auto& texts = *found; texts.is_object()) {  // a title has a text for each language
+    found = texts.find("en");
+    if (found == texts.end()) return {};
+  }
   return found->is_string() ? printable(found->get<std::string>().substr(0, kLongest)) : std::string{};
 }
 
