@@ -19,7 +19,7 @@ namespace {
 constexpr double kThresholdZ = 0.6744897501960817;  // z(0.75)
 constexpr std::size_t kFewestTrials = 5;
 constexpr double kBeyondLevels = 8.0;  // a factor
-constexpr double kUsualExponent = 1.6, kExponentSpread = 0.6;
+constexpr double kUsualExponent = 1.4, kExponentSpread = 0.6;
 constexpr double kBiasSpread = std::numbers::sqrt2;
 constexpr double kLongestSignal = 40.0;  // no normal distribution reaches farther
 

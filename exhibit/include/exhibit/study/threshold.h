@@ -33,9 +33,9 @@ struct ThresholdFit {
 };
 
 // Medians and quantiles of the posterior distribution of W, b and the bias (Kuss, Jaekel & Wichmann 2005), with a prior
-// that is flat in log W from an eighth of the lowest level to eight times the highest, normal in log b (1.6, SD 0.6)
+// that is flat in log W from an eighth of the lowest level to eight times the highest, normal in log b (1.4, SD 0.6)
 // and in the bias (0, SD sqrt(2)). At 40 trials the intervals of simulated observers with b from 1 to 2.8 hold the
-// truth in 93 to 96 of 100 cases; those of the likelihood's profile in 88 to 92. Fewer than 5 trials, or none above
+// truth in 92 to 96 of 100 cases; those of the likelihood's profile in 88 to 92. Fewer than 5 trials, or none above
 // level 0, give no values.
 ThresholdFit fitted_threshold(std::span<const ThresholdTrial> trials);
 
