@@ -115,10 +115,12 @@ double cronbach_alpha(const std::vector<std::vector<double>>& people) {
   double of_items = 0.0;
   for (std::size_t item = 0; item < items; ++item) {
     std::vector<double> column;
+    column.reserve(people.size());
     for (const auto& person : people) column.push_back(person.at(item));
     of_items += square(summary_of(column).sd);
   }
   std::vector<double> sums;
+  sums.reserve(people.size());
   for (const auto& person : people) sums.push_back(std::accumulate(person.begin(), person.end(), 0.0));
   const double of_sums = square(summary_of(sums).sd);
   const auto k = static_cast<double>(items);

@@ -70,12 +70,6 @@ struct HtmlBlock {
   std::string operator()(const PageFigure& figure) const { return html_figure(figure.svg, figure.caption); }
 };
 
-std::string p_text(double p) {
-  if (std::isnan(p)) return "p n/a";
-  if (p < 0.001) return "p < 0.001";
-  return fmt::format("p = {:.{}f}", p, p < 0.1 ? 3 : 2);
-}
-
 }  // namespace
 
 std::string page_markdown(std::span<const PageBlock> blocks) {
@@ -107,6 +101,12 @@ std::string interval_text(const Interval& interval, int decimals) {
 std::string estimate_text(const Estimate& estimate, int decimals) {
   if (std::isnan(estimate.value)) return "n/a";
   return number_text(estimate.value, decimals) + " " + interval_text(estimate.interval, decimals);
+}
+
+std::string p_text(double p) {
+  if (std::isnan(p)) return "p n/a";
+  if (p < 0.001) return "p < 0.001";
+  return fmt::format("p = {:.{}f}", p, p < 0.1 ? 3 : 2);
 }
 
 std::string test_text(const TestResult& test) {

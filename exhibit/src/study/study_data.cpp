@@ -118,6 +118,7 @@ core::Result<void> read_person(const std::string& folder, const StudyPerson& per
   if (names.size() > kMostVisits) {
     return bad_file(folder + "/" + person.id, fmt::format("more than {} lessons", kMostVisits));
   }
+  if (person.comfort == "stopped") data.remarks.push_back(person.id + ": stopped; the trials until then count");
   StudyData::Member member{.person = person};
   for (const std::string& name : names) {
     auto visit = read_visit(folder, person.id + "/" + name, data);

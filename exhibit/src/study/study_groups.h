@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,11 @@ struct StepAndCondition {
 };
 using TrialGroups = std::map<StepAndCondition, TrialsByPerson>;
 
-IdentifyResult identify_result(const StepAndCondition& where, const TrialsByPerson& trials);
+// The materials that were shown or answered in each step, under any condition.
+std::map<std::string, std::set<std::string>> materials_of_steps(const TrialGroups& identify);
+
+IdentifyResult identify_result(const StepAndCondition& where, const TrialsByPerson& trials,
+                               const std::set<std::string>& materials);
 ThresholdResult threshold_result(const StepAndCondition& where, const TrialsByPerson& trials);
 std::vector<LearningResult> learning_results(const TrialGroups& identify);
 

@@ -105,7 +105,7 @@ void add_comparisons(const LessonResults& lesson, Blocks& blocks) {
   for (const ConditionComparison& comparison : lesson.comparisons) {
     std::string line = fmt::format("{}, {} against {} (n = {}): {}", comparison.measure, condition_text(comparison.a),
                                    condition_text(comparison.b), comparison.test.effect.n, test_text(comparison.test));
-    if (!std::isnan(comparison.holm_p)) line += fmt::format("; after Holm {}", number_text(comparison.holm_p, 3));
+    if (!std::isnan(comparison.holm_p)) line += "; after Holm's correction " + p_text(comparison.holm_p);
     list.items.push_back(std::move(line));
   }
   blocks.push_back(std::move(list));

@@ -102,7 +102,6 @@ std::string thresholds_svg(const LessonResults& lesson) {
   plot.title = lesson.task + ": which one let go harder?";
   plot.x_label = "level w, the stronger pull-off force is 1 + w times the weaker one";
   plot.y_label = "share right";
-  plot.x_scale = curves::AxisScale::Logarithmic;
   plot.height = kPlotHeight;
   double lowest = 1.0, highest = 0.0;
   for (std::size_t i = 0; i < lesson.thresholds.size(); ++i) {

@@ -21,10 +21,9 @@ void append_blocks(std::vector<PageBlock>& page, std::vector<PageBlock> more) {
 std::vector<PageBlock> people_blocks(const StudyResults& results) {
   std::vector<PageBlock> blocks{
       PageHeading{2, "Participants"},
-      PageText{
-          fmt::format("{} listed, {} with data that count, {} lesson(s). Every interval is of 95 %. p is two-sided "
-                      "unless the test says otherwise.",
-                      results.listed, results.people, results.lessons.size())}};
+      PageText{fmt::format("{} listed, {} with data that count; lessons: {}. Every interval is of 95 %. p is two-sided "
+                           "unless the test says otherwise.",
+                           results.listed, results.people, results.lessons.size())}};
   PageList list;
   for (const std::string& line : results.left_out) list.items.push_back("left out: " + line);
   for (const std::string& line : results.remarks) list.items.push_back(line);
@@ -64,18 +63,22 @@ std::vector<PageBlock> survey_blocks(const StudyResults& results) {
 }
 
 std::vector<PageBlock> method_blocks() {
-  return {
-      PageHeading{2, "Methods"},
-      PageList{
-          {"Shares: exact intervals of Clopper and Pearson. Trials of one person are taken as independent; the "
-           "means by person are not touched by that.",
-           "d' of a choice: of an observer without bias among as many materials as were shown. d' against the rest: "
-           "z(hits) - z(false alarms); c = -(z(hits) + z(false alarms))/2; log-linear: (count + 1/2)/(n + 1).",
-           "Weber fraction: the level at which an observer without preference is right in 75 % of the trials; bias "
-           "in the units of d'; medians and quantiles of the posterior distribution.",
-           "Means: Student's t. Conditions: paired where at least two people did both, otherwise Welch's t; d and d_z "
-           "with intervals by the noncentral t. Holm's correction is among the comparisons of one measure.",
-           "SUS: Brooke 1996. NASA-TLX: the raw mean of six ratings (Hart 2006). SSQ: Kennedy et al. 1993."}}};
+  PageList list;
+  list.items.emplace_back(
+      "Shares: exact intervals of Clopper and Pearson. Trials of one person are taken as independent; the means by "
+      "person do not depend on that.");
+  list.items.emplace_back(
+      "d' of a choice: of an observer without bias among as many materials as were shown or answered. d' against the "
+      "rest: z(hits) - z(false alarms); c = -(z(hits) + z(false alarms))/2; log-linear: (count + 1/2)/(n + 1).");
+  list.items.emplace_back(
+      "Weber fraction: the level at which an observer without preference is right in 75 % of the trials; bias in the "
+      "units of d'. Both are medians of the posterior distribution, with its quantiles.");
+  list.items.emplace_back(
+      "Means: Student's t. Conditions: paired where at least two people did both, otherwise Welch's t; d and d_z with "
+      "intervals by the noncentral t. Holm's correction is among the comparisons of one measure.");
+  list.items.emplace_back(
+      "SUS: Brooke 1996. NASA-TLX: the mean of the six ratings (Hart 2006). SSQ: Kennedy et al. 1993.");
+  return {PageHeading{2, "Methods"}, std::move(list)};
 }
 
 }  // namespace

@@ -131,8 +131,9 @@ LessonResults lesson_results(const std::string& task, const LessonVisits& lesson
   results.simulated = static_cast<std::size_t>(std::count_if(
       lesson.visits.begin(), lesson.visits.end(), [](const auto& visit) { return visit.second->facts.simulated; }));
   GroupsByKind groups = counted_trials(lesson, results);
+  const auto materials = materials_of_steps(groups[TrialKind::Identify]);
   for (const auto& [where, trials] : groups[TrialKind::Identify]) {
-    results.identify.push_back(identify_result(where, trials));
+    results.identify.push_back(identify_result(where, trials, materials.at(where.step)));
   }
   for (const auto& [where, trials] : groups[TrialKind::Threshold]) {
     results.thresholds.push_back(threshold_result(where, trials));

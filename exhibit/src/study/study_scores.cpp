@@ -102,6 +102,7 @@ void add_ssq(const Answers<16>& answers, LessonResults& results) {
 
 std::vector<double> values_of(const std::map<std::string, double>& people) {
   std::vector<double> values;
+  values.reserve(people.size());
   for (const auto& [id, value] : people) values.push_back(value);
   return values;
 }

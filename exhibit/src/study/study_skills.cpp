@@ -19,11 +19,7 @@ std::size_t right_of(const std::vector<const StudyTrial*>& trials) {
                                                 [](const StudyTrial* trial) { return trial->right.value_or(false); }));
 }
 
-ConfusionMatrix matrix_of(const TrialsByPerson& people) {
-  std::set<std::string> names;
-  for (const auto& [id, trials] : people) {
-    for (const StudyTrial* trial : trials) names.insert({trial->stimulus, trial->response});
-  }
+ConfusionMatrix matrix_of(const TrialsByPerson& people, const std::set<std::string>& names) {
   ConfusionMatrix matrix{{names.begin(), names.end()}, {}};
   matrix.counts.assign(names.size(), std::vector<std::size_t>(names.size()));
   const auto place = [&](const std::string& name) {
@@ -69,10 +65,21 @@ LearningResult learning_of(const std::string& step, const TrialsByPerson& before
 
 }  // namespace
 
-IdentifyResult identify_result(const StepAndCondition& where, const TrialsByPerson& trials) {
+std::map<std::string, std::set<std::string>> materials_of_steps(const TrialGroups& identify) {
+  std::map<std::string, std::set<std::string>> materials;
+  for (const auto& [where, people] : identify) {
+    for (const auto& [id, trials] : people) {
+      for (const StudyTrial* trial : trials) materials[where.step].insert({trial->stimulus, trial->response});
+    }
+  }
+  return materials;
+}
+
+IdentifyResult identify_result(const StepAndCondition& where, const TrialsByPerson& trials,
+                               const std::set<std::string>& materials) {
   IdentifyResult result{.step = where.step,
                         .condition = where.condition,
-                        .matrix = matrix_of(trials),
+                        .matrix = matrix_of(trials, materials),
                         .accuracy = {},
                         .against_chance = {},
                         .needed = {},

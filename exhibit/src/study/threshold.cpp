@@ -70,6 +70,7 @@ std::vector<TrialGroup> grouped(std::span<const ThresholdTrial> trials) {
     group.second += trial.answered_second ? 1.0 : 0.0;
   }
   std::vector<TrialGroup> list;
+  list.reserve(groups.size());
   for (const auto& [key, group] : groups) list.push_back(group);
   return list;
 }
@@ -111,6 +112,7 @@ struct Posterior {
   void weigh(const std::vector<TrialGroup>& groups) {
     static const LogProbability log_probability;
     std::vector<double> logs;
+    logs.reserve(log_weber.weights.size() * log_exponent.weights.size() * bias.weights.size());
     std::vector<double> signals(groups.size());
     for (std::size_t w = 0; w < log_weber.weights.size(); ++w) {
       for (std::size_t b = 0; b < log_exponent.weights.size(); ++b) {

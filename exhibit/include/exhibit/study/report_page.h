@@ -42,7 +42,9 @@ std::string number_text(double value, int decimals);
 std::string interval_text(const Interval& interval, int decimals);  // "[0.52, 0.77]"
 std::string estimate_text(const Estimate& estimate, int decimals);  // "0.65 [0.52, 0.77]"
 
-// "paired t: t(19) = 2.18, p = 0.042; d_z = 0.49 [0.02, 0.95]". Nothing else prints a p.
+// "paired t: t(19) = 2.18, p = 0.042; d_z = 0.49 [0.02, 0.95]"
 std::string test_text(const TestResult& test);
+// "p = 0.042", "p < 0.001": only beside a test_text().
+std::string p_text(double p);
 
 }  // namespace afm::exhibit
