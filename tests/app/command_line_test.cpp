@@ -244,7 +244,8 @@ TEST(CommandLine, WritesTheReportOfAStudyOrNothing) {
   folder.write(events,
                "onset\tduration\tstep\ttrial_type\tcondition\tpractice\ttrial\tlevel\tstimulus\tresponse\tcorrect\trt\n"
                "1\t1\tblind\tidentify\thaptics\t0\t1\tn/a\tmica\tgold\t0\t0.5\n");
-  expect_refusal(touchafm("study " + folder.file("class") + " --out " + folder.file(events)), 1, "is not a folder");
+  expect_refusal(touchafm("study " + folder.file("class") + " --out " + folder.file(events)), 1,
+                 "task-three_events.tsv");
   const ProgramResult done = touchafm(command);
   EXPECT_EQ(done.exit_code, 0) << done.err;
   for (const char* file : {"study.md", "study.html", "study.json", "identify-three.svg"}) {

@@ -14,16 +14,16 @@ namespace {
 
 constexpr double kLargestDPrime = 12.0;
 
-struct Rate {
+struct ZRate {
   double value = kNoValue;
   double z = kNoValue;
   double variance = kNoValue;  // of z
 };
 
-Rate rate_of(std::size_t count, std::size_t trials, RateCorrection correction) {
+ZRate z_rate_of(std::size_t count, std::size_t trials, RateCorrection correction) {
   const bool corrected = correction == RateCorrection::LogLinear;
   const double n = static_cast<double>(trials) + (corrected ? 1.0 : 0.0);
-  Rate rate;
+  ZRate rate;
   rate.value = (static_cast<double>(count) + (corrected ? 0.5 : 0.0)) / n;
   rate.z = normal_quantile(rate.value);
   const double density = normal_density(rate.z);
@@ -31,7 +31,7 @@ Rate rate_of(std::size_t count, std::size_t trials, RateCorrection correction) {
   return rate;
 }
 
-Interval around(double value, double variance) {
+Interval interval_around(double value, double variance) {
   const double half = normal_quantile(1.0 - 0.5 * kIntervalAlpha) * std::sqrt(variance);
   return {value - half, value + half};
 }
@@ -78,12 +78,12 @@ Estimate choice_estimate(std::size_t right, std::size_t trials, int alternatives
 
 YesNo yes_no(const YesNoCounts& counts, RateCorrection correction) {
   if (counts.signals == 0 || counts.noises == 0) return {};
-  const Rate hits = rate_of(counts.hits, counts.signals, correction);
-  const Rate alarms = rate_of(counts.false_alarms, counts.noises, correction);
+  const ZRate hits = z_rate_of(counts.hits, counts.signals, correction);
+  const ZRate alarms = z_rate_of(counts.false_alarms, counts.noises, correction);
   YesNo result{.d_prime = hits.z - alarms.z, .criterion = -0.5 * (hits.z + alarms.z)};
   const double variance = hits.variance + alarms.variance;
-  result.d_prime_interval = around(result.d_prime, variance);
-  result.criterion_interval = around(result.criterion, 0.25 * variance);
+  result.d_prime_interval = interval_around(result.d_prime, variance);
+  result.criterion_interval = interval_around(result.criterion, 0.25 * variance);
   return result;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInterval = 1.0 - 0.5 * kIntervalAlpha;
 
-double square(double x) { return x * x; }
+double squared(double x) { return x * x; }
 
 // The noncentrality of which t is the quantile `probability`.
 double noncentrality_of(double t, double degrees, double probability) {
@@ -37,7 +37,7 @@ Summary summary_of(std::span<const double> values) {
   summary.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
   if (values.size() < 2) return summary;
   double squares = 0.0;
-  for (const double value : values) squares += square(value - summary.mean);
+  for (const double value : values) squares += squared(value - summary.mean);
   summary.sd = std::sqrt(squares / (n - 1.0));
   return summary;
 }
@@ -66,12 +66,12 @@ TTest welch_test(const Summary& a, const Summary& b) {
   test.d.n = a.n + b.n;
   if (a.n < 2 || b.n < 2) return test;
   const auto na = static_cast<double>(a.n), nb = static_cast<double>(b.n);
-  const double va = square(a.sd) / na, vb = square(b.sd) / nb;
+  const double va = squared(a.sd) / na, vb = squared(b.sd) / nb;
   if (!(va + vb > 0.0)) return test;
   test.t = (a.mean - b.mean) / std::sqrt(va + vb);
-  test.degrees = square(va + vb) / (square(va) / (na - 1.0) + square(vb) / (nb - 1.0));
+  test.degrees = squared(va + vb) / (squared(va) / (na - 1.0) + squared(vb) / (nb - 1.0));
   test.p = two_sided_p(test.t, test.degrees);
-  const double pooled = std::sqrt(((na - 1.0) * square(a.sd) + (nb - 1.0) * square(b.sd)) / (na + nb - 2.0));
+  const double pooled = std::sqrt(((na - 1.0) * squared(a.sd) + (nb - 1.0) * squared(b.sd)) / (na + nb - 2.0));
   test.d.value = (a.mean - b.mean) / pooled;
   const double scale = std::sqrt(na * nb / (na + nb));
   test.d.interval = standardised_interval(test.d.value * scale, na + nb - 2.0, scale);
@@ -117,12 +117,12 @@ double cronbach_alpha(const std::vector<std::vector<double>>& people) {
     std::vector<double> column;
     column.reserve(people.size());
     for (const auto& person : people) column.push_back(person.at(item));
-    of_items += square(summary_of(column).sd);
+    of_items += squared(summary_of(column).sd);
   }
   std::vector<double> sums;
   sums.reserve(people.size());
   for (const auto& person : people) sums.push_back(std::accumulate(person.begin(), person.end(), 0.0));
-  const double of_sums = square(summary_of(sums).sd);
+  const double of_sums = squared(summary_of(sums).sd);
   const auto k = static_cast<double>(items);
   return of_sums > 0.0 ? k / (k - 1.0) * (1.0 - of_items / of_sums) : kNoValue;
 }

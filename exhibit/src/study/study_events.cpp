@@ -14,13 +14,26 @@ namespace afm::exhibit {
 namespace {
 
 // In the order of the fields of a line.
-enum Column { Onset, Duration, Step, Type, InCondition, Practice, Number, Level, Stimulus, Response, Correct, Rt };
+enum EventsColumn {
+  Onset,
+  Duration,
+  Step,
+  Type,
+  InCondition,
+  Practice,
+  Number,
+  Level,
+  Stimulus,
+  Response,
+  Correct,
+  Rt
+};
 constexpr std::array<std::string_view, 12> kEventsColumns{"onset",     "duration", "step",    "trial_type",
                                                           "condition", "practice", "trial",   "level",
                                                           "stimulus",  "response", "correct", "rt"};
 constexpr double kLongestLesson_s = 1e7;
 constexpr double kHighestLevel = 1e3;
-constexpr double kMostTrials = 1e6;
+constexpr double kMostTrialsOfAStep = 1e6;
 
 // The items of a questionnaire are named "sus-1" and so on.
 struct ItemRange {
@@ -56,7 +69,7 @@ class EventsLine {
     trial.kind = kind();
     trial.condition = word(InCondition);
     trial.practice = required(Practice, 0, 1) == 1.0;
-    trial.trial = static_cast<int>(required(Number, 1, kMostTrials));
+    trial.trial = static_cast<int>(required(Number, 1, kMostTrialsOfAStep));
     trial.level = optional(Level, 0, kHighestLevel);
     trial.stimulus = word(Stimulus);
     trial.response = word(Response);
@@ -66,13 +79,13 @@ class EventsLine {
   }
 
  private:
-  void refuse(Column column, const std::string& wanted) {
+  void refuse(EventsColumn column, const std::string& wanted) {
     if (!fault_.empty()) return;
     fault_ = fmt::format("{} \"{}\" is not {}", kEventsColumns[column], core::printable(fields_[column].substr(0, 64)),
                          wanted);
   }
 
-  std::optional<double> optional(Column column, double least, double most) {
+  std::optional<double> optional(EventsColumn column, double least, double most) {
     if (fields_[column].empty()) return std::nullopt;
     const auto value = parse_number(fields_[column], least, most);
     if (!value) refuse(column, fmt::format("a number from {:g} to {:g}", least, most));
@@ -80,7 +93,7 @@ class EventsLine {
   }
 
   // A whole number where the column counts.
-  double required(Column column, double least, double most) {
+  double required(EventsColumn column, double least, double most) {
     const auto value = parse_number(fields_[column], least, most);
     const bool counts = column == Practice || column == Number;
     if (value && (!counts || *value == std::floor(*value))) return *value;
@@ -88,7 +101,7 @@ class EventsLine {
     return least;
   }
 
-  std::string word(Column column) {
+  std::string word(EventsColumn column) {
     if (!fields_[column].empty() && !is_word(fields_[column])) refuse(column, "one word of letters, digits, - and _");
     return std::string(fields_[column]);
   }
@@ -130,7 +143,7 @@ class EventsLine {
     if (trial.value && *trial.value != std::floor(*trial.value)) refuse(Response, "a whole number");
   }
 
-  void interval(Column column) {
+  void interval(EventsColumn column) {
     if (fields_[column] != "first" && fields_[column] != "second") refuse(column, "first or second");
   }
 

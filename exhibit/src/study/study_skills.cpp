@@ -14,7 +14,7 @@ namespace {
 constexpr double kRareByChance = 0.05;
 constexpr std::string_view kBefore = "-before", kAfter = "-after";
 
-std::size_t right_of(const std::vector<const StudyTrial*>& trials) {
+std::size_t count_right(const std::vector<const StudyTrial*>& trials) {
   return static_cast<std::size_t>(std::count_if(trials.begin(), trials.end(),
                                                 [](const StudyTrial* trial) { return trial->right.value_or(false); }));
 }
@@ -32,7 +32,7 @@ ConfusionMatrix matrix_of(const TrialsByPerson& people, const std::set<std::stri
 }
 
 double share_right(const std::vector<const StudyTrial*>& trials) {
-  return trials.empty() ? kNoValue : static_cast<double>(right_of(trials)) / static_cast<double>(trials.size());
+  return trials.empty() ? kNoValue : static_cast<double>(count_right(trials)) / static_cast<double>(trials.size());
 }
 
 // Of two groups of one step: the same people's shares, and their trials of the same number.
@@ -103,7 +103,7 @@ IdentifyResult identify_result(const StepAndCondition& where, const TrialsByPers
     result.materials.push_back({yes_no(counts, RateCorrection::None), yes_no(counts, RateCorrection::LogLinear)});
   }
   for (const auto& [id, list] : trials) {
-    const std::size_t of_person = right_of(list);
+    const std::size_t of_person = count_right(list);
     result.people.push_back(
         {id, of_person, proportion(of_person, list.size()), choice_estimate(of_person, list.size(), names)});
   }

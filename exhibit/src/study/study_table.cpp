@@ -31,8 +31,9 @@ tl::unexpected<core::Error> bad_line(const std::string& name, std::size_t line, 
 }
 
 // For each wanted column its place in the header.
-core::Result<std::vector<std::size_t>> places_of(const std::vector<std::string_view>& header, const std::string& name,
-                                                 std::span<const std::string_view> columns) {
+core::Result<std::vector<std::size_t>> column_places(const std::vector<std::string_view>& header,
+                                                     const std::string& name,
+                                                     std::span<const std::string_view> columns) {
   for (const std::string_view each : header) {
     if (std::find(columns.begin(), columns.end(), each) != columns.end()) continue;
     return bad_line(name, 1, fmt::format("unknown column \"{}\"", core::printable(each.substr(0, kLongestWord))));
@@ -69,7 +70,7 @@ core::Result<TsvTable> parse_tsv(std::string_view bytes, const std::string& name
     const std::vector<std::string_view> fields = tab_fields(bytes.substr(0, end));
     bytes.remove_prefix(end + 1);
     if (number == 1) {
-      auto found = places_of(fields, name, columns);
+      auto found = column_places(fields, name, columns);
       if (!found) return tl::unexpected(found.error());
       places = std::move(*found);
       continue;

@@ -20,7 +20,7 @@ struct HapticsAgainstGraphics {
   std::size_t tables;
 };
 
-HapticsAgainstGraphics haptics_against_graphics() {
+HapticsAgainstGraphics computed_comparison() {
   const SurveyQuestion& haptics = survey_questions()[kHapticsQuestion];
   const SurveyQuestion& graphics = survey_questions()[kGraphicsQuestion];
   const KindestPairing kindest = kindest_pairing(answers_that_print_as(haptics), answers_that_print_as(graphics));
@@ -29,6 +29,11 @@ HapticsAgainstGraphics haptics_against_graphics() {
       as_result("paired t", kindest.t, "d_z"), kindest.sign, kindest.tables};
   result.sign.effect_name = "share that found haptics more helpful, of those who differ";
   return result;
+}
+
+const HapticsAgainstGraphics& haptics_against_graphics() {
+  static const HapticsAgainstGraphics kComparison = computed_comparison();
+  return kComparison;
 }
 
 }  // namespace
@@ -40,7 +45,7 @@ std::vector<PageBlock> paper_survey_blocks() {
                           interval_text(t_interval(printed_summary(question)), 2),
                           std::to_string(answers_that_print_as(question).size())});
   }
-  const HapticsAgainstGraphics tests = haptics_against_graphics();
+  const HapticsAgainstGraphics& tests = haptics_against_graphics();
   return {PageText{"The survey of twenty people, answers from 0 (not at all) to 4 (very much), and what its printed "
                    "numbers can bear."},
           table,
@@ -87,7 +92,7 @@ Json paper_survey_json() {
                          {"high", interval.high},
                          {"counts_that_print_so", distributions}});
   }
-  const HapticsAgainstGraphics tests = haptics_against_graphics();
+  const HapticsAgainstGraphics& tests = haptics_against_graphics();
   return {{"questions", questions},
           {"consistent", true},
           {"haptics_more_helpful_than_graphics_follows", false},

@@ -153,7 +153,7 @@ struct Posterior {
 };
 
 // Where Weber fractions are looked for: logarithms; nothing where no level is above 0.
-std::pair<double, double> range_of(std::span<const ThresholdTrial> trials) {
+std::pair<double, double> weber_range(std::span<const ThresholdTrial> trials) {
   double low = std::numeric_limits<double>::infinity(), high = 0.0;
   for (const ThresholdTrial& trial : trials) {
     if (trial.level <= 0.0) continue;
@@ -179,7 +179,7 @@ ThresholdFit fitted_threshold(std::span<const ThresholdTrial> trials) {
   fit.weber_fraction.n = fit.bias.n = trials.size();
   fit.right = static_cast<std::size_t>(
       std::count_if(trials.begin(), trials.end(), [](const ThresholdTrial& trial) { return trial.right(); }));
-  const auto [lowest, highest] = range_of(trials);
+  const auto [lowest, highest] = weber_range(trials);
   if (trials.size() < kFewestTrials || !(lowest < highest)) return fit;
 
   const std::vector<TrialGroup> groups = grouped(trials);
