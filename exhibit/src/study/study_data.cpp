@@ -27,7 +27,8 @@ constexpr std::array<std::string_view, 4> kPeopleColumns{"participant_id", "orde
 constexpr std::array<std::string_view, 3> kComforts{"finished", "stopped", "withdrew"};
 constexpr std::size_t kMostPeople = 10'000;
 constexpr std::size_t kMostVisits = 1'000;
-constexpr std::uintmax_t kLargestTable = 64U << 20U;
+constexpr std::size_t kMostTrialsInAll = 2'000'000;
+constexpr std::uintmax_t kLargestTable = 32U << 20U;
 constexpr std::uintmax_t kLargestDescription = 1U << 20U;
 constexpr std::string_view kPersonPrefix = "sub-", kTaskPrefix = "task-", kEventsEnding = "_events.tsv";
 
@@ -190,10 +191,14 @@ core::Result<StudyData> read_study(const std::string& folder) {
   StudyData data;
   data.listed = people->people.size();
   if (people->cut_line > 0) data.remarks.push_back(cut_remark("participants.tsv", people->cut_line));
+  std::size_t trials = 0;
   std::set<std::string> unlisted = names_in(folder, kPersonPrefix, "");
   for (const StudyPerson& person : people->people) {
     unlisted.erase(person.id);
     if (const auto read = read_person(folder, person, data); !read) return tl::unexpected(read.error());
+    if (data.members.empty() || data.members.back().person.id != person.id) continue;
+    for (const LessonVisit& visit : data.members.back().visits) trials += visit.trials.size();
+    if (trials > kMostTrialsInAll) return bad_file(folder, fmt::format("more than {} trials", kMostTrialsInAll));
   }
   for (const std::string& name : unlisted) {
     data.left_out.push_back(printable(name.substr(0, 64)) + ": not in participants.tsv");

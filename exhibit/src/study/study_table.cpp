@@ -13,7 +13,7 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr std::size_t kMostLines = 1'000'000;
+constexpr std::size_t kMostLines = 100'000;
 constexpr std::size_t kLongestWord = 64;
 
 std::vector<std::string_view> tab_fields(std::string_view line) {

@@ -23,7 +23,7 @@ struct TsvTable {
   tl::unexpected<core::Error> bad(std::size_t row, const std::string& what) const;
 };
 
-// The columns may come in any order; each must be there once, and no other. At most a million lines. The views are into
+// The columns may come in any order; each must be there once, and no other. At most 100000 lines. The views are into
 // `bytes`.
 core::Result<TsvTable> parse_tsv(std::string_view bytes, const std::string& name,
                                  std::span<const std::string_view> columns);

@@ -139,6 +139,14 @@ TEST(StudyEvents, RefuseAnswersOutsideTheirQuestionnaire) {
               HasSubstr("first or second"));
 }
 
+TEST(StudyEvents, HaveALimit) {
+  const std::string line = "1\t1\tend\ttext\tn/a\t0\t1\tn/a\tn/a\tn/a\tn/a\tn/a\n";
+  std::string bytes = kEventsHeader;
+  for (int i = 1; i < 100'000; ++i) bytes += line;
+  EXPECT_EQ(fault_of(bytes), "");
+  EXPECT_THAT(fault_of(bytes + line), HasSubstr("x.tsv:100001: more than 100000 lines"));
+}
+
 TEST(StudyPeople, AreReadOrRefusedByLine) {
   const auto people =
       parse_people(kPeopleHeader + std::string("sub-ABCDEF\t0\tn/a\tfinished\nsub-GHIJKL\t1\t20-29"), "p");

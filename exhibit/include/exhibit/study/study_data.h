@@ -13,8 +13,9 @@
 
 namespace afm::exhibit {
 
-// The data set of a study as `touchafm lesson` writes it (docs/manual.md has the columns), read without belief: every
-// number is within its range, every word one of its column's, every size bounded, or the error names file and line.
+// The data set of a study as `touchafm lesson` writes it: BIDS-like tables, whose columns each events.json describes.
+// Nothing is believed: every number is within its range, every word one of its column's, every size bounded, or the
+// error names file and line.
 
 enum class TrialKind { Text, Free, Cycle, Identify, Threshold, Draw, Question };
 struct TrialKindRow {
@@ -89,7 +90,8 @@ struct StudyData {
   std::vector<std::string> remarks;   // cut lines and missing descriptions
 };
 
-// Reads a study's folder: participants.tsv and sub-*/task-*_events.tsv and .json, at most 10000 people. BadInputFile
+// Reads a study's folder: participants.tsv and sub-*/task-*_events.tsv and .json, at most 10000 people and two
+// million trials. BadInputFile
 // for a folder that holds no study, and for the first file that is not as it should be.
 core::Result<StudyData> read_study(const std::string& folder);
 
