@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -265,7 +267,7 @@ TEST(ReportPage, KeepsMarkupOfTextsOutOfHtmlAndTables) {
 TEST(ReportPage, WritesNumbersAsPeopleDo) {
   EXPECT_EQ(number_text(-0.001, 2), "0.00");
   EXPECT_EQ(number_text(std::nan(""), 2), "n/a");
-  EXPECT_EQ(estimate_text({3, 0.1, {0.0, INFINITY}}, 2), "0.10 [0.00, ∞]");
+  EXPECT_EQ(estimate_text({3, 0.1, {0.0, std::numeric_limits<double>::infinity()}}, 2), "0.10 [0.00, ∞]");
   EXPECT_EQ(test_text({"t", "t(3) = 9", 0.0004, "d", {4, 2.0, {1.0, 3.0}}}),
             "t: t(3) = 9, p < 0.001; d = 2.00 [1.00, 3.00]");
 }
