@@ -46,7 +46,7 @@ std::vector<PageBlock> paper_survey_blocks() {
                           std::to_string(answers_that_print_as(question).size())});
   }
   const HapticsAgainstGraphics& tests = haptics_against_graphics();
-  return {PageText{"The survey of twenty people, answers from 0 (not at all) to 4 (very much), and what its printed "
+  return {PageText{"The survey of twenty people, answers from 0 (not at all) to 4 (a great deal), and what its printed "
                    "numbers can bear."},
           table,
           PageText{"Table 3 is consistent: for each question there is at least one set of twenty whole answers with "
@@ -57,8 +57,8 @@ std::vector<PageBlock> paper_survey_blocks() {
           PageList{{test_text(tests.unpaired),
                     fmt::format("the kindest of all {} possible pairings, {}", tests.tables, test_text(tests.paired)),
                     "the kindest pairing, " + test_text(tests.sign)}},
-          PageText{"No group learned without haptics, nothing was asked before, and nobody's understanding was "
-                   "tested: Table 3 says how people liked the simulation, not how much they learned."}};
+          PageText{"The paper names no group without haptics, no question before, and no test of what was understood: "
+                   "Table 3 says what people thought that they had learned."}};
 }
 
 Json json_of(double value) { return std::isfinite(value) ? Json(value) : Json(); }
