@@ -28,6 +28,7 @@ struct CommandContext {
   COMMAND(analyse)                    \
   COMMAND(material)                   \
   COMMAND(paper)                      \
+  COMMAND(study)                      \
   COMMAND(render)                     \
   COMMAND(replay)                     \
   COMMAND(wall)                       \

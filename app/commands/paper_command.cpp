@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/command.h"
@@ -12,6 +13,7 @@
 #include "core/log.h"
 #include "curves/paper_report.h"
 #include "curves/paper_tables.h"
+#include "exhibit/study/survey_report.h"
 
 namespace afm::app {
 
@@ -34,8 +36,9 @@ core::Result<void> write_paper(const PaperOptions& options) {
   const char* run = of_a_demo ? "of the demo" : "of the model, which looks every 0.1 nm";
 
   const std::array<std::pair<const char*, std::string>, 6> files{
-      {{"paper.md", curves::paper_markdown(*tables, *samples, run)},
-       {"paper.json", curves::paper_json(*tables, *samples)},
+      {{"paper.md",
+        curves::paper_markdown(*tables, *samples, run, exhibit::page_markdown(exhibit::paper_survey_blocks()))},
+       {"paper.json", curves::paper_json(*tables, *samples, exhibit::paper_survey_json())},
        {"table1.csv", curves::table1_csv(*tables)},
        {"table2.csv", curves::table2_csv(*tables)},
        {"fig2.svg", curves::figure2_svg(samples->materials.front())},
@@ -50,7 +53,7 @@ core::Result<void> write_paper(const PaperOptions& options) {
 
 void add_paper_command(OptionList& program, const CommandContext& context) {
   OptionList command =
-      program.add_command("paper", "compare the paper's Tables 1 and 2, Fig. 2 and Fig. 5(e) with TouchAFM's values");
+      program.add_command("paper", "compare the paper's tables, Fig. 2 and Fig. 5(e) with TouchAFM's values");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<PaperOptions>();
   command

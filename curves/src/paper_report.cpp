@@ -127,7 +127,8 @@ void add_cycle(SvgPlot& plot, const scene::MaterialEntry& material, std::string_
 
 }  // namespace
 
-std::string paper_markdown(const PaperTables& tables, const scene::MaterialLibrary& library, std::string_view run) {
+std::string paper_markdown(const PaperTables& tables, const scene::MaterialLibrary& library, std::string_view run,
+                           std::string_view survey) {
   std::string text =
       "# The paper's tables and figures, evaluated again\n\n"
       "K. Liu and X. Peng, *Simulating the approach-retract phenomenon of AFM in virtual environment with "
@@ -142,19 +143,21 @@ std::string paper_markdown(const PaperTables& tables, const scene::MaterialLibra
       "## What contact mechanics says of the same samples\n\n" +
       contact_mechanics_markdown(library) +
       "\n## Figures\n\n![The cycle with the letters of Fig. 2](fig2.svg)\n\n"
-      "![The three cycles of Fig. 5(e)](fig5e.svg)\n\n## Errata\n\n";
+      "![The three cycles of Fig. 5(e)](fig5e.svg)\n\n## The survey (Table 3)\n\n" +
+      std::string(survey) + "## Errata\n\n";
   int count = 0;
   for (const Erratum& erratum : errata()) text += fmt::format("{}. **{}**: {}\n", ++count, erratum.name, erratum.text);
   return text;
 }
 
-std::string paper_json(const PaperTables& tables, const scene::MaterialLibrary& library) {
+std::string paper_json(const PaperTables& tables, const scene::MaterialLibrary& library, const json& survey) {
   json list = json::array();
   for (const Erratum& erratum : errata()) list.push_back({{"name", erratum.name}, {"text", erratum.text}});
   const json root{{"table1", table_json(tables.table1)},
                   {"table2", table_json(tables.table2)},
                   {"f_ad_agreement_is_circular", true},
                   {"contact_mechanics", contact_mechanics_json(library)},
+                  {"table3", survey},
                   {"errata", list}};
   return root.dump(2) + "\n";
 }

@@ -95,7 +95,7 @@ std::string html_heading(const std::string& text) { return "<h2>" + html_text(te
 
 std::string html_note(const std::string& html) { return "<p class=\"note\">" + html + "</p>\n"; }
 
-std::string html_table_head(std::initializer_list<std::string> names) {
+std::string html_table_head(const std::vector<std::string>& names) {
   std::string html = "<table><tr>";
   for (const std::string& name : names) html += "<th>" + html_text(name) + "</th>";
   return html + "</tr>\n";

@@ -241,6 +241,30 @@ TEST(CommandLine, FailsWhenWhatItPrintsCannotBeWritten) {
   }
 }
 
+TEST(CommandLine, WritesTheReportOfAStudyOrNothing) {
+  const support::ScratchFolder folder;
+  expect_refusal(touchafm("study " + folder.file("class")), 2, "--out");
+  const std::string command = "study " + folder.file("class") + " --out " + folder.file("report");
+  expect_refusal(touchafm(command), 3, "there is no such folder");
+  std::filesystem::create_directories(folder.file("class/sub-ABCDEF"));
+  expect_refusal(touchafm(command), 3, "no participants.tsv is in it");
+  folder.write("class/participants.tsv", "participant_id\torder\tage_band\tcomfort\nsub-ABCDEF\t0\tn/a\tfinished\n");
+  const std::string events = "class/sub-ABCDEF/task-three_events.tsv";
+  folder.write(events, "onset\tduration\n");
+  expect_refusal(touchafm(command), 3, "task-three_events.tsv:1: there is no column \"step\"");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("report")));
+  folder.write(events,
+               "onset\tduration\tstep\ttrial_type\tcondition\tpractice\ttrial\tlevel\tstimulus\tresponse\tcorrect\trt\n"
+               "1\t1\tblind\tidentify\thaptics\t0\t1\tn/a\tmica\tgold\t0\t0.5\n");
+  expect_refusal(touchafm("study " + folder.file("class") + " --out " + folder.file(events)), 1,
+                 "task-three_events.tsv");
+  const ProgramResult done = touchafm(command);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  for (const char* file : {"study.md", "study.html", "study.json", "identify-three.svg"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.file("report/" + std::string(file)))) << file;
+  }
+}
+
 TEST(CommandLine, SaysWhatToInstallWhenThereIsNoVulkanDriver) {
   const support::ScratchFolder folder;
   const ProgramResult result = support::run_program(

@@ -122,6 +122,19 @@ TEST_F(PaperCommand, SaysWhatContactMechanicsSaysOfTheSameSamples) {
   EXPECT_THAT(text_of("paper.md"), HasSubstr("Gold: paper | Gold: dmt"));
 }
 
+TEST_F(PaperCommand, SaysWhatItsSurveyShowsAndWhatItDoesNot) {
+  ASSERT_TRUE(write_paper(options_).has_value());
+  EXPECT_THAT(text_of("paper.md"),
+              testing::AllOf(HasSubstr("Table 3 is consistent"), HasSubstr("p = 0.42; d = 0.26 [-0.37, 0.88]"),
+                             HasSubstr("all 899"), HasSubstr("p = 0.042; d_z = 0.49 [0.02, 0.95]"),
+                             HasSubstr("p = 0.065"), HasSubstr("does not follow")));
+  const auto json = nlohmann::json::parse(text_of("paper.json"))["table3"];
+  EXPECT_EQ(json["questions"].size(), 8U);
+  EXPECT_NEAR(json["haptics_against_graphics"]["unpaired"]["p"], 0.4228763481, 1e-9);
+  EXPECT_NEAR(json["haptics_against_graphics"]["kindest_paired_t"]["p"], 0.04208628671, 1e-9);
+  EXPECT_NEAR(json["haptics_against_graphics"]["kindest_sign_test"]["p"], 0.0654296875, 1e-9);
+}
+
 TEST_F(PaperCommand, ShowsWhatARunMeasured) {
   fs::create_directories(folder_);
   options_.summary_file = (folder_ / "summary.json").string();

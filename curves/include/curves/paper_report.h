@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -10,11 +11,14 @@
 namespace afm::curves {
 
 // The tables for people: printed, exact and measured in the run beside each other, what contact mechanics says of the
-// same samples, the figures, the errata. `run` says which run measured: "of the demo".
-std::string paper_markdown(const PaperTables& tables, const scene::MaterialLibrary& library, std::string_view run);
+// same samples, the figures, the section on the survey (Table 3) as given, the errata. `run` says which run measured:
+// "of the demo".
+std::string paper_markdown(const PaperTables& tables, const scene::MaterialLibrary& library, std::string_view run,
+                           std::string_view survey);
 
 // The same for machines: SI, magnitudes.
-std::string paper_json(const PaperTables& tables, const scene::MaterialLibrary& library);
+std::string paper_json(const PaperTables& tables, const scene::MaterialLibrary& library,
+                       const nlohmann::ordered_json& survey);
 
 // A line per number, in the table's unit.
 std::string table1_csv(const PaperTables& tables);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace afm::exhibit {
 
@@ -19,7 +19,7 @@ std::string html_heading(const std::string& text);
 std::string html_note(const std::string& html);
 
 // A table's start with its head; "</table>" ends it.
-std::string html_table_head(std::initializer_list<std::string> names);
+std::string html_table_head(const std::vector<std::string>& names);
 
 // A box that scrolls where a browser is narrower than its content; the keyboard reaches it too.
 std::string html_scrolled(const std::string& html);
