@@ -9,7 +9,9 @@
 namespace afm::render {
 namespace {
 
-constexpr int kLeastSide_px = 8, kSideStep_px = 4;  // a CPU device draws blocks of 4 x 4 pixels
+// Mesa 22.3's lavapipe draws in tiles of 64 x 64 pixels. A scissor that begins within one of them lets some of the
+// samples through that lie in the pixels before it.
+constexpr int kSideStep_px = 64;
 
 // The bits from..to-1.
 std::uint64_t bits(int from, int to) {
@@ -22,7 +24,7 @@ std::uint64_t bits(int from, int to) {
 PixelTiles::PixelTiles(vk::Extent2D extent) : extent_(extent) {
   const int longest = static_cast<int>(std::max(extent.width, extent.height));
   const int needed = (longest + kMost - 1) / kMost;
-  side_px_ = std::max(kLeastSide_px, (needed + kSideStep_px - 1) / kSideStep_px * kSideStep_px);
+  side_px_ = (needed + kSideStep_px - 1) / kSideStep_px * kSideStep_px;
 }
 
 void PixelTiles::add(const PixelBox& box) {
