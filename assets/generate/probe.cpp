@@ -50,7 +50,7 @@ struct Station {
 
 // Half of the lever from the clamp to its round end, y >= 0. Past the cut-out the inner edge is the middle line.
 std::vector<Station> lever_stations() {
-  constexpr int kStraight = 64, kEndHalvings = 4;
+  constexpr int kStraight = 40, kEndHalvings = 3;
   const V2 normal = unit(V2{kNarrowing, 1});
 
   // the end's circle touches both outer edges and ends at the lever's length

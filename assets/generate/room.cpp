@@ -11,7 +11,7 @@ namespace {
 constexpr double kBack = 4.2, kBeside = 3.4;  // where it has dissolved into the background
 constexpr double kFront = 0.80;               // before the wall: under the shelf, and no further into the room
 constexpr double kFrontBeside = 1.25;         // what stands before the wall must not be cut off at its sides
-constexpr int kRings = 28;
+constexpr int kRings = 10;
 
 double gaussian(double x, double y) { return 1 / ((1 + x * x + y * y) * (1 + x * x + y * y)); }
 

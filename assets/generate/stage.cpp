@@ -9,7 +9,7 @@ constexpr V2 kPlateHalf{8.0 * kMm, 6.6 * kMm};
 constexpr double kPlateHeight = 0.42 * kMm;
 // the post stands in the room: metres of the exhibit
 constexpr double kPostRadius = 0.055, kFootRadius = 0.26;
-constexpr int kRound = 4;  // halvings: 64 points around
+constexpr int kRound = 3;  // halvings: 32 points around
 
 MaterialSpec steel() { return {.name = "steel", .base_color = {0.56, 0.57, 0.58}, .metallic = 1, .roughness = 0.32}; }
 MaterialSpec anodised() {

@@ -23,6 +23,7 @@
 #include "exhibit/wall_pictures.h"
 #include "places.h"
 #include "render/depth_meter.h"
+#include "support/pictures.h"
 #include "support/scratch_folder.h"
 #include "support/vulkan_fixture.h"
 
@@ -232,6 +233,32 @@ TEST_F(DepthOfAWall, StaysWithinOneDegreeOnEveryPreset) {
 }
 
 using PixelsOfAWall = test::VulkanTest;
+
+// In a cycle most of the wall stays as it is: what is drawn of it gives the bytes of drawing all of it.
+TEST_F(PixelsOfAWall, AreRedrawnWhereTheTipMovesAndAsIfAllWere) {
+  const auto stage = stage_on(AFM_SOURCE_DIR "/assets/walls/desk-red-cyan.toml");
+  ASSERT_TRUE(stage) << stage.error().message;
+  const auto subject = app::wall_subject(*stage, 960, app::WallMotion::Tip).value();
+  render::RendererOptions drawing = subject.drawing;
+  auto changes = make_renderer(subject.scene, drawing);
+  drawing.redraw = render::Redraw::Everything;
+  auto everything = make_renderer(subject.scene, drawing);
+  constexpr std::size_t kSettling = 2, kFrames = 12;
+  double redrawn = 0;
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    changes.render(subject.frames[i]);
+    everything.render(subject.frames[i]);
+    if (i >= kSettling) redrawn += changes.redrawn_share();
+    for (const scene::Eye eye : scene::kEyes) {
+      ASSERT_EQ(test::where_differ(changes.read_eye(eye), everything.read_eye(eye)), "")
+          << "frame " << i << ", eye " << static_cast<int>(eye);
+    }
+    const render::Composition anaglyph{.mode = scene::StereoMode::AnaglyphRedCyan};
+    ASSERT_EQ(test::where_differ(changes.read_composed(anaglyph), everything.read_composed(anaglyph)), "")
+        << "frame " << i;
+  }
+  EXPECT_LT(redrawn / static_cast<double>(kFrames - kSettling), 0.6);
+}
 
 TEST_F(PixelsOfAWall, MayBeFewAndMany) {
   const support::ScratchFolder folder;

@@ -15,29 +15,21 @@
 namespace afm::test {
 namespace {
 
-constexpr int kFrames = 60;
+constexpr int kFrames = 40;
 constexpr std::array<unsigned, 3> kSeeds{1, 2, 4};
+
+// What is redrawn is cut at multiples of 64 pixels.
+render::RendererOptions of_many_tiles(std::uint32_t samples = 4,
+                                      render::PassMode pass_mode = render::PassMode::Multiview) {
+  render::RendererOptions options = small(samples, pass_mode);
+  options.eye_width = 512;
+  options.eye_height = 384;
+  return options;
+}
 
 render::RendererOptions with(render::RendererOptions options, render::Redraw redraw) {
   options.redraw = redraw;
   return options;
-}
-
-// The rectangle in which two pictures differ; empty if nowhere.
-std::string where_differ(const render::Image& a, const render::Image& b) {
-  if (a.width != b.width || a.height != b.height) return "in size";
-  if (a.rgba == b.rgba) return "";
-  glm::uvec2 low(a.width, a.height), high(0);
-  for (std::uint32_t y = 0; y < a.height; ++y) {
-    for (std::uint32_t x = 0; x < a.width; ++x) {
-      const std::size_t at = std::size_t{4} * (std::size_t{y} * a.width + x);
-      if (std::equal(&a.rgba[at], &a.rgba[at] + 4, &b.rgba[at])) continue;
-      low = glm::min(low, glm::uvec2(x, y));
-      high = glm::max(high, glm::uvec2(x, y));
-    }
-  }
-  return "from " + std::to_string(low.x) + ", " + std::to_string(low.y) + " to " + std::to_string(high.x) + ", " +
-         std::to_string(high.y) + " of " + std::to_string(a.width) + " x " + std::to_string(a.height);
 }
 
 // A wall in use: in most frames the tip moves a little, the number in a panel changes, or nothing does; now and then
@@ -166,7 +158,7 @@ class Redraw : public VulkanTest {
   }
 
   static void resize(Story& story, const auto& both) {
-    const auto width = static_cast<std::uint32_t>(story.whole(100, 300));
+    const auto width = static_cast<std::uint32_t>(story.whole(200, 600));
     both([&](render::Renderer& renderer) { ASSERT_TRUE(renderer.resize(width, 3 * width / 4)); });
   }
 
@@ -180,20 +172,22 @@ class Redraw : public VulkanTest {
 
 TEST_F(Redraw, OfWhatChangedGivesTheBytesOfRedrawingEverything) {
   for (const unsigned seed : kSeeds) {
-    expect_same(small(4, render::PassMode::Automatic), seed);
+    expect_same(of_many_tiles(4, render::PassMode::Automatic), seed);
     if (HasFatalFailure()) return;
   }
 }
 
-TEST_F(Redraw, EyeByEyeGivesTheBytesOfRedrawingEverything) { expect_same(small(4, render::PassMode::TwoPasses), 11); }
+TEST_F(Redraw, EyeByEyeGivesTheBytesOfRedrawingEverything) {
+  expect_same(of_many_tiles(4, render::PassMode::TwoPasses), 11);
+}
 
 TEST_F(Redraw, WithOneSampleGivesTheBytesOfRedrawingEverything) {
-  expect_same(small(1, render::PassMode::Multiview), 21);
+  expect_same(of_many_tiles(1, render::PassMode::Multiview), 21);
 }
 
 // Also of one that was composed before more frames than are remembered.
 TEST_F(Redraw, OfAComposedPictureIsRightHoweverOldItIs) {
-  auto changes = make_renderer(test_.scene, small());
+  auto changes = make_renderer(test_.scene, of_many_tiles());
   render::FrameState frame = full_frame(test_);
   for (const int frames : {1, 7, 8, 9, 30}) {
     for (int i = 0; i < frames; ++i) {
@@ -201,7 +195,7 @@ TEST_F(Redraw, OfAComposedPictureIsRightHoweverOldItIs) {
       frame.labels.front().highlighted = i == 0;
       changes.render(frame);
     }
-    auto everything = make_renderer(test_.scene, small());
+    auto everything = make_renderer(test_.scene, of_many_tiles());
     everything.render(frame);
     const render::Composition rows{.mode = scene::StereoMode::Row};
     EXPECT_EQ(where_differ(changes.read_composed(rows), everything.read_composed(rows)), "") << frames;
@@ -210,7 +204,7 @@ TEST_F(Redraw, OfAComposedPictureIsRightHoweverOldItIs) {
 
 // What looks the same, in another object too, draws nothing; what moves, its part; another head, everything.
 TEST_F(Redraw, DrawsAsMuchAsHasChanged) {
-  auto renderer = make_renderer(test_.scene, small());
+  auto renderer = make_renderer(test_.scene, of_many_tiles());
   const auto share = [&](const render::FrameState& frame) {
     renderer.render(frame);
     return renderer.redrawn_share();
@@ -222,9 +216,9 @@ TEST_F(Redraw, DrawsAsMuchAsHasChanged) {
   EXPECT_GT(share(frame), 0.0);
   EXPECT_EQ(share(frame), 0.0);
   frame.labels.front().highlighted = false;
-  EXPECT_LT(share(frame), 0.05);
+  EXPECT_LT(share(frame), 0.15);
   frame.room_from_node[test_.gold][3].x += 0.01;
-  EXPECT_LT(share(frame), 0.25);
+  EXPECT_LT(share(frame), 0.4);
   frame.eyes = {eye_view(scene::Eye::Left, {0.1, 0.0, 2.5}), eye_view(scene::Eye::Right, {0.1, 0.0, 2.5})};
   EXPECT_EQ(share(frame), 1.0);
   EXPECT_EQ(share(frame), 0.0);

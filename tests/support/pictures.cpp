@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <glm/common.hpp>
 #include <stdexcept>
 
 #include "places.h"
@@ -117,6 +118,22 @@ std::vector<std::string> goldens_of(const std::string& name) {
 }
 
 }  // namespace
+
+std::string where_differ(const render::Image& a, const render::Image& b) {
+  if (a.width != b.width || a.height != b.height) return "in size";
+  if (a.rgba == b.rgba) return "";
+  glm::uvec2 low(a.width, a.height), high(0);
+  for (std::uint32_t y = 0; y < a.height; ++y) {
+    for (std::uint32_t x = 0; x < a.width; ++x) {
+      const std::size_t at = std::size_t{4} * (std::size_t{y} * a.width + x);
+      if (std::equal(&a.rgba[at], &a.rgba[at] + 4, &b.rgba[at])) continue;
+      low = glm::min(low, glm::uvec2(x, y));
+      high = glm::max(high, glm::uvec2(x, y));
+    }
+  }
+  return "from " + std::to_string(low.x) + ", " + std::to_string(low.y) + " to " + std::to_string(high.x) + ", " +
+         std::to_string(high.y) + " of " + std::to_string(a.width) + " x " + std::to_string(a.height);
+}
 
 std::string compare_with_golden(const render::Image& actual, const std::string& name) {
   const std::string golden = std::string(AFM_SOURCE_DIR) + "/tests/golden/" + name + ".png";

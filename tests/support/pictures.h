@@ -31,6 +31,9 @@ struct Difference {
 };
 Difference difference(const render::Image& a, const render::Image& b, int tolerance);
 
+// The rectangle in which two pictures differ; empty if nowhere.
+std::string where_differ(const render::Image& a, const render::Image& b);
+
 render::Image read_png(const std::string& path);  // throws std::runtime_error
 
 // Compares with tests/golden/<name>.png and <name>-*.png, of which one must be like it: no more than 0.1 % of the

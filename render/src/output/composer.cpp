@@ -9,6 +9,7 @@
 #include "device/pipelines.h"
 #include "device/shader_interface.h"
 #include "output/readback.h"
+#include "passes/pixel_tiles.h"
 #include "shaders/compose_frag.h"
 #include "shaders/fullscreen_vert.h"
 
@@ -226,7 +227,7 @@ PixelArea Composer::changed_in(const ComposeInto& into, const Composition& compo
     changed.add_everything();
     return changed;
   }
-  const PixelArea in_eyes = changes_.since(shown->eye_changes);
+  const PixelArea in_eyes = changes_.since(shown->eye_changes, eyes_.drawing().extent);
   const bool simple =
       composition.picture_from_output == glm::dmat3(1.0) && !scene::frame_packing(composition.mode).has_value();
   if (in_eyes.everything() || (!simple && !in_eyes.empty())) {
@@ -234,12 +235,18 @@ PixelArea Composer::changed_in(const ComposeInto& into, const Composition& compo
     return changed;
   }
   const EyeBoxes eyes = boxes_of_eyes(scene::traits_of(composition.mode).arrangement, place.area);
+  PixelTiles tiles(place.target);
   for (const PixelBox& box : in_eyes.boxes()) {
     for (std::size_t i = 0; i < eyes.count; ++i) {
-      changed.add(scaled_into(eyes.boxes[i], box, eyes_.drawing().extent).within(PixelBox::whole(place.target)));
+      tiles.add(scaled_into(eyes.boxes[i], box, eyes_.drawing().extent));
     }
   }
-  return changed;
+
+  // beside the picture the target is black
+  const glm::ivec2 low(place.area.offset.x, place.area.offset.y);
+  const PixelBox picture{
+      low, low + glm::ivec2(static_cast<int>(place.area.extent.width), static_cast<int>(place.area.extent.height))};
+  return tiles.area().within(picture);
 }
 
 void Composer::draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
@@ -299,7 +306,7 @@ void Composer::copy_parts(const vk::raii::CommandBuffer& command, const Composit
   if (changed.everything()) {
     copy(command, composition, into, PixelBox::whole(eyes_.extent()));
   } else {
-    const PixelArea in_eyes = changes_.since((*into.shown)->eye_changes);
+    const PixelArea in_eyes = changes_.since((*into.shown)->eye_changes, eyes_.drawing().extent);
     for (const PixelBox& box : in_eyes.boxes()) copy(command, composition, into, box);
   }
   eyes_.end_copies(command);

@@ -8,13 +8,19 @@
 
 namespace afm::render {
 
-DrawBox bent_box(const Draw& draw, const glm::vec4& bend) {
-  DrawBox box{glm::dvec3(draw.center), glm::dvec3(draw.half_size)};
-  // beyond its end a loaded beam is straight, with 3/2 of the mean slope
+DrawBox box_of(const Draw& draw) { return {glm::dvec3(draw.center), glm::dvec3(draw.half_size)}; }
+
+DrawBox bent_box(const DrawBox& box, const glm::vec4& bend) {
+  DrawBox bent = box;
+  // the deflection grows along x (shaders/beam.glsl); beyond its end a loaded beam is straight
   const double reach = (box.center.x + box.half_size.x) * static_cast<double>(bend.x);
-  box.half_size.z += std::abs(static_cast<double>(bend.y)) * (1.0 + 1.5 * std::max(reach - 1.0, 0.0));
-  return box;
+  const double xi = std::clamp(reach, 0.0, 1.0);
+  bent.half_size.z +=
+      std::abs(static_cast<double>(bend.y)) * (0.5 * xi * xi * (3.0 - xi) + 1.5 * std::max(reach - 1.0, 0.0));
+  return bent;
 }
+
+DrawBox bent_box(const Draw& draw, const glm::vec4& bend) { return bent_box(box_of(draw), bend); }
 
 std::pair<double, double> range(const glm::dvec4& form, const DrawBox& box) {
   const glm::dvec3 slope(form);

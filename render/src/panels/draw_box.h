@@ -15,7 +15,11 @@ struct DrawBox {
   glm::dvec3 half_size;
 };
 
-// Bounding box of a draw that is bent as its DrawBlock says.
+// Bounding box of a draw that is not bent.
+DrawBox box_of(const Draw& draw);
+
+// Bounding box of a draw, or of what a box of it holds, that is bent as its DrawBlock says.
+DrawBox bent_box(const DrawBox& box, const glm::vec4& bend);
 DrawBox bent_box(const Draw& draw, const glm::vec4& bend);
 
 // The least and the largest value of dot(form, (place, 1)) over the box.

@@ -86,6 +86,23 @@ PanelPlacement mark_placement(const PanelPlacement& whole, scene::Eye eye) {
           .up_m = 0.36 * whole.up_m};
 }
 
+// In whole texels, with those beside it that filtering reaches.
+PanelPart part_of(const CanvasBox& changed, const glm::vec2& canvas_texels, vk::Extent2D extent) {
+  const glm::dvec2 size(extent.width, extent.height);
+  const glm::dvec2 scale = size / glm::dvec2(canvas_texels);
+  const glm::dvec2 low = glm::clamp(glm::floor(scale * glm::dvec2(changed.low)) - 2.0, glm::dvec2(0.0), size);
+  const glm::dvec2 high = glm::clamp(glm::ceil(scale * glm::dvec2(changed.high)) + 2.0, glm::dvec2(0.0), size);
+  return {.low = {low.x / size.x, 1.0 - high.y / size.y}, .high = {high.x / size.x, 1.0 - low.y / size.y}};
+}
+
+// The texels of a part.
+PixelBox texels_of(const PanelPart& part, vk::Extent2D extent) {
+  const glm::dvec2 size(extent.width, extent.height);
+  const glm::ivec2 low(glm::round(glm::dvec2(part.low.x, 1.0 - part.high.y) * size));
+  const glm::ivec2 high(glm::round(glm::dvec2(part.high.x, 1.0 - part.low.y) * size));
+  return {low, high};
+}
+
 // At least what is wanted, with room to grow.
 void reserve(const Device& device, Buffer& buffer, const char* name, std::size_t bytes, vk::BufferUsageFlags usage) {
   if (buffer.size < bytes) {
@@ -97,8 +114,9 @@ void reserve(const Device& device, Buffer& buffer, const char* name, std::size_t
 
 void Panels::ContextDeleter::operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 
-Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout)
+Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout, Redraw redraw)
     : device_(device),
+      redraw_(redraw),
       largest_texture_(std::min(kLargestTexture, device.physical().getProperties().limits.maxImageDimension2D)),
       fonts_(std::move(fonts)),
       imgui_(ImGui::CreateContext(fonts_.atlas.get())),
@@ -209,7 +227,7 @@ bool Panels::resize(Panel& panel) {
 }
 
 template <class Content>
-void Panels::paint_on(Panel& panel, const Content& content) {
+void Panels::paint_on(Panel& panel, const Content& content, Texels texels) {
   ImGui::SetCurrentContext(imgui_.get());
   ImGui::GetIO().DisplaySize = {panel.canvas_texels.x, panel.canvas_texels.y};
   ImGui::NewFrame();
@@ -222,8 +240,10 @@ void Panels::paint_on(Panel& panel, const Content& content) {
                     .first_vertex = vertices_.size(),
                     .first_index = indices_.size(),
                     .first_command = commands_.size()};
+  shapes_.clear();
   for (int i = 0; i < data->CmdListsCount; ++i) {
     const ImDrawList& list = *data->CmdLists[i];
+    shapes_.add(list);
     for (ImDrawCmd command : list.CmdBuffer) {
       command.VtxOffset += static_cast<unsigned int>(vertices_.size() - painting.first_vertex);
       command.IdxOffset += static_cast<unsigned int>(indices_.size() - painting.first_index);
@@ -233,6 +253,11 @@ void Panels::paint_on(Panel& panel, const Content& content) {
     indices_.insert(indices_.end(), list.IdxBuffer.begin(), list.IdxBuffer.end());
   }
   painting.command_count = commands_.size() - painting.first_command;
+  const std::optional<CanvasBox> changed = shapes_.difference(panel.shapes);
+  std::swap(shapes_, panel.shapes);
+  painting.whole = texels == Texels::Fresh || !changed;
+  panel.part = painting.whole ? PanelPart{} : part_of(*changed, panel.canvas_texels, panel.texture.image.extent);
+  painting.whole = painting.whole || redraw_ == Redraw::Everything;
   paintings_.push_back(painting);
 }
 
@@ -253,7 +278,7 @@ void Panels::update(Panel& panel, const Content& content, const PanelPlacement& 
   if (resized || painted == nullptr || !(*painted == content)) {
     panel.painted = content;
     ++panel.painting;
-    paint_on(panel, content);
+    paint_on(panel, content, resized ? Texels::Fresh : Texels::Kept);
   }
 }
 
@@ -287,9 +312,9 @@ bool Panels::update(const FrameState& frame, std::size_t slot) {
 void Panels::list(std::vector<PanelState>& states) const {
   states.clear();
   const auto add = [&](const Panel& panel) {
-    states.push_back(panel.shown ? PanelState{true, panel.placement, panel.painting} : PanelState{});
+    states.push_back(panel.shown ? PanelState{true, panel.placement, panel.painting, panel.part} : PanelState{});
   };
-  for (const Panel* panel : {&force_, &image_, &data_, &banner_, &control_, &calibration_}) add(*panel);
+  for (const Panel* panel : {&force_, &image_, &loop_, &data_, &banner_, &control_, &calibration_}) add(*panel);
   std::for_each(eye_marks_.begin(), eye_marks_.end(), add);
   std::for_each(labels_.begin(), labels_.end(), add);
 }
@@ -311,20 +336,22 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
                              const Painting& painting) const {
   const Panel& panel = *painting.panel;
   const vk::Extent2D extent = panel.texture.image.extent;
-  const ImageUse discarded{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eNone,
-                           vk::ImageLayout::eUndefined};
   const ImageUse drawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
                        vk::AccessFlagBits2::eColorAttachmentRead | vk::AccessFlagBits2::eColorAttachmentWrite,
                        vk::ImageLayout::eColorAttachmentOptimal};
   const ImageUse sampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
                          vk::ImageLayout::eShaderReadOnlyOptimal};
-  record_barriers(command, {image_barrier(*panel.texture.image.image, kColorAspect, discarded, drawn)});
+  const PixelBox part =
+      painting.whole ? PixelBox::whole(extent) : texels_of(panel.part, extent).within(PixelBox::whole(extent));
+  if (part.empty()) return;
+  record_barriers(command, {image_barrier(*panel.texture.image.image, kColorAspect,
+                                          painting.whole ? sampled.discarded() : sampled, drawn)});
   const vk::RenderingAttachmentInfo color{.imageView = *panel.texture.view,
                                           .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
                                           .loadOp = vk::AttachmentLoadOp::eClear,
                                           .storeOp = vk::AttachmentStoreOp::eStore};
   command.beginRendering(
-      {.renderArea = {.extent = extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &color});
+      {.renderArea = part.rect(), .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &color});
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, *canvas_pipeline_);
   set_viewport(command, extent);
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *canvas_layout_, 0, *atlas_set_, nullptr);
@@ -339,9 +366,9 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
     const glm::vec2 shrink = limit / panel.canvas_texels;
     const glm::vec2 from = glm::clamp(shrink * glm::vec2(draw.ClipRect.x, draw.ClipRect.y), glm::vec2(0.0F), limit);
     const glm::vec2 to = glm::clamp(shrink * glm::vec2(draw.ClipRect.z, draw.ClipRect.w), from, limit);
-    command.setScissor(0, vk::Rect2D{.offset = {static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y)},
-                                     .extent = {static_cast<std::uint32_t>(to.x - std::floor(from.x)),
-                                                static_cast<std::uint32_t>(to.y - std::floor(from.y))}});
+    const PixelBox clip = PixelBox{glm::ivec2(from), glm::ivec2(from) + glm::ivec2(to - glm::floor(from))}.within(part);
+    if (clip.empty()) continue;
+    command.setScissor(0, clip.rect());
     command.drawIndexed(draw.ElemCount, 1, static_cast<std::uint32_t>(painting.first_index) + draw.IdxOffset,
                         static_cast<std::int32_t>(painting.first_vertex + draw.VtxOffset), 0);
   }

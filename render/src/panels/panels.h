@@ -11,20 +11,30 @@
 #include <vector>
 
 #include "device/memory.h"
+#include "panels/painted_shapes.h"
 #include "panels/panel_fonts.h"
 #include "panels/panel_painting.h"
 #include "passes/eye_targets.h"
 #include "render/frame.h"
+#include "render/renderer.h"
 
 namespace afm::render {
 
 inline constexpr std::size_t kFramesInFlight = 2;
+
+// A rectangle of a panel, whose lower left corner is 0, 0 and whose upper right one is 1, 1.
+struct PanelPart {
+  glm::dvec2 low{0.0}, high{1.0};
+
+  bool operator==(const PanelPart&) const = default;
+};
 
 // What one panel adds to the pictures of the eyes.
 struct PanelState {
   bool shown = false;
   PanelPlacement placement = kNoPlacement;
   std::uint64_t painting = 0;  // which of its paintings the texture shows
+  PanelPart part{};            // in which that differs from the one before it
 
   bool operator==(const PanelState&) const = default;
 };
@@ -34,7 +44,8 @@ struct PanelState {
 // shown.
 class Panels {
  public:
-  Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout);
+  // With Redraw::Everything textures are painted as a whole.
+  Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout, Redraw redraw);
   ~Panels();
 
   // Takes a frame's panels; whether one of them must be painted again. `slot` numbers the frame in flight, whose
@@ -69,8 +80,10 @@ class Panels {
                  EyeMark>
         painted;  // what the texture shows
     Texture texture;
+    PaintedShapes shapes;           // what has been painted
     glm::vec2 canvas_texels{1.0F};  // what is painted, which a texture of the largest size shows smaller
     std::uint64_t painting = 0;     // how many times it has been painted
+    PanelPart part;                 // as PanelState::part
     bool shown = false;
     std::optional<scene::Eye> only_eye;  // whose picture alone shows it
   };
@@ -85,6 +98,7 @@ class Panels {
     std::size_t first_index = 0;
     std::size_t first_command = 0;
     std::size_t command_count = 0;
+    bool whole = true;  // or the panel's part alone
   };
 
   void upload_atlas();
@@ -92,14 +106,16 @@ class Panels {
   vk::raii::DescriptorSet create_set(const vk::raii::DescriptorPool& pool, vk::ImageView view) const;
   template <class Content>
   void update(Panel& panel, const Content& content, const PanelPlacement& placement);
+  enum class Texels { Kept, Fresh };
   template <class Content>
-  void paint_on(Panel& panel, const Content& content);
+  void paint_on(Panel& panel, const Content& content, Texels texels);
   bool resize(Panel& panel);
   Texture create_texture(vk::Extent2D extent) const;
   void record_painting(const vk::raii::CommandBuffer& command, const Geometry& geometry,
                        const Painting& painting) const;
 
   const Device& device_;
+  Redraw redraw_;
   double largest_texture_;  // texels each way
   PanelFonts fonts_;
   std::unique_ptr<ImGuiContext, ContextDeleter> imgui_;
@@ -133,6 +149,7 @@ class Panels {
   // what this frame paints; kept to reuse its memory
   CanvasMemory memory_;
   std::vector<Painting> paintings_;
+  PaintedShapes shapes_;
   std::vector<ImDrawVert> vertices_;
   std::vector<ImDrawIdx> indices_;
   std::vector<ImDrawCmd> commands_;

@@ -20,15 +20,15 @@ namespace {
 constexpr std::uint8_t kDrawn = 1, kCasts = 2, kMirrored = 4, kPerVertex = 8;
 
 constexpr std::size_t kMostChanged = 64;  // draws; where more have changed, drawing everything costs about as much
-constexpr double kMostOfPicture =
-    0.35;                     // likewise: a CPU device resolves more than a box, and places its vertices again
-constexpr int kMarginPx = 2;  // the device computes with floats
+constexpr double kMostOfPicture = 0.75;   // likewise: vertices are placed again for each rectangle
+constexpr int kMarginPx = 2;              // the device computes with floats
 constexpr double kFarPx = 1e6;
+constexpr double kFarDepth = 1e3;  // of the shadow map's depth range: what does not cross a slab before then, does not
+constexpr int kParts = 8;  // in which what is drawn is bounded: a long thing that lies aslant fills little of its box
 
 // A surface looks up its shadow a step of up to two texels off itself, half a texel beside it and between four texels,
 // which are drawn with a device's precision.
 constexpr double kShadowTexels = 8.0;
-constexpr int kShadowParts = 4;  // of what casts one
 
 // Radii of the shade about the contact beyond which 1 - 0.72 * exp2(-2 r * r) is 1 in 32 bits (shaders/contact.glsl),
 // and beyond a ring of light there its light is lost in that of any surface: exp2(-(3.5 * 2)^2).
@@ -56,33 +56,36 @@ double longest_edge_m(const Draw& draw, const DrawBlock& block) {
   return static_cast<double>(draw.longest_edge) * scale * (1.0 + slope);
 }
 
-// The axis along which the box is longest on the map.
-glm::length_t longest_axis(const glm::dmat4& map_from_node, const DrawBox& box) {
-  const auto length = [&](glm::length_t axis) {
-    return box.half_size[axis] * glm::length(glm::dvec2(map_from_node[axis]));
-  };
-  glm::length_t longest = 0;
+// Calls `take` with the parts, bent, in which a draw lies: slices across the axis along which it is longest.
+template <class Take>
+void for_each_part(const Draw& draw, const DrawBlock& block, const Take& take) {
+  const glm::dmat4 m(block.room_from_node);
+  DrawBox part = box_of(draw);
+  const auto length = [&](glm::length_t axis) { return part.half_size[axis] * glm::length(glm::dvec3(m[axis])); };
+  glm::length_t along = 0;
   for (const glm::length_t axis : {1, 2}) {
-    if (length(axis) > length(longest)) longest = axis;
+    if (length(axis) > length(along)) along = axis;
   }
-  return longest;
+  part.half_size[along] /= kParts;
+  part.center[along] -= (kParts - 1) * part.half_size[along];
+  for (int i = 0; i < kParts; ++i) {
+    take(bent_box(part, block.bend));
+    part.center[along] += 2.0 * part.half_size[along];
+  }
 }
 
 }  // namespace
 
 // ---- a frame ----
 
-PixelBox DrawnFrame::seen(const glm::dmat4& room_from_box, const glm::dvec3& low, const glm::dvec3& high) const {
+PixelBox DrawnFrame::seen(std::span<const glm::dvec3> hull_m) const {
   const PixelBox whole = PixelBox::whole(drawing_.extent);
   const glm::dvec2 size(whole.high);
   PixelBox box;
   for (std::size_t eye = 0; eye < clip_from_room_.size(); ++eye) {
-    const glm::dmat4 clip_from_box = clip_from_room_[eye] * room_from_box;
     glm::dvec2 least(kFarPx), largest(-kFarPx);
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 place((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
-                             (corner & 4) != 0 ? high.z : low.z);
-      const glm::dvec4 clip = clip_from_box * glm::dvec4(place, 1.0);
+    for (const glm::dvec3& place : hull_m) {
+      const glm::dvec4 clip = clip_from_room_[eye] * glm::dvec4(place, 1.0);
       if (!(clip.w > near_m_[eye])) return whole;
       const glm::dvec2 pixel = (0.5 * glm::dvec2(clip) / clip.w + 0.5) * size;
       least = glm::min(least, pixel);
@@ -95,12 +98,22 @@ PixelBox DrawnFrame::seen(const glm::dmat4& room_from_box, const glm::dvec3& low
   return box.within(whole);
 }
 
-PixelBox DrawnFrame::seen(const PanelState& panel) const {
+PixelBox DrawnFrame::seen(const glm::dmat4& room_from_box, const glm::dvec3& low, const glm::dvec3& high) const {
+  std::array<glm::dvec3, 8> corners_m;
+  for (std::size_t i = 0; i < corners_m.size(); ++i) {
+    const glm::dvec4 corner((i & 1U) != 0 ? high.x : low.x, (i & 2U) != 0 ? high.y : low.y,
+                            (i & 4U) != 0 ? high.z : low.z, 1.0);
+    corners_m[i] = glm::dvec3(room_from_box * corner);
+  }
+  return seen(corners_m);
+}
+
+PixelBox DrawnFrame::seen(const PanelState& panel, const PanelPart& part) const {
   if (!panel.shown) return {};
   const PanelPlacement& place = panel.placement;
   const glm::dmat4 room_from_panel(glm::dvec4(place.right_m, 0.0), glm::dvec4(place.up_m, 0.0), glm::dvec4(0.0),
                                    glm::dvec4(place.lower_left_m, 1.0));
-  return seen(room_from_panel, glm::dvec3(0.0), glm::dvec3(1.0, 1.0, 0.0));
+  return seen(room_from_panel, glm::dvec3(part.low, 0.0), glm::dvec3(part.high, 0.0));
 }
 
 void DrawnFrame::take(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list,
@@ -188,16 +201,27 @@ bool Damage::same_order(const DrawnFrame& before, const DrawnFrame& now) const {
   return std::find_if(was, before.order_.end(), unchanged) == before.order_.end();
 }
 
+void Damage::add_draw(const DrawnFrame& of, std::uint32_t draw, const SceneGeometry& geometry, PixelTiles& tiles) {
+  if (of.bounds_[draw].empty()) return;
+  const DrawBlock& block = of.blocks_[draw];
+  const glm::dmat4 room_from_node = placing(block);
+  for_each_part(geometry.draws()[draw], block, [&](const DrawBox& part) {
+    tiles.add(
+        of.seen(room_from_node, part.center - part.half_size, part.center + part.half_size).within(of.bounds_[draw]));
+  });
+}
+
 // What has not changed itself, where the volume lies on it. What is shaded by vertex passes it on along its triangles.
 void Damage::add_reached(const Volume& volume, const DrawnFrame& now, const SceneGeometry& geometry,
-                         PixelArea& area) const {
+                         PixelTiles& tiles) const {
   const glm::dmat4 room_from_box = glm::inverse(volume.box_from_room);
   for (const std::uint32_t i : now.order_) {
     if (changed_[i] != 0) continue;
     const DrawBlock& block = now.blocks_[i];
     const Draw& draw = geometry.draws()[i];
     const DrawBox box = bent_box(draw, block.bend);
-    const glm::dmat4 rows = glm::transpose(volume.box_from_room * placing(block));
+    const glm::dmat4 box_from_node = volume.box_from_room * placing(block);
+    const glm::dmat4 rows = glm::transpose(box_from_node);
     const glm::dvec3 edge = now.is(i, kPerVertex) ? longest_edge_m(draw, block) * volume.per_m : glm::dvec3(0.0);
     glm::dvec3 low, high;
     for (glm::length_t axis = 0; axis < 3; ++axis) {
@@ -206,25 +230,39 @@ void Damage::add_reached(const Volume& volume, const DrawnFrame& now, const Scen
       high[axis] = std::min(largest, volume.high[axis] + edge[axis]);
     }
     if (low.x > high.x || low.y > high.y || low.z > high.z) continue;
-    area.add(now.seen(room_from_box, low, high).within(now.bounds_[i]));
+    PixelBox seen = now.seen(room_from_box, low, high).within(now.bounds_[i]);
+
+    // where the column's four edges enter and leave the slab between two sides of the box: tight on what is flat
+    const glm::dmat4 node_from_box = glm::inverse(box_from_node);
+    for (glm::length_t axis = 0; axis < 3 && !seen.empty(); ++axis) {
+      std::array<glm::dvec3, 8> ends_m;
+      bool crosses = true;
+      for (std::size_t edge_of = 0; edge_of < 4; ++edge_of) {
+        const glm::dvec2 at((edge_of & 1U) != 0 ? high.x : low.x, (edge_of & 2U) != 0 ? high.y : low.y);
+        const double from = (node_from_box * glm::dvec4(at, 0.0, 1.0))[axis], slope = node_from_box[2][axis];
+        for (const std::size_t side : {0U, 1U}) {
+          const double plane = box.center[axis] + (side == 0 ? -1.0 : 1.0) * box.half_size[axis];
+          const double depth = (plane - from) / slope;
+          crosses = crosses && std::abs(depth) < kFarDepth;
+          ends_m[2 * edge_of + side] = glm::dvec3(room_from_box * glm::dvec4(at, crosses ? depth : 0.0, 1.0));
+        }
+      }
+      if (crosses) seen = seen.within(now.seen(ends_m));
+    }
+    tiles.add(seen);
   }
 }
 
-// The columns behind the draw along the light, in the shadow map's clip space: one for each part of what is long.
+// The columns behind the parts of the draw along the light, in the shadow map's clip space.
 void Damage::add_shadow(const DrawnFrame& of, std::uint32_t draw, const DrawnFrame& now, const SceneGeometry& geometry,
-                        PixelArea& area) const {
+                        PixelTiles& tiles) const {
   if (!of.is(draw, kCasts)) return;
   const glm::dmat4 map_from_room(of.rest_.shadow_from_room);
   const glm::dmat4 directions = glm::transpose(map_from_room);
-  const glm::dmat4 map_from_node = map_from_room * placing(of.blocks_[draw]);
-  const glm::dmat4 rows = glm::transpose(map_from_node);
+  const glm::dmat4 rows = glm::transpose(map_from_room * placing(of.blocks_[draw]));
   constexpr double kTexel = 1.0 / kShadowMapSize;  // in depth as much of the room as 2 * kTexel across
   const glm::dvec3 reach = kShadowTexels * kTexel * glm::dvec3(2.0, 2.0, 1.0);
-  DrawBox part = bent_box(geometry.draws()[draw], of.blocks_[draw].bend);
-  const glm::length_t along = longest_axis(map_from_node, part);
-  part.half_size[along] /= kShadowParts;
-  part.center[along] -= (kShadowParts - 1) * part.half_size[along];
-  for (int i = 0; i < kShadowParts; ++i) {
+  for_each_part(geometry.draws()[draw], of.blocks_[draw], [&](const DrawBox& part) {
     Volume column{.box_from_room = map_from_room};
     for (glm::length_t axis = 0; axis < 3; ++axis) {
       const auto [least, largest] = range(rows[axis], part);
@@ -232,13 +270,12 @@ void Damage::add_shadow(const DrawnFrame& of, std::uint32_t draw, const DrawnFra
       column.high[axis] = axis == 2 ? std::numeric_limits<double>::max() : largest + reach[axis];
       column.per_m[axis] = glm::length(glm::dvec3(directions[axis]));
     }
-    add_reached(column, now, geometry, area);
-    part.center[along] += 2.0 * part.half_size[along];
-  }
+    add_reached(column, now, geometry, tiles);
+  });
 }
 
 void Damage::add_contact(const DrawnFrame& of, const DrawnFrame& now, const SceneGeometry& geometry,
-                         PixelArea& area) const {
+                         PixelTiles& tiles) const {
   if (!(of.contact_.w > 0.0F)) return;
   double reach = kShadeReach;
   if (glm::vec3(of.contact_ring_) != glm::vec3(0.0F)) {
@@ -246,17 +283,21 @@ void Damage::add_contact(const DrawnFrame& of, const DrawnFrame& now, const Scen
   }
   const glm::dvec3 place(of.contact_);
   const glm::dvec3 half(reach / static_cast<double>(of.contact_.w));
-  add_reached({.low = place - half, .high = place + half}, now, geometry, area);
+  add_reached({.low = place - half, .high = place + half}, now, geometry, tiles);
 }
 
-void Damage::add_panels(const DrawnFrame& before, const DrawnFrame& now, PixelArea& area) {
+void Damage::add_panels(const DrawnFrame& before, const DrawnFrame& now, PixelTiles& tiles) {
   const std::size_t count = std::max(before.panels_.size(), now.panels_.size());
   for (std::size_t i = 0; i < count; ++i) {
     const PanelState was = i < before.panels_.size() ? before.panels_[i] : PanelState{};
     const PanelState is = i < now.panels_.size() ? now.panels_[i] : PanelState{};
     if (was == is) continue;
-    area.add(before.seen(was));
-    area.add(now.seen(is));
+    PanelState painted = was;
+    painted.painting = is.painting;
+    painted.part = is.part;
+    const bool only_painted = painted == is && is.painting == was.painting + 1;
+    tiles.add(before.seen(was, only_painted ? is.part : PanelPart{}));
+    tiles.add(now.seen(is, only_painted ? is.part : PanelPart{}));
   }
 }
 
@@ -266,18 +307,20 @@ PixelArea Damage::between(const DrawnFrame& before, const DrawnFrame& now, const
     area.add_everything();
     return area;
   }
+  PixelTiles tiles(now.drawing_.extent);
   for (const std::uint32_t draw : changes_) {
-    area.add(before.bounds_[draw]);
-    area.add(now.bounds_[draw]);
+    add_draw(before, draw, geometry, tiles);
+    add_draw(now, draw, geometry, tiles);
     if (now.casts_same_shadow(before, draw)) continue;
-    add_shadow(before, draw, now, geometry, area);
-    add_shadow(now, draw, now, geometry, area);
+    add_shadow(before, draw, now, geometry, tiles);
+    add_shadow(now, draw, now, geometry, tiles);
   }
   if (before.contact_ != now.contact_ || before.contact_ring_ != now.contact_ring_) {
-    add_contact(before, now, geometry, area);
-    add_contact(now, now, geometry, area);
+    add_contact(before, now, geometry, tiles);
+    add_contact(now, now, geometry, tiles);
   }
-  add_panels(before, now, area);
+  add_panels(before, now, tiles);
+  area = tiles.area();
   if (area.share_of(now.drawing_.extent) > kMostOfPicture) area.add_everything();
   return area;
 }
@@ -286,11 +329,15 @@ PixelArea Damage::between(const DrawnFrame& before, const DrawnFrame& now, const
 
 void EyeChanges::add(const PixelArea& area) { newest_[count_++ % kKept] = area; }
 
-PixelArea EyeChanges::since(std::uint64_t count) const {
+PixelArea EyeChanges::since(std::uint64_t count, vk::Extent2D extent) const {
   PixelArea area;
-  if (count_ - count > kKept) area.add_everything();
-  for (std::uint64_t i = count; i < count_ && !area.everything(); ++i) area.add(newest_[i % kKept]);
-  return area;
+  if (count_ - count > kKept) {
+    area.add_everything();
+    return area;
+  }
+  PixelTiles tiles(extent);
+  for (std::uint64_t i = count; i < count_; ++i) tiles.add(newest_[i % kKept]);
+  return tiles.area();
 }
 
 }  // namespace afm::render

@@ -13,6 +13,7 @@
 #include "passes/draw_list.h"
 #include "passes/eye_targets.h"
 #include "passes/pixel_area.h"
+#include "passes/pixel_tiles.h"
 #include "passes/scene_geometry.h"
 #include "render/frame.h"
 
@@ -41,8 +42,9 @@ class DrawnFrame {
   bool same(const DrawnFrame& other, std::uint32_t draw) const;
   bool casts_same_shadow(const DrawnFrame& other, std::uint32_t draw) const;
   bool is(std::uint32_t draw, std::uint8_t what) const { return (how_[draw] & what) != 0; }
+  PixelBox seen(std::span<const glm::dvec3> hull_m) const;  // of points in the room
   PixelBox seen(const glm::dmat4& room_from_box, const glm::dvec3& low, const glm::dvec3& high) const;
-  PixelBox seen(const PanelState& panel) const;
+  PixelBox seen(const PanelState& panel, const PanelPart& part) const;
 
   bool known_ = false;
   EyePassConfig drawing_;
@@ -76,11 +78,12 @@ class Damage {
   };
   bool find_changed(const DrawnFrame& before, const DrawnFrame& now);
   bool same_order(const DrawnFrame& before, const DrawnFrame& now) const;
-  void add_reached(const Volume& volume, const DrawnFrame& now, const SceneGeometry& geometry, PixelArea& area) const;
+  static void add_draw(const DrawnFrame& of, std::uint32_t draw, const SceneGeometry& geometry, PixelTiles& tiles);
+  void add_reached(const Volume& volume, const DrawnFrame& now, const SceneGeometry& geometry, PixelTiles& tiles) const;
   void add_shadow(const DrawnFrame& of, std::uint32_t draw, const DrawnFrame& now, const SceneGeometry& geometry,
-                  PixelArea& area) const;
-  void add_contact(const DrawnFrame& of, const DrawnFrame& now, const SceneGeometry& geometry, PixelArea& area) const;
-  static void add_panels(const DrawnFrame& before, const DrawnFrame& now, PixelArea& area);
+                  PixelTiles& tiles) const;
+  void add_contact(const DrawnFrame& of, const DrawnFrame& now, const SceneGeometry& geometry, PixelTiles& tiles) const;
+  static void add_panels(const DrawnFrame& before, const DrawnFrame& now, PixelTiles& tiles);
 
   std::vector<std::uint8_t> changed_;   // by draw
   std::vector<std::uint32_t> changes_;  // the draws
@@ -95,8 +98,8 @@ class EyeChanges {
   // Number of changes so far.
   std::uint64_t count() const { return count_; }
 
-  // What has changed since there were `count` of them; everything if that is long ago.
-  PixelArea since(std::uint64_t count) const;
+  // What has changed of a picture of that size since there were `count` of them; everything if that is long ago.
+  PixelArea since(std::uint64_t count, vk::Extent2D extent) const;
 
  private:
   static constexpr std::size_t kKept = 8;

@@ -108,14 +108,15 @@ void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass,
   const Filled to = filled(pass);
   const auto held = [&](const ImageUse& use) { return box ? use : use.discarded(); };
 
-  // the background covers every pixel that nothing else does, so no colour needs to be cleared
+  // the background covers every pixel that nothing else does, so no colour needs to be cleared; of a part, depth
+  // neither
   vk::RenderingAttachmentInfo color{.imageView = both ? *to.color.both : *to.color.single[to.layer],
                                     .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
-                                    .loadOp = vk::AttachmentLoadOp::eDontCare,
+                                    .loadOp = box ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eDontCare,
                                     .storeOp = vk::AttachmentStoreOp::eStore};
   vk::RenderingAttachmentInfo depth{.imageView = both ? *to.depth.both : *to.depth.single[to.layer],
                                     .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
-                                    .loadOp = vk::AttachmentLoadOp::eClear,
+                                    .loadOp = box ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear,
                                     .storeOp = vk::AttachmentStoreOp::eStore,
                                     .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};
   record_barriers(command,

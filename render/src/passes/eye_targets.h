@@ -49,8 +49,8 @@ class EyeTargets {
   // To be called before a frame is recorded; from then on the getters below speak of that frame.
   void begin_frame(const EyePassConfig& drawing);
 
-  // Everything between them is drawn into the eyes of that pass, all of them or the box alone, which is empty before
-  // and must be filled; viewport and scissor are set. Afterwards the eye images can be sampled.
+  // Everything between them is drawn into the eyes of that pass, all of them or what lies in the box: it holds then
+  // what was drawn before. Viewport and scissor are set. Afterwards the eye images can be sampled.
   void begin(const vk::raii::CommandBuffer& command, std::size_t pass, const std::optional<PixelBox>& box) const;
   void end(const vk::raii::CommandBuffer& command, std::size_t pass, const std::optional<PixelBox>& box) const;
 

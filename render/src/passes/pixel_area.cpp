@@ -5,14 +5,9 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "core/check.h"
+
 namespace afm::render {
-namespace {
-
-// Work that a rectangle of its own costs, in pixels.
-constexpr std::int64_t kPixelsOfBox = 8192;
-
-}  // namespace
-
 std::int64_t PixelBox::pixels() const { return empty() ? 0 : std::int64_t{high.x - low.x} * (high.y - low.y); }
 
 PixelBox PixelBox::within(const PixelBox& other) const {
@@ -34,6 +29,32 @@ PixelBox PixelBox::whole(vk::Extent2D extent) {
   return {glm::ivec2(0), glm::ivec2(static_cast<int>(extent.width), static_cast<int>(extent.height))};
 }
 
+PixelArea::PixelArea(std::span<const PixelBox> boxes) : count_(boxes.size()) {
+  AFM_CHECK(boxes.size() <= kMostBoxes);
+  std::copy(boxes.begin(), boxes.end(), boxes_.begin());
+}
+
+void PixelArea::add_everything() {
+  everything_ = true;
+  count_ = 0;
+}
+
+PixelArea PixelArea::within(const PixelBox& box) const {
+  PixelArea inside;
+  inside.everything_ = everything_;
+  for (const PixelBox& each : boxes()) {
+    const PixelBox both = each.within(box);
+    if (!both.empty()) inside.boxes_[inside.count_++] = both;
+  }
+  return inside;
+}
+
+PixelBox PixelArea::around() const {
+  PixelBox around;
+  for (const PixelBox& box : boxes()) around = around.with(box);
+  return around;
+}
+
 void PixelArea::add(const PixelBox& box) {
   if (everything_ || box.empty()) return;
   boxes_[count_++] = box;
@@ -41,10 +62,7 @@ void PixelArea::add(const PixelBox& box) {
 }
 
 void PixelArea::add(const PixelArea& other) {
-  if (other.everything_) {
-    everything_ = true;
-    return;
-  }
+  if (other.everything_) add_everything();
   for (const PixelBox& box : other.boxes()) add(box);
 }
 

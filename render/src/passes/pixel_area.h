@@ -30,17 +30,25 @@ struct PixelBox {
 // without a barrier. Adding may make it larger than what was added, never smaller. Allocates nothing.
 class PixelArea {
  public:
-  static constexpr std::size_t kMostBoxes = 4;
+  static constexpr std::size_t kMostBoxes = 12;
+  static constexpr std::int64_t kPixelsOfBox = 8192;  // work that a rectangle of its own costs, in pixels
+
+  PixelArea() = default;
+
+  // At most kMostBoxes, of which no two overlap.
+  explicit PixelArea(std::span<const PixelBox> boxes);
 
   void add(const PixelBox& box);
   void add(const PixelArea& other);
-  void add_everything() { everything_ = true; }
+  void add_everything();
+  PixelArea within(const PixelBox& box) const;  // everything stays everything
 
   bool everything() const { return everything_; }
   bool empty() const { return !everything_ && count_ == 0; }
 
   // Unless it is everything.
   std::span<const PixelBox> boxes() const { return {boxes_.data(), count_}; }
+  PixelBox around() const;                     // the smallest that has all of them
   double share_of(vk::Extent2D extent) const;  // at most 1
 
  private:

@@ -78,7 +78,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       frame_set_layout(create_frame_set_layout(device, ShadowMapUse::Read)),
       shadow_set_layout(create_frame_set_layout(device, ShadowMapUse::Drawn)),
       scene_pass(device, *frame_set_layout, *shadow_set_layout, materials, geometry.variants()),
-      panels(device, std::move(fonts), *frame_set_layout),
+      panels(device, std::move(fonts), *frame_set_layout, options.redraw),
       composer(device, eyes, eye_changes),
       timeline(create_timeline(device)) {
   for (std::size_t i = 0; i < kFramesInFlight; ++i) {
@@ -145,17 +145,25 @@ void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
   command.end();
 }
 
-// All of the eyes, or what lies in a box.
-void Renderer::Parts::record_eyes(const vk::raii::CommandBuffer& command, std::size_t slot_index,
-                                  const std::optional<PixelBox>& box) {
+// All of the eyes, or what lies in the slot's area.
+void Renderer::Parts::record_eyes(const vk::raii::CommandBuffer& command, std::size_t slot_index) {
   const FrameSlot& slot = slots[slot_index];
   const EyePassConfig& drawing = eyes.drawing();
+  const std::optional<PixelBox> around =
+      slot.area.everything() ? std::nullopt : std::optional<PixelBox>(slot.area.around());
   for (std::size_t pass = 0; pass < drawing.pass_count; ++pass) {
-    eyes.begin(command, pass, box);
-    scene_pass.record_eyes(command, drawing,
-                           {geometry, materials, slot.draws, slot.set(pass), slot.draw_stride(), &now, box});
-    panels.record_rectangles(command, drawing, slot.set(pass));
-    eyes.end(command, pass, box);
+    const auto record = [&](const std::optional<PixelBox>& box) {
+      scene_pass.record_eyes(command, drawing,
+                             {geometry, materials, slot.draws, slot.set(pass), slot.draw_stride(), &now, box});
+      panels.record_rectangles(command, drawing, slot.set(pass));
+    };
+    eyes.begin(command, pass, around);
+    if (slot.area.everything()) record({});
+    for (const PixelBox& box : slot.area.boxes()) {
+      command.setScissor(0, box.rect());
+      record(box);
+    }
+    eyes.end(command, pass, around);
   }
 }
 
@@ -163,7 +171,7 @@ void Renderer::Parts::record_drawing(std::size_t slot) {
   const auto& command = slots[slot].drawing();
   command.begin({});
   mark(command, slot, GpuTimer::Mark::EyesBegin);
-  record_eyes(command, slot, {});
+  record_eyes(command, slot);
   mark(command, slot, GpuTimer::Mark::EyesEnd);
   command.end();
 }
@@ -172,7 +180,7 @@ void Renderer::Parts::record_patching(std::size_t slot) {
   const auto& command = slots[slot].patching();
   command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   mark(command, slot, GpuTimer::Mark::EyesBegin);
-  for (const PixelBox& box : slots[slot].area.boxes()) record_eyes(command, slot, box);
+  record_eyes(command, slot);
   mark(command, slot, GpuTimer::Mark::EyesEnd);
   command.end();
 }

@@ -30,7 +30,7 @@ struct Renderer::Parts {
   void mark(const vk::raii::CommandBuffer& command, std::size_t slot, GpuTimer::Mark mark) const;
   void record_painting(std::size_t slot);
   void record_shadow(std::size_t slot, ShadowStep step);
-  void record_eyes(const vk::raii::CommandBuffer& command, std::size_t slot, const std::optional<PixelBox>& box);
+  void record_eyes(const vk::raii::CommandBuffer& command, std::size_t slot);
   void record_drawing(std::size_t slot);
   void record_patching(std::size_t slot);
   void submit(std::size_t slot);

@@ -47,12 +47,15 @@ EyePipeline plain_pipeline(const Device& device, vk::PipelineLayout layout, Blen
   return {device, request, kSceneVertex, kSceneFragment};
 }
 
-PipelineRequest background_request(vk::PipelineLayout layout) {
-  return {.name = "background",
+// Only where the depth is still the cleared one, or everywhere, where it leaves that depth.
+enum class Background { Behind, Erasing };
+PipelineRequest background_request(vk::PipelineLayout layout, Background background) {
+  const bool behind = background == Background::Behind;
+  return {.name = behind ? "background" : "erasing background",
           .layout = layout,
           .topology = vk::PrimitiveTopology::eTriangleStrip,
-          .depth = DepthUse::TestOnly,
-          .depth_compare = vk::CompareOp::eEqual};  // only where the depth is still the cleared one
+          .depth = behind ? DepthUse::TestOnly : DepthUse::TestAndWrite,
+          .depth_compare = behind ? vk::CompareOp::eEqual : vk::CompareOp::eAlways};
 }
 
 vk::PrimitiveTopology topology(scene::Topology topology) {
@@ -106,7 +109,9 @@ ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_lay
       opaque_{plain_pipelines(device, *layout_, Blending::Opaque, 0),
               plain_pipelines(device, *layout_, Blending::Opaque, AFM_FEATURE_FOG)},
       fine_(device, scene_request(*layout_, Blending::Opaque), kFineVertex, kFineFragment),
-      background_(device, background_request(*layout_), kBackgroundVertex, kBackgroundFragment),
+      background_(device, background_request(*layout_, Background::Behind), kBackgroundVertex, kBackgroundFragment),
+      erasing_background_(device, background_request(*layout_, Background::Erasing), kBackgroundVertex,
+                          kBackgroundFragment),
       blended_{plain_pipelines(device, *layout_, Blending::Premultiplied, 0),
                plain_pipelines(device, *layout_, Blending::Premultiplied, AFM_FEATURE_FOG)} {
   for (const ShaderVariant& variant : variants) {
@@ -161,16 +166,20 @@ void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Inpu
   }
 }
 
-void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input) {
-  input.geometry.bind(command);
-  const std::size_t fog = input.draws.hazy ? 1 : 0;
-  record_in_eyes(command, drawing, input, input.draws.opaque, opaque_[fog]);
-
-  command.bindPipeline(vk::PipelineBindPoint::eGraphics, background_.get(drawing.pass, drawing.samples));
+void ScenePass::record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
+                                  const Input& input, EyePipeline& pipeline) const {
+  command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, std::uint32_t{0});
   command.setCullMode(vk::CullModeFlagBits::eNone);
   command.draw(4, 1, 0, 0);
+}
 
+void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input) {
+  input.geometry.bind(command);
+  const std::size_t fog = input.draws.hazy ? 1 : 0;
+  if (input.box) record_background(command, drawing, input, erasing_background_);
+  record_in_eyes(command, drawing, input, input.draws.opaque, opaque_[fog]);
+  if (!input.box) record_background(command, drawing, input, background_);
   record_in_eyes(command, drawing, input, input.draws.blended, blended_[fog]);
   command.setFrontFace(vk::FrontFace::eCounterClockwise);
 }

@@ -26,7 +26,7 @@ class ScenePass {
     vk::DescriptorSet frame_set;
     std::uint32_t draw_stride = 0;      // as FrameSlot::draw_stride()
     const DrawnFrame* frame = nullptr;  // with a box: what lies beside it is left out
-    std::optional<PixelBox> box{};
+    std::optional<PixelBox> box{};      // the scissor, in which something else has been drawn before
   };
   // `draws` of the input's geometry; the input's set is FrameSlot::shadow_set().
   void record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
@@ -39,6 +39,8 @@ class ScenePass {
                                    std::uint32_t variant);
   static void set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
                         std::uint32_t draw);
+  void record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
+                         EyePipeline& pipeline) const;
   void record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
                       std::span<const std::uint32_t> draws, BothSides& plain);
 
@@ -48,7 +50,8 @@ class ScenePass {
   vk::raii::Pipeline shadow_;
   std::array<BothSides, 2> opaque_;  // without haze, and with it
   EyePipeline fine_;                 // shaded at the vertices, without haze
-  EyePipeline background_;
+  EyePipeline background_;           // where nothing else is
+  EyePipeline erasing_background_;   // in place of what was there
   std::array<BothSides, 2> blended_;
   std::vector<EyePipeline> variants_;  // as SceneGeometry::looks()
 };
