@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
-#include <limits>
 
 #include "core/check.h"
 
 namespace afm::render {
+
 std::int64_t PixelBox::pixels() const { return empty() ? 0 : std::int64_t{high.x - low.x} * (high.y - low.y); }
 
 PixelBox PixelBox::within(const PixelBox& other) const {
@@ -53,42 +53,6 @@ PixelBox PixelArea::around() const {
   PixelBox around;
   for (const PixelBox& box : boxes()) around = around.with(box);
   return around;
-}
-
-void PixelArea::add(const PixelBox& box) {
-  if (everything_ || box.empty()) return;
-  boxes_[count_++] = box;
-  join();
-}
-
-void PixelArea::add(const PixelArea& other) {
-  if (other.everything_) add_everything();
-  for (const PixelBox& box : other.boxes()) add(box);
-}
-
-// Two rectangles become one where they overlap and where one costs less than two; where there are too many, those two
-// that waste least.
-void PixelArea::join() {
-  while (count_ > 1) {
-    std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    std::size_t first = 0, second = 0;
-    for (std::size_t a = 0; a < count_; ++a) {
-      for (std::size_t b = a + 1; b < count_; ++b) {
-        const bool overlap = !boxes_[a].within(boxes_[b]).empty();
-        const std::int64_t more = overlap
-                                      ? std::numeric_limits<std::int64_t>::min()
-                                      : boxes_[a].with(boxes_[b]).pixels() - boxes_[a].pixels() - boxes_[b].pixels();
-        if (more < least) {
-          least = more;
-          first = a;
-          second = b;
-        }
-      }
-    }
-    if (least > kPixelsOfBox && count_ <= kMostBoxes) return;
-    boxes_[first] = boxes_[first].with(boxes_[second]);
-    boxes_[second] = boxes_[--count_];
-  }
 }
 
 double PixelArea::share_of(vk::Extent2D extent) const {

@@ -27,7 +27,7 @@ struct PixelBox {
 };
 
 // A part of a picture: all of it, or a few rectangles that do not overlap, so that one may be written after another
-// without a barrier. Adding may make it larger than what was added, never smaller. Allocates nothing.
+// without a barrier. PixelTiles finds them. Allocates nothing.
 class PixelArea {
  public:
   static constexpr std::size_t kMostBoxes = 12;
@@ -38,8 +38,6 @@ class PixelArea {
   // At most kMostBoxes, of which no two overlap.
   explicit PixelArea(std::span<const PixelBox> boxes);
 
-  void add(const PixelBox& box);
-  void add(const PixelArea& other);
   void add_everything();
   PixelArea within(const PixelBox& box) const;  // everything stays everything
 
@@ -52,9 +50,7 @@ class PixelArea {
   double share_of(vk::Extent2D extent) const;  // at most 1
 
  private:
-  void join();
-
-  std::array<PixelBox, kMostBoxes + 1> boxes_;  // one more than is kept, while it is added
+  std::array<PixelBox, kMostBoxes> boxes_;
   std::size_t count_ = 0;
   bool everything_ = false;
 };
