@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "app/command.h"
+#include "app/commands/view_command.h"
 #include "app/options/exhibit_options.h"
 #include "core/fnv1a.h"
 #include "core/log.h"
@@ -24,7 +28,7 @@ namespace {
 constexpr std::string_view kSimulated = "sim:";
 
 struct LessonOptions {
-  exhibit::ExhibitFiles files;
+  ViewOptions view;
   std::string lesson;
   std::string participant;
   std::string out;
@@ -39,8 +43,11 @@ core::Result<void> check_usage(const LessonOptions& options) {
     return {};
   }
   if (options.lesson.empty()) return core::wrong_usage("a lesson file is missing: touchafm lesson FILE, or --withdraw");
-  if (!options.participant.starts_with(kSimulated)) {
-    return core::wrong_usage(fmt::format("--participant {}: write sim:SEED", options.participant));
+  const bool simulated = options.participant.starts_with(kSimulated);
+  if (!simulated && !options.participant.empty() && !exhibit::is_participant_code(options.participant)) {
+    return core::wrong_usage(
+        fmt::format("--participant {}: write six capital letters that say nothing about the person, or sim:SEED",
+                    options.participant));
   }
   return {};
 }
@@ -66,9 +73,9 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   if (!participant) return tl::unexpected(participant.error());
   const auto lesson = exhibit::load_lesson(options.lesson);
   if (!lesson) return tl::unexpected(lesson.error());
-  const auto phrases = exhibit::load_phrases(options.files);
+  const auto phrases = exhibit::load_phrases(options.view.files);
   if (!phrases) return tl::unexpected(phrases.error());
-  const auto library = load_library(options.files);
+  const auto library = load_library(options.view.files);
   if (!library) return tl::unexpected(library.error());
   const auto samples = exhibit::lesson_samples(*lesson, *library);
   if (!samples) return tl::unexpected(samples.error());
@@ -94,14 +101,54 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   return {};
 }
 
-core::Result<void> run_lesson(const LessonOptions& options) {
+// A folder without files, as a participant who does not take part leaves it.
+void remove_empty(const std::string& folder) {
+  std::error_code not_empty;
+  std::filesystem::remove(folder, not_empty);
+}
+
+// In the live window.
+core::Result<void> run_live(const LessonOptions& options, const std::string& program) {
+  auto lesson = exhibit::load_lesson(options.lesson);
+  if (!lesson) return tl::unexpected(lesson.error());
+  ViewOptions view = options.view;
+  view.files.shown = lesson->materials;
+  view.settings.scale = lesson->scale;
+  ViewLesson guided{.lesson = std::move(*lesson), .study = std::nullopt};
+  if (options.participant.empty()) return run_view(view, program, &guided);
+
+  const std::string& code = options.participant;
+  if (auto free = exhibit::check_not_done(guided.lesson, options.out, code); !free) return free;
+  const auto order = exhibit::order_of(options.out, code);
+  if (!order) return tl::unexpected(order.error());
+  const auto days = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()).time_since_epoch();
+  guided.study = {.entry = {.folder = options.out,
+                            .code = code,
+                            .device = view.servo.haptic_device,
+                            .wall = view.files.wall.empty() ? "powerwall" : view.files.wall,
+                            .seed = seed_of(code, guided.lesson),
+                            .day = days.count()},
+                  .order = *order};
+  const std::string participant = options.out + "/sub-" + code;
+  view.settings.record_folder = participant + "/task-" + guided.lesson.id + "_session";
+  std::error_code error;
+  std::filesystem::create_directories(participant, error);
+  if (error) {
+    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot make {}: {}", participant, error.message()));
+  }
+  auto ran = run_view(view, program, &guided);
+  for (const std::string& folder : {view.settings.record_folder, participant, options.out}) remove_empty(folder);
+  return ran;
+}
+
+core::Result<void> run_lesson(const LessonOptions& options, const std::string& program) {
   if (auto checked = check_usage(options); !checked) return checked;
   if (!options.withdrawn.empty()) {
     if (auto deleted = exhibit::withdraw(options.out, options.withdrawn); !deleted) return deleted;
     core::log_line(fmt::format("deleted all data of {} in {}", options.withdrawn, options.out));
     return {};
   }
-  return run_simulated(options);
+  return options.participant.starts_with(kSimulated) ? run_simulated(options) : run_live(options, program);
 }
 
 }  // namespace
@@ -110,14 +157,17 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
       "lesson", "go through a lesson, alone or as a study: its steps, blind tests and questionnaires");
   command.footer(
-      "example: touchafm lesson assets/lessons/three-materials.toml --participant sim:7 --out study\n"
+      "example: touchafm lesson assets/lessons/first-touch.toml\n"
+      "         touchafm lesson assets/lessons/three-materials.toml --participant QXWERT --out study\n"
+      "         touchafm lesson assets/lessons/three-materials.toml --participant sim:7 --out study\n"
       "         touchafm lesson --withdraw ABCDEF --out study");
   const auto options = std::make_shared<LessonOptions>();
   command.add_option("lesson", options->lesson, "lesson file (TOML); assets/lessons holds six").type_name("FILE");
   auto participant = command.add_option(
       "--participant", options->participant,
-      "who takes it: sim:SEED for a simulated participant in simulated time, whose abilities may follow as "
-      "sim:SEED,d-prime=1.5,weber=0.1,bias=0");
+      "who takes it: a code of six capital letters, or sim:SEED for a simulated participant in simulated time and "
+      "without a window, whose abilities may follow as sim:SEED,d-prime=1.5,weber=0.1,bias=0; default: nobody, and "
+      "nothing is kept");
   participant.type_name("CODE");
   auto out = command.add_option("--out", options->out, "the study's folder, which is made if need be");
   out.type_name("DIR");
@@ -127,12 +177,9 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
   withdraw.type_name("CODE");
   withdraw.needs(out);
   withdraw.excludes(participant);
-  add_phrase_options(command, options->files, context);
-  command
-      .add_option("--materials", options->files.materials,
-                  "material file of your own, whose materials a lesson may name")
-      .type_name("FILE");
-  command.when_chosen([options] { return run_lesson(*options); });
+  add_stage_options(command, options->view.files, context);
+  add_window_options(command, options->view);
+  command.when_chosen([options, &context] { return run_lesson(*options, context.program_path); });
 }
 
 }  // namespace afm::app

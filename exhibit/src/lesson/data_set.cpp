@@ -236,6 +236,16 @@ core::Result<std::size_t> order_of(const std::string& folder, const std::string&
   return found == participants->end() ? free_order(*participants) : found->order;
 }
 
+core::Result<void> check_not_done(const Lesson& lesson, const std::string& folder, const std::string& code) {
+  const std::string path = fmt::format("{}/sub-{}/task-{}_events.tsv", folder, code, lesson.id);
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return {};
+  return core::wrong_usage(fmt::format(
+      "{} exists: {} has done this lesson; give another --participant, or delete the participant's data with "
+      "--withdraw {}",
+      path, code, code));
+}
+
 core::Result<DataSet> DataSet::create(const Lesson& lesson, const DataSetEntry& entry) {
   DataSet data;
   data.folder_ = entry.folder;
@@ -248,12 +258,7 @@ core::Result<DataSet> DataSet::create(const Lesson& lesson, const DataSetEntry& 
   if (error) return tl::unexpected(failed("make", data.participant_folder_, error.value()));
   const auto held = lock(data.folder_);
   if (!held) return tl::unexpected(held.error());
-  if (fs::exists(data.events_path_, error)) {
-    return core::wrong_usage(
-        fmt::format("{} exists: {} has done this lesson; give another --participant, or delete the "
-                    "participant's data with --withdraw {}",
-                    data.events_path_, entry.code, entry.code));
-  }
+  if (auto free = check_not_done(lesson, entry.folder, entry.code); !free) return tl::unexpected(free.error());
   auto participants = load_participants(data.folder_);
   if (!participants) return tl::unexpected(participants.error());
   if (find_participant(*participants, entry.code) == participants->end()) {

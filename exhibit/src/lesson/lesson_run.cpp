@@ -123,6 +123,7 @@ LessonPrompt LessonRun::prompt(double now_s) const {
   const Task& task = tasks_[task_];
   const LessonStep& step = lesson_.steps[task.step];
   prompt.kind = step.kind;
+  prompt.task = task_;
   prompt.condition = task.condition;
   activity_->describe(prompt);
   const bool time_for_hint = !step.hint.empty() && now_s - step_began_s_ >= step.hint_after_s;

@@ -32,6 +32,9 @@ bool is_participant_code(std::string_view code);
 // The row of the Williams design that a code has or would be given: the next one in the folder.
 core::Result<std::size_t> order_of(const std::string& folder, const std::string& code);
 
+// WrongUsage where this participant has done the lesson already.
+core::Result<void> check_not_done(const Lesson& lesson, const std::string& folder, const std::string& code);
+
 // Files of one participant's lesson in a study's folder, as BIDS lays them out (docs/manual.md has their columns):
 // participants.tsv and .json, sub-CODE/task-NAME_events.tsv and .json. Whole files are replaced in one step, and a line
 // of events.tsv is written as its trial ends, so that a killed program loses at most the running trial. Never

@@ -27,6 +27,7 @@ struct LessonPrompt {
   std::size_t marked = 0;                       // where the scale begins
   std::optional<std::size_t> material;          // to be under the tip
   std::optional<scene::SharedContact> variant;  // its parameters; none: as loaded
+  std::size_t task = 0;                         // another number for every step
   std::uint32_t cycle = 0;                      // another number for every cycle that is wanted
   bool hidden = false;                          // names, curves, figures and sounds would give the answer away
   std::optional<Condition> condition;
