@@ -11,7 +11,7 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr std::size_t kLineLetters = 34;  // of a panel, so that its letters keep their size
+constexpr std::size_t kLineLetters = 42;  // of a panel, so that its letters keep their size
 constexpr double kTargetsShare = 0.5;     // of the panel's height, at most
 constexpr double kTargetShare = 0.14;     // of one target, at most
 constexpr double kGapShare = 0.08;        // of a target, between two
@@ -56,12 +56,8 @@ std::vector<LessonTarget> lesson_targets(const LessonPrompt& prompt, std::size_t
 render::DataPanel lesson_panel(const LessonPrompt& prompt, const Phrases& phrases) {
   render::DataPanel panel{.title = prompt.title, .subtitle = prompt.progress, .rows = {}};
   add_lines(prompt.words, panel.rows);
-  if (!prompt.hint.empty()) {
-    panel.rows.push_back({"", "", ""});
-    add_lines(prompt.hint, panel.rows);
-  }
+  add_lines(prompt.hint, panel.rows);
   if (prompt.wants == LessonPrompt::Wants::Answer) {
-    panel.rows.push_back({"", "", ""});
     add_lines(phrases[is_scale(prompt) ? Phrase::LessonPressScale : Phrase::LessonPressNumber], panel.rows);
   }
   return panel;
