@@ -55,7 +55,7 @@ set(libexec libexec/touchafm)
 install(TARGETS touchafm touchafm-bench touchafm-hdf5 touchafm-servo DESTINATION ${libexec})
 file(CREATE_LINK ../${libexec}/touchafm ${reference}/touchafm SYMBOLIC)
 install(FILES ${reference}/touchafm DESTINATION bin)
-install(DIRECTORY ${assets}/guidance ${assets}/models ${assets}/walls ${assets}/wands DESTINATION share/touchafm
+install(DIRECTORY ${assets}/guidance ${assets}/lessons ${assets}/models ${assets}/walls ${assets}/wands DESTINATION share/touchafm
         PATTERN *.rules EXCLUDE)
 install(FILES ${assets}/materials.toml ${assets}/probes.toml DESTINATION share/touchafm)
 install(FILES ${assets}/wands/70-touchafm-wands.rules DESTINATION lib/udev/rules.d)

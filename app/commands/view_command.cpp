@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "app/commands/view_command.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +12,7 @@
 #include <vector>
 
 #include "app/command.h"
-#include "app/live/live_view.h"
 #include "app/live/speech_choice.h"
-#include "app/live/view_display.h"
-#include "app/live/view_wand.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
@@ -24,7 +23,7 @@
 #include "core/interruption.h"
 #include "core/log.h"
 #include "curves/sample_model.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/lesson/lesson_samples.h"
 #include "exhibit/shared_model.h"
 #include "exhibit/topography_model.h"
 #include "render/context.h"
@@ -40,21 +39,7 @@ namespace {
 constexpr std::uint32_t kSmallestWindow = 64, kLargestWindow = 16384;
 constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // a second; the servo lets go after 250 ms of silence
 
-constexpr double kLingerS = 10.0;
 constexpr QuantityRange kForceLimits{physics::Force(haptics::kLeastForceLimitN), physics::Force(2.0)};
-
-struct ViewOptions {
-  exhibit::ExhibitFiles files;
-  DisplayOptions display;
-  ViewSettings settings;
-  physics::FrictionLaw friction = physics::FrictionLaw::None;
-  double frame_rate = 0;  // 0: the display's
-  bool speech = false;
-  bool kiosk = false;  // an unattended window that is opened again whenever it fails
-  servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = kLingerS}};
-  std::int64_t spin_us = 0;
-  WandOptions wand;
-};
 
 core::Result<void> check_validation(render::Context& context) {
   const auto messages = context.take_validation_messages();
@@ -106,57 +91,22 @@ double expected_aspect(const DisplayOptions& display) {
   return eye.x / eye.y;
 }
 
-core::Result<void> run_view(const ViewOptions& options, const std::string& program) {
-  const core::CodeOfInterruption released(core::ExitCode::Done);
-  const core::MonotonicClock clock;
-  exhibit::ExhibitFiles files = options.files;
-  files.aspect = expected_aspect(options.display);
-  auto stage = exhibit::load_exhibit(files);
-  if (!stage) return tl::unexpected(stage.error());
+// The samples of the stage as the servo gets them, with the surfaces that the stage draws.
+core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction) {
   std::vector<curves::SampleModel> materials;
   // the paper's law has no friction: with one the window begins with the law of the adhesion map
   curves::ModelName law;
-  law.automatic = options.friction != physics::FrictionLaw::None;
-  for (const scene::MaterialEntry& entry : stage->materials.materials) {
-    auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, law, options.friction});
+  law.automatic = friction != physics::FrictionLaw::None;
+  for (const scene::MaterialEntry& entry : stage.materials.materials) {
+    auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, law, friction});
     if (!model) return tl::unexpected(model.error());
-    stage->wall_scene.lay_surface_on(model->parameters, materials.size());
-    if (stage->wall_scene.topography().columns > 0) {
-      core::log_line(exhibit::smoothing_note(*model, stage->wall_scene.topography()));
+    stage.wall_scene.lay_surface_on(model->parameters, materials.size());
+    if (stage.wall_scene.topography().columns > 0) {
+      core::log_line(exhibit::smoothing_note(*model, stage.wall_scene.topography()));
     }
     materials.push_back(std::move(*model));
   }
-  ViewSettings settings = options.settings;
-  const auto wand_choice = parse_wand_choice(options.wand);
-  if (!wand_choice) return tl::unexpected(wand_choice.error());
-  settings.head_script = wand_choice->head_script;
-  if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
-  if (options.speech) {
-    auto program_that_speaks = choose_speech_program(stage->phrases()[exhibit::Phrase::Language]);
-    if (!program_that_speaks) return tl::unexpected(program_that_speaks.error());
-    settings.sound.speech = std::move(*program_that_speaks);
-  }
-  auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
-  if (!wand) return tl::unexpected(wand.error());
-  const auto model =
-      exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
-                            stage->wall_scene.height_fields(), {}, stage->wall_scene.topography().size());
-  if (!model) return tl::unexpected(model.error());
-
-  auto display = ViewDisplay::open(*stage, options.display);
-  if (!display) return tl::unexpected(display.error());
-  ViewWindows& windows = (*display)->windows();
-  settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : windows.at(0).refresh_hz();
-  servo::ServoChoice servo = options.servo;
-  servo.settings.spin_ns = 1000 * options.spin_us;
-  if (servo.mode == servo::ServoMode::Thread) servo.settings.linger_s = 0;  // it ends with this program
-  const auto start_servo = [&] {
-    return servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), servo, program,
-                                     stage->wall_scene.topography());
-  };
-  LiveView live(*stage, materials, windows, (*display)->picture(), start_servo, **wand, clock, settings);
-  if (auto ran = live.run(); !ran) return ran;
-  return check_validation((*display)->context());
+  return materials;
 }
 
 void add_picture_options(OptionList& command, ViewOptions& options) {
@@ -233,27 +183,11 @@ void add_servo_options(OptionList& command, ViewOptions& options) {
       .add_option("--haptics", options.servo.haptic_device,
                   fmt::format("haptic device: {}; default: {}", hands, options.servo.haptic_device))
       .type_name("DEVICE");
-  command.add_option("--record", options.settings.record_folder, "record into DIR, one session per sample")
-      .type_name("DIR");
   command
       .add_option("--frame-log", options.settings.frame_log,
                   "write one line of CSV per frame to FILE: times, head-tracking latency, disparity, scheduling "
                   "latency of the servo")
       .type_name("FILE");
-  command.add_flag("--kiosk", options.kiosk,
-                   "run unattended and reopen the window whenever it fails; SIGTERM or Ctrl-C ends the program");
-  command.add_flag("--unattended", options.settings.unattended,
-                   "lock the operators' keys; when no visitor is present, reset the wall and demonstrate the samples "
-                   "in turn; SIGTERM or Ctrl-C ends the program");
-  command
-      .add_option("--idle", options.settings.idle_s,
-                  "with --unattended or --kiosk, time without input after which the wall assumes that the visitor has "
-                  "left, 5 to 3600")
-      .within(5.0, 3600.0)
-      .show_default()
-      .type_name("SECONDS");
-  add_scale_option(command, options.settings.scale);
-  add_friction_option(command, options.friction);
   command.add_flag("--dead-man", options.servo.settings.dead_man, "apply force only while Turn-On is held down");
   quantity_option(
       command, "--max-force", [&options](physics::Force most) { options.servo.settings.max_force_n = most.si; },
@@ -279,7 +213,92 @@ void add_servo_options(OptionList& command, ViewOptions& options) {
       .type_name("SECONDS");
 }
 
+void add_exhibition_options(OptionList& command, ViewOptions& options) {
+  command.add_option("--record", options.settings.record_folder, "record into DIR, one session per sample")
+      .type_name("DIR");
+  command.add_flag("--kiosk", options.kiosk,
+                   "run unattended and reopen the window whenever it fails; SIGTERM or Ctrl-C ends the program");
+  command.add_flag("--unattended", options.settings.unattended,
+                   "lock the operators' keys; when no visitor is present, reset the wall and demonstrate the samples "
+                   "in turn; SIGTERM or Ctrl-C ends the program");
+  command
+      .add_option("--idle", options.settings.idle_s,
+                  "with --unattended or --kiosk, time without input after which the wall assumes that the visitor has "
+                  "left, 5 to 3600")
+      .within(5.0, 3600.0)
+      .show_default()
+      .type_name("SECONDS");
+  add_scale_option(command, options.settings.scale);
+  add_friction_option(command, options.friction);
+}
+
 }  // namespace
+
+core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson) {
+  const core::CodeOfInterruption released(core::ExitCode::Done);
+  const core::MonotonicClock clock;
+  exhibit::ExhibitFiles files = options.files;
+  files.aspect = expected_aspect(options.display);
+  auto stage = exhibit::load_exhibit(files);
+  if (!stage) return tl::unexpected(stage.error());
+  const auto samples = felt_samples(*stage, options.friction);
+  if (!samples) return tl::unexpected(samples.error());
+  const std::vector<curves::SampleModel>& materials = *samples;
+  if (lesson != nullptr) {
+    if (auto checked = exhibit::check_samples(lesson->lesson, materials); !checked) return checked;
+  }
+  ViewSettings settings = options.settings;
+  const auto wand_choice = parse_wand_choice(options.wand);
+  if (!wand_choice) return tl::unexpected(wand_choice.error());
+  settings.head_script = wand_choice->head_script;
+  if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
+  if (options.speech) {
+    auto program_that_speaks = choose_speech_program(stage->phrases()[exhibit::Phrase::Language]);
+    if (!program_that_speaks) return tl::unexpected(program_that_speaks.error());
+    settings.sound.speech = std::move(*program_that_speaks);
+  }
+  auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
+  if (!wand) return tl::unexpected(wand.error());
+  const auto model =
+      exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
+                            stage->wall_scene.height_fields(), {}, stage->wall_scene.topography().size());
+  if (!model) return tl::unexpected(model.error());
+
+  auto display = ViewDisplay::open(*stage, options.display);
+  if (!display) return tl::unexpected(display.error());
+  ViewWindows& windows = (*display)->windows();
+  settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : windows.at(0).refresh_hz();
+  servo::ServoChoice servo = options.servo;
+  servo.settings.spin_ns = 1000 * options.spin_us;
+  if (servo.mode == servo::ServoMode::Thread) servo.settings.linger_s = 0;  // it ends with this program
+  const auto start_servo = [&] {
+    return servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), servo, program,
+                                     stage->wall_scene.topography());
+  };
+  std::optional<LiveLesson> guide;
+  if (lesson != nullptr) guide.emplace(lesson->lesson, materials, stage->phrases(), lesson->study, clock);
+  settings.lesson = guide ? &*guide : nullptr;
+  LiveView live(*stage, materials, windows, (*display)->picture(), start_servo, **wand, clock, settings);
+  auto ran = live.run();
+  const auto kept = guide ? guide->finish() : core::Result<void>{};
+  if (!ran) return ran;
+  if (!kept) return kept;
+  return check_validation((*display)->context());
+}
+
+void add_window_options(OptionList& command, ViewOptions& options) {
+  add_picture_options(command, options);
+  pixel_size_option(command, "--size", options.display.window.size_px,
+                    "open one window of this size in pixels; default: one window per output of the wall file, each in "
+                    "its place, otherwise one of 1280x720; without a wall file, the picture fills the window",
+                    PixelRange{kSmallestWindow, kLargestWindow});
+  add_servo_mode_option(command, options.servo.mode);
+  add_wand_options(command, options);
+  add_servo_options(command, options);
+  add_hearing_options(command, options);
+  command.add_flag("--validate", options.display.validate,
+                   "check every Vulkan call; any validation message leads to exit code 1");
+}
 
 void add_view_command(OptionList& program, const CommandContext& context) {
   OptionList command =
@@ -296,17 +315,8 @@ void add_view_command(OptionList& program, const CommandContext& context) {
                   "material to show; repeatable, up to nine; default: the paper's mica, gold and silicon nitride")
       .one_value_each()
       .type_name("MATERIAL");
-  add_picture_options(command, *options);
-  pixel_size_option(command, "--size", options->display.window.size_px,
-                    "open one window of this size in pixels; default: one window per output of the wall file, each in "
-                    "its place, otherwise one of 1280x720; without a wall file, the picture fills the window",
-                    PixelRange{kSmallestWindow, kLargestWindow});
-  add_servo_mode_option(command, options->servo.mode);
-  add_wand_options(command, *options);
-  add_servo_options(command, *options);
-  add_hearing_options(command, *options);
-  command.add_flag("--validate", options->display.validate,
-                   "check every Vulkan call; any validation message leads to exit code 1");
+  add_window_options(command, *options);
+  add_exhibition_options(command, *options);
   command.when_chosen([options, &context]() -> core::Result<void> {
     if (!options->kiosk) return run_view(*options, context.program_path);
     const core::CodeOfInterruption released(core::ExitCode::Done);

@@ -55,6 +55,8 @@ void LiveSound::check_card() {
 
 void LiveSound::set_volume() { mixer_->set_volume(muted_ ? 0.0 : settings_.options.gain()); }
 
+void LiveSound::set_tones(bool heard) { mixer_->set_tones(heard && settings_.sound); }
+
 void LiveSound::toggle() {
   muted_ = !muted_;
   set_volume();

@@ -40,6 +40,9 @@ class LiveSound {
   // Once a frame: whether the card is still there.
   void check_card();
 
+  // Whether tones and signals are heard, where --sound asks for them; speech always is.
+  void set_tones(bool heard);
+
   // Silent, or as before.
   void toggle();
   void unmute();

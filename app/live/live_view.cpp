@@ -26,10 +26,9 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kForceTakenNs = 500'000'000;  // until a choice has taken the force away
-constexpr double kHiddenPauseS = 0.05;               // between two heartbeats of a window that nobody sees
-constexpr double kBesideWallM = 0.01;                // of the contact: so near, B would change nothing
-constexpr double kDrawnHandM = 0.085;                // of the hand, shown as the stroke that a sample's cycle fills
+constexpr double kHiddenPauseS = 0.05;  // between two heartbeats of a window that nobody sees
+constexpr double kBesideWallM = 0.01;   // of the contact: so near, B would change nothing
+constexpr double kDrawnHandM = 0.085;   // of the hand, shown as the stroke that a sample's cycle fills
 
 MouseHand hand_over(const exhibit::WallScene& wall_scene) {
   return MouseHand(wall_scene.sample_normal(), wall_scene.sample_right());
@@ -60,15 +59,21 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::Sample
       simulated_head_(stage.wall.viewers.front().sweet_spot, settings.head_script),
       hand_(hand_over(stage.wall_scene)),
       person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), input::HandPath{}),
-      visitor_(static_cast<std::int64_t>(settings.idle_s * 1e9)) {
+      visitor_(static_cast<std::int64_t>(settings.idle_s * 1e9)),
+      lesson_(settings.lesson) {
   panels_.set_friction(&servo_.friction());
   if (settings_.unattended) panels_.show_visitors_keys_only();
+  if (lesson_ != nullptr) panels_.use_for(WallUse::Lesson);
   servo_.hear([this](const scene::TipSample& sample) { paint_with(sample); });
+  if (lesson_ != nullptr) {
+    servo_.hear_jumps([this](const scene::TipEvent& event) { lesson_->happened(event, servo_.link()); });
+  }
 }
 
 void LiveView::begin_with(servo::ServoClient& servo, std::optional<std::size_t> felt_before) {
   if (scan_has_hand()) end_scan();  // its ticks are those of the servo before
   hand_ = hand_over(stage_.wall_scene);
+  if (lesson_ != nullptr) lesson_->forget_laid();
   panels_.edits().resend(servo);
   sound_.attach(servo, felt_);
   if (const auto material = felt_before ? felt_before : settings_.first_material) choose(*material);
@@ -124,24 +129,15 @@ void LiveView::handle(const ViewEvent& input, std::int64_t now_ns) {
   on_desktop.cursor_px = windows_.on_desktop(input.window, event.cursor_px);
   hand_.apply(on_desktop, hand_m_per_px(input.window), now_ns);
   if (event.kind == render::WindowEvent::Kind::ButtonDown && event.button == render::MouseButton::Left) {
-    press(pointed_at(input.window, event.cursor_px));
+    press(pointed_at(input.window, event.cursor_px), wand_.ray(picture_.picture(input.window), event.cursor_px));
   }
   if (event.kind != render::WindowEvent::Kind::KeyDown) return;
+  const WallUse use = lesson_ == nullptr ? WallUse::Free : WallUse::Lesson;
   for (const LiveKey& row : live_keys()) {
-    if (!row.holds(event.key) || row.press == nullptr || (row.staff && settings_.unattended)) continue;
+    if (!row.holds(event.key) || row.press == nullptr || !row.acts(use) || (row.staff && settings_.unattended))
+      continue;
     row.press(*this, static_cast<std::size_t>(event.key) - static_cast<std::size_t>(row.key));
   }
-}
-
-void LiveView::turn_journey_round() {
-  travel_.turn_round(clock_.now_ns());
-  core::log_line("the journey of scale was reversed");
-  take_force_away(clock_.now_ns());
-}
-
-void LiveView::toggle_analogy() {
-  analogy_ = !analogy_;
-  core::log_line(analogy_ ? "showing Millet's analogy" : "showing the instrument");
 }
 
 void LiveView::bring_home() {
@@ -189,14 +185,15 @@ void LiveView::follow_wand(std::int64_t now_ns) {
   const WallPicture shown = picture_.picture(0);
   view_wand_.update(now_ns, servo_.link().tip(), 0.5 * (shown.eyes[0].eye_position_m + shown.eyes[1].eye_position_m));
   if (view_wand_.stop_pressed()) stop_force();
-  if (view_wand_.select_pressed()) press(wand_pointed_at());
+  if (view_wand_.select_pressed()) press(wand_pointed_at(), input::ray_of(view_wand_.state()));
   const glm::dmat3 turned(view_wand_.navigation());
   const glm::dvec3 normal = glm::normalize(turned * stage_.wall_scene.sample_normal());
   hand_.set_axes(normal, glm::normalize(turned * stage_.wall_scene.sample_right()));
   person_.set_normal(normal);
 }
 
-void LiveView::press(const Pointed& pointed) {
+void LiveView::press(const Pointed& pointed, const input::Ray& ray) {
+  if (lesson_ != nullptr) return press_in_lesson(ray, pointed);
   if (pointed.swatch) choose(*pointed.swatch);
   if (const auto material = servo_.material()) {
     panels_.press(pointed, *material, servo_.running() ? &servo_.link() : nullptr);
@@ -222,24 +219,10 @@ void LiveView::next_scale() {
   }
 }
 
-// The picture's scale is not the hand's while it travels: the material is chosen anew, which needs a lift and Turn-On.
-void LiveView::take_force_away(std::int64_t now_ns) {
-  force_taken_ns_ = now_ns;
-  if (const auto current = servo_.material(); current && servo_.running()) {
-    servo_.link().choose(static_cast<std::int32_t>(*current), settings_.scale);
-  }
-}
-
-void LiveView::travel(std::int64_t now_ns) {
-  travel_.update(now_ns);
-  const scene::ServoState state = servo_.link().tip().servo_state;
-  const bool force = state == scene::ServoState::Arming || state == scene::ServoState::Running;
-  if (travel_.away() && force && now_ns - force_taken_ns_ > kForceTakenNs) take_force_away(now_ns);
-}
-
 // Everything as after the start: also the way to go on after the servo has died.
 void LiveView::begin_again() {
   servo_.forget_cycles();
+  if (lesson_ != nullptr) lesson_->forget_laid();
   end_scan();
   hand_.lift();
   if (servo_.running()) {
@@ -331,6 +314,7 @@ exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) {
   now.servo = exhibit::servo_rows(servo.tip(), servo.timing(), servo.device(), stage_.phrases());
   if (auto row = picture_.quality_row()) now.servo.push_back(std::move(*row));
   if (!servo_.running()) now.servo_state = scene::ServoState::Fault;
+  hide_sample(now);
   return now;
 }
 
@@ -365,6 +349,7 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   const servo::FrameHeartbeat beat(servo_.link(), clock_);
   follow_edits();
   travel(now_ns);
+  follow_lesson(now_ns);
   follow_scan(now_ns);
   const Pointed pointed = wand_points() ? wand_pointed_at() : pointed_at(input.window, input.cursor_px);
   const exhibit::Moment now = moment(pointed, now_ns);
@@ -381,6 +366,7 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
                  material ? stage_.phrases().word(stage_.materials.materials[*material].title) : "",
                  servo_.link().tip(), hand());
   panels_.add_note(frame, now.wall.centerpiece, sound_.narrator().caption());
+  add_lesson(frame);
   if (blank_) exhibit::blank(frame);
   const bool off_wall = std::abs(before_wall_m()) > kBesideWallM;
   picture_.show(frame, off_wall ? exhibit::Relief::BringToWall : exhibit::Relief::NarrowEyes, now_ns, beat);

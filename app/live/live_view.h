@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/lesson/live_lesson.h"
 #include "app/live/live_sound.h"
 #include "app/live/mouse_hand.h"
 #include "app/live/mouse_wand.h"
@@ -43,6 +44,7 @@ struct ViewSettings {
   double idle_s = 60;         // without a visitor, until then
   std::string record_folder;  // for the sessions of what is felt; empty: none is kept
   LiveSoundSettings sound;
+  LiveLesson* lesson = nullptr;  // that guides through the window, and must outlive it; none
 };
 
 // The live window: a person's mouse points, chooses and moves the hand of the servo; every frame shows the newest state
@@ -65,7 +67,9 @@ class LiveView {
   void begin_with(servo::ServoClient& servo, std::optional<std::size_t> felt_before);
   void run_frame(std::int64_t now_ns);
   void handle(const ViewEvent& input, std::int64_t now_ns);
-  void press(const Pointed& pointed);
+  static constexpr std::int64_t kForceTakenNs = 500'000'000;  // until a choice has taken the force away
+
+  void press(const Pointed& pointed, const input::Ray& ray);
   void follow_wand(std::int64_t now_ns);
   void follow_head(std::int64_t now_ns);
   void choose(std::size_t material);  // that there is
@@ -100,6 +104,17 @@ class LiveView {
   void paint_with(const scene::TipSample& sample);
   void follow_sound();
   void toggle_picture();
+  void number(std::size_t number);
+  void stop_or_go_on();
+  void skip_step();
+  void try_again();
+  void follow_lesson(std::int64_t now_ns);
+  std::optional<exhibit::LessonTarget> lesson_target_at(const input::Ray& ray) const;
+  void press_in_lesson(const input::Ray& ray, const Pointed& pointed);
+  void hide_sample(exhibit::Moment& now) const;
+  void add_lesson(render::FrameState& frame);
+  std::optional<std::string> lesson_guidance(const exhibit::Phrases& phrases) const;
+  std::string spoken_guidance();
   void mark_next_setting();
   void step_setting(int steps);
 
@@ -164,7 +179,9 @@ class LiveView {
   glm::dvec3 hand_seen_m_{0.0};  // of a device that a hand moves, at its last motion
   std::int64_t wand_seen_ns_ = 0;
   glm::dvec2 cursor_seen_px_{0.0};
-  bool blank_ = false;  // for who goes by ear and hand
+  LiveLesson* lesson_;
+  std::string lesson_said_, lesson_line_;  // spoken words of the newest prompt, and the guidance behind them
+  bool blank_ = false;                     // for who goes by ear and hand
   bool leaving_ = false;
 };
 

@@ -193,6 +193,7 @@ void LiveView::mark_next_setting() {
 }
 
 void LiveView::step_setting(int steps) {
+  if (lesson_ != nullptr) return lesson_->step(steps);
   if (const auto material = servo_.material()) {
     panels_.step_marked(steps, *material, servo_.running() ? &servo_.link() : nullptr);
   }

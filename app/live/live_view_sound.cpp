@@ -11,6 +11,7 @@ std::string LiveView::guidance(const exhibit::Phrases& phrases) const {
   if (!servo_.running()) return exhibit::step_text(phrases, exhibit::Hint::ServoEnded, controls());
   // without a visitor it invites
   if (visitor_.away()) return exhibit::step_text(phrases, exhibit::Hint::ChooseSample, controls());
+  if (const auto line = lesson_guidance(phrases)) return *line;
   if (const auto line = scan_guidance(phrases)) return *line;
   return exhibit::guidance_line(phrases, hint_, servo_.link().tip(), controls());
 }
@@ -18,7 +19,7 @@ std::string LiveView::guidance(const exhibit::Phrases& phrases) const {
 // What goes on, for who does not look at it.
 void LiveView::follow_sound() {
   sound_.check_card();
-  exhibit::Narrator::Step step{.hint = hint_, .guidance = guidance(stage_.phrases()), .scan_lines = {}};
+  exhibit::Narrator::Step step{.hint = hint_, .guidance = spoken_guidance(), .scan_lines = {}};
   if (!servo_.running()) step.hint = exhibit::Hint::ServoEnded;
   if (scan_) {
     constexpr std::uint32_t kLine = 2 * exhibit::LiveScan::kPixels;  // trace and retrace

@@ -88,6 +88,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         newest_event_ = event;
         has_event_ = true;
         core::log_line(text_of(event));
+        if (hears_jumps_) hears_jumps_(event);
       });
   keep_part(now_ns);
   log_state();

@@ -45,6 +45,9 @@ class ServoSupervisor {
   // Called with every sample, in their order, before a session keeps it.
   void hear(std::function<void(const scene::TipSample&)> hears) { hears_ = std::move(hears); }
 
+  // The same with every jump.
+  void hear_jumps(std::function<void(const scene::TipEvent&)> hears) { hears_jumps_ = std::move(hears); }
+
   // Adds a frame of the wall to the current session.
   void record(const servo::WallFrame& frame) { recorder_.add(frame); }
   bool recording() const { return folder_.has_value(); }
@@ -80,6 +83,7 @@ class ServoSupervisor {
 
   Starter starter_;
   std::function<void(const scene::TipSample&)> hears_;
+  std::function<void(const scene::TipEvent&)> hears_jumps_;
   Started started_;
   std::size_t materials_;
   std::string record_folder_;

@@ -14,6 +14,7 @@ namespace afm::app {
 class LiveView;
 
 enum class HandSource { Mouse, Simulated, Device };
+enum class WallUse { Free, Lesson };
 
 // A key of the live window, or a run of keys that do the same with a number each.
 struct LiveKey {
@@ -24,6 +25,8 @@ struct LiveKey {
   std::optional<exhibit::Phrase> mouse{};             // does the same
   render::Key last = key;                             // of the run
   bool staff = false;                                 // does nothing in an unattended window
+  bool not_in_lessons = false;                        // would change what a lesson asks, or give it away
+  bool lessons_only = false;
 
   // The same row, for staff alone.
   constexpr LiveKey for_staff() const {
@@ -31,6 +34,19 @@ struct LiveKey {
     row.staff = true;
     return row;
   }
+
+  // The same row, without effect in a lesson; and in a lesson alone.
+  constexpr LiveKey outside_lessons() const {
+    LiveKey row = *this;
+    row.not_in_lessons = true;
+    return row;
+  }
+  constexpr LiveKey in_lessons() const {
+    LiveKey row = *this;
+    row.lessons_only = true;
+    return row;
+  }
+  constexpr bool acts(WallUse use) const { return use == WallUse::Lesson ? !not_in_lessons : !lessons_only; }
 
   bool holds(render::Key other) const { return other >= key && other <= last; }
 };
@@ -40,6 +56,7 @@ std::span<const LiveKey> live_keys();
 
 // The list of keys for the wall, without those of staff where nobody attends. Those of MouseHand stand there where the
 // mouse moves the hand.
-render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases);
+render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases,
+                           WallUse use = WallUse::Free);
 
 }  // namespace afm::app

@@ -68,7 +68,7 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
                                          exhibit::size_mm(panel, millimetre_m), hit->place_mm);
     return pointed;
   }
-  if (right_ != RightPanel::Parameters && material &&
+  if (use_ == WallUse::Free && right_ != RightPanel::Parameters && material &&
       exhibit::hit_of(ray, wall_scene_.parameter_tab_placement(), millimetre_m)) {
     pointed.tab = true;
     return pointed;
@@ -168,13 +168,13 @@ void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece center
 
 void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
                         const std::string& material_title, const scene::TipState& tip, HandSource hand) {
-  if (material) add_parameters(frame, pointed, *material, material_title, tip);
+  if (material && use_ == WallUse::Free) add_parameters(frame, pointed, *material, material_title, tip);
   if (hidden_) {
     frame.force_placement = frame.image_placement = frame.loop_placement = frame.data_placement =
         frame.control_placement = render::kNoPlacement;
   }
   if (keys_shown_) {
-    frame.data_panel = key_list(hand, unattended_, phrases());
+    frame.data_panel = key_list(hand, unattended_, phrases(), use_);
     frame.data_placement = wall_scene_.parameter_placement();
     frame.loop_placement = frame.control_placement = render::kNoPlacement;
   }

@@ -49,6 +49,9 @@ class ViewPanels {
 
   void toggle_all() { hidden_ = !hidden_; }
 
+  // In a lesson neither parameters nor the tab that opens them are shown.
+  void use_for(WallUse use) { use_ = use; }
+
   // The list of keys leaves out those of staff.
   void show_visitors_keys_only() { unattended_ = true; }
 
@@ -98,6 +101,7 @@ class ViewPanels {
   bool keys_shown_ = false;
   bool unattended_ = false;
   bool keys_known_ = false;
+  WallUse use_ = WallUse::Free;
   RightPanel right_ = RightPanel::Data;
 };
 

@@ -250,8 +250,7 @@
   PHRASE(CauseBlur, "scan-cause-blur", "", kLine)                      \
   PHRASE(CauseBluntTip, "scan-cause-blunt-tip", "", kLine)
 
-// Captions of what is heard, and what is said of it, both in the order of HeardEvent; numbers with their units, for one
-// and for others, from pico to micro; the answer to the key Y.
+// Captions, and what is said, in the order of HeardEvent; numbers with units, one and others, pico to micro; the key Y.
 #define AFM_FOR_EACH_SOUND_PHRASE(PHRASE)                       \
   PHRASE(HeardSnapIn, "heard-snap-in", kEventPlaces, kLine)     \
   PHRASE(HeardPullOff, "heard-pull-off", kEventPlaces, kLine)   \
@@ -397,4 +396,5 @@
   AFM_FOR_EACH_SCAN_PHRASE(PHRASE)               \
   AFM_FOR_EACH_KEY_PHRASE(PHRASE)                \
   AFM_FOR_EACH_SOUND_PHRASE(PHRASE)              \
+  AFM_FOR_EACH_LESSON_PHRASE(PHRASE)             \
   AFM_FOR_EACH_REPORT_PHRASE(PHRASE)

@@ -78,6 +78,15 @@ void shrunk_text(Canvas& canvas, glm::vec2 position, const Ink& ink, std::string
   canvas.text(position + glm::vec2(0.0F, lift), ink.style, ink.color, text, Align::Left, fit * scale);
 }
 
+// A row with nothing but a name is a line of words.
+void paint_words(Canvas& canvas, std::string_view words, float top, float pitch) {
+  const float room = canvas.size_mm().x - 2.0F * kMargin;
+  const float by_height = std::min(1.0F, pitch / (text_height_mm(TextStyle::Strong) + 8.0F));
+  const float by_width = room / std::max(canvas.text_width_mm(TextStyle::Strong, words), 1.0F);
+  canvas.text({kMargin, top + 14.0F * by_height}, TextStyle::Strong, palette::kInk, words, Align::Left,
+              std::min(by_height, by_width));
+}
+
 // Name and value on one line, the source below; smaller where the rows stand close or the line is long.
 void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
   constexpr float kNameGap = 20.0F;
@@ -111,7 +120,10 @@ void paint(Canvas& canvas, const DataPanel& panel) {
   const float room = canvas.size_mm().y - top - 18.0F;
   const float pitch = std::min(84.0F, room / static_cast<float>(panel.rows.size()));
   for (std::size_t i = 0; i < panel.rows.size(); ++i) {
-    paint_row(canvas, panel.rows[i], top + pitch * static_cast<float>(i), pitch);
+    const DataRow& row = panel.rows[i];
+    const float at = top + pitch * static_cast<float>(i);
+    row.value.empty() && row.source.empty() ? paint_words(canvas, row.name, at, pitch)
+                                            : paint_row(canvas, row, at, pitch);
   }
 }
 

@@ -43,6 +43,9 @@ class Narrator final : public servo::TipAudience {
   // The key Y: the last event, and how things are.
   void say_state(const scene::TipState& tip);
 
+  // Whether names and figures would give an answer away: then nothing is told of the tip but what concerns the force.
+  void set_discreet(bool discreet) { discreet_ = discreet; }
+
   // What a key did, in words that go on the wall and are spoken.
   void note(const std::string& text);
 
@@ -66,6 +69,7 @@ class Narrator final : public servo::TipAudience {
   Hint hint_ = Hint::ChooseSample;
   std::uint32_t scan_lines_ = 0;
   bool servo_silent_ = false;
+  bool discreet_ = false;
 };
 
 }  // namespace afm::exhibit

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/command.h"
+#include "app/lesson/live_lesson.h"
+#include "app/live/live_view.h"
+#include "app/live/view_display.h"
+#include "app/live/view_wand.h"
+#include "core/result.h"
+#include "exhibit/exhibit_setup.h"
+#include "physics/friction/friction.h"
+#include "servo/servo_client.h"
+
+namespace afm::app {
+
+// What the live window is opened with.
+struct ViewOptions {
+  exhibit::ExhibitFiles files;
+  DisplayOptions display;
+  ViewSettings settings;
+  physics::FrictionLaw friction = physics::FrictionLaw::None;
+  double frame_rate = 0;  // 0: the display's
+  bool speech = false;
+  bool kiosk = false;  // an unattended window that is opened again whenever it fails
+  servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = 10.0}};
+  std::int64_t spin_us = 0;
+  WandOptions wand;
+};
+
+// A lesson that guides through the window.
+struct ViewLesson {
+  exhibit::Lesson lesson;
+  std::optional<LiveLesson::Study> study;
+};
+
+// Opens the window and runs it to its end; `lesson` may be null. `program` is the running touchafm.
+core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson = nullptr);
+
+// Options of the window that a lesson has too: picture, wand, device, sound and speech.
+void add_window_options(OptionList& command, ViewOptions& options);
+
+}  // namespace afm::app

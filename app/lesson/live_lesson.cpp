@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/lesson/live_lesson.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/log.h"
+
+namespace afm::app {
+
+namespace {
+
+using exhibit::Condition;
+using Wants = exhibit::LessonPrompt::Wants;
+
+}  // namespace
+
+LiveLesson::LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::SampleModel>& samples,
+                       const exhibit::Phrases& phrases, const std::optional<Study>& study, const core::Clock& clock)
+    : lesson_(lesson),
+      samples_(samples),
+      phrases_(phrases),
+      study_(study),
+      clock_(clock),
+      run_(
+          lesson, samples, phrases,
+          {.seed = study ? study->entry.seed : static_cast<std::uint64_t>(clock.now_ns()),
+           .order = study ? study->order : 0,
+           .ask_consent = study.has_value()},
+          [this](const exhibit::TrialRow& row) { return data_ ? data_->add(row) : core::Result<void>{}; }, now_s()),
+      varied_(samples.size(), false) {
+  acted();
+}
+
+void LiveLesson::update() {
+  exhibit::LessonPrompt next = run_.prompt(now_s());
+  if (next.words != prompt_.words || next.progress != prompt_.progress) {
+    marked_ = next.marked;
+    core::log_line("lesson: " + (next.progress.empty() ? "" : next.progress + ": ") + next.words);
+  }
+  prompt_ = std::move(next);
+}
+
+// After whatever the person did: the files begin with the consent, and end with the lesson.
+void LiveLesson::acted() {
+  if (study_ && run_.consented() && !data_ && !error_) {
+    if (auto begun = begin_data(); !begun) {
+      error_ = begun.error();
+      run_.stop();
+    }
+  }
+  update();
+}
+
+core::Result<void> LiveLesson::begin_data() {
+  auto data = exhibit::DataSet::create(lesson_, study_->entry);
+  if (!data) return tl::unexpected(data.error());
+  data_ = std::move(*data);
+  core::log_line("lesson: results go to " + data_->participant_folder());
+  return {};
+}
+
+bool LiveLesson::chooses_sample() const { return prompt_.wants == Wants::Cycle && !prompt_.material; }
+
+void LiveLesson::number(std::size_t number) {
+  if (prompt_.wants != Wants::Answer || number >= prompt_.answers.size()) return;
+  if (prompt_.answers.size() > exhibit::kMostNumberedAnswers) {
+    // the keys stand for the whole scale
+    marked_ = number * (prompt_.answers.size() - 1) / (exhibit::kMostNumberedAnswers - 1);
+    return;
+  }
+  run_.answer(number, now_s());
+  acted();
+}
+
+void LiveLesson::press(const exhibit::LessonTarget& target) {
+  using Action = exhibit::LessonTarget::Action;
+  switch (target.action) {
+    case Action::Answer:
+      return number(target.answer);
+    case Action::Less:
+      return step(-1);
+    case Action::More:
+      return step(1);
+    case Action::Confirm:
+    case Action::GoOn:
+      return enter();
+  }
+}
+
+void LiveLesson::enter() {
+  const bool scale = prompt_.wants == Wants::Answer && prompt_.answers.size() > exhibit::kMostNumberedAnswers;
+  if (scale) run_.answer(marked_, now_s());
+  if (!scale) run_.go_on(now_s());
+  acted();
+}
+
+void LiveLesson::step(int steps) {
+  if (prompt_.wants != Wants::Answer) return;
+  const auto last = static_cast<int>(prompt_.answers.size()) - 1;
+  marked_ = static_cast<std::size_t>(std::clamp(static_cast<int>(marked_) + steps, 0, last));
+}
+
+void LiveLesson::skip() {
+  core::log_line("lesson: skipped");
+  run_.skip(now_s());
+  acted();
+}
+
+void LiveLesson::try_again() {
+  core::log_line("lesson: the trial begins again");
+  run_.reset(now_s());
+  laid_.reset();
+  acted();
+}
+
+// A blind sample is shown only where the condition asks for a picture.
+bool LiveLesson::shows_scene() const {
+  if (prompt_.condition) return *prompt_.condition != Condition::Haptics;
+  return !prompt_.hidden;
+}
+
+bool LiveLesson::has_tones() const {
+  if (prompt_.condition) return *prompt_.condition == Condition::Sound;
+  return !prompt_.hidden;
+}
+
+bool LiveLesson::has_force() const { return prompt_.condition != Condition::Picture; }
+
+void LiveLesson::lay_sample(servo::ServoClient& servo) {
+  if (prompt_.wants != Wants::Cycle) return;
+  const Laid wanted{prompt_.task, prompt_.hidden ? prompt_.cycle : 0};
+  if (laid_ == wanted) return;
+  laid_ = wanted;
+  edit_ = 0;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const bool variant = prompt_.variant && prompt_.material == i;
+    if (!variant && !varied_[i]) continue;
+    edit_ = servo.change(i, variant ? *prompt_.variant : samples_[i].parameters);
+    varied_[i] = variant;
+    if (!variant) edit_ = 0;
+  }
+  if (prompt_.material) servo.choose(static_cast<std::int32_t>(*prompt_.material), lesson_.scale);
+}
+
+void LiveLesson::happened(const scene::TipEvent& event, const servo::ServoClient& servo) {
+  if (edit_ != 0 && servo.tip().active.edit_revision != edit_) return;
+  run_.happened(event, now_s());
+  acted();
+}
+
+core::Result<void> LiveLesson::finish() {
+  run_.stop();
+  if (data_ && run_.end()) {
+    if (auto finished = data_->finish(*run_.end()); !finished && !error_) error_ = finished.error();
+  }
+  if (!error_ && run_.error()) error_ = run_.error();
+  if (error_) return tl::unexpected(*error_);
+  return {};
+}
+
+}  // namespace afm::app

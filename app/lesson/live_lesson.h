@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "curves/sample_model.h"
+#include "exhibit/lesson/data_set.h"
+#include "exhibit/lesson/lesson.h"
+#include "exhibit/lesson/lesson_panel.h"
+#include "exhibit/lesson/lesson_run.h"
+#include "exhibit/phrases.h"
+#include "servo/servo_client.h"
+
+namespace afm::app {
+
+// A lesson at the live window: what it asks for, the person's answers, the sample that it lays under the tip, and what
+// is kept of it. Main thread.
+class LiveLesson {
+ public:
+  // Where results go; without a study nothing is kept and nobody is asked.
+  struct Study {
+    exhibit::DataSetEntry entry;
+    std::size_t order = 0;
+  };
+
+  // Lesson, samples, phrases and clock must outlive it.
+  LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::SampleModel>& samples,
+             const exhibit::Phrases& phrases, const std::optional<Study>& study, const core::Clock& clock);
+
+  // Once a frame.
+  void update();
+
+  const exhibit::LessonPrompt& prompt() const { return prompt_; }
+  const exhibit::Lesson& lesson() const { return lesson_; }
+  bool over() const { return prompt_.wants == exhibit::LessonPrompt::Wants::Nothing; }
+
+  // Whether keys and swatches choose a sample: in free exploration of several.
+  bool chooses_sample() const;
+
+  void number(std::size_t number);  // keys 1 to 9, from 0
+  void press(const exhibit::LessonTarget& target);
+  void enter();
+  void step(int steps);  // of the mark of a scale
+  void skip();
+  void try_again();
+
+  std::vector<exhibit::LessonTarget> targets() const { return lesson_targets(prompt_, marked_, phrases_); }
+  render::DataPanel panel() const { return lesson_panel(prompt_, phrases_); }
+
+  // What is to be spoken before the line of guidance, since the prompt is a new one.
+  std::string speech() const { return lesson_speech(prompt_, marked_, phrases_); }
+
+  // What this prompt leaves a participant: the scene on the wall, tones, the force.
+  bool shows_scene() const;
+  bool has_tones() const;
+  bool has_force() const;
+
+  // Sees to it that the sample that is asked for gets under the tip; blind ones are laid anew for each cycle, so that
+  // nobody knows by the pause whether it is another one. Once a frame.
+  void lay_sample(servo::ServoClient& servo);
+  void forget_laid() { laid_.reset(); }  // another servo runs, or everything begins again
+
+  // A jump of the tip; `servo` says of which sample.
+  void happened(const scene::TipEvent& event, const servo::ServoClient& servo);
+
+  // The window ends: what is under way is stopped. The error of what could not be kept.
+  core::Result<void> finish();
+
+ private:
+  struct Laid {
+    std::size_t task = 0;
+    std::uint32_t cycle = 0;
+    bool operator==(const Laid&) const = default;
+  };
+
+  double now_s() const { return static_cast<double>(clock_.now_ns()) * 1e-9; }
+  void acted();
+  core::Result<void> begin_data();
+
+  const exhibit::Lesson& lesson_;
+  const std::vector<curves::SampleModel>& samples_;
+  const exhibit::Phrases& phrases_;
+  std::optional<Study> study_;
+  const core::Clock& clock_;
+  std::optional<exhibit::DataSet> data_;
+  std::optional<core::Error> error_;
+  exhibit::LessonRun run_;
+  exhibit::LessonPrompt prompt_;
+  std::size_t marked_ = 0;
+  std::optional<Laid> laid_;
+  std::uint32_t edit_ = 0;    // of the variant under the tip; 0: as loaded
+  std::vector<bool> varied_;  // materials whose parameters were changed
+};
+
+}  // namespace afm::app

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/enumerators.h"
+#include "exhibit/lesson/lesson.h"
+#include "exhibit/phrases.h"
+
+namespace afm::exhibit {
+
+// A questionnaire: its items are a run of phrases, its answers equal steps from `least` to `most`.
+struct QuestionnaireRow {
+  Questionnaire questionnaire;
+  std::string_view word;  // in lesson files and in the items' ids: "sus-3"
+  Phrase first_item;
+  std::size_t items;
+  int least, most, step;
+  Phrase first_answer;  // a phrase for each answer, or for the two ends
+  std::size_t answer_phrases;
+};
+
+// Liu & Peng's Table 3 (0 not at all to 4 very much), the System Usability Scale (Brooke 1996), NASA's Task Load Index
+// (Hart & Staveland 1988), the Simulator Sickness Questionnaire (Kennedy et al. 1993).
+inline constexpr std::array kQuestionnaires{
+    QuestionnaireRow{Questionnaire::Paper, "paper", Phrase::Paper1, 8, 0, 4, 1, Phrase::PaperAnswer0, 5},
+    QuestionnaireRow{Questionnaire::Sus, "sus", Phrase::Sus1, 10, 1, 5, 1, Phrase::SusAnswer1, 5},
+    QuestionnaireRow{Questionnaire::Tlx, "tlx", Phrase::Tlx1, 6, 0, 100, 5, Phrase::TlxLow, 2},
+    QuestionnaireRow{Questionnaire::Ssq, "ssq", Phrase::Ssq1, 16, 0, 3, 1, Phrase::SsqAnswer0, 4}};
+static_assert(core::has_row_for_each(kQuestionnaires, &QuestionnaireRow::questionnaire));
+constexpr const QuestionnaireRow& row_of(Questionnaire which) { return kQuestionnaires[core::index_of(which)]; }
+
+// "ssq-7"; items count from 0.
+std::string item_id(Questionnaire which, std::size_t item);
+
+// The answers in words, in their order: "0", "5 ..." where a scale has more than its phrases.
+std::vector<std::string> answers_of(Questionnaire which, const Phrases& phrases);
+
+// The number that an answer stands for.
+int value_of(Questionnaire which, std::size_t answer);
+
+// The SSQ's total score: 3.74 times the sum of the raw scores of nausea, oculomotor strain and disorientation. Sixteen
+// answers of 0 to 3.
+double ssq_total(std::span<const int> answers);
+
+// The rule by which a participant stops: a total above 20, or a symptom that is severe.
+bool ssq_says_stop(std::span<const int> answers);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "exhibit/lesson/lesson.h"
+
+namespace afm::exhibit {
+
+// Chooses the level of a threshold's next trial by the answers so far. One thread.
+class Staircase {
+ public:
+  virtual ~Staircase() = default;
+
+  virtual double level() const = 0;
+  virtual void answer(bool right) = 0;
+};
+
+// Up after `up` wrong answers, down after `down` right ones, by the step sizes in turn: one further at each reversal,
+// the last one for good. Until the first reversal one right answer is enough. As PsychoPy's StairHandler with
+// applyInitialRule (Peirce et al. 2019).
+class UpDownStaircase final : public Staircase {
+ public:
+  // Levels stay within `least` and `most`; one step size at least.
+  struct Rule {
+    int up = 1, down = 3;
+    std::vector<double> steps;
+    double least = 0, most = 1;
+  };
+  UpDownStaircase(double start, Rule rule);
+
+  double level() const override { return level_; }
+  void answer(bool right) override;
+
+ private:
+  enum class Way { None, Up, Down };
+  void move(Way way);
+
+  Rule rule_;
+  double level_;
+  double step_;
+  Way way_ = Way::None;
+  int same_ = 0;                       // right answers in a row, or less than zero wrong ones
+  bool before_ = false, any_ = false;  // the answer before this one
+  std::size_t reversals_ = 0;
+};
+
+// Down by `step` after every right answer, up by `weight` times as much after every wrong one: it hovers where the
+// share of right answers is weight/(1 + weight), 3 for 75 % (Kaernbach 1991). Steps are doubled until the first wrong
+// answer.
+class WeightedStaircase final : public Staircase {
+ public:
+  struct Rule {
+    double step = 0.1, weight = 3;
+    double least = 0, most = 1;
+  };
+  WeightedStaircase(double start, const Rule& rule) : rule_(rule), level_(start) {}
+
+  double level() const override { return level_; }
+  void answer(bool right) override;
+
+ private:
+  Rule rule_;
+  double level_;
+  bool wrong_once_ = false;
+};
+
+// QUEST (Watson & Pelli 1983, as King-Smith's quantile that Pelli's implementation takes): a threshold's probability on
+// a grid of levels, after each answer by Bayes' rule with a Weibull function.
+class QuestStaircase final : public Staircase {
+ public:
+  struct Rule {
+    double guess = 0, guess_sd = 1;  // of the threshold, before the first answer
+    double share = 0.82;             // of right answers at the threshold
+    double beta = 3.5, delta = 0.01, gamma = 0.5;
+    double grain = 0.01, range = 5;
+    double least = -10, most = 10;  // of the levels
+  };
+  explicit QuestStaircase(const Rule& rule);
+
+  double level() const override { return level_; }
+  void answer(bool right) override;
+
+  double mean() const;
+  double mode() const;
+  double quantile() const;  // of the order at which an answer says most
+
+ private:
+  double right_share(double from_threshold) const;
+  double at(std::size_t index) const;  // level of a point of the grid
+
+  Rule rule_;
+  double shift_ = 0;  // from the Weibull function's own zero to the threshold
+  double order_ = 0.5;
+  std::vector<double> density_;
+  double level_;
+};
+
+// The rule of a plan on the logarithm of w; level() is the logarithm to the base 10.
+std::unique_ptr<Staircase> make_staircase(const ThresholdPlan& plan);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/lesson/lesson_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+
+namespace afm::exhibit {
+
+namespace {
+
+constexpr std::size_t kLineLetters = 42;  // of a panel, so that its letters keep their size
+constexpr double kTargetsShare = 0.5;     // of the panel's height, at most
+constexpr double kTargetShare = 0.14;     // of one target, at most
+constexpr double kGapShare = 0.08;        // of a target, between two
+
+std::size_t letters(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<std::uint8_t>(c) & 0xC0U) != 0x80U; }));
+}
+
+void add_lines(std::string_view text, std::vector<render::DataRow>& rows) {
+  std::string line;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    if (!line.empty() && letters(line) + 1 + letters(word) > kLineLetters) {
+      rows.push_back({std::move(line), "", ""});
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + std::string(word);
+  }
+  if (!line.empty()) rows.push_back({std::move(line), "", ""});
+}
+
+bool is_scale(const LessonPrompt& prompt) { return prompt.answers.size() > kMostNumberedAnswers; }
+
+}  // namespace
+
+std::vector<LessonTarget> lesson_targets(const LessonPrompt& prompt, std::size_t marked, const Phrases& phrases) {
+  using Action = LessonTarget::Action;
+  if (prompt.wants == LessonPrompt::Wants::GoOn) return {{Action::GoOn, 0, phrases[Phrase::LessonPressEnter]}};
+  if (prompt.wants != LessonPrompt::Wants::Answer) return {};
+  if (is_scale(prompt)) {
+    return {{Action::Less, 0, "\u2212"}, {Action::Confirm, marked, prompt.answers[marked]}, {Action::More, 0, "+"}};
+  }
+  std::vector<LessonTarget> targets;
+  for (std::size_t i = 0; i < prompt.answers.size(); ++i) {
+    targets.push_back({Action::Answer, i, fmt::format("{}  {}", i + 1, prompt.answers[i])});
+  }
+  return targets;
+}
+
+render::DataPanel lesson_panel(const LessonPrompt& prompt, const Phrases& phrases) {
+  render::DataPanel panel{.title = prompt.title, .subtitle = prompt.progress, .rows = {}};
+  add_lines(prompt.words, panel.rows);
+  add_lines(prompt.hint, panel.rows);
+  if (prompt.wants == LessonPrompt::Wants::Answer) {
+    add_lines(phrases[is_scale(prompt) ? Phrase::LessonPressScale : Phrase::LessonPressNumber], panel.rows);
+  }
+  return panel;
+}
+
+LessonPlaces lesson_places(const render::PanelPlacement& whole, std::size_t targets) {
+  LessonPlaces places{.words = whole, .targets = {}};
+  if (targets == 0) return places;
+  const double each = std::min(kTargetShare, kTargetsShare / static_cast<double>(targets));
+  for (std::size_t i = 0; i < targets; ++i) {
+    const double bottom = each * static_cast<double>(targets - 1 - i);
+    places.targets.push_back({.lower_left_m = whole.lower_left_m + bottom * whole.up_m,
+                              .right_m = whole.right_m,
+                              .up_m = (1.0 - kGapShare) * each * whole.up_m});
+  }
+  const double below = each * static_cast<double>(targets);
+  places.words.lower_left_m += below * whole.up_m;
+  places.words.up_m *= 1.0 - below;
+  return places;
+}
+
+std::string lesson_speech(const LessonPrompt& prompt, std::size_t marked, const Phrases& phrases) {
+  std::string text = prompt.words;
+  if (!prompt.hint.empty()) text += " " + prompt.hint;
+  if (prompt.wants == LessonPrompt::Wants::GoOn) text += " " + phrases[Phrase::LessonPressEnter] + ".";
+  if (prompt.wants != LessonPrompt::Wants::Answer) return text;
+  if (is_scale(prompt)) return text + " " + phrases[Phrase::LessonPressScale] + ". " + prompt.answers[marked];
+  for (std::size_t i = 0; i < prompt.answers.size(); ++i) text += fmt::format(" {}: {}.", i + 1, prompt.answers[i]);
+  return text;
+}
+
+}  // namespace afm::exhibit

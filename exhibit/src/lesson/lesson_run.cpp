@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/lesson/lesson_run.h"
+
+#include <cmath>
+#include <utility>
+
+#include "exhibit/lesson/williams.h"
+#include "step_activity.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+constexpr double kMinuteS = 60;
+
+using MakeActivity = std::unique_ptr<StepActivity> (*)(const StepContext& context, double now_s);
+struct ActivityRow {
+  StepKind kind;
+  MakeActivity make;
+};
+constexpr std::array kActivities{
+    ActivityRow{StepKind::Text, make_text_activity},           ActivityRow{StepKind::Free, make_cycle_activity},
+    ActivityRow{StepKind::Cycle, make_cycle_activity},         ActivityRow{StepKind::Identify, make_identify_activity},
+    ActivityRow{StepKind::Threshold, make_threshold_activity}, ActivityRow{StepKind::Draw, make_draw_activity},
+    ActivityRow{StepKind::Question, make_question_activity}};
+static_assert(core::has_row_for_each(kActivities, &ActivityRow::kind));
+
+}  // namespace
+
+const std::string& LessonText::in(std::string_view language) const {
+  for (std::size_t i = 0; i < kLanguages.size(); ++i) {
+    if (kLanguages[i].word == language) return texts[i];
+  }
+  return texts.front();
+}
+
+LessonRun::LessonRun(const Lesson& lesson, std::span<const curves::SampleModel> samples, const Phrases& phrases,
+                     const Setup& setup, TrialSink sink, double now_s)
+    : lesson_(lesson),
+      samples_(samples),
+      phrases_(phrases),
+      sink_(std::move(sink)),
+      random_(setup.seed),
+      stage_(setup.ask_consent ? Stage::Consent : Stage::Steps),
+      began_s_(now_s),
+      stretch_began_s_(now_s),
+      consented_(!setup.ask_consent) {
+  plan(setup.order);
+  begin_task(now_s);
+}
+
+LessonRun::~LessonRun() = default;
+
+// A run of steps that are done under each condition is repeated as a whole.
+void LessonRun::plan(std::size_t order) {
+  const auto orders = williams_orders(lesson_.conditions.size());
+  const std::vector<LessonStep>& steps = lesson_.steps;
+  for (std::size_t i = 0; i < steps.size();) {
+    if (!steps[i].each_condition) {
+      tasks_.push_back({i++, std::nullopt});
+      continue;
+    }
+    std::size_t end = i;
+    while (end < steps.size() && steps[end].each_condition) ++end;
+    for (const std::size_t condition : orders[order % orders.size()]) {
+      for (std::size_t step = i; step < end; ++step) tasks_.push_back({step, lesson_.conditions[condition]});
+    }
+    i = end;
+  }
+}
+
+void LessonRun::begin_task(double now_s) {
+  snapped_in_ = false;
+  step_began_s_ = now_s;
+  if (task_ == tasks_.size()) {
+    end_ = LessonEnd::Finished;
+    return;
+  }
+  const LessonStep& step = lesson_.steps[tasks_[task_].step];
+  const StepContext context{step,
+                            samples_,
+                            phrases_,
+                            random_,
+                            [this](TrialRow row) {
+                              if (auto kept = keep(std::move(row)); !kept && !error_) error_ = kept.error();
+                            },
+                            [this](core::Error error) {
+                              if (!error_) error_ = std::move(error);
+                            }};
+  activity_ = kActivities[core::index_of(step.kind)].make(context, now_s);
+}
+
+core::Result<void> LessonRun::keep(TrialRow row) {
+  const Task& task = tasks_[task_];
+  row.onset_s -= began_s_;
+  row.step = lesson_.steps[task.step].id;
+  row.kind = lesson_.steps[task.step].kind;
+  row.condition = task.condition;
+  return sink_(row);
+}
+
+LessonPrompt LessonRun::prompt(double now_s) const {
+  LessonPrompt prompt;
+  prompt.title = lesson_.title.in(phrases_[Phrase::Language]);
+  if (stage_ == Stage::Consent && !end_) {
+    prompt.wants = LessonPrompt::Wants::Answer;
+    prompt.words = phrases_[Phrase::LessonConsent];
+    prompt.answers = {phrases_[Phrase::LessonConsentYes], phrases_[Phrase::LessonConsentNo]};
+    return prompt;
+  }
+  if (stage_ == Stage::Break && !end_) {
+    prompt.wants = LessonPrompt::Wants::Answer;
+    prompt.words = phrases_[Phrase::LessonBreak];
+    prompt.answers = {phrases_[Phrase::LessonGoOn], phrases_[Phrase::LessonStop]};
+    return prompt;
+  }
+  if (end_ || error_) {
+    prompt.wants = LessonPrompt::Wants::Nothing;
+    const bool finished = end_ == LessonEnd::Finished && !error_;
+    prompt.words = phrases_[finished ? Phrase::LessonFinished : Phrase::LessonStopped];
+    return prompt;
+  }
+  const Task& task = tasks_[task_];
+  const LessonStep& step = lesson_.steps[task.step];
+  prompt.kind = step.kind;
+  prompt.task = task_;
+  prompt.condition = task.condition;
+  activity_->describe(prompt);
+  const bool time_for_hint = !step.hint.empty() && now_s - step_began_s_ >= step.hint_after_s;
+  if (time_for_hint) prompt.hint = step.hint.in(phrases_[Phrase::Language]);
+  const std::string where = phrases_.text<Phrase::LessonStep>(std::to_string(task_ + 1), std::to_string(tasks_.size()));
+  prompt.progress = prompt.progress.empty() ? where : where + " \u00b7 " + prompt.progress;
+  return prompt;
+}
+
+void LessonRun::happened(const scene::TipEvent& event, double now_s) {
+  if (end_ || error_ || stage_ != Stage::Steps || event.material < 0) return;
+  const LessonPrompt wanted = prompt(now_s);
+  const auto material = static_cast<std::size_t>(event.material);
+  if (wanted.wants != LessonPrompt::Wants::Cycle || (wanted.material && *wanted.material != material)) return;
+  if (event.kind == physics::EventKind::JumpToContact) snapped_in_ = true;
+  if (event.kind != physics::EventKind::JumpOffContact || !std::exchange(snapped_in_, false)) return;
+  activity_->felt({.material = material, .f_ad_n = std::abs(event.force_before_n)}, now_s);
+  follow(now_s);
+}
+
+void LessonRun::go_on(double now_s) {
+  if (end_ || error_ || stage_ != Stage::Steps) return;
+  activity_->go_on(now_s);
+  follow(now_s);
+}
+
+void LessonRun::answer(std::size_t answer, double now_s) {
+  if (end_ || error_ || answer >= prompt(now_s).answers.size()) return;
+  if (stage_ == Stage::Steps) {
+    activity_->answer(answer, now_s);
+    return follow(now_s);
+  }
+  const bool yes = answer == 0;
+  if (stage_ == Stage::Consent) {
+    consented_ = yes;
+    if (!yes) end_ = LessonEnd::Withdrew;
+    began_s_ = now_s;
+  } else if (!yes) {
+    end_ = LessonEnd::Stopped;
+  }
+  stage_ = Stage::Steps;
+  stretch_began_s_ = now_s;
+  if (!end_) begin_task(now_s);
+}
+
+void LessonRun::skip(double now_s) {
+  if (end_ || error_ || stage_ != Stage::Steps) return;
+  ++task_;
+  begin_task(now_s);
+}
+
+void LessonRun::reset(double now_s) {
+  if (end_ || error_ || stage_ != Stage::Steps) return;
+  snapped_in_ = false;
+  step_began_s_ = now_s;
+  activity_->reset(now_s);
+}
+
+void LessonRun::stop() {
+  if (!end_) end_ = consented_ ? LessonEnd::Stopped : LessonEnd::Withdrew;
+}
+
+void LessonRun::follow(double now_s) {
+  if (error_) return;
+  if (activity_->says_stop()) {
+    end_ = LessonEnd::Stopped;
+    return;
+  }
+  if (!activity_->done()) return;
+  ++task_;
+  begin_task(now_s);
+  if (!end_ && now_s - stretch_began_s_ >= kMostLessonMinutes * kMinuteS) stage_ = Stage::Break;
+}
+
+}  // namespace afm::exhibit

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/lesson/lesson_samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace afm::exhibit {
+
+namespace {
+
+double f_ad_n(const curves::SampleModel& sample) { return std::abs(sample.figures().force_before_joc.si); }
+
+core::Result<void> check_threshold(const LessonStep& step, const curves::SampleModel& standard, double strongest_n) {
+  const double most_n = (1.0 + step.threshold.most) * f_ad_n(standard);
+  if (most_n <= strongest_n) return {};
+  return core::failure(
+      core::ErrorCategory::BadInputFile,
+      fmt::format("lesson step {}: its strongest pull-off would be {:.4g} nN, and no material of the lesson lets go at "
+                  "more than {:.4g} nN, so that the common scale would hide the difference; lower most or add a "
+                  "stronger material",
+                  step.id, most_n * 1e9, strongest_n * 1e9));
+}
+
+}  // namespace
+
+core::Result<void> check_samples(const Lesson& lesson, std::span<const curves::SampleModel> samples) {
+  double strongest_n = 0;
+  for (const curves::SampleModel& sample : samples) strongest_n = std::max(strongest_n, f_ad_n(sample));
+  for (const LessonStep& step : lesson.steps) {
+    if (step.kind == StepKind::Text || step.kind == StepKind::Draw || step.kind == StepKind::Question) continue;
+    for (const std::size_t material : step.materials) {
+      if (samples[material].figures().hysteretic) continue;
+      return core::failure(core::ErrorCategory::BadInputFile,
+                           fmt::format("lesson step {}: {} neither snaps in nor pulls off, so that no cycle of it ends",
+                                       step.id, lesson.materials[material]));
+    }
+    if (step.kind != StepKind::Threshold) continue;
+    if (auto checked = check_threshold(step, samples[step.materials.front()], strongest_n); !checked) return checked;
+  }
+  return {};
+}
+
+core::Result<std::vector<curves::SampleModel>> lesson_samples(const Lesson& lesson,
+                                                              const scene::MaterialLibrary& library) {
+  std::vector<curves::SampleModel> samples;
+  for (const std::string& name : lesson.materials) {
+    const auto entry = library.require(name);
+    if (!entry) return tl::unexpected(entry.error());
+    auto sample = curves::make_sample_model(curves::ContactSetup{**entry, {}, {}});
+    if (!sample) return tl::unexpected(sample.error());
+    samples.push_back(std::move(*sample));
+  }
+  if (auto checked = check_samples(lesson, samples); !checked) return tl::unexpected(checked.error());
+  return samples;
+}
+
+// F_ad goes with the surface energy. With stiffness and Hamaker constant multiplied alike, the whole curve F(Z) is: its
+// folds keep their places (3.8), (3.13).
+core::Result<curves::SampleModel> comparison_sample(const curves::SampleModel& standard, DistanceCue distance, double w,
+                                                    double rove) {
+  curves::ContactSetup changed = standard.setup;
+  physics::ContactParameters& contact = changed.material.contact;
+  contact.mean_surface_energy.si *= 1.0 + w;
+  const double stiffer = distance == DistanceCue::Kept ? 1.0 + w : rove;
+  contact.spring_constant.si *= stiffer;
+  contact.sample_stiffness.si *= stiffer;
+  if (distance == DistanceCue::Kept) contact.hamaker.si *= 1.0 + w;
+  return curves::make_sample_model(standard, changed);
+}
+
+}  // namespace afm::exhibit

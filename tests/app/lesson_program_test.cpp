@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lessons by the real program: the same bytes for a seed, and what is left when it is killed.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <thread>
+
+#include "core/whole_file.h"
+#include "places.h"
+#include "support/live_program.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+
+namespace afm {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string kLessons = AFM_SOURCE_DIR "/assets/lessons/";
+
+support::ProgramResult lesson(const std::string& arguments) {
+  return support::run_program(AFM_PROGRAM " lesson " + arguments);
+}
+
+// Every file of a folder.
+std::map<std::string, std::string> contents(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    files[fs::relative(entry.path(), folder).string()] = core::read_file(entry.path().string()).value();
+  }
+  return files;
+}
+
+TEST(LessonProgram, WritesAStudyOfTwentySimulatedStudentsWithTheSameBytesForTheirSeeds) {
+  const support::ScratchFolder folder;
+  const auto begin = std::chrono::steady_clock::now();
+  for (const char* study : {"one", "two"}) {
+    for (int seed = 1; seed <= 20; ++seed) {
+      const auto done = lesson(kLessons + "three-materials.toml --participant sim:" + std::to_string(seed) + " --out " +
+                               folder.file(study));
+      ASSERT_EQ(done.exit_code, 0) << done.err;
+    }
+  }
+  std::printf("two studies of twenty students: %.1f s\n",
+              std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  const auto one = contents(folder.file("one"));
+  EXPECT_EQ(one.size(), 2U + 2U * 20U);
+  EXPECT_EQ(one, contents(folder.file("two")));
+}
+
+TEST(LessonProgram, RefusesALessonThatAStudentHasDoneAndWithdrawsAStudent) {
+  const support::ScratchFolder folder;
+  const std::string out = " --out " + folder.file("study");
+  const std::string run = kLessons + "first-touch.toml --participant sim:1" + out;
+  ASSERT_EQ(lesson(run).exit_code, 0);
+  const auto before = contents(folder.file("study"));
+  const auto again = lesson(run);
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("has done this lesson"));
+  EXPECT_EQ(contents(folder.file("study")), before);
+  std::string code;
+  for (const auto& entry : fs::directory_iterator(folder.file("study"))) {
+    if (entry.is_directory()) code = entry.path().filename().string().substr(4);
+  }
+  const auto withdrawn = lesson("--withdraw " + code + out);
+  EXPECT_EQ(withdrawn.exit_code, 0) << withdrawn.err;
+  EXPECT_FALSE(fs::exists(folder.file("study") + "/sub-" + code));
+  EXPECT_EQ(lesson("--withdraw " + code + out).exit_code, 2);
+  EXPECT_EQ(lesson("--withdraw ../../x" + out).exit_code, 2);
+}
+
+TEST(LessonProgram, SaysWhatIsWrongInOneLine) {
+  const support::ScratchFolder folder;
+  const std::string out = " --out " + folder.file("study");
+  const std::string bad = folder.write("bad.toml", "id = \"a\"\nspeed = 3\n");
+  const auto unknown = lesson(bad + " --participant sim:1" + out);
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.err, HasSubstr("line 2: speed: unknown key"));
+  EXPECT_EQ(lesson(kLessons + "first-touch.toml --participant Anna" + out).exit_code, 2);
+  EXPECT_EQ(lesson(kLessons + "first-touch.toml --participant sim:x" + out).exit_code, 2);
+  EXPECT_EQ(lesson(kLessons + "first-touch.toml --participant sim:1").exit_code, 2);
+  EXPECT_EQ(lesson("").exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder.file("study"))) << "what is refused leaves nothing";
+}
+
+// Whatever the moment, every line that is there is whole but the last, and whole trials are those of the run that was
+// not killed.
+TEST(LessonProgram, LosesAtMostTheRunningTrialWhenItIsKilled) {
+  const support::ScratchFolder folder;
+  const std::string file = kLessons + "measuring-adhesion.toml";
+  ASSERT_EQ(lesson(file + " --participant sim:5 --out " + folder.file("whole")).exit_code, 0);
+  const auto whole_files = contents(folder.file("whole"));
+  std::string name, whole;
+  for (const auto& [path, text] : whole_files) {
+    if (path.ends_with("_events.tsv")) std::tie(name, whole) = std::pair(path, text);
+  }
+  ASSERT_FALSE(whole.empty());
+  std::size_t cut = 0;
+  for (int delay_ms = 2; delay_ms < 60 && cut < 3; delay_ms += 2) {
+    const std::string study = folder.file("killed-" + std::to_string(delay_ms));
+    support::LiveProgram program({AFM_PROGRAM, "lesson", file, "--participant", "sim:5", "--out", study}, "");
+    // it has begun its file
+    for (int i = 0; i < 2000 && !fs::exists(study + "/" + name); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms % 20));
+    program.signal(SIGKILL);
+    program.ends();
+    const std::string left = core::read_file(study + "/" + name).value();
+    EXPECT_EQ(whole.substr(0, left.size()), left) << "a killed run's trials are those of the whole run";
+    EXPECT_TRUE(left.empty() || left.back() == '\n') << "each line is written at once";
+    if (left.size() < whole.size()) ++cut;
+  }
+  EXPECT_GT(cut, 0U) << "no run was killed before its end";
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lesson in the real window, on an X server without a screen: keys answer, the servo's events meet the criteria, and
+// what a blind step hides is not on the picture.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/whole_file.h"
+#include "places.h"
+#include "render/image_file.h"
+#include "support/live_program.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+#include "support/virtual_display.h"
+
+namespace afm::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+namespace fs = std::filesystem;
+
+const std::string kWords = "words = { en = \"Words of ";
+
+std::string words(const std::string& step) { return kWords + step + ".\", de = \"Worte.\" }\n"; }
+
+class LessonView : public ::testing::Test {
+ protected:
+  std::vector<std::string> command(const std::string& file, std::vector<std::string> more = {}) const {
+    std::vector<std::string> all{AFM_PROGRAM,    "lesson",     file,          "--size", "640x480",
+                                 "--frame-rate", "12",         "--eye-width", "320",    "--servo",
+                                 AFM_SERVO_MODE, "--validate", "--haptics",   "sim"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  void key(const std::string& name) const {
+    const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool key " + name);
+    ASSERT_EQ(done.exit_code, 0) << done.err << " (package xdotool)";
+  }
+  // Kept in the build tree for people to look at.
+  void picture(const std::string& name) const {
+    EXPECT_TRUE(render::write_png(display_.screenshot(), AFM_BINARY_DIR "/lesson-" + name + ".png"));
+  }
+  std::string lesson(const std::string& steps, const std::string& scale = "common") const {
+    return folder_.write("lesson.toml",
+                         "id = \"a-lesson\"\ntitle = { en = \"A lesson\", de = \"Lektion\" }\nminutes = 5\n"
+                         "materials = [\"mica\", \"si3n4\"]\nscale = \"" +
+                             scale + "\"\n" + steps);
+  }
+
+  const support::ScratchFolder folder_;
+  support::VirtualDisplay display_{640, 480};
+};
+
+TEST_F(LessonView, GoesFromConsentThroughTextAndCycleToTheEndAndKeepsItsTrials) {
+  const std::string file =
+      lesson("[[step]]\nid = \"hello\"\ntype = \"text\"\n" + words("hello") +
+                 "[[step]]\nid = \"feel\"\ntype = \"cycle\"\nmaterial = \"mica\"\n" + words("feel") +
+                 "[[step]]\nid = \"ask\"\ntype = \"question\"\nquestionnaire = \"tlx\"\n" + words("ask"),
+             "fit");
+  const std::string out = folder_.file("study");
+  support::LiveProgram view(command(file, {"--participant", "QXWERT", "--out", out}), display_.name());
+  ASSERT_TRUE(view.says("Do you take part?")) << view.said();
+  EXPECT_FALSE(fs::exists(out + "/participants.tsv")) << "nothing is kept before the consent";
+  key("1");
+  ASSERT_TRUE(view.says("Words of hello")) << view.said();
+  picture("text");
+  key("Return");
+  ASSERT_TRUE(view.says("Words of feel")) << view.said();
+  ASSERT_TRUE(view.says("jump off contact")) << "by the simulated hand: " << view.said();
+  ASSERT_TRUE(view.says("question 1 of 6")) << "it goes on by itself: " << view.said();
+  for (int item = 1; item <= 6; ++item) {
+    if (item > 1) {
+      ASSERT_TRUE(view.says("question " + std::to_string(item))) << view.said();
+    }
+    if (item == 1) key("9 minus");
+    if (item == 2) picture("scale");
+    key("Return");
+  }
+  ASSERT_TRUE(view.says("The lesson is finished")) << view.said();
+  key("Escape");
+  EXPECT_EQ(view.ends(), 0) << view.said();
+  const std::string events = core::read_file(out + "/sub-QXWERT/task-a-lesson_events.tsv").value();
+  EXPECT_THAT(events, HasSubstr("\thello\ttext\t"));
+  EXPECT_THAT(events, HasSubstr("\tfeel\tcycle\tn/a\t0\t1\tn/a\tn/a\t1.39989e-09\t"));
+  EXPECT_THAT(events, HasSubstr("\ttlx-1\t95\t")) << "the upper end, and a step less";
+  EXPECT_THAT(events, HasSubstr("\ttlx-6\t50\t"));
+  EXPECT_THAT(core::read_file(out + "/participants.tsv").value(), HasSubstr("sub-QXWERT\t0\tn/a\tfinished"));
+  EXPECT_TRUE(fs::exists(out + "/sub-QXWERT/task-a-lesson_session/session-mica.afms")) << view.said();
+}
+
+TEST_F(LessonView, LeavesNothingOfAPersonWhoDoesNotTakePart) {
+  const std::string file = lesson("[[step]]\nid = \"hello\"\ntype = \"text\"\n" + words("hello"));
+  support::LiveProgram view(command(file, {"--participant", "QXWERT", "--out", folder_.file("study")}),
+                            display_.name());
+  ASSERT_TRUE(view.says("Do you take part?")) << view.said();
+  key("2");
+  ASSERT_TRUE(view.says("The lesson ends here")) << view.said();
+  key("Escape");
+  EXPECT_EQ(view.ends(), 0) << view.said();
+  EXPECT_FALSE(fs::exists(folder_.file("study"))) << view.said();
+}
+
+TEST_F(LessonView, HidesWhatABlindStepAsksForAndLaysTheVariantsOfAThreshold) {
+  const std::string file =
+      lesson("[[step]]\nid = \"blind\"\ntype = \"identify\"\ntrials = 1\n" + words("blind") +
+             "[[step]]\nid = \"harder\"\ntype = \"threshold\"\nmaterial = \"si3n4\"\nstaircase = \"weighted\"\n"
+             "distance = \"kept\"\nstart = 0.5\ntrials = 1\n" +
+             words("harder") + "[[step]]\nid = \"again\"\ntype = \"cycle\"\nmaterial = \"si3n4\"\n" + words("again"));
+  support::LiveProgram view(command(file), display_.name());
+  ASSERT_TRUE(view.says("Words of blind")) << view.said();
+  ASSERT_TRUE(view.says("jump to contact")) << view.said();
+  picture("blind");
+  for (const char* locked : {"F2", "m", "i", "1"}) key(locked);  // would change or choose the sample
+  ASSERT_TRUE(view.says("jump off contact")) << view.said();
+  ASSERT_TRUE(view.says("Which sample was it?")) << view.said();
+  EXPECT_THAT(view.said(), Not(HasSubstr("chosen: "))) << "the log of a blind step names no sample";
+  EXPECT_THAT(view.said(), Not(HasSubstr("scale fit")));
+  picture("which");
+  key("1");
+  ASSERT_TRUE(view.says("First cycle.")) << view.said();
+  ASSERT_TRUE(view.says("Second cycle.", std::chrono::minutes(2))) << view.said();
+  ASSERT_TRUE(view.says("Which cycle let go harder?", std::chrono::minutes(2))) << view.said();
+  // one of both is half as strong again
+  EXPECT_THAT(view.said(), HasSubstr("pull 0.9001 nN"));
+  EXPECT_THAT(view.said(), HasSubstr("pull 0.6000 nN"));
+  key("2");
+  ASSERT_TRUE(view.says("Words of again")) << view.said();
+  ASSERT_TRUE(view.says("jump off contact", std::chrono::minutes(2))) << view.said();
+  ASSERT_TRUE(view.says("The lesson is finished")) << view.said();
+  EXPECT_NE(view.said().find("pull 0.6000 nN", view.said().find("Words of again")), std::string::npos)
+      << "the sample is as loaded again: " << view.said();
+  key("Escape");
+  EXPECT_EQ(view.ends(), 0) << view.said();
+}
+
+}  // namespace
+}  // namespace afm::app

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/lesson/data_set.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/whole_file.h"
+#include "support/scratch_folder.h"
+
+namespace afm::exhibit {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class DataSetTest : public ::testing::Test {
+ protected:
+  DataSetTest() {
+    lesson_.id = "test";
+    lesson_.title.texts = {"Test", "Prüfung"};
+    lesson_.digest = "0123456789abcdef";
+  }
+  DataSetEntry entry(const std::string& code, std::optional<std::int64_t> day = std::nullopt) const {
+    return {.folder = study(), .code = code, .device = "mouse", .wall = "own", .seed = 12, .day = day};
+  }
+  std::string study() const { return folder_.file("study"); }
+  std::string text(const std::string& name) const { return core::read_file(study() + "/" + name).value(); }
+
+  Lesson lesson_;
+  const support::ScratchFolder folder_;
+};
+
+TEST_F(DataSetTest, HasItsTablesAndTheirDescriptions) {
+  auto data = DataSet::create(lesson_, entry("ABCDEF"));
+  ASSERT_TRUE(data) << data.error().message;
+  ASSERT_TRUE(data->add({.onset_s = 1.5,
+                         .duration_s = 2,
+                         .step = "blind",
+                         .kind = StepKind::Identify,
+                         .condition = Condition::Both,
+                         .practice = true,
+                         .trial = 3,
+                         .level = 0.25,
+                         .stimulus = "mica",
+                         .response = "gold",
+                         .correct = false,
+                         .rt_s = 0.5}));
+  EXPECT_EQ(text("sub-ABCDEF/task-test_events.tsv"),
+            "onset\tduration\tstep\ttrial_type\tcondition\tpractice\ttrial\tlevel\tstimulus\tresponse\tcorrect\trt\n"
+            "1.500\t2.000\tblind\tidentify\tboth\t1\t3\t0.25\tmica\tgold\t0\t0.500\n")
+      << "a line is there as soon as its trial is over";
+  EXPECT_EQ(text("participants.tsv"), "participant_id\torder\tage_band\tcomfort\nsub-ABCDEF\t0\tn/a\tn/a\n");
+  ASSERT_TRUE(data->finish(LessonEnd::Finished));
+  EXPECT_EQ(text("participants.tsv"), "participant_id\torder\tage_band\tcomfort\nsub-ABCDEF\t0\tn/a\tfinished\n");
+  const auto json = nlohmann::json::parse(text("sub-ABCDEF/task-test_events.json"));
+  EXPECT_EQ(json["onset"]["Units"], "s");
+  EXPECT_EQ(json["trial_type"]["Levels"].size(), kStepKinds.size());
+  EXPECT_EQ(json["Lesson"]["title"]["de"], "Prüfung");
+  EXPECT_EQ(json["Lesson"]["seed"], 12);
+  EXPECT_EQ(json["Lesson"]["device"], "mouse");
+  EXPECT_EQ(json["Lesson"]["scale"], "fit");
+  for (const char* column : {"participant_id", "order", "age_band", "comfort"}) {
+    EXPECT_TRUE(nlohmann::json::parse(text("participants.json")).contains(column)) << column;
+  }
+}
+
+TEST_F(DataSetTest, RefusesALessonThatWasDoneAndKeepsItsTrials) {
+  ASSERT_TRUE(DataSet::create(lesson_, entry("ABCDEF")));
+  const std::string before = text("sub-ABCDEF/task-test_events.tsv");
+  const auto again = DataSet::create(lesson_, entry("ABCDEF"));
+  ASSERT_FALSE(again.has_value());
+  EXPECT_EQ(again.error().category, core::ErrorCategory::WrongUsage);
+  EXPECT_THAT(again.error().message, HasSubstr("--withdraw ABCDEF"));
+  EXPECT_EQ(text("sub-ABCDEF/task-test_events.tsv"), before);
+  lesson_.id = "other";
+  EXPECT_TRUE(DataSet::create(lesson_, entry("ABCDEF"))) << "another lesson is another file";
+  EXPECT_EQ(order_of(study(), "ABCDEF").value(), 0U);
+}
+
+TEST_F(DataSetTest, GivesEachParticipantThenextOrderAndAWithdrawnOneAgain) {
+  for (const char* code : {"AAAAAA", "BBBBBB", "CCCCCC"}) ASSERT_TRUE(DataSet::create(lesson_, entry(code)));
+  EXPECT_EQ(order_of(study(), "CCCCCC").value(), 2U);
+  EXPECT_EQ(order_of(study(), "DDDDDD").value(), 3U);
+  ASSERT_TRUE(withdraw(study(), "BBBBBB"));
+  EXPECT_FALSE(fs::exists(study() + "/sub-BBBBBB"));
+  EXPECT_THAT(text("participants.tsv"), ::testing::Not(HasSubstr("BBBBBB")));
+  EXPECT_THAT(text("participants.tsv"), HasSubstr("CCCCCC"));
+  EXPECT_TRUE(fs::exists(study() + "/sub-CCCCCC"));
+  EXPECT_EQ(order_of(study(), "DDDDDD").value(), 1U) << "the design stays balanced";
+  const auto again = withdraw(study(), "BBBBBB");
+  ASSERT_FALSE(again.has_value());
+  EXPECT_EQ(again.error().category, core::ErrorCategory::WrongUsage);
+}
+
+TEST_F(DataSetTest, CountsDaysFromTheFirstOneOfTheStudy) {
+  const auto day_of = [&](const char* code) {
+    return nlohmann::json::parse(text(std::string("sub-") + code + "/task-test_events.json"))["Lesson"]["started_day"];
+  };
+  ASSERT_TRUE(DataSet::create(lesson_, entry("SIMULA")));
+  ASSERT_TRUE(DataSet::create(lesson_, entry("AAAAAA", 20'000)));
+  ASSERT_TRUE(DataSet::create(lesson_, entry("BBBBBB", 20'003)));
+  EXPECT_EQ(day_of("SIMULA"), 0);
+  EXPECT_EQ(day_of("AAAAAA"), 0);
+  EXPECT_EQ(day_of("BBBBBB"), 3);
+}
+
+TEST_F(DataSetTest, RefusesATableOfParticipantsThatIsNone) {
+  fs::create_directories(study());
+  ASSERT_TRUE(core::write_file(study() + "/participants.tsv", "name\tage\nAnna\t12\n"));
+  const auto data = DataSet::create(lesson_, entry("ABCDEF"));
+  ASSERT_FALSE(data.has_value());
+  EXPECT_EQ(data.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_EQ(text("participants.tsv"), "name\tage\nAnna\t12\n");
+}
+
+TEST_F(DataSetTest, FollowsNoLinkThatHoldsTheNameOfItsFile) {
+  fs::create_directories(study() + "/sub-ABCDEF");
+  fs::create_symlink(folder_.file("elsewhere"), study() + "/sub-ABCDEF/task-test_events.tsv");
+  EXPECT_FALSE(DataSet::create(lesson_, entry("ABCDEF")));
+  EXPECT_FALSE(fs::exists(folder_.file("elsewhere")));
+}
+
+TEST(ParticipantCode, IsSixCapitalLetters) {
+  EXPECT_TRUE(is_participant_code("ABCDEF"));
+  for (const char* wrong : {"", "ABCDE", "ABCDEFG", "abcdef", "ABCDE1", "../../"}) {
+    EXPECT_FALSE(is_participant_code(wrong)) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace afm::exhibit

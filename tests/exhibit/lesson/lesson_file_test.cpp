@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/lesson/lesson_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "exhibit/lesson/lesson_run.h"
+#include "exhibit/lesson/lesson_samples.h"
+#include "exhibit/lesson/simulated_student.h"
+#include "places.h"
+#include "scene/samples/material_library.h"
+#include "support/phrases.h"
+#include "support/scratch_folder.h"
+
+namespace afm::exhibit {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kHead =
+    "id = \"a-lesson\"\ntitle = { en = \"A\", de = \"B\" }\nminutes = 5\nmaterials = [\"mica\", \"gold\"]\n";
+const std::string kWords = "words = { en = \"Do.\", de = \"Tu.\" }\n";
+
+std::string step(const std::string& keys) { return "[[step]]\nid = \"one\"\n" + kWords + keys; }
+
+struct Refusal {
+  std::string text;
+  std::string message;  // with line and key
+};
+
+class LessonFile : public ::testing::TestWithParam<Refusal> {
+ protected:
+  const support::ScratchFolder folder_;
+};
+
+TEST_P(LessonFile, IsRefusedByLineAndKey) {
+  const auto lesson = load_lesson(folder_.write("lesson.toml", GetParam().text));
+  ASSERT_FALSE(lesson.has_value());
+  EXPECT_EQ(lesson.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_THAT(lesson.error().message, HasSubstr(GetParam().message));
+}
+
+const std::string kFit = "scale = \"fit\"\n", kCommon = "scale = \"common\"\n";
+const std::string kThreshold = "type = \"threshold\"\nmaterial = \"mica\"\nstaircase = \"weighted\"\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Refusals, LessonFile,
+    ::testing::Values(
+        Refusal{kHead + kFit + "speed = 3\n" + step("type = \"text\"\n"), "line 6: speed: unknown key; known are id"},
+        Refusal{kHead + kFit + step("type = \"text\"\nvolume = 3\n"), "line 10: step.volume: unknown key"},
+        Refusal{kHead + kFit + step("type = \"dance\"\n"), "line 9: step.type: dance is unknown; known are text, free"},
+        Refusal{kHead + kFit + step("type = \"cycle\"\n"), "step.material: is missing"},
+        Refusal{kHead + kFit + step("type = \"cycle\"\nmaterial = \"steel\"\n"),
+                "line 10: step.material: steel is none of the lesson's materials: mica, gold"},
+        Refusal{kHead + kFit + step("type = \"identify\"\n"), "line 9: step.type: identify needs the lesson's scale"},
+        Refusal{kHead + kFit + step(kThreshold + "distance = \"kept\"\n"),
+                "on fit every material lets go at the same force"},
+        Refusal{kHead + kCommon + step(kThreshold), "step.distance: is missing"},
+        Refusal{kHead + kCommon + step(kThreshold + "distance = \"roved\"\n"), "step.rove: is missing"},
+        Refusal{kHead + kCommon + step(kThreshold + "distance = \"kept\"\nrove = 0.2\n"),
+                "line 13: step.rove: is for distance = \"roved\" alone"},
+        Refusal{kHead + kCommon + step(kThreshold + "distance = \"kept\"\nstart = 2.0\n"),
+                "step.start: must lie between least and most"},
+        Refusal{kHead + kCommon + step("type = \"identify\"\nmaterials = [\"mica\"]\n"),
+                "line 10: step.materials: needs two materials or more"},
+        Refusal{kHead + kFit + step("type = \"cycle\"\nmaterial = \"mica\"\ntrials = 1000\n"),
+                "line 11: step.trials: must be a whole number from 1 to 200"},
+        Refusal{kHead + kFit + step("type = \"question\"\nquestionnaire = \"ssq\"\n"), "step.when: is missing"},
+        Refusal{kHead + kFit + step("type = \"question\"\nquestionnaire = \"ssq\"\nwhen = \"after\"\n"),
+                "line 7: step.id: of this step must end in -after"},
+        Refusal{kHead + kFit + step("type = \"question\"\nquestionnaire = \"sus\"\nwhen = \"after\"\n"),
+                "step.when: is for the questionnaire ssq alone"},
+        Refusal{kHead + kFit + step("type = \"text\"\neach_condition = true\n"),
+                "step.each_condition: needs the lesson's conditions"},
+        Refusal{kHead + kFit + "conditions = [\"haptics\", \"both\"]\n" + step("type = \"text\"\n"),
+                "line 6: conditions: are used by no step"},
+        Refusal{kHead + kFit + "conditions = [\"smell\", \"both\"]\n" + step("type = \"text\"\n"),
+                "smell is unknown; known are haptics, picture, both, sound"},
+        Refusal{kHead + kFit + step("type = \"text\"\nhint_after = \"5 s\"\n"), "needs both hint and hint_after"},
+        Refusal{kHead + kFit + step("type = \"text\"\nhint = { en = \"a\", de = \"b\" }\nhint_after = \"5 nm\"\n"),
+                "line 11: step.hint_after: "},
+        Refusal{kHead + kFit + "[[step]]\nid = \"one\"\ntype = \"text\"\nwords = { en = \"Only\" }\n",
+                "step.words.de: is missing"},
+        Refusal{
+            kHead + kFit + "[[step]]\nid = \"one\"\ntype = \"text\"\nwords = { en = \"a\", de = \"b\", fr = \"c\" }\n",
+            "step.words.fr: unknown language"},
+        Refusal{kHead + kFit + "[[step]]\nid = \"One\"\ntype = \"text\"\n" + kWords, "lower-case letters"},
+        Refusal{kHead + kFit + step("type = \"text\"\n") + step("type = \"text\"\n"), "one is the id of another step"},
+        Refusal{"id = \"a\"\ntitle = { en = \"A\", de = \"B\" }\nminutes = 21\nmaterials = [\"mica\"]\n" + kFit +
+                    step("type = \"text\"\n"),
+                "line 3: minutes: must be a whole number from 1 to 20"},
+        Refusal{kHead + kFit, "step: is missing"},
+        Refusal{kHead + "scale = \"atoms\"\n" + step("type = \"text\"\n"), "line 5: scale: atoms is unknown"}));
+
+TEST(LessonSamples, RefuseAThresholdThatTheCommonScaleHasNoRoomFor) {
+  const support::ScratchFolder folder;
+  const auto lesson = load_lesson(folder.write(
+      "lesson.toml", kHead + kCommon + "[[step]]\nid = \"one\"\n" + kWords +
+                         "type = \"threshold\"\nmaterial = \"gold\"\nstaircase = \"weighted\"\ndistance = \"kept\"\n"));
+  ASSERT_TRUE(lesson) << lesson.error().message;
+  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+  const auto samples = lesson_samples(*lesson, library);
+  ASSERT_FALSE(samples.has_value());
+  EXPECT_THAT(samples.error().message, HasSubstr("add a stronger material"));
+}
+
+// Kept: the comparison has 1 + w times the pull-off and both jumps at the same Z, so that no distance tells them apart.
+TEST(ComparisonSample, KeepsTheDistancesOrRovesThemAsTheLessonSays) {
+  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+  const auto standard = curves::make_sample_model(curves::ContactSetup{*library.find("si3n4"), {}, {}}).value();
+  const auto& before = standard.figures();
+  const auto kept = comparison_sample(standard, DistanceCue::Kept, 0.3, 1.0).value().figures();
+  EXPECT_NEAR(kept.force_before_joc.si, 1.3 * before.force_before_joc.si, 1e-6 * 1e-9);
+  EXPECT_NEAR(kept.z_joc.si, before.z_joc.si, 1e-6 * before.z_joc.si);
+  EXPECT_NEAR(kept.z_jtc.si, before.z_jtc.si, 1e-6 * before.z_jtc.si);
+  const auto roved = comparison_sample(standard, DistanceCue::Roved, 0.3, 1.25).value().figures();
+  EXPECT_NEAR(roved.force_before_joc.si, 1.3 * before.force_before_joc.si, 1e-6 * 1e-9);
+  EXPECT_NEAR(roved.z_joc.si, 1.3 / 1.25 * before.z_joc.si, 1e-6 * before.z_joc.si);
+}
+
+// E26: why blind identification needs the common scale.
+TEST(CommonScale, KeepsTheRatioOfPullOffsWhichFitDoesNot) {
+  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+  const auto mica = curves::make_sample_model(curves::ContactSetup{*library.find("mica"), {}, {}}).value();
+  const auto gold = curves::make_sample_model(curves::ContactSetup{*library.find("gold"), {}, {}}).value();
+  const double mica_n = mica.figures().force_before_joc.si, gold_n = gold.figures().force_before_joc.si;
+  EXPECT_NEAR(gold_n / mica_n / 7.14317584, 1.0, 1e-6);
+  EXPECT_NEAR(gold.scaling.hand_force_n(gold_n) / mica.scaling.hand_force_n(mica_n), 1.0, 1e-6);
+}
+
+std::vector<std::string> shipped_lessons() {
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(AFM_SOURCE_DIR "/assets/lessons")) {
+    paths.push_back(entry.path().string());
+  }
+  return paths;
+}
+
+TEST(ShippedLessons, AreSixThatLoadAndRunToTheirEndInBothLanguages) {
+  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+  std::set<StepKind> kinds;
+  std::size_t lessons = 0;
+  for (const std::string& path : shipped_lessons()) {
+    const auto lesson = load_lesson(path);
+    ASSERT_TRUE(lesson) << lesson.error().message;
+    EXPECT_TRUE(path.ends_with("/" + lesson->id + ".toml")) << path;
+    const auto samples = lesson_samples(*lesson, library);
+    ASSERT_TRUE(samples) << samples.error().message;
+    for (const LessonStep& each : lesson->steps) kinds.insert(each.kind);
+    for (const char* language : {"en", "de"}) {
+      const Phrases phrases = Phrases::load(test::kPhraseFolder + language + ".toml").value();
+      std::set<std::string> seen;
+      const auto count = [&](const TrialRow& row) {
+        seen.insert(row.step);
+        return core::Result<void>{};
+      };
+      LessonRun run(*lesson, *samples, phrases, {.seed = 3, .order = 1}, count, 0.0);
+      EXPECT_EQ(run.prompt(0).title, lesson->title.in(language));
+      SimulatedStudent student({.seed = 3}, *lesson, *samples);
+      const auto taken = student.take(run);
+      ASSERT_TRUE(taken) << taken.error().message;
+      EXPECT_EQ(run.end(), LessonEnd::Finished) << path;
+      EXPECT_EQ(seen.size(), lesson->steps.size()) << path;
+    }
+    ++lessons;
+  }
+  EXPECT_EQ(lessons, 6U);
+  EXPECT_EQ(kinds.size(), kStepKinds.size()) << "the lessons show every type of step";
+}
+
+}  // namespace
+}  // namespace afm::exhibit
