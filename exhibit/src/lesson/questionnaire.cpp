@@ -3,19 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace afm::exhibit {
-
-namespace {
-
-// How many of the three symptom groups an item counts in (Kennedy et al. 1993, table 4).
-constexpr std::array<int, 16> kSsqGroups{2, 1, 1, 1, 2, 1, 1, 2, 2, 1, 2, 1, 1, 1, 1, 1};
-constexpr double kSsqTotal = 3.74;
-constexpr double kMostSsq = 20;
-constexpr int kSevere = 3;
-
-}  // namespace
 
 std::string item_id(Questionnaire which, std::size_t item) {
   return fmt::format("{}-{}", row_of(which).word, item + 1);
@@ -40,16 +28,6 @@ std::vector<std::string> answers_of(Questionnaire which, const Phrases& phrases)
 
 int value_of(Questionnaire which, std::size_t answer) {
   return row_of(which).least + static_cast<int>(answer) * row_of(which).step;
-}
-
-double ssq_total(std::span<const int> answers) {
-  int sum = 0;
-  for (std::size_t i = 0; i < std::min(answers.size(), kSsqGroups.size()); ++i) sum += answers[i] * kSsqGroups[i];
-  return kSsqTotal * sum;
-}
-
-bool ssq_says_stop(std::span<const int> answers) {
-  return ssq_total(answers) > kMostSsq || std::find(answers.begin(), answers.end(), kSevere) != answers.end();
 }
 
 }  // namespace afm::exhibit

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "exhibit/lesson/questionnaire.h"
+#include "exhibit/study/questionnaires.h"
 #include "step_activity.h"
 
 namespace afm::exhibit {
@@ -120,13 +122,13 @@ class QuestionActivity final : public StepActivity {
   void reset(double now_s) override { asked_s_ = now_s; }
   bool done() const override { return values_.size() == row_.items; }
   bool says_stop() const override {
-    return done() && row_.questionnaire == Questionnaire::Ssq && ssq_says_stop(values_);
+    return done() && row_.questionnaire == Questionnaire::Ssq && ssq_says_stop(std::span<const double, 16>(values_));
   }
 
  private:
   StepContext context_;
   const QuestionnaireRow& row_;
-  std::vector<int> values_;
+  std::vector<double> values_;
   double asked_s_;
 };
 

@@ -133,20 +133,6 @@ TEST(WilliamsOrders, ShowEveryConditionEverywhereAndAfterEveryOtherEquallyOften)
   EXPECT_EQ(williams_orders(1), (std::vector<std::vector<std::size_t>>{{0}}));
 }
 
-// E10, of which the total decides.
-TEST(Ssq, HasTheTotalOfTheExampleAndStopsAtTwentyOrAtASevereSymptom) {
-  const std::vector<int> example{1, 1, 2, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0};
-  EXPECT_NEAR(ssq_total(example), 44.88, 1e-9);
-  EXPECT_TRUE(ssq_says_stop(example));
-  std::vector<int> mild(16, 0);
-  EXPECT_EQ(ssq_total(mild), 0.0);
-  mild[1] = mild[3] = 1;
-  EXPECT_FALSE(ssq_says_stop(mild));
-  mild[5] = 3;
-  EXPECT_LT(ssq_total(mild), 20.0);
-  EXPECT_TRUE(ssq_says_stop(mild)) << "a severe symptom is enough";
-}
-
 TEST(Questionnaires, HaveTheirItemsAndAnswersInBothLanguages) {
   for (const char* language : {"en", "de"}) {
     const Phrases phrases = Phrases::load(test::kPhraseFolder + language + ".toml").value();

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,12 +42,5 @@ std::vector<std::string> answers_of(Questionnaire which, const Phrases& phrases)
 
 // The number that an answer stands for.
 int value_of(Questionnaire which, std::size_t answer);
-
-// The SSQ's total score: 3.74 times the sum of the raw scores of nausea, oculomotor strain and disorientation. Sixteen
-// answers of 0 to 3.
-double ssq_total(std::span<const int> answers);
-
-// The rule by which a participant stops: a total above 20, or a symptom that is severe.
-bool ssq_says_stop(std::span<const int> answers);
 
 }  // namespace afm::exhibit
