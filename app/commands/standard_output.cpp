@@ -9,17 +9,23 @@
 
 namespace afm::app {
 
+namespace {
+
+core::Result<void> cannot_write() {
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("cannot write to stdout: {}", core::system_error(errno)));
+}
+
+}  // namespace
+
 core::Result<void> write_stdout(std::string_view text) {
   errno = 0;
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) return cannot_write();
   return flush_stdout();
 }
 
 core::Result<void> flush_stdout() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot write to stdout: {}", core::system_error(errno)));
-  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return cannot_write();
   return {};
 }
 

@@ -86,23 +86,6 @@ PanelPlacement mark_placement(const PanelPlacement& whole, scene::Eye eye) {
           .up_m = 0.36 * whole.up_m};
 }
 
-// In whole texels, with those beside it that filtering reaches.
-PanelPart part_of(const CanvasBox& changed, const glm::vec2& canvas_texels, vk::Extent2D extent) {
-  const glm::dvec2 size(extent.width, extent.height);
-  const glm::dvec2 scale = size / glm::dvec2(canvas_texels);
-  const glm::dvec2 low = glm::clamp(glm::floor(scale * glm::dvec2(changed.low)) - 2.0, glm::dvec2(0.0), size);
-  const glm::dvec2 high = glm::clamp(glm::ceil(scale * glm::dvec2(changed.high)) + 2.0, glm::dvec2(0.0), size);
-  return {.low = {low.x / size.x, 1.0 - high.y / size.y}, .high = {high.x / size.x, 1.0 - low.y / size.y}};
-}
-
-// The texels of a part.
-PixelBox texels_of(const PanelPart& part, vk::Extent2D extent) {
-  const glm::dvec2 size(extent.width, extent.height);
-  const glm::ivec2 low(glm::round(glm::dvec2(part.low.x, 1.0 - part.high.y) * size));
-  const glm::ivec2 high(glm::round(glm::dvec2(part.high.x, 1.0 - part.low.y) * size));
-  return {low, high};
-}
-
 // At least what is wanted, with room to grow.
 void reserve(const Device& device, Buffer& buffer, const char* name, std::size_t bytes, vk::BufferUsageFlags usage) {
   if (buffer.size < bytes) {

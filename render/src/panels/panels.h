@@ -14,6 +14,7 @@
 #include "panels/painted_shapes.h"
 #include "panels/panel_fonts.h"
 #include "panels/panel_painting.h"
+#include "panels/panel_part.h"
 #include "passes/eye_targets.h"
 #include "render/frame.h"
 #include "render/renderer.h"
@@ -21,13 +22,6 @@
 namespace afm::render {
 
 inline constexpr std::size_t kFramesInFlight = 2;
-
-// A rectangle of a panel, whose lower left corner is 0, 0 and whose upper right one is 1, 1.
-struct PanelPart {
-  glm::dvec2 low{0.0}, high{1.0};
-
-  bool operator==(const PanelPart&) const = default;
-};
 
 // What one panel adds to the pictures of the eyes.
 struct PanelState {
