@@ -280,7 +280,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   settings.lesson = guide ? &*guide : nullptr;
   LiveView live(*stage, materials, windows, (*display)->picture(), start_servo, **wand, clock, settings);
   auto ran = live.run();
-  const auto kept = guide ? guide->finish() : core::Result<void>{};
+  auto kept = guide ? guide->finish() : core::Result<void>{};
   if (!ran) return ran;
   if (!kept) return kept;
   return check_validation((*display)->context());

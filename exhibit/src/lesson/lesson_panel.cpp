@@ -47,6 +47,7 @@ std::vector<LessonTarget> lesson_targets(const LessonPrompt& prompt, std::size_t
     return {{Action::Less, 0, "\u2212"}, {Action::Confirm, marked, prompt.answers[marked]}, {Action::More, 0, "+"}};
   }
   std::vector<LessonTarget> targets;
+  targets.reserve(targets.size() + prompt.answers.size());
   for (std::size_t i = 0; i < prompt.answers.size(); ++i) {
     targets.push_back({Action::Answer, i, fmt::format("{}  {}", i + 1, prompt.answers[i])});
   }

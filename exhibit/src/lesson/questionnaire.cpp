@@ -11,7 +11,7 @@ std::string item_id(Questionnaire which, std::size_t item) {
 
 std::vector<std::string> answers_of(Questionnaire which, const Phrases& phrases) {
   const QuestionnaireRow& row = row_of(which);
-  const auto count = static_cast<std::size_t>((row.most - row.least) / row.step + 1);
+  const auto count = static_cast<std::size_t>((row.most - row.least) / row.step) + 1;
   std::vector<std::string> answers;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string number = std::to_string(value_of(which, i));
