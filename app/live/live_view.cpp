@@ -255,7 +255,9 @@ void LiveView::move_hand(const ViewInput& input, std::int64_t now_ns) {
   }
   if (scan_script_.revision != 0) return servo.script(scan_script_);
   const std::int32_t material = servo.tip().material;
-  if (person_.step() == input::SimulatedPerson::Step::Done && material >= 0 && !visitor_.away()) {
+  const bool done = person_.step() == input::SimulatedPerson::Step::Done && !visitor_.away();
+  const bool another = person_.material() != material && servo.chosen() == material;  // a lesson has laid it
+  if (material >= 0 && (done || another)) {
     person_.begin(swatches_[static_cast<std::size_t>(material)].center_m, material, now_ns);
   }
   person_.update(now_ns, servo.tip());

@@ -67,6 +67,8 @@ void SimulatedPerson::update(std::int64_t now_ns, const scene::TipState& tip) {
       if (tip.material == material_ && seconds_in_step(now_ns) > kPressSeconds) {
         move_hand(path_.lift_m, kLiftSeconds);
         enter(Step::Lift, now_ns);
+      } else if (path_finished && tip.phase == physics::Phase::Attached) {
+        move_hand(path_.lift_m, stroke_seconds());  // a tip that holds on keeps its sample
       }
       break;
     case Step::Lift:

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/whole_file.h"
@@ -121,6 +122,8 @@ TEST_F(LessonView, HidesWhatABlindStepAsksForAndLaysTheVariantsOfAThreshold) {
   EXPECT_THAT(view.said(), Not(HasSubstr("chosen: "))) << "the log of a blind step names no sample";
   EXPECT_THAT(view.said(), Not(HasSubstr("scale fit")));
   picture("which");
+  // a person thinks before the answer; the simulated hand has meanwhile begun the next cycle on the old sample
+  std::this_thread::sleep_for(std::chrono::seconds(2));
   key("1");
   ASSERT_TRUE(view.says("First cycle.")) << view.said();
   ASSERT_TRUE(view.says("Second cycle.", std::chrono::minutes(2))) << view.said();

@@ -41,6 +41,7 @@ class SimulatedPerson {
   void set_normal(const glm::dvec3& normal) { normal_ = normal; }
 
   Step step() const { return step_; }
+  std::int32_t material() const { return material_; }  // of the procedure; -1 before the first
   WandState wand(std::int64_t now_ns) const { return wand_.state(now_ns); }
   const scene::HandScript& hand() const { return hand_; }
 

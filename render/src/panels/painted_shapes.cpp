@@ -18,7 +18,7 @@ bool same(const ImDrawVert& a, const ImDrawVert& b) {
 
 // Corners at the beginning that belong to equal triangles.
 template <class It>
-std::ptrdiff_t equal_from(It a, It a_end, It b, It b_end) {
+std::ptrdiff_t equal_from(const It& a, const It& a_end, const It& b, const It& b_end) {
   const std::ptrdiff_t equal =
       std::mismatch(a, a_end, b, b_end, [](const ImDrawVert& v, const ImDrawVert& w) { return same(v, w); }).first - a;
   return equal / 3 * 3;

@@ -78,6 +78,7 @@ class ServoClient {
   // has been removed. Without a mode: the previous one, initially Fit.
   void choose(std::int32_t material) { choose(material, selection_.scale_mode); }
   void choose(std::int32_t material, scene::ScaleMode mode);
+  std::int32_t chosen() const { return selection_.material; }  // which the tip may not have yet; -1: none
 
   // Changes the parameters of a material, given by its index in the shared model; returns the revision of the edit. It
   // takes effect like a selection: once the tip is off the sample, after the force has been removed, so that the hand
