@@ -86,8 +86,8 @@ afm_precompiled(afm_formatting_headers LIBRARIES fmt::fmt HEADERS <fmt/format.h>
 afm_precompiled(afm_cold_headers OPTIONS ${AFM_COLD_CODE} LIBRARIES fmt::fmt nlohmann_json::nlohmann_json
                 HEADERS <fmt/format.h> <nlohmann/json.hpp>)
 
-# With CMAKE_UNITY_BUILD (the presets release, tsan and fuzz) so many sources of a module are compiled as one, which takes a third of the
-# time: what they name for themselves must differ within the module. The preset asan compiles each alone, so that none lacks an
+# With CMAKE_UNITY_BUILD (every preset) so many sources of a module are compiled as one, which takes a third of the time: what they
+# name for themselves must differ within the module. `cmake --preset release -DCMAKE_UNITY_BUILD=OFF` finds a source that lacks an
 # include.
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 10)
 
