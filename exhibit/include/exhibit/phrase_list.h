@@ -185,7 +185,8 @@
   PHRASE(PatternSquare, "pattern-square", "length", kLine)               \
   PHRASE(PatternEyes, "pattern-eyes", "", kLine)                         \
   PHRASE(PatternOneEye, "pattern-one-eye", "", kLine)                    \
-  PHRASE(PatternRuler, "pattern-ruler", "distance", kLine)
+  PHRASE(PatternRuler, "pattern-ruler", "distance", kLine)               \
+  PHRASE(PatternBlending, "pattern-blending", "", kLine)
 
 // The friction loop.
 #define AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)                  \
