@@ -42,8 +42,8 @@ constexpr std::uint32_t kLargestImage = 16384;
 constexpr float kLeastLetterPx = 9.0F;   // em square of the state's word, in pixels of an eye
 constexpr double kLeastBannerPx = 12.0;  // of its height: below it nothing can be read
 constexpr std::array kWidthsPx{400U, 1280U, 2110U, 3840U, 7680U};
-constexpr std::array kPresets{"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2",
-                              "cave",      "floor",          "wide",  "phone"};
+constexpr std::array kPresets{"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2", "blended",
+                              "curved",    "cave",           "floor", "wide",          "phone"};
 
 struct ContextEnd {
   void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
