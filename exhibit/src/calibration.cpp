@@ -21,7 +21,6 @@ void add_blending(const scene::Screen& screen, const Phrases& phrases, render::C
     const double width_m = panel.ramps.at(edge).width_m;
     if (width_m > 0.0) panel.ramp_widths.at(edge) = phrases.number(fmt::format("{:.0f} mm", width_m * 1e3));
   }
-  panel.blending = phrases[Phrase::PatternBlending];
 }
 
 }  // namespace

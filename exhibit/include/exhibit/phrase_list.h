@@ -2,8 +2,8 @@
 #pragma once
 
 // Every phrase of wall and report. A row is PHRASE(enumerator, key in the files, placeholders, limit): placeholders are
-// words in braces of the text, in the order in which the code fills them, one that ends in "?" may be left out; the limit
-// is kLine or kParagraph (exhibit/phrases.h). English is in assets/guidance/en.toml.
+// words in braces of the text, in the order in which the code fills them; one that ends in "?" may be left out. The
+// limit is kLine or kParagraph (exhibit/phrases.h). English is in assets/guidance/en.toml.
 
 // The procedure's steps, in the order of Hint; why the force is off, in the order of scene::FaultCode; the controls, in
 // the order of HandControls and Pointer; the notes, in the order of Note.
@@ -185,8 +185,7 @@
   PHRASE(PatternSquare, "pattern-square", "length", kLine)               \
   PHRASE(PatternEyes, "pattern-eyes", "", kLine)                         \
   PHRASE(PatternOneEye, "pattern-one-eye", "", kLine)                    \
-  PHRASE(PatternRuler, "pattern-ruler", "distance", kLine)               \
-  PHRASE(PatternBlending, "pattern-blending", "", kLine)
+  PHRASE(PatternRuler, "pattern-ruler", "distance", kLine)
 
 // The friction loop.
 #define AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)                  \

@@ -255,7 +255,6 @@ struct CalibrationPanel {
   glm::dvec2 grid_from_m{0.0};               // a crossing of the grid: right of and below the screen's middle
   std::array<scene::EdgeRamp, 4> ramps{};    // of blending, by scene::ScreenEdge
   std::array<std::string, 4> ramp_widths{};  // as text; empty: no ramp
-  std::string blending;                      // their legend
 
   bool operator==(const CalibrationPanel&) const = default;
 };

@@ -124,7 +124,6 @@ void paint(Canvas& canvas, const CalibrationPanel& panel) {
   line(220.0F, TextStyle::Title, panel.size);
   line(320.0F, TextStyle::Strong, panel.mode);
   line(390.0F, TextStyle::Body, panel.legend);
-  line(460.0F, TextStyle::Body, panel.blending);
   paint_ruler(canvas, {middle.x - 0.5F * kMostIpdMm * canvas.true_mm(), 1840.0F * unit}, unit, panel.ipd_m);
   line(1860.0F, TextStyle::Body, panel.ruler);
   paint_greys(canvas, {middle.x - 490.0F * unit, 1950.0F * unit}, unit);
