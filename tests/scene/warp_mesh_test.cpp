@@ -190,6 +190,20 @@ TEST(WarpMesh, NamesTheLineOfEveryMistake) {
               HasSubstr("largest x is 0.01"));
 }
 
+// Wound about the output's middle a hundred times: no cell folds, and each is as large as the output.
+TEST(WarpMesh, RefusesToDrawTheOutputAgainAndAgain) {
+  constexpr int kColumns = 400;
+  std::string text = fmt::format("2\n{} 2\n", kColumns);
+  for (const double radius : {0.01, 1.5}) {
+    for (int column = 0; column < kColumns; ++column) {
+      const double angle = -1.6 * column;
+      text += fmt::format("{} {} {} {} 1\n", radius * std::cos(angle), radius * std::sin(angle),
+                          column / (kColumns - 1.0), radius / 1.5);
+    }
+  }
+  EXPECT_THAT(error_of(text), HasSubstr("over itself many times"));
+}
+
 // The preset's mesh: where the ray from the eye to a place on the cylinder, which the projector lights, meets the flat
 // screen between its edges.
 TEST(WarpMesh, OfTheCurvedPresetIsThatOfItsCylinder) {

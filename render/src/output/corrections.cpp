@@ -146,7 +146,9 @@ void Correction::add_moved(const PixelBox& box, vk::Extent2D drawn, const glm::i
 }
 
 Corrections::Corrections(const Device& device)
-    : device_(device), layout_(create_correction_layout(device)), sampler_(*device, vk::SamplerCreateInfo{}) {}
+    : device_(device), layout_(create_correction_layout(device)), sampler_(*device, vk::SamplerCreateInfo{}) {
+  newest_first_.emplace_front(device_, *layout_, *sampler_, Composition{}, vk::Extent2D{1, 1});
+}
 
 const Correction& Corrections::find(const Composition& composition, vk::Extent2D eye_px) {
   const auto found = std::find_if(newest_first_.begin(), newest_first_.end(),

@@ -51,7 +51,8 @@ class Correction {
   vk::raii::DescriptorSet set_{nullptr};
 };
 
-// The corrections in use. One is made when a mesh is first shown at a size, which waits for the device.
+// The corrections in use, from the beginning that of an output without any. Another is made when a mesh or blending is
+// first shown at a size, which waits for the device.
 class Corrections {
  public:
   explicit Corrections(const Device& device);

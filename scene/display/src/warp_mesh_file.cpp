@@ -5,7 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <glm/common.hpp>
 #include <string_view>
 
 #include "core/whole_file.h"
@@ -20,6 +20,7 @@ constexpr double kFarthest = 10.0;      // from the middle of the output, whose 
 constexpr double kFarthestTexel = 4.0;  // from the picture, in its sizes
 constexpr double kSmallestAspect = 0.1, kLargestAspect = 10.0;
 constexpr double kLeastArea = 1e-12;  // of a triangle that is none; the output has 1
+constexpr double kMostDrawn = 64.0;   // of all rectangles around triangles: it bounds the time that a mesh takes
 
 struct MeshFault {
   std::size_t line;
@@ -97,10 +98,19 @@ double doubled_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& 
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
+// Of the rectangle around a triangle, as far as it lies in the output.
+double drawn_area(const WarpNode& a, const WarpNode& b, const WarpNode& c) {
+  const glm::dvec2 low = glm::min(a.output, glm::min(b.output, c.output));
+  const glm::dvec2 high = glm::max(a.output, glm::max(b.output, c.output));
+  const glm::dvec2 size = glm::clamp(high, 0.0, 1.0) - glm::clamp(low, 0.0, 1.0);
+  return size.x * size.y;
+}
+
 // A picture that lies over itself has two colours for one pixel; one that is mirrored exchanges near and far.
 void check_cells(const WarpMesh& mesh) {
   constexpr std::size_t kFirstNodeLine = 3;
   double turn = 0.0;  // of all triangles: 1 or -1
+  double drawn = 0.0;
   for (std::uint32_t row = 0; row + 1 < mesh.rows; ++row) {
     for (std::uint32_t column = 0; column + 1 < mesh.columns; ++column) {
       const std::array cell{&mesh.node(column, row), &mesh.node(column + 1, row), &mesh.node(column + 1, row + 1),
@@ -119,9 +129,11 @@ void check_cells(const WarpMesh& mesh) {
           throw MeshFault{line,
                           "the mesh mirrors the picture at this node; set rear projection in the projector instead"};
         }
+        drawn += drawn_area(*cell[0], *b, *c);
       }
     }
   }
+  if (drawn > kMostDrawn) throw MeshFault{kFirstNodeLine, "the mesh lies over itself many times"};
   if (turn == 0.0) throw MeshFault{1, "no cell of the mesh is drawn: every one has a node of negative intensity"};
 }
 
