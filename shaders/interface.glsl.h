@@ -117,7 +117,7 @@ struct BlendBlock {
   vec4 begin[AFM_MOST_BLENDED];  // of the ramps, inwards from the edges
   vec4 width[AFM_MOST_BLENDED];
   vec4 black[AFM_MOST_BLENDED];  // x: light of the projector's black
-  vec4 light;  // x: how many boxes, the output's own first; y: gamma, 0: sRGB; z: brightest black; w: the picture's share
+  vec4 light;  // x: number of boxes, the output's own first; y: gamma, 0: sRGB; z: brightest black; w: picture's share
 };
 
 // linear rgb = left * L + right * R: the upper left 3 x 3
