@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 #include <glm/common.hpp>
+#include <iterator>
 #include <span>
 
 #include "device/barriers.h"

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <list>
 #include <memory>
+#include <vector>
 
 #include "device/memory.h"
 #include "passes/pixel_tiles.h"
