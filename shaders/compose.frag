@@ -12,6 +12,8 @@ layout(constant_id = 0) const uint kVariant = 0;
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2DArray eyes;
 layout(set = 0, binding = AFM_BINDING_LINEAR) uniform sampler2DArray linear_eyes;
 layout(set = 0, binding = AFM_BINDING_ANAGLYPH) uniform Anaglyph { AnaglyphBlock anaglyph; };
+layout(set = 1, binding = AFM_BINDING_WARP) uniform sampler2D warp;  // as scene::warp_map()
+layout(set = 1, binding = AFM_BINDING_BLEND) uniform Blending { BlendBlock blend; };
 layout(push_constant) uniform Compose { ComposeBlock compose; };
 layout(location = 0) out vec4 out_color;
 
@@ -74,40 +76,134 @@ Source source_of_pixel(ivec2 pixel, ivec2 picture) {
 
 int layer_of(int eye) { return eye == kRight && compose.drawn.z == 0.0 ? 1 : 0; }
 
+// Whether the pixel shows its own place in the picture: neither mesh nor keystone moves it.
+bool unmoved() { return (kVariant & AFM_FEATURE_WARPED) == 0u && compose.mode.z == 0; }
+
 // Whether one pixel of the picture is one of the eye's image.
 bool unscaled(Source source) {
-  return compose.mode.z == 0 && source.region == textureSize(eyes, 0).xy && compose.drawn.xy == vec2(1.0);
+  return unmoved() && source.region == textureSize(eyes, 0).xy && compose.drawn.xy == vec2(1.0);
+}
+
+// What an output's pixel shows: a place in the eyes' pictures, from 0,0 to 1,1, or nothing.
+struct Place {
+  vec2 uv;
+  bool shown;
+  float intensity;  // of the encoded colour
+  float line_px;    // to the nearest line of the warp mesh
+};
+
+Place place_of(Source source) {
+  Place place = Place((vec2(source.pixel) + 0.5) / vec2(source.region), true, 1.0, 1e6);
+  if ((kVariant & AFM_FEATURE_WARPED) != 0u) {
+    vec4 warped = texelFetch(warp, source.pixel, 0);
+    place = Place(warped.xy, warped.w > 0.0, warped.z, warped.w - 1.0);
+  } else if (compose.mode.z != 0) {
+    vec3 moved = compose.picture_from_output[0].xyz * place.uv.x + compose.picture_from_output[1].xyz * place.uv.y +
+                 compose.picture_from_output[2].xyz;
+    place.uv = moved.xy / moved.z;
+    place.shown = moved.z > 0.0;
+  }
+  place.shown = place.shown && !any(lessThan(place.uv, vec2(0.0))) && !any(greaterThan(place.uv, vec2(1.0)));
+  return place;
 }
 
 // The pixel itself, encoded.
-vec3 eye_texel(int eye, Source source) { return texelFetch(eyes, ivec3(source.pixel, layer_of(eye)), 0).rgb; }
+vec3 eye_texel(int eye, ivec2 pixel) { return texelFetch(eyes, ivec3(pixel, layer_of(eye)), 0).rgb; }
 
 // Exactly; the device's own decoding may be off by a step of 8 bits.
 vec3 linear_from_srgb(vec3 c) {
   return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
 }
 
-// Linear light: of the pixel itself where nothing is scaled, else bilinear within what is drawn of the image.
-vec3 eye_light(int eye, Source source) {
-  if (unscaled(source)) {
-    return linear_from_srgb(eye_texel(eye, source));
-  }
-  vec2 uv = (vec2(source.pixel) + 0.5) / vec2(source.region);
-  if (compose.mode.z != 0) {
-    vec3 place = compose.picture_from_output[0].xyz * uv.x + compose.picture_from_output[1].xyz * uv.y +
-                 compose.picture_from_output[2].xyz;
-    uv = place.xy / place.z;
-    if (place.z <= 0.0 || any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)))) {
-      return vec3(0.0);
-    }
-  }
-  uv = min(uv * compose.drawn.xy, compose.drawn.xy - (0.5 + compose.drawn.w) / vec2(textureSize(eyes, 0).xy));
+// The pixel whose middle a warped place meets, as far as a device's filter could tell; negative if there is none.
+ivec2 met_by_warp(Place place) {
+  const float kFilterSteps = 512.0;  // half a step of a filter that has 8 bits
+  vec2 at = place.uv * compose.drawn.xy * vec2(textureSize(eyes, 0).xy) - 0.5;
+  vec2 nearest = round(at);
+  bool met = (kVariant & AFM_FEATURE_WARPED) != 0u && all(lessThan(abs(at - nearest), vec2(1.0 / kFilterSteps)));
+  return met ? ivec2(nearest) : ivec2(-1);
+}
+
+// Linear light: bilinear within what is drawn of the image.
+vec3 filtered_light(int eye, Place place) {
+  vec2 uv = place.uv * compose.drawn.xy;
+  uv = min(uv, compose.drawn.xy - (0.5 + compose.drawn.w) / vec2(textureSize(eyes, 0).xy));
   return textureLod(linear_eyes, vec3(uv, layer_of(eye)), 0.0).rgb;
 }
 
+// Linear light: of the pixel itself where nothing is scaled.
+vec3 eye_light(int eye, Source source, Place place) {
+  ivec2 met = unscaled(source) ? source.pixel : met_by_warp(place);
+  return met.x >= 0 ? linear_from_srgb(eye_texel(eye, met)) : filtered_light(eye, place);
+}
+
 // As it is shown, encoded.
-vec3 eye_color(int eye, Source source) {
-  return unscaled(source) ? eye_texel(eye, source) : srgb_from_linear(eye_light(eye, source));
+vec3 eye_color(int eye, Source source, Place place) {
+  ivec2 met = unscaled(source) ? source.pixel : met_by_warp(place);
+  return met.x >= 0 ? eye_texel(eye, met) : srgb_from_linear(filtered_light(eye, place));
+}
+
+// ---- blending: scene::Blend has the same arithmetic ----
+
+float risen(float distance, float begin, float width) {
+  if (width <= 0.0) {
+    return 1.0;
+  }
+  float t = clamp((distance - begin) / width, 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+vec3 light_of(vec3 encoded) { return blend.light.y > 0.0 ? pow(encoded, vec3(blend.light.y)) : linear_from_srgb(encoded); }
+
+// Exactly: the outputs' roundings add up.
+vec3 encoded_from(vec3 light) {
+  if (blend.light.y > 0.0) {
+    return pow(light, vec3(1.0 / blend.light.y));
+  }
+  return mix(light * 12.92, 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, greaterThan(light, vec3(0.0031308)));
+}
+
+// This output's share of the colour at a place, and of the light that makes black there as bright as it is where most
+// projectors overlap.
+vec3 blended(vec3 color, vec2 uv) {
+  float own = 1.0, all_of_them = 0.0, black = 0.0;
+  for (int i = 0; i < int(blend.light.x); ++i) {
+    vec4 inwards = vec4(uv - blend.box[i].xy, blend.box[i].zw - uv);
+    if (any(lessThan(inwards, vec4(0.0)))) {
+      continue;
+    }
+    float weight = 1.0;
+    for (int edge = 0; edge < 4; ++edge) {
+      weight *= risen(inwards[edge], blend.begin[i][edge], blend.width[i][edge]);
+    }
+    own = i == 0 ? weight : own;
+    all_of_them += weight;
+    black += blend.black[i].x;
+  }
+  float share = all_of_them > 0.0 ? own / all_of_them : 1.0;
+  float lift = max(0.0, blend.light.z - black);
+  if (share == 1.0 && lift == 0.0 && blend.light.w == 1.0) {
+    return color;
+  }
+  return encoded_from(share * (lift + blend.light.w * light_of(color)));
+}
+
+// The lines of the warp mesh in the picture for setting up.
+vec3 marked(vec3 color, Place place) {
+  const float kHalfWidthPx = 0.75;
+  const vec3 kLine = vec3(1.0, 0.35, 0.75);
+  return compose.picture_from_output[0].w > 0.0 && place.line_px <= kHalfWidthPx ? kLine : color;
+}
+
+// Beside the picture nothing is lit.
+vec3 corrected(vec3 color, Place place) {
+  if (!place.shown) {
+    return vec3(0.0);
+  }
+  if ((kVariant & AFM_FEATURE_BLENDED) != 0u) {
+    color = blended(color, place.uv);
+  }
+  return (kVariant & AFM_FEATURE_WARPED) != 0u ? marked(place.intensity * color, place) : color;
 }
 
 void main() {
@@ -116,13 +212,16 @@ void main() {
   bool swapped = compose.mode.y != 0;
   vec3 color = vec3(0.0);
   if ((kVariant & AFM_FEATURE_MIXED) != 0u) {
-    vec3 left = eye_light(swapped ? kRight : kLeft, source);
-    vec3 right = eye_light(swapped ? kLeft : kRight, source);
+    Place place = place_of(source);
+    vec3 left = eye_light(swapped ? kRight : kLeft, source, place);
+    vec3 right = eye_light(swapped ? kLeft : kRight, source, place);
     vec3 mixed = mat3(anaglyph.left[compose.mode.w]) * left + mat3(anaglyph.right[compose.mode.w]) * right;
-    color = srgb_from_linear(clamp(mixed, 0.0, 1.0));
+    color = corrected(srgb_from_linear(clamp(mixed, 0.0, 1.0)), place);
   } else if (source.eye != kBlank) {
     int eye = swapped ? kRight - source.eye : source.eye;
-    color = (kVariant & AFM_FEATURE_SCALED) != 0u ? eye_color(eye, source) : eye_texel(eye, source);
+    Place place = place_of(source);
+    bool scaled = (kVariant & AFM_FEATURE_SCALED) != 0u;
+    color = corrected(scaled ? eye_color(eye, source, place) : eye_texel(eye, source.pixel), place);
   }
   out_color = vec4(color, 1.0);
 }

@@ -44,6 +44,10 @@
 #define AFM_BINDING_LINEAR 3
 #define AFM_BINDING_DEPTH_RANGE 2
 
+// set 1 of the compose pass: what corrects an output's projector
+#define AFM_BINDING_WARP 0
+#define AFM_BINDING_BLEND 1
+
 // one per frame; what has two elements belongs to the views
 struct FrameBlock {
   mat4 clip_from_room[2];
@@ -96,12 +100,25 @@ struct ComposeBlock {
                // left one's; w: so many pixels before the last one's middle nothing more is blended
   ivec4 place;   // xy: where the picture begins in the target, zw: its size
   ivec4 screen;  // xy: where the target's first pixel lies on its screen; z: lines of a packed eye, w: lines between
-  vec4 picture_from_output[3];  // columns of the keystone
+  vec4 picture_from_output[3];  // xyz: columns of the keystone; w of the first: 1 shows the lines of the warp mesh
 };
 
 // What a pipeline of the compose pass does beside copying pixels; modes are not: they change while it runs.
 #define AFM_FEATURE_SCALED 0x1u  // pictures of another size than the eyes', and keystones
 #define AFM_FEATURE_MIXED 0x2u   // anaglyphs
+#define AFM_FEATURE_WARPED 0x4u  // places come from the warp map, not from the pixel
+#define AFM_FEATURE_BLENDED 0x8u
+#define AFM_COMPOSE_VARIANTS 16
+
+// scene::Blend: boxes and ramps in unit coordinates of the picture, by left, top, right, bottom edge
+#define AFM_MOST_BLENDED 9
+struct BlendBlock {
+  vec4 box[AFM_MOST_BLENDED];    // xy: low, zw: high corner
+  vec4 begin[AFM_MOST_BLENDED];  // of the ramps, inwards from the edges
+  vec4 width[AFM_MOST_BLENDED];
+  vec4 black[AFM_MOST_BLENDED];  // x: light of the projector's black
+  vec4 light;  // x: number of boxes, the output's own first; y: gamma, 0: sRGB; z: brightest black; w: picture's share
+};
 
 // linear rgb = left * L + right * R: the upper left 3 x 3
 #define AFM_MOST_ANAGLYPHS 8

@@ -72,9 +72,40 @@ nlohmann::json row_major(const glm::dmat4& m) {
   return values;
 }
 
+// What a screen shares with those that overlap it, and how its outputs correct it.
+void add_corrections(const scene::Wall& wall, std::size_t screen, nlohmann::json& entry) {
+  if (const auto& blend = wall.screens[screen].blend) {
+    nlohmann::json edges = nlohmann::json::object();
+    for (std::size_t edge = 0; edge < blend->ramps.size(); ++edge) {
+      const scene::EdgeRamp& ramp = blend->ramps.at(edge);
+      if (ramp.width_m > 0.0) {
+        edges[std::string(scene::kScreenEdgeNames.at(edge))] = {{"begin_m", ramp.begin_m}, {"width_m", ramp.width_m}};
+      }
+    }
+    nlohmann::json overlapping = nlohmann::json::array();
+    for (const std::size_t other : blend->neighbours) overlapping.push_back(wall.screens[other].name);
+    entry["blend"] = {{"screens", std::move(overlapping)}, {"edges", std::move(edges)}};
+  }
+  nlohmann::json outputs = nlohmann::json::array();
+  for (const scene::Output& output : wall.outputs) {
+    if (output.screen != screen || (!output.blend && !output.warp)) continue;
+    nlohmann::json corrected{{"name", output.name}};
+    if (output.blend) {
+      const scene::Blend& blend = *output.blend;
+      corrected["gamma"] = blend.gamma ? nlohmann::json(*blend.gamma) : nlohmann::json("sRGB");
+      corrected["black_level"] = blend.fields.front().black;
+      corrected["brightest_black"] = blend.brightest_black;
+    }
+    if (output.warp) corrected["warp_mesh"] = {{"columns", output.warp->columns}, {"rows", output.warp->rows}};
+    outputs.push_back(std::move(corrected));
+  }
+  if (!outputs.empty()) entry["corrected_outputs"] = std::move(outputs);
+}
+
 core::Result<nlohmann::json> frusta(const scene::Wall& wall, const scene::HeadPose& head, double ipd_m) {
   nlohmann::json all = nlohmann::json::array();
-  for (const scene::Screen& screen : wall.screens) {
+  for (std::size_t index = 0; index < wall.screens.size(); ++index) {
+    const scene::Screen& screen = wall.screens[index];
     const auto views = exhibit::eyes_before(screen, head, ipd_m);
     if (!views) return tl::unexpected(views.error());
     for (std::size_t i = 0; i < views->size(); ++i) {
@@ -85,12 +116,27 @@ core::Result<nlohmann::json> frusta(const scene::Wall& wall, const scene::HeadPo
                      {"eye_position_m", {position.x, position.y, position.z}},
                      {"projection", row_major(view.projection)},
                      {"view", row_major(view.view)}});
+      add_corrections(wall, index, all.back());
     }
   }
   return all;
 }
 
-void explain_screen(const scene::Screen& screen, const scene::HeadPose& head, double ipd_m) {
+void explain_blend(const scene::Wall& wall, const scene::ScreenBlend& blend) {
+  std::string edges, screens;
+  for (std::size_t edge = 0; edge < blend.ramps.size(); ++edge) {
+    const double width_m = blend.ramps.at(edge).width_m;
+    if (width_m <= 0.0) continue;
+    edges +=
+        fmt::format("{}{} edge {:.0f} mm", edges.empty() ? "" : ", ", scene::kScreenEdgeNames.at(edge), width_m * 1e3);
+  }
+  for (const std::size_t other : blend.neighbours) {
+    screens += fmt::format("{}{}", screens.empty() ? "" : ", ", wall.screens[other].name);
+  }
+  std::printf("  blended with %s: %s\n", screens.c_str(), edges.c_str());
+}
+
+void explain_screen(const scene::Wall& wall, const scene::Screen& screen, const scene::HeadPose& head, double ipd_m) {
   const double distance = glm::dot(head.position_m - screen.lower_left, screen.normal());
   std::printf("screen %s: %.3f m x %.3f m, the head is %.3f m in front of it\n", screen.name.c_str(), screen.width_m(),
               screen.height_m(), distance);
@@ -98,6 +144,7 @@ void explain_screen(const scene::Screen& screen, const scene::HeadPose& head, do
   const std::string farthest =
       std::isfinite(zone.farthest_m) ? fmt::format("{:.2f} m", zone.farthest_m) : std::string("any distance");
   std::printf("  comfortable depth: %.2f m to %s in front of the eyes\n", zone.nearest_m, farthest.c_str());
+  if (screen.blend) explain_blend(wall, *screen.blend);
 }
 
 // Pixels that are not square on the screen make circles oval, but for the modes whose display stretches them back.
@@ -114,6 +161,15 @@ void explain_output(const scene::Wall& wall, const scene::Output& output) {
                                                 : ", right eye",
               output.order == scene::EyeOrder::Swapped ? ", eyes swapped" : "", where.c_str(),
               output.picture_from_output == glm::dmat3(1.0) ? "" : ", with a keystone");
+  if (output.warp) {
+    std::printf("  warp mesh of %u x %u nodes\n", output.warp->columns, output.warp->rows);
+  }
+  if (output.blend) {
+    const scene::Blend& blend = *output.blend;
+    std::printf("  blended by %s; black %g of white, raised to %g\n",
+                blend.gamma ? fmt::format("gamma {:g}", *blend.gamma).c_str() : "the sRGB curve",
+                blend.fields.front().black, blend.brightest_black);
+  }
   if (size == glm::uvec2(0) || scene::frame_packing(output.mode)) return;
   const glm::dvec2 eye(scene::eye_size(output.mode, size));
   const double oval = (screen.width_m() / eye.x) / (screen.height_m() / eye.y);
@@ -158,7 +214,9 @@ scene::Scene nothing() {
 core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions& options) {
   const auto phrases = exhibit::load_phrases(options.files);
   if (!phrases) return tl::unexpected(phrases.error());
-  auto drawing = exhibit::WallDrawing::open(wall, options.picture);
+  exhibit::PictureOptions picture = options.picture;
+  picture.mesh_lines = true;
+  auto drawing = exhibit::WallDrawing::open(wall, picture);
   if (!drawing) return tl::unexpected(drawing.error());
   const scene::Scene scene = nothing();
   const double millimetre_m = 1e-3 * exhibit::wall_shape({.main = drawing->plan().outputs.front().screen}).unit_m;
@@ -190,7 +248,7 @@ core::Result<void> run_wall(const WallOptions& options) {
     std::printf("%s\n", seen->dump(2).c_str());
     return {};
   }
-  for (const scene::Screen& screen : wall->screens) explain_screen(screen, head, ipd_m);
+  for (const scene::Screen& screen : wall->screens) explain_screen(*wall, screen, head, ipd_m);
   for (const scene::Output& output : wall->outputs) explain_output(*wall, output);
   explain_composition(*wall, head);
   if (const std::string doubt = scene::doubt_of_head(*wall, head.position_m); !doubt.empty()) {

@@ -22,7 +22,9 @@ input::Ray MouseWand::ray(const WallPicture& picture, const glm::dvec2& cursor_p
   } else if (source.eye != scene::PixelEye::Both && !scene::is_interleaved(mode)) {
     eye = picture.eyes[source.eye == scene::PixelEye::Left ? 0 : 1].eye_position_m;
   }
-  // a projector's keystone comes after the layout
+  // a projector's correction comes after the layout
+  const auto warped = picture.composition.warp ? scene::warped_place(*picture.composition.warp, uv) : std::nullopt;
+  if (warped) uv = warped->picture;
   const glm::dvec3 keystone = picture.composition.picture_from_output * glm::dvec3(uv, 1.0);
   if (keystone.z > 0.0) uv = glm::dvec2(keystone) / keystone.z;
   const scene::Screen& screen = picture.screen;

@@ -74,7 +74,10 @@ core::Result<std::vector<ViewOutput>> one_window(const scene::Wall& wall, const 
     const scene::Output& first = wall.outputs.front();
     output.mode = first.mode == StereoMode::Dual ? StereoMode::SideBySide : first.mode;
     output.order = first.order;
-    if (wall.outputs.size() == 1) output.picture_from_output = first.picture_from_output;
+    if (wall.outputs.size() == 1) {
+      output.picture_from_output = first.picture_from_output;
+      output.warp = first.warp;
+    }
     if (!options.mode && first.eye == scene::Eye::Right) output.order = twice(output.order, EyeOrder::Swapped);
   }
   output.mode = options.mode.value_or(output.mode);
@@ -92,7 +95,7 @@ core::Result<std::vector<ViewOutput>> one_window(const scene::Wall& wall, const 
 render::Composition ViewOutput::composition(std::optional<StereoMode> other_mode, EyeOrder other_order) const {
   StereoMode shown = other_mode.value_or(mode);
   if (shown == StereoMode::Dual && eye) shown = *eye == scene::Eye::Left ? StereoMode::Left : StereoMode::Right;
-  return {shown, twice(order, other_order), picture_from_output};
+  return {shown, twice(order, other_order), picture_from_output, warp, blend};
 }
 
 glm::uvec2 expected_size(const WindowOptions& window, const std::vector<render::Monitor>& monitors) {
@@ -133,6 +136,8 @@ core::Result<std::vector<ViewOutput>> plan_view(const scene::Wall& wall, const s
                     .eye = output.eye,
                     .order = twice(output.order, options.order),
                     .picture_from_output = output.picture_from_output,
+                    .warp = output.warp,
+                    .blend = output.blend,
                     .fit = render::PictureFit::Fill,
                     .window = std::move(*place)});
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct ViewOutput {
   std::optional<scene::Eye> eye;                     // whose picture it is in mode dual
   scene::EyeOrder order = scene::EyeOrder::Straight;
   glm::dmat3 picture_from_output{1.0};
+  std::shared_ptr<const scene::WarpMesh> warp{};  // as in render::Composition
+  std::shared_ptr<const scene::Blend> blend{};
   render::PictureFit fit = render::PictureFit::Proportions;
   render::WindowOptions window;
 

@@ -74,6 +74,7 @@ void ViewPicture::share_out() {
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const ViewOutput& output = outputs_[i];
     pictures_.push_back({output.composition(other_mode_, other_order_), output.fit});
+    pictures_.back().composition.mesh_lines = calibrating_;
     const bool flat = pictures_.back().composition.mode == scene::StereoMode::Mono;
     const auto same = std::find_if(shares_.begin(), shares_.end(), [&](const Share& share) {
       return share.screen.name == output.screen.name && share.flat == flat;
@@ -128,7 +129,10 @@ void ViewPicture::widen_eyes(double by_m) {
   core::log_line(fmt::format("between the eyes: {:.0f} mm", settings_.ipd_m * 1e3));
 }
 
-void ViewPicture::toggle_calibration() { calibrating_ = !calibrating_; }
+void ViewPicture::toggle_calibration() {
+  calibrating_ = !calibrating_;
+  for (render::WindowPicture& picture : pictures_) picture.composition.mesh_lines = calibrating_;
+}
 
 WallPicture ViewPicture::picture(std::size_t window) const {
   const auto share = std::find_if(shares_.begin(), shares_.end(), [&](const Share& candidate) {
@@ -164,11 +168,13 @@ void ViewPicture::measure_depth(exhibit::Relief relief, std::int64_t now_ns) {
 
 void ViewPicture::save() { ++to_save_; }
 
-// A mode with a picture for each eye is saved side by side. What finds no place in the saver waits for a later frame.
+// As people see it on the screen, not as a projector gets it: neither warped nor blended. A mode with a picture for
+// each eye is saved side by side. What finds no place in the saver waits for a later frame.
 void ViewPicture::save_newest() {
   log_update(saver_.collect());
   if (to_save_ == 0) return;
-  render::Composition composition = pictures_.front().composition;
+  const render::Composition& shown = pictures_.front().composition;
+  render::Composition composition{.mode = shown.mode, .order = shown.order};
   if (scene::has_two_pictures(composition.mode)) composition.mode = scene::StereoMode::SideBySide;
   std::string path;
   do {

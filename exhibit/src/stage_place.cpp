@@ -14,23 +14,13 @@ namespace {
 using glm::dvec3;
 using scene::Screen;
 
-constexpr double kFlatM = 5e-3;       // what a tape measure gets right
-constexpr double kCorner = 0.05;      // of the main screen's width, between the edges of two screens that meet
-constexpr double kSameTurn = 0.9998;  // cosine of a degree
-constexpr double kNarrowest = 0.25;   // of a side screen, in widths of the main one: less holds no panel
-constexpr double kFacingTie = 0.02;   // cosines that differ by less face as well
+constexpr double kCorner = 0.05;     // of the main screen's width, between the edges of two screens that meet
+constexpr double kNarrowest = 0.25;  // of a side screen, in widths of the main one: less holds no panel
+constexpr double kFacingTie = 0.02;  // cosines that differ by less face as well
 
 dvec3 right_of(const Screen& screen) { return glm::normalize(screen.lower_right - screen.lower_left); }
 
 dvec3 up_of(const Screen& screen) { return glm::cross(screen.normal(), right_of(screen)); }
-
-bool same_plane(const Screen& a, const Screen& b) {
-  if (glm::dot(right_of(a), right_of(b)) < kSameTurn) return false;
-  for (const dvec3& corner : {b.lower_left, b.lower_right, b.upper_left}) {
-    if (std::abs(glm::dot(corner - a.lower_left, a.normal())) > kFlatM) return false;
-  }
-  return true;
-}
 
 // The rectangle around tiles of one plane, upright as the first is.
 Screen around(const std::vector<Screen>& tiles) {
@@ -58,7 +48,7 @@ std::vector<Screen> planes_of(const scene::Wall& wall) {
   std::vector<std::vector<Screen>> planes;
   for (const Screen& screen : wall.screens) {
     const auto same = std::find_if(planes.begin(), planes.end(),
-                                   [&](const auto& tiles) { return same_plane(tiles.front(), screen); });
+                                   [&](const auto& tiles) { return scene::in_one_plane(tiles.front(), screen); });
     if (same == planes.end()) {
       planes.push_back({screen});
     } else {
@@ -106,7 +96,7 @@ StagePlace stage_place(const scene::Wall& wall) {
   const scene::HeadPose& head = viewer.sweet_spot;
   StagePlace stage{.main = faced(screens, head), .viewer_m = head.position_m, .ipd_m = viewer.ipd_m};
   for (const Screen& side : screens) {
-    if (same_plane(side, stage.main)) continue;
+    if (scene::in_one_plane(side, stage.main)) continue;
     if (goes_on(side, side.lower_right, stage.main.lower_left, stage.main, head.position_m)) stage.left = side;
     if (goes_on(side, side.lower_left, stage.main.lower_right, stage.main, head.position_m)) stage.right = side;
   }

@@ -25,7 +25,12 @@ render::Composition composition_of(const scene::Output& output, const PictureOpt
   StereoMode mode = options.mode.value_or(output.mode);
   if (!options.mode && output.eye) mode = *output.eye == scene::Eye::Left ? StereoMode::Left : StereoMode::Right;
   const bool swapped = (output.order == scene::EyeOrder::Swapped) != (options.order == scene::EyeOrder::Swapped);
-  return {mode, swapped ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight, output.picture_from_output};
+  return {.mode = mode,
+          .order = swapped ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight,
+          .picture_from_output = output.picture_from_output,
+          .warp = output.warp,
+          .blend = output.blend,
+          .mesh_lines = options.mesh_lines};
 }
 
 glm::uvec2 natural_size(const scene::Screen& screen, StereoMode mode, std::uint32_t eye_width) {
@@ -42,6 +47,7 @@ std::vector<scene::Output> drawn_outputs(const scene::Wall& wall, const PictureO
       output.name = wall.screens[i].name;
       output.screen = i;
       output.mode = StereoMode::SideBySide;
+      output.blend = scene::usual_blend(wall, i);
       outputs.push_back(output);
     }
     return outputs;

@@ -200,7 +200,7 @@ TEST(CommandLine, RefusesPicturesThatCannotBe) {
 }
 
 TEST(CommandLine, ChecksEveryPresetAndAParaViewConfiguration) {
-  for (const char* name : {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2"}) {
+  for (const char* name : {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2", "blended", "curved"}) {
     const ProgramResult result = touchafm("wall " + kWalls + name + ".toml");
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("the wall file is valid"));
@@ -209,6 +209,37 @@ TEST(CommandLine, ChecksEveryPresetAndAParaViewConfiguration) {
   const ProgramResult pvx = touchafm("wall " AFM_SOURCE_DIR "/tests/fuzz/corpus/wall/good.pvx --json");
   ASSERT_EQ(pvx.exit_code, 0) << pvx.err;
   EXPECT_EQ(nlohmann::json::parse(pvx.out).at(0).at("screen"), "w");
+}
+
+TEST(CommandLine, SaysHowAWallIsBlendedAndWarped) {
+  const auto json_of = [](const char* name) {
+    const ProgramResult result = touchafm("wall " + kWalls + name + " --json");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out);
+  };
+  const nlohmann::json blended = json_of("blended.toml"), curved = json_of("curved.toml");
+  EXPECT_EQ(blended.at(0).at("blend").at("screens"), nlohmann::json({"right"}));
+  EXPECT_EQ(blended.at(0).at("blend").at("edges").size(), 1U);
+  EXPECT_NEAR(blended.at(0).at("blend").at("edges").at("right").at("width_m").get<double>(), 0.4, 1e-9);
+  EXPECT_EQ(blended.at(2).at("corrected_outputs").at(0).at("name"), "right projector");
+  EXPECT_EQ(blended.at(2).at("corrected_outputs").at(0).at("gamma"), 2.2);
+  EXPECT_NEAR(blended.at(2).at("corrected_outputs").at(0).at("brightest_black").get<double>(), 0.001, 1e-12);
+  EXPECT_EQ(curved.at(0).at("corrected_outputs").at(0).at("warp_mesh").at("columns"), 17);
+  EXPECT_FALSE(json_of("powerwall.toml").at(0).contains("corrected_outputs"));
+  EXPECT_THAT(touchafm("wall " + kWalls + "blended.toml").out,
+              AllOf(HasSubstr("blended with right: right edge 400 mm"), HasSubstr("black 0.0005 of white")));
+  EXPECT_THAT(touchafm("wall " + kWalls + "curved.toml").out, HasSubstr("warp mesh of 17 x 10 nodes"));
+}
+
+TEST(CommandLine, DrawsTheTestPatternOfBlendedAndCurvedScreens) {
+  const support::ScratchFolder folder;
+  const std::string out = folder.file("pattern.png");
+  for (const char* name : {"blended", "curved"}) {
+    const ProgramResult result =
+        touchafm("wall " + kWalls + name + ".toml --test-pattern --stereo mono --size 384x120 --out " + out);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(png_size(out), (std::array{384U, 120U})) << name;
+  }
 }
 
 TEST(CommandLine, RefusesMissingAndBrokenModels) {

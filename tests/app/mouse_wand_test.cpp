@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <memory>
 
 #include "exhibit/panel_hit.h"
 
@@ -104,6 +105,17 @@ TEST_F(MouseWandTest, AProjectorsKeystoneIsPointedThrough) {
     const glm::dvec3 on_output = glm::inverse(shown.composition.picture_from_output) * glm::dvec3(share, 1.0);
     const glm::dvec2 cursor = glm::dvec2(100.0, 50.0) + glm::dvec2(on_output) / on_output.z * glm::dvec2(800.0, 600.0);
     const glm::dvec3 expected(-2.0 + 4.0 * share.x, 3.0 - 3.0 * share.y, 0.0);
+    EXPECT_LT(glm::distance(wand_.wall_point(wand_.ray(shown, cursor)), expected), 1e-9);
+  }
+}
+
+TEST_F(MouseWandTest, AWarpMeshIsPointedThrough) {
+  WallPicture shown = picture(scene::StereoMode::Left);
+  shown.composition.warp = std::make_shared<const scene::WarpMesh>(
+      scene::WarpMesh{2, 2, {{{0, 0}, {0.2, 0.1}}, {{1, 0}, {0.8, 0.1}}, {{0, 1}, {0.2, 0.9}}, {{1, 1}, {0.8, 0.9}}}});
+  for (const glm::dvec2 output : {glm::dvec2(0.0, 0.0), glm::dvec2(0.3, 0.9), glm::dvec2(1.0, 1.0)}) {
+    const glm::dvec2 cursor = glm::dvec2(100.0, 50.0) + output * glm::dvec2(800.0, 600.0);
+    const glm::dvec3 expected(-2.0 + 4.0 * (0.2 + 0.6 * output.x), 3.0 - 3.0 * (0.1 + 0.8 * output.y), 0.0);
     EXPECT_LT(glm::distance(wand_.wall_point(wand_.ray(shown, cursor)), expected), 1e-9);
   }
 }

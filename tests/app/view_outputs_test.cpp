@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+
 namespace afm::app {
 namespace {
 
@@ -34,6 +36,8 @@ class ViewOutputsTest : public ::testing::Test {
     right.order = EyeOrder::Swapped;
     right.rect = {{800, 0}, {800, 600}};
     right.picture_from_output = glm::dmat3(2.0);
+    left.warp = std::make_shared<const scene::WarpMesh>();
+    left.blend = std::make_shared<const scene::Blend>();
   }
   auto plan(const exhibit::PictureOptions& options = {}, const WindowOptions& window = {}) const {
     return plan_view(wall_, stage_, options, window, monitors_);
@@ -60,6 +64,9 @@ TEST_F(ViewOutputsTest, EachOutputOpensInItsPlaceWithItsEyeItsOrderAndItsKeyston
   EXPECT_EQ(right.mode, StereoMode::Right);
   EXPECT_EQ(right.order, EyeOrder::Swapped);
   EXPECT_EQ(right.picture_from_output, glm::dmat3(2.0));
+  EXPECT_EQ(left.warp, wall_.outputs[0].warp);
+  EXPECT_EQ(left.blend, wall_.outputs[0].blend);
+  EXPECT_FALSE(right.warp || right.blend);
 }
 
 TEST_F(ViewOutputsTest, EyesThatAreSwappedTwiceAreStraightAndAnotherModeIsForAllOutputs) {

@@ -46,7 +46,10 @@ TEST(StagePlaceOfAWall, JoinsTilesAndTakesNoScreenForItsOwnSide) {
   const StagePlace tiles = stage_place(preset_wall("tiled-2x2"));
   EXPECT_NEAR(tiles.main.width_m(), 3.048, 1e-9);
   EXPECT_NEAR(tiles.main.height_m(), 2.286, 1e-9);
-  for (const char* flat : {"tiled-2x2", "powerwall", "phone", "floor", "desk-red-cyan"}) {
+  const StagePlace blended = stage_place(preset_wall("blended"));
+  EXPECT_NEAR(blended.main.width_m(), 6.0, 1e-9);
+  EXPECT_NEAR(blended.main.height_m(), 2.0, 1e-9);
+  for (const char* flat : {"tiled-2x2", "blended", "powerwall", "phone", "floor", "desk-red-cyan"}) {
     const StagePlace place = stage_place(preset_wall(flat));
     EXPECT_FALSE(place.left || place.right) << flat;
   }

@@ -30,8 +30,44 @@ TEST(WallPictures, ThePatternHasALetterForEachEyeOnlyWhereTheirPicturesDiffer) {
   }
 }
 
+// Between which lines the pictures fade out, and one grid for both.
+TEST(WallPictures, ThePatternMarksWhereScreensAreBlended) {
+  const scene::Wall wall = preset("blended");
+  std::array<render::CalibrationPanel, 2> panels;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    render::FrameState frame;
+    show_calibration(wall.screens.at(i), StereoMode::SideBySide, 0.063, test::english(), frame);
+    panels.at(i) = frame.calibration;
+  }
+  const auto right = static_cast<std::size_t>(scene::ScreenEdge::Right);
+  EXPECT_NEAR(panels[0].ramps.at(right).width_m, 0.4, 1e-9);
+  EXPECT_EQ(panels[0].ramp_widths, (std::array<std::string, 4>{"", "", "400 mm", ""}));
+  EXPECT_EQ(panels[1].ramp_widths, (std::array<std::string, 4>{"400 mm", "", "", ""}));
+  EXPECT_EQ(panels[0].grid_from_m, glm::dvec2(0.0));
+  EXPECT_NEAR(panels[1].grid_from_m.x, -2.8, 1e-9);
+  render::FrameState frame;
+  show_calibration(preset("tiled-2x2").screens.front(), StereoMode::SideBySide, 0.063, test::english(), frame);
+  EXPECT_EQ(frame.calibration.ramp_widths, (std::array<std::string, 4>{}));
+}
+
+TEST(WallPictures, CorrectEachProjector) {
+  const auto blended = plan_wall(preset("blended"), {}).value();
+  const auto curved = plan_wall(preset("curved"), {.mesh_lines = true}).value();
+  EXPECT_TRUE(blended.outputs[0].composition.blend && blended.outputs[1].composition.blend);
+  EXPECT_NE(blended.outputs[0].composition.blend, blended.outputs[1].composition.blend);
+  EXPECT_FALSE(blended.outputs[0].composition.warp || blended.outputs[0].composition.mesh_lines);
+  EXPECT_TRUE(curved.outputs[0].composition.warp && curved.outputs[0].composition.mesh_lines);
+
+  // without projectors the screens are blended as their corners say
+  scene::Wall screens = preset("blended");
+  screens.outputs.clear();
+  const auto plan = plan_wall(screens, {}).value();
+  ASSERT_TRUE(plan.outputs[1].composition.blend);
+  EXPECT_FALSE(plan.outputs[1].composition.blend->gamma);
+}
+
 TEST(WallPictures, EveryPresetIsAWallThatCanBeDrawn) {
-  for (const char* name : {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2"}) {
+  for (const char* name : {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2", "blended", "curved"}) {
     const auto plan = plan_wall(preset(name), {});
     ASSERT_TRUE(plan.has_value()) << name;
     EXPECT_FALSE(plan->outputs.empty());

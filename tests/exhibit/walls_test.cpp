@@ -159,8 +159,8 @@ void expect_everything_in_its_place(const std::string& wall_file, const std::str
 }
 
 TEST(EveryWall, HasRoomForAllThatMustBeRead) {
-  for (const char* preset :
-       {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2", "cave", "floor", "wide", "phone"}) {
+  for (const char* preset : {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2", "blended", "curved",
+                             "cave", "floor", "wide", "phone"}) {
     expect_everything_in_its_place(fmt::format("{}/assets/walls/{}.toml", AFM_SOURCE_DIR, preset), preset);
   }
   const support::ScratchFolder folder;

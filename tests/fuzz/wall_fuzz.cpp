@@ -24,6 +24,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   for (const Output& output : wall->outputs) {
     if (output.screen >= wall->screens.size() || (output.eye.has_value() != (output.mode == StereoMode::Dual)))
       std::abort();
+    if (!output.blend) continue;
+    const Blend::Place middle = output.blend->at({0.5, 0.5});
+    if (output.blend->fields.size() > Blend::kMostScreens || !(middle.all > 0.0) || !(middle.own <= middle.all))
+      std::abort();
   }
   return 0;
 }

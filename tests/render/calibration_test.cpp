@@ -9,7 +9,7 @@ namespace {
 
 class Calibration : public VulkanTest {
  protected:
-  Pair pattern(render::PassMode mode, bool eye_marks = true) {
+  Pair pattern(render::PassMode mode, bool eye_marks = true, const std::array<scene::EdgeRamp, 4>& ramps = {}) {
     auto frame = bare_frame(test_.scene);
     frame.visible.assign(test_.scene.nodes.size(), 0);
     frame.calibration = {.size = "wall",
@@ -17,7 +17,11 @@ class Calibration : public VulkanTest {
                          .legend = "squares",
                          .ruler = "eyes",
                          .ipd_m = 0.063,
-                         .eye_marks = eye_marks};
+                         .eye_marks = eye_marks,
+                         .ramps = ramps};
+    for (std::size_t edge = 0; edge < ramps.size(); ++edge) {
+      if (ramps.at(edge).width_m > 0.0) frame.calibration.ramp_widths.at(edge) = "300 mm";
+    }
     const scene::Screen screen = paper_screen();
     frame.calibration_placement = {.lower_left_m = screen.lower_left,
                                    .right_m = screen.lower_right - screen.lower_left,
@@ -54,6 +58,31 @@ TEST_F(Calibration, ShowsNeitherLetterWhereBothEyesSeeOnePicture) {
     EXPECT_LT(whites(*eye, 0.12, 0.36), 20U);
     EXPECT_LT(whites(*eye, 0.64, 0.88), 20U);
   }
+}
+
+// Green lines at both ends of a ramp, as far from its edge as it says.
+TEST_F(Calibration, MarksWhereThePictureFadesOut) {
+  const auto columns_of = [&](const std::array<scene::EdgeRamp, 4>& ramps) {
+    const render::Image plain = pattern(render::PassMode::Multiview).left;
+    const render::Image marked = pattern(render::PassMode::Multiview, true, ramps).left;
+    std::vector<std::uint32_t> columns;
+    for (std::uint32_t x = 0; x < plain.width; ++x) {
+      int greener = 0;
+      for (std::uint32_t y = 120; y < 180; ++y) greener += pixel(marked, x, y).g - pixel(plain, x, y).g;
+      if (greener > 60 * 5) columns.push_back(x);
+    }
+    return columns;
+  };
+  const double px_per_m = 256.0 / paper_screen().width_m();
+  const auto right = columns_of({scene::EdgeRamp{}, {}, {0.1, 0.3}, {}});
+  ASSERT_FALSE(right.empty());
+  EXPECT_NEAR(right.front(), 256.0 - 0.4 * px_per_m, 2.0);
+  EXPECT_NEAR(right.back(), 256.0 - 0.1 * px_per_m, 2.0);
+  EXPECT_LE(right.size(), 6U);
+  const auto left = columns_of({scene::EdgeRamp{0.2, 0.3}, {}, {}, {}});
+  ASSERT_FALSE(left.empty());
+  EXPECT_NEAR(left.front(), 0.2 * px_per_m, 2.0);
+  EXPECT_NEAR(left.back(), 0.5 * px_per_m, 2.0);
 }
 
 TEST_F(Calibration, LiesInTheWallsPlane) {

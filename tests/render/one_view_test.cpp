@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <memory>
 
 #include "render/depth_meter.h"
 #include "support/faulty_device.h"
@@ -28,7 +29,7 @@ class OneView : public testing::Test {
     renderer->render(full_frame(test_));
     std::vector<render::Image> pictures{renderer->read_eye(scene::Eye::Left), renderer->read_eye(scene::Eye::Right)};
     for (const scene::StereoModeTraits& named : scene::kStereoModes) {
-      const render::Composition composition{.mode = named.mode};
+      const render::Composition composition{.mode = named.mode, .warp = bent_, .blend = blend_};
       if (scene::has_two_pictures(named.mode)) {
         for (render::Image& picture : renderer->read_pair(composition)) pictures.push_back(std::move(picture));
       } else {
@@ -39,6 +40,8 @@ class OneView : public testing::Test {
   }
 
   TestScene test_ = make_test_scene();
+  std::shared_ptr<const scene::WarpMesh> bent_{};
+  std::shared_ptr<const scene::Blend> blend_{};
 };
 
 TEST_F(OneView, ShowsWhatADeviceWithMultiviewShows) {
@@ -47,6 +50,22 @@ TEST_F(OneView, ShowsWhatADeviceWithMultiviewShows) {
   auto unable = open();
   EXPECT_TRUE(able->draws_both_eyes_at_once());
   EXPECT_FALSE(unable.draws_both_eyes_at_once());
+  const auto wanted = draw(*able), drawn = draw(unable);
+  ASSERT_EQ(drawn.size(), wanted.size());
+  for (std::size_t i = 0; i < drawn.size(); ++i) EXPECT_EQ(drawn[i].rgba, wanted[i].rgba) << "picture " << i;
+  EXPECT_THAT(unable.take_validation_messages(), testing::IsEmpty());
+}
+
+// Of a curved screen that is blended with another.
+TEST_F(OneView, CorrectsAProjectorAsADeviceWithMultiviewDoes) {
+  bent_ = std::make_shared<const scene::WarpMesh>(
+      scene::WarpMesh{2, 2, {{{0, 0}, {0.1, 0}}, {{1, 0}, {1, 0.2}}, {{0, 1}, {0, 1}}, {{1, 1}, {0.9, 0.9}}}});
+  scene::Blend blend;
+  blend.fields = {{.width = {0, 0, 0.5, 0}}, {.low = {0.5, 0}, .high = {1.5, 1}, .width = {0.5, 0, 0, 0}}};
+  blend_ = std::make_shared<const scene::Blend>(blend);
+  auto able = render::Context::open();
+  ASSERT_TRUE(able) << able.error().message;
+  auto unable = open();
   const auto wanted = draw(*able), drawn = draw(unable);
   ASSERT_EQ(drawn.size(), wanted.size());
   for (std::size_t i = 0; i < drawn.size(); ++i) EXPECT_EQ(drawn[i].rgba, wanted[i].rgba) << "picture " << i;

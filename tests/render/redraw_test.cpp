@@ -4,7 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <memory>
 #include <random>
 #include <string>
 
@@ -126,6 +128,7 @@ class Redraw : public VulkanTest {
     Story story(test_, seed);
     scene::StereoMode mode = scene::StereoMode::SideBySide;
     glm::uvec2 size_px(0);
+    int correction = 0;  // 1: warped, 2: blended
     for (int i = 0; i < kFrames; ++i) {
       const render::FrameState& frame = story.next();
       if (story.whole(0, 29) == 0) resize(story, both);
@@ -138,11 +141,14 @@ class Redraw : public VulkanTest {
       }
       if (story.whole(0, 3) == 0) mode = any_mode(story);
       if (story.whole(0, 3) == 0) size_px = story.whole(0, 1) == 0 ? glm::uvec2(0) : glm::uvec2(300, 170);
+      if (story.whole(0, 3) == 0) correction = story.whole(0, 3);
       if (story.whole(0, 2) == 0) continue;
       const render::ReadArea area{.size_px = size_px, .screen_px = {1, 1}};
-      ASSERT_EQ(
-          where_differ(changes.read_composed({.mode = mode}, area), everything.read_composed({.mode = mode}, area)), "")
-          << what << ", mode " << scene::name_of(mode);
+      render::Composition composition{.mode = mode};
+      if ((correction & 1) != 0) composition.warp = mesh_;
+      if ((correction & 2) != 0) composition.blend = blend_;
+      ASSERT_EQ(where_differ(changes.read_composed(composition, area), everything.read_composed(composition, area)), "")
+          << what << ", mode " << scene::name_of(mode) << ", correction " << correction;
     }
   }
 
@@ -167,7 +173,33 @@ class Redraw : public VulkanTest {
     both([&](render::Renderer& renderer) { renderer.set_quality(quality); });
   }
 
+  // Twisted about its middle, with black corners.
+  static std::shared_ptr<const scene::WarpMesh> twisted() {
+    scene::WarpMesh mesh{6, 5, {}};
+    for (std::uint32_t row = 0; row < mesh.rows; ++row) {
+      for (std::uint32_t column = 0; column < mesh.columns; ++column) {
+        const glm::dvec2 output(column / 5.0, row / 4.0), from_middle = output - 0.5;
+        const double turn = 0.5 - glm::dot(from_middle, from_middle);
+        mesh.nodes.push_back(
+            {output, 0.5 + glm::dvec2(std::cos(turn) * from_middle.x - std::sin(turn) * from_middle.y,
+                                      std::sin(turn) * from_middle.x + std::cos(turn) * from_middle.y)});
+      }
+    }
+    return std::make_shared<const scene::WarpMesh>(std::move(mesh));
+  }
+
+  static std::shared_ptr<const scene::Blend> at_the_right() {
+    scene::Blend blend;
+    blend.fields = {{.width = {0, 0, 0.3, 0}, .black = 0.01},
+                    {.low = {0.7, 0}, .high = {1.7, 1}, .width = {0.3, 0, 0, 0}, .black = 0.01}};
+    blend.brightest_black = 0.02;
+    blend.darkest_black = 0.01;
+    return std::make_shared<const scene::Blend>(std::move(blend));
+  }
+
   TestScene test_ = make_test_scene();
+  std::shared_ptr<const scene::WarpMesh> mesh_ = twisted();
+  std::shared_ptr<const scene::Blend> blend_ = at_the_right();
 };
 
 TEST_F(Redraw, OfWhatChangedGivesTheBytesOfRedrawingEverything) {

@@ -21,6 +21,7 @@ struct PictureOptions {
   scene::EyeOrder order = scene::EyeOrder::Straight;  // Swapped: the other way round in every output
   std::optional<double> ipd_m{};                      // instead of the viewer's
   std::optional<glm::uvec2> size_px{};  // of the whole picture, instead of what the outputs say or eye_width gives
+  bool mesh_lines = false;              // show the lines of warp meshes
   std::uint32_t eye_width = 960;        // where neither a size nor an output's rectangle says
 };
 

@@ -252,6 +252,9 @@ struct CalibrationPanel {
   double square_m = 0.1;  // of the grid
   double ipd_m = 0;       // of the viewer, marked on the ruler
   bool eye_marks = true;
+  glm::dvec2 grid_from_m{0.0};               // a crossing of the grid: right of and below the screen's middle
+  std::array<scene::EdgeRamp, 4> ramps{};    // of blending, by scene::ScreenEdge
+  std::array<std::string, 4> ramp_widths{};  // as text; empty: no ramp
 
   bool operator==(const CalibrationPanel&) const = default;
 };

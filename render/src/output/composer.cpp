@@ -99,6 +99,7 @@ ComposeBlock compose_block(const EyeTargets& eyes, const Composition& compositio
   for (int column = 0; column < 3; ++column) {
     block.picture_from_output[column] = glm::vec4(composition.picture_from_output[column], 0.0);
   }
+  block.picture_from_output[0].w = composition.mesh_lines ? 1.0F : 0.0F;
   return block;
 }
 
@@ -106,13 +107,14 @@ bool is_exact(const EyeTargets& eyes, const Composition& composition, const Comp
   const vk::Extent2D whole = eyes.extent();
   const glm::uvec2 seen = scene::eye_size(composition.mode, {place.area.extent.width, place.area.extent.height});
   return !scene::traits_of(composition.mode).squeezed && composition.picture_from_output == glm::dmat3(1.0) &&
-         eyes.drawing().extent == whole && seen == glm::uvec2(whole.width, whole.height);
+         !composition.warp && eyes.drawing().extent == whole && seen == glm::uvec2(whole.width, whole.height);
 }
 
 // Of a pipeline for such a picture.
 std::uint32_t composing_variant_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
   const bool mixed = scene::anaglyph_matrices(composition.mode).has_value();
-  return (is_exact(eyes, composition, place) ? 0U : AFM_FEATURE_SCALED) | (mixed ? AFM_FEATURE_MIXED : 0U);
+  return (is_exact(eyes, composition, place) ? 0U : AFM_FEATURE_SCALED) | (mixed ? AFM_FEATURE_MIXED : 0U) |
+         (composition.warp ? AFM_FEATURE_WARPED : 0U) | (composition.blend ? AFM_FEATURE_BLENDED : 0U);
 }
 
 // Whether the target shows the eyes' images beside each other, whole, and nothing else.
@@ -121,7 +123,7 @@ bool shows_eyes_alone(const EyeTargets& eyes, const Composition& composition, co
   const bool beside = eyes_in_it == EyeArrangement::Left || eyes_in_it == EyeArrangement::Right ||
                       eyes_in_it == EyeArrangement::SideBySide || eyes_in_it == EyeArrangement::TopBottom;
   const glm::uvec2 size = scene::picture_size(composition.mode, {eyes.extent().width, eyes.extent().height});
-  return beside && is_exact(eyes, composition, place) && place.area.extent == place.target &&
+  return beside && !composition.blend && is_exact(eyes, composition, place) && place.area.extent == place.target &&
          glm::uvec2(place.target.width, place.target.height) == size;
 }
 
@@ -144,6 +146,13 @@ EyeBoxes boxes_of_eyes(EyeArrangement arrangement, const vk::Rect2D& area) {
   return {.boxes = {PixelBox{low, low + half}, PixelBox{low + step, low + step + half}}, .count = 2};
 }
 
+// Size of the part of the picture that one eye's image fills, as compose.frag shares it out.
+vk::Extent2D region_of_eye(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
+  if (const auto& packing = scene::frame_packing(composition.mode)) return {eyes.extent().width, packing->eye_px.y};
+  const PixelBox box = boxes_of_eyes(scene::traits_of(composition.mode).arrangement, place.area).boxes[0];
+  return {static_cast<std::uint32_t>(box.high.x - box.low.x), static_cast<std::uint32_t>(box.high.y - box.low.y)};
+}
+
 // The pixels of `shown`, which an eye's image of that size fills, that a box of it reaches. What is scaled is blended
 // of neighbours.
 PixelBox scaled_into(const PixelBox& shown, const PixelBox& box, vk::Extent2D eye) {
@@ -155,6 +164,11 @@ PixelBox scaled_into(const PixelBox& shown, const PixelBox& box, vk::Extent2D ey
 }
 
 }  // namespace
+
+ComposePipeline::ComposePipeline(const Device& device, vk::PipelineLayout layout, vk::Format format)
+    : device_(&device), layout_(layout), format_(format) {
+  for (int i = 0; i < AFM_COMPOSE_VARIANTS; ++i) made_.emplace_back(nullptr);
+}
 
 vk::Pipeline ComposePipeline::get(std::uint32_t variant) {
   auto& pipeline = made_.at(variant);
@@ -174,8 +188,9 @@ Composer::Composer(const Device& device, const EyeTargets& eyes, const EyeChange
     : device_(device),
       eyes_(eyes),
       changes_(changes),
+      corrections_(device),
       set_layout_(create_composing_set_layout(device)),
-      layout_(create_pipeline_layout(device, {.sets = {&*set_layout_, 1},
+      layout_(create_pipeline_layout(device, {.sets = std::array{*set_layout_, corrections_.layout()},
                                               .push_stages = vk::ShaderStageFlagBits::eFragment,
                                               .push_size = sizeof(ComposeBlock)})),
       pipeline_(create_pipeline_for(kEyeFormat)),
@@ -219,8 +234,8 @@ vk::Extent2D Composer::extent(scene::StereoMode mode) const {
 }
 
 // Pixels of the target that do not show the eyes as they are now.
-PixelArea Composer::changed_in(const ComposeInto& into, const Composition& composition,
-                               const ComposePlace& place) const {
+PixelArea Composer::changed_in(const ComposeInto& into, const Drawn& drawn) const {
+  const auto& [composition, place, correction] = drawn;
   PixelArea changed;
   const auto& shown = *into.shown;
   if (!shown || shown->composition != composition || shown->place != place) {
@@ -238,7 +253,11 @@ PixelArea Composer::changed_in(const ComposeInto& into, const Composition& compo
   PixelTiles tiles(place.target);
   for (const PixelBox& box : in_eyes.boxes()) {
     for (std::size_t i = 0; i < eyes.count; ++i) {
-      tiles.add(scaled_into(eyes.boxes[i], box, eyes_.drawing().extent));
+      if (composition.warp) {
+        correction.add_moved(box, eyes_.drawing().extent, eyes.boxes[i].low, tiles);
+      } else {
+        tiles.add(scaled_into(eyes.boxes[i], box, eyes_.drawing().extent));
+      }
     }
   }
 
@@ -249,21 +268,21 @@ PixelArea Composer::changed_in(const ComposeInto& into, const Composition& compo
   return tiles.area().within(picture);
 }
 
-void Composer::draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
-                    const ComposePlace& place, const vk::Rect2D& part, std::uint32_t layer) const {
+void Composer::draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Drawn& drawn,
+                    const vk::Rect2D& part, std::uint32_t layer) const {
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
-  set_viewport(command, place.target);
+  set_viewport(command, drawn.place.target);
   command.setScissor(0, part);
-  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, std::array{*set_, drawn.correction.set()},
+                             nullptr);
   command.pushConstants<ComposeBlock>(*layout_, vk::ShaderStageFlagBits::eFragment, 0,
-                                      compose_block(eyes_, composition, place, layer));
+                                      compose_block(eyes_, drawn.composition, drawn.place, layer));
   command.draw(4, 1, 0, 0);
 }
 
-void Composer::draw_parts(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline,
-                          const Composition& composition, const ComposePlace& place, const ComposeInto& into,
-                          const PixelArea& changed) const {
-  const vk::Pipeline chosen = pipeline.get(composing_variant_of(eyes_, composition, place));
+void Composer::draw_parts(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Drawn& drawn,
+                          const ComposeInto& into, const PixelArea& changed) const {
+  const vk::Pipeline chosen = pipeline.get(composing_variant_of(eyes_, drawn.composition, drawn.place));
   const auto pass = [&](std::uint32_t layer, const vk::Rect2D& filled, const vk::Rect2D& part) {
     const vk::RenderingAttachmentInfo color{
         .imageView = into.layers[layer],
@@ -273,11 +292,11 @@ void Composer::draw_parts(const vk::raii::CommandBuffer& command, ComposePipelin
         .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
     command.beginRendering(
         {.renderArea = filled, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &color});
-    draw(command, chosen, composition, place, part, layer);
+    draw(command, chosen, drawn, part, layer);
     command.endRendering();
   };
   for (std::uint32_t layer = 0; layer < into.layers.size(); ++layer) {
-    if (changed.everything()) pass(layer, {.extent = place.target}, place.area);
+    if (changed.everything()) pass(layer, {.extent = drawn.place.target}, drawn.place.area);
     for (const PixelBox& box : changed.boxes()) pass(layer, box.rect(), box.rect());
   }
 }
@@ -313,8 +332,9 @@ void Composer::copy_parts(const vk::raii::CommandBuffer& command, const Composit
 }
 
 void Composer::record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
-                      const ComposePlace& place, const ComposeInto& into) const {
-  const PixelArea changed = changed_in(into, composition, place);
+                      const ComposePlace& place, const ComposeInto& into) {
+  const Drawn drawn{composition, place, corrections_.find(composition, region_of_eye(eyes_, composition, place))};
+  const PixelArea changed = changed_in(into, drawn);
   const ImageUse found{into.before.stages, into.before.access, into.after.layout};
   if (changed.empty()) {
     if (found.stages != into.after.stages) {
@@ -328,7 +348,7 @@ void Composer::record(const vk::raii::CommandBuffer& command, ComposePipeline& p
     if (copied) {
       copy_parts(command, composition, into, changed);
     } else {
-      draw_parts(command, pipeline, composition, place, into, changed);
+      draw_parts(command, pipeline, drawn, into, changed);
     }
     record_barriers(command, {image_barrier(into.image, kColorAspect, used, into.after)});
   }

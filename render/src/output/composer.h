@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "device/barriers.h"
+#include "device/shader_interface.h"
+#include "output/corrections.h"
 #include "passes/damage.h"
 #include "passes/eye_targets.h"
 #include "render/composition.h"
@@ -53,17 +55,16 @@ struct ComposeTarget {
 class ComposePipeline {
  public:
   // `layout` must outlive it.
-  ComposePipeline(const Device& device, vk::PipelineLayout layout, vk::Format format)
-      : device_(&device), layout_(layout), format_(format) {}
+  ComposePipeline(const Device& device, vk::PipelineLayout layout, vk::Format format);
 
-  // `variant`: AFM_FEATURE_SCALED and AFM_FEATURE_MIXED.
+  // `variant`: of AFM_FEATURE_SCALED, _MIXED, _WARPED and _BLENDED.
   vk::Pipeline get(std::uint32_t variant);
 
  private:
   const Device* device_;
   vk::PipelineLayout layout_;
   vk::Format format_;
-  std::array<vk::raii::Pipeline, 4> made_{nullptr, nullptr, nullptr, nullptr};
+  std::vector<vk::raii::Pipeline> made_;  // AFM_COMPOSE_VARIANTS
 };
 
 // Puts the two eye images into one picture: byte for byte where it is drawn at its own size. Every stereo mode is a
@@ -90,7 +91,7 @@ class Composer {
   // copied: on a CPU device that takes a fifth of the time. Of a picture that the image already shows with older eyes,
   // only what has changed is drawn.
   void record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
-              const ComposePlace& place, const ComposeInto& into) const;
+              const ComposePlace& place, const ComposeInto& into);
 
   // Draws what is read into `target`, which nothing in flight uses and which is made anew if it is not of that size,
   // and leaves it in eTransferSrcOptimal.
@@ -98,11 +99,17 @@ class Composer {
               ComposeTarget& target);
 
  private:
-  PixelArea changed_in(const ComposeInto& into, const Composition& composition, const ComposePlace& place) const;
-  void draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Composition& composition,
-            const ComposePlace& place, const vk::Rect2D& part, std::uint32_t layer) const;
-  void draw_parts(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
-                  const ComposePlace& place, const ComposeInto& into, const PixelArea& changed) const;
+  // What one picture is drawn with.
+  struct Drawn {
+    const Composition& composition;
+    const ComposePlace& place;
+    const Correction& correction;
+  };
+  PixelArea changed_in(const ComposeInto& into, const Drawn& drawn) const;
+  void draw(const vk::raii::CommandBuffer& command, vk::Pipeline pipeline, const Drawn& drawn, const vk::Rect2D& part,
+            std::uint32_t layer) const;
+  void draw_parts(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Drawn& drawn,
+                  const ComposeInto& into, const PixelArea& changed) const;
   void copy(const vk::raii::CommandBuffer& command, const Composition& composition, const ComposeInto& into,
             const PixelBox& box) const;
   void copy_parts(const vk::raii::CommandBuffer& command, const Composition& composition, const ComposeInto& into,
@@ -111,6 +118,7 @@ class Composer {
   const Device& device_;
   const EyeTargets& eyes_;
   const EyeChanges& changes_;
+  Corrections corrections_;
   vk::raii::DescriptorSetLayout set_layout_;
   vk::raii::PipelineLayout layout_;
   ComposePipeline pipeline_;

@@ -17,7 +17,7 @@ constexpr ImageUse kPresented{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagB
 
 }  // namespace
 
-WindowSurface::WindowSurface(const Device& device, Window& window, const Composer& composer)
+WindowSurface::WindowSurface(const Device& device, Window& window, Composer& composer)
     : device_(device),
       window_(window),
       composer_(composer),

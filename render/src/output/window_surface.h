@@ -20,7 +20,7 @@ inline constexpr auto kFilling = vk::PipelineStageFlagBits2::eColorAttachmentOut
 // the composer must outlive it.
 class WindowSurface {
  public:
-  WindowSurface(const Device& device, Window& window, const Composer& composer);
+  WindowSurface(const Device& device, Window& window, Composer& composer);
   WindowSurface(const WindowSurface&) = delete;
   WindowSurface& operator=(const WindowSurface&) = delete;
 
@@ -55,7 +55,7 @@ class WindowSurface {
  private:
   const Device& device_;
   Window& window_;
-  const Composer& composer_;
+  Composer& composer_;
   vk::raii::SurfaceKHR surface_;
   vk::SurfaceFormatKHR format_;
   std::optional<ComposePipeline> pipeline_;

@@ -18,20 +18,41 @@ constexpr Color kBlack{{0.0F, 0.0F, 0.0F}, 1.0F};
 
 constexpr float kLeastIpdMm = 45.0F, kMostIpdMm = 80.0F;  // Dodgson 2004: nearly all adults
 
+constexpr Color kRamp{{0.20F, 0.78F, 0.58F}, 1.0F};
+
 Color grey(float srgb) { return {glm::vec3(srgb), 1.0F}; }
 
-// Lines every `step` from the middle, both ways.
-void paint_grid(Canvas& canvas, float step, float width, Color color) {
+// Lines every `step` both ways, of which two cross at `from`.
+void paint_grid(Canvas& canvas, glm::vec2 from, float step, float width, Color color) {
+  const glm::vec2 size = canvas.size_mm();
+  const auto first = [&](float place) { return place - step * std::floor(place / step); };
+  for (float x = first(from.x); x <= size.x; x += step) canvas.line({x, 0.0F}, {x, size.y}, width, color);
+  for (float y = first(from.y); y <= size.y; y += step) canvas.line({0.0F, y}, {size.x, y}, width, color);
+}
+
+// The borders of the ramps in which the picture fades out, with their widths.
+void paint_ramps(Canvas& canvas, const CalibrationPanel& panel, float unit) {
   const glm::vec2 size = canvas.size_mm(), middle = 0.5F * size;
-  for (float x = 0.0F; x <= middle.x; x += step) {
-    for (const float side : {-1.0F, 1.0F}) {
-      canvas.line({middle.x + side * x, 0.0F}, {middle.x + side * x, size.y}, width, color);
+  const float thick = 4.0F * unit, gap = 16.0F * unit;
+  for (std::size_t edge = 0; edge < panel.ramps.size(); ++edge) {
+    const std::string& width = panel.ramp_widths.at(edge);
+    if (width.empty()) continue;
+    const scene::EdgeRamp& ramp = panel.ramps.at(edge);
+    const glm::length_t axis = edge % 2 == 0 ? 0 : 1;
+    const bool from_low = edge < 2;
+    float at = 0.0F;
+    for (const double inwards_m : {ramp.begin_m, ramp.begin_m + ramp.width_m}) {
+      const float inwards = static_cast<float>(inwards_m * 1e3) * canvas.true_mm();
+      at = from_low ? inwards : size[axis] - inwards;
+      glm::vec2 begin(0.0F), end = size;
+      begin[axis] = end[axis] = at;
+      canvas.line(begin, end, thick, kRamp);
     }
-  }
-  for (float y = 0.0F; y <= middle.y; y += step) {
-    for (const float side : {-1.0F, 1.0F}) {
-      canvas.line({0.0F, middle.y + side * y}, {size.x, middle.y + side * y}, width, color);
-    }
+    const Align align = axis == 1 ? Align::Center : from_low ? Align::Left : Align::Right;
+    const float line_height = 50.0F * unit;
+    const glm::vec2 place = axis == 0 ? glm::vec2(at + (from_low ? gap : -gap), 0.22F * size.y)
+                                      : glm::vec2(middle.x, from_low ? at + gap : at - gap - line_height);
+    canvas.text(place, TextStyle::Body, kRamp, width, align, unit);
   }
 }
 
@@ -85,8 +106,10 @@ void paint(Canvas& canvas, const CalibrationPanel& panel) {
   const float unit = size.y / kWallHeightMm;
   const float step = static_cast<float>(panel.square_m * 1e3) * canvas.true_mm();
   canvas.rectangle({0.0F, 0.0F}, size, kGround);
-  paint_grid(canvas, step, 1.5F * unit, kFine);
-  paint_grid(canvas, 10.0F * step, 3.0F * unit, kCoarse);
+  const glm::vec2 crossing = middle + glm::vec2(panel.grid_from_m * 1e3) * canvas.true_mm();
+  paint_grid(canvas, crossing, step, 1.5F * unit, kFine);
+  paint_grid(canvas, crossing, 10.0F * step, 3.0F * unit, kCoarse);
+  paint_ramps(canvas, panel, unit);
   canvas.outline(glm::vec2(2.0F * unit), size - 2.0F * unit, 4.0F * unit, kWhite);
   paint_circle(canvas, middle, 0.44F * std::min(size.x, size.y), 4.0F * unit, palette::kSkyBlue);
   canvas.line({middle.x - 300.0F * unit, middle.y}, {middle.x + 300.0F * unit, middle.y}, 5.0F * unit,

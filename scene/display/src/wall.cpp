@@ -20,6 +20,9 @@ using core::failure;
 constexpr double kLargestSquareErrorCosine = 0.0175;
 constexpr double kSmallestEdgeM = 1e-3;
 
+constexpr double kFlatM = 5e-3;       // what a tape measure gets right
+constexpr double kSameTurn = 0.9998;  // cosine of a degree
+
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 std::string text(const glm::dvec3& v) { return fmt::format("({:g}, {:g}, {:g}) m", v.x, v.y, v.z); }
@@ -94,6 +97,15 @@ core::Result<void> check_screen(const Screen& screen) {
                            std::abs(90.0 - glm::degrees(std::acos(cosine)))));
   }
   return {};
+}
+
+bool in_one_plane(const Screen& a, const Screen& b) {
+  const auto right_of = [](const Screen& screen) { return glm::normalize(screen.lower_right - screen.lower_left); };
+  if (glm::dot(right_of(a), right_of(b)) < kSameTurn) return false;
+  for (const glm::dvec3& corner : {b.lower_left, b.lower_right, b.upper_left}) {
+    if (std::abs(glm::dot(corner - a.lower_left, a.normal())) > kFlatM) return false;
+  }
+  return true;
 }
 
 glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m, const glm::dvec3& eye_from_tracker_m) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -16,6 +17,7 @@
 #include "physics/quantity_text.h"
 #include "scene/config/toml_file.h"
 #include "scene/display/wall.h"
+#include "screen_blends.h"
 #include "wall_pvx.h"
 
 namespace afm::scene {
@@ -24,6 +26,9 @@ namespace {
 
 constexpr int kLargestPixel = 65536;
 constexpr double kLargestEyeFromHeadM = 0.5;
+constexpr double kWidestBlendM = 20.0;
+constexpr double kSmallestGamma = 1.0, kLargestGamma = 4.0;
+constexpr double kLargestBlack = 0.05;  // a projector with a contrast of 20:1
 
 class TableReader {
  public:
@@ -76,6 +81,15 @@ class TableReader {
     return value;
   }
 
+  std::optional<double> number(std::string_view key, double smallest, double largest, const char* meaning) const {
+    if (!has(key)) return std::nullopt;
+    const auto value = required(key).value<double>();
+    if (!value || !(*value >= smallest && *value <= largest)) {
+      fail(key, fmt::format("must be a number from {:g} to {:g}, {}", smallest, largest, meaning));
+    }
+    return value;
+  }
+
   bool has(std::string_view key) const { return table_.contains(key); }
 
   bool flag(std::string_view key) const {
@@ -113,9 +127,13 @@ class TableReader {
   std::string section_;
 };
 
-Screen read_screen(const toml::table& table) {
+constexpr std::array<std::string_view, kScreenEdgeNames.size()> kBlendKeys{"blend_left", "blend_top", "blend_right",
+                                                                           "blend_bottom"};
+
+Screen read_screen(const toml::table& table, EdgeWidths& widths_m) {
   const TableReader reader(table, "screen");
-  reader.allow_only({"name", "lower_left", "lower_right", "upper_left"});
+  reader.allow_only(
+      {"name", "lower_left", "lower_right", "upper_left", kBlendKeys[0], kBlendKeys[1], kBlendKeys[2], kBlendKeys[3]});
   Screen screen{.name = reader.text("name"),
                 .lower_left = reader.point("lower_left"),
                 .lower_right = reader.point("lower_right"),
@@ -123,7 +141,26 @@ Screen read_screen(const toml::table& table) {
   if (const auto checked = check_screen(screen); !checked) {
     throw Fault{table.source(), "screen.lower_left", checked.error().message};
   }
+  for (std::size_t edge = 0; edge < widths_m.size(); ++edge) {
+    const std::string_view key = kBlendKeys.at(edge);
+    if (reader.has(key)) widths_m.at(edge) = reader.length_m(key, kLeastOverlapM, kWidestBlendM);
+  }
   return screen;
+}
+
+// Beside the wall file.
+std::shared_ptr<const WarpMesh> read_warp_mesh(const TableReader& reader, const Output& output,
+                                               const std::string& wall_path) {
+  if (reader.has("homography")) {
+    reader.fail("warp_mesh", "an output has either a homography or a warp mesh; the mesh can hold the keystone too");
+  }
+  const glm::uvec2 eye_px =
+      traits_of(output.mode).squeezed ? output.rect.size_px : eye_size(output.mode, glm::max(output.rect.size_px, 1U));
+  const bool known = output.rect.size_px != glm::uvec2(0);
+  auto mesh = load_warp_mesh((std::filesystem::path(wall_path).parent_path() / reader.text("warp_mesh")).string(),
+                             known ? std::optional(double(eye_px.x) / double(eye_px.y)) : std::nullopt);
+  if (!mesh) reader.fail("warp_mesh", mesh.error().message);
+  return std::make_shared<const WarpMesh>(std::move(*mesh));
 }
 
 // A homography as a person measures it: where on the output the corners of the picture are to appear. Returned is the
@@ -148,9 +185,11 @@ glm::dmat3 read_keystone(const TableReader& reader, std::string_view key) {
   return glm::inverse(output_from_picture);
 }
 
-Output read_output(const toml::table& table, const std::vector<Screen>& screens) {
+Output read_output(const toml::table& table, const std::vector<Screen>& screens, const std::string& path,
+                   ProjectorLight& light) {
   const TableReader reader(table, "output");
-  reader.allow_only({"name", "screen", "mode", "eye", "swap", "monitor", "rect", "homography"});
+  reader.allow_only(
+      {"name", "screen", "mode", "eye", "swap", "monitor", "rect", "homography", "warp_mesh", "gamma", "black_level"});
   Output output;
   output.name = reader.text("name");
   const std::string screen = reader.text("screen");
@@ -182,6 +221,9 @@ Output read_output(const toml::table& table, const std::vector<Screen>& screens)
     reader.fail("rect", fmt::format("mode \"{}\" needs exactly {} x {} pixels", name_of(output.mode), size.x, size.y));
   }
   if (reader.has("homography")) output.picture_from_output = read_keystone(reader, "homography");
+  if (reader.has("warp_mesh")) output.warp = read_warp_mesh(reader, output, path);
+  light.gamma = reader.number("gamma", kSmallestGamma, kLargestGamma, "the power of the projector's light");
+  light.black = reader.number("black_level", 0.0, kLargestBlack, "the light of the projector's black, of its white's");
   return output;
 }
 
@@ -272,19 +314,32 @@ void read_tables(const toml::table& root, std::string_view key, const Read& read
   }
 }
 
-Wall read_wall(const toml::table& root) {
+// Of what overlaps, once everything is read.
+void blend(Wall& wall, const toml::table& root, const std::vector<EdgeWidths>& widths_m,
+           const std::vector<ProjectorLight>& lights) {
+  auto fault = blend_screens(wall.screens, widths_m);
+  if (!fault) fault = blend_outputs(wall, lights);
+  if (!fault) return;
+  const char* const kind = fault->table == BlendFault::Table::Screen ? "screen" : "output";
+  const toml::array& tables = *root.get(kind)->as_array();
+  TableReader(*tables[fault->index].as_table(), kind).fail(fault->key, fault->what);
+}
+
+Wall read_wall(const toml::table& root, const std::string& path) {
   TableReader(root, "wall").allow_only({"screen", "output", "viewer"});
   Wall wall;
+  std::vector<EdgeWidths> widths_m;
+  std::vector<ProjectorLight> lights;
   std::set<std::string> names;
   read_tables(root, "screen", [&](const toml::table& table) {
-    wall.screens.push_back(read_screen(table));
+    wall.screens.push_back(read_screen(table, widths_m.emplace_back()));
     if (!names.insert(wall.screens.back().name).second) {
       throw Fault{table.source(), "screen.name", fmt::format("\"{}\" is used twice", wall.screens.back().name)};
     }
   });
   if (root.contains("output")) {
     read_tables(root, "output", [&](const toml::table& table) {
-      wall.outputs.push_back(read_output(table, wall.screens));
+      wall.outputs.push_back(read_output(table, wall.screens, path, lights.emplace_back()));
       check_together(wall.outputs.back(), {wall.outputs.begin(), wall.outputs.end() - 1}, table);
     });
     check_pairs(wall.outputs, *root.get("output")->as_array());
@@ -300,6 +355,7 @@ Wall read_wall(const toml::table& root) {
       }
     }
   });
+  blend(wall, root, widths_m, lights);
   return wall;
 }
 
@@ -313,7 +369,7 @@ bool begins_like_xml(const std::string& path) {
 
 core::Result<Wall> load_wall(const std::string& path) {
   if (path.ends_with(".pvx") || begins_like_xml(path)) return load_pvx(path);
-  return read_toml("wall file", path, read_wall);
+  return read_toml("wall file", path, [&](const toml::table& root) { return read_wall(root, path); });
 }
 
 }  // namespace afm::scene

@@ -7,12 +7,15 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/result.h"
+#include "scene/display/blend.h"
 #include "scene/display/stereo_layout.h"
+#include "scene/display/warp_mesh.h"
 
 // Walls, viewers and eyes: pure arithmetic in the room frame (metres, right-handed, +y up), double precision.
 namespace afm::scene {
@@ -23,6 +26,7 @@ struct Screen {
   glm::dvec3 lower_left{0.0};
   glm::dvec3 lower_right{0.0};
   glm::dvec3 upper_left{0.0};
+  std::optional<ScreenBlend> blend{};  // with the screens that overlap it
 
   double width_m() const;
   double height_m() const;
@@ -54,6 +58,9 @@ glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m,
 
 // Checks that the corners are finite, distinct, and at right angles within a degree (the accuracy of a tape measure).
 core::Result<void> check_screen(const Screen& screen);
+
+// Whether the screens lie in one plane and are upright alike, as far as a tape measure finds that.
+bool in_one_plane(const Screen& a, const Screen& b);
 
 // An eye nearer to a screen than this is an error of measurement, not a viewer.
 inline constexpr double kSmallestEyeDistanceM = 0.01;
@@ -94,6 +101,10 @@ struct Output {
   std::string monitor;                  // as the window system names it; empty: the rectangle counts
   PixelRect rect;                       // without area: the whole monitor
   glm::dmat3 picture_from_output{1.0};  // keystone, see render::Composition
+
+  // Shared with the windows and with pictures that are still being drawn; null: none.
+  std::shared_ptr<const WarpMesh> warp{};
+  std::shared_ptr<const Blend> blend{};
 };
 
 struct Wall {
@@ -101,6 +112,9 @@ struct Wall {
   std::vector<Output> outputs;  // may be empty
   std::vector<Viewer> viewers;
 };
+
+// Blending of a picture of that screen by projectors of which nothing is known; null where nothing overlaps it.
+std::shared_ptr<const Blend> usual_blend(const Wall& wall, std::size_t screen);
 
 // Reason why no head can be at this position in front of the wall, such as "0.85 m below the floor"; empty if it can.
 // The floor is at y = 0, or as low as a screen reaches, or a metre below the sweet spot where the room's origin lies

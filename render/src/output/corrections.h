@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <vector>
+
+#include "device/memory.h"
+#include "passes/pixel_tiles.h"
+#include "render/composition.h"
+
+namespace afm::render {
+
+// What the compose pass reads to correct the picture of one output's projector: its warp mesh as a map of the pixels
+// that one eye's image fills, and its blending.
+class Correction {
+ public:
+  Correction(const Device& device, vk::DescriptorSetLayout layout, vk::Sampler sampler, const Composition& composition,
+             vk::Extent2D eye_px);
+
+  // Of this mesh and blending, at any size; and of a size.
+  bool corrects_as(const Composition& composition) const {
+    return warp_ == composition.warp && blend_ == composition.blend;
+  }
+  bool serves(const Composition& composition, vk::Extent2D eye_px) const {
+    return corrects_as(composition) && (!warp_ || eye_px_ == eye_px);
+  }
+
+  vk::DescriptorSet set() const { return *set_; }
+
+  // Adds every tile of the map in which a pixel shows a part of `box`, which lies in an eye's image of which `drawn` is
+  // drawn. `at` is the map's first pixel.
+  void add_moved(const PixelBox& box, vk::Extent2D drawn, const glm::ivec2& at, PixelTiles& tiles) const;
+
+ private:
+  // A square of the map, and the part of the picture that its pixels show.
+  struct Tile {
+    PixelBox pixels;
+    glm::vec2 low{0.0F}, high{0.0F};
+  };
+  void find_tiles(const std::vector<glm::vec4>& map);
+
+  std::shared_ptr<const scene::WarpMesh> warp_;
+  std::shared_ptr<const scene::Blend> blend_;
+  vk::Extent2D eye_px_;
+  std::vector<Tile> tiles_;  // that show anything
+  DeviceImage map_;
+  vk::raii::ImageView view_{nullptr};
+  Buffer block_;
+  vk::raii::DescriptorPool pool_{nullptr};
+  vk::raii::DescriptorSet set_{nullptr};
+};
+
+// The corrections in use, from the beginning that of an output without any. Another is made when a mesh or blending is
+// first shown at a size, which waits for the device.
+class Corrections {
+ public:
+  explicit Corrections(const Device& device);
+
+  vk::DescriptorSetLayout layout() const { return *layout_; }
+
+  // For eye images that fill `eye_px` pixels of the picture. Of each mesh and blending the newest sizes are kept: more
+  // than one submission shows.
+  const Correction& find(const Composition& composition, vk::Extent2D eye_px);
+
+ private:
+  void forget_oldest(const Composition& composition);
+
+  const Device& device_;
+  vk::raii::DescriptorSetLayout layout_;
+  vk::raii::Sampler sampler_;
+  std::list<Correction> newest_first_;
+};
+
+}  // namespace afm::render
