@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -48,6 +49,9 @@ core::Result<void> check_usage(const LessonOptions& options) {
     return core::wrong_usage(
         fmt::format("--participant {}: write six capital letters that say nothing about the person, or sim:SEED",
                     options.participant));
+  }
+  if (simulated && !options.view.display.instructor.empty()) {
+    return core::wrong_usage("--instructor: a simulated participant has no window to follow; leave it out");
   }
   return {};
 }
@@ -111,6 +115,11 @@ void remove_empty(const std::string& folder) {
 core::Result<void> run_live(const LessonOptions& options, const std::string& program) {
   auto lesson = exhibit::load_lesson(options.lesson);
   if (!lesson) return tl::unexpected(lesson.error());
+  const auto& conditions = lesson->conditions;
+  const bool heard = std::find(conditions.begin(), conditions.end(), exhibit::Condition::Sound) != conditions.end();
+  if (heard && !options.view.settings.sound.sound) {
+    return core::wrong_usage(options.lesson + ": a condition of this lesson is sound; add --sound");
+  }
   ViewOptions view = options.view;
   view.files.shown = lesson->materials;
   view.settings.scale = lesson->scale;
@@ -160,6 +169,7 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
       "example: touchafm lesson assets/lessons/first-touch.toml\n"
       "         touchafm lesson assets/lessons/three-materials.toml --participant QXWERT --out study\n"
       "         touchafm lesson assets/lessons/three-materials.toml --participant sim:7 --out study\n"
+      "         touchafm lesson assets/lessons/first-touch.toml --fullscreen --instructor 2\n"
       "         touchafm lesson --withdraw ABCDEF --out study");
   const auto options = std::make_shared<LessonOptions>();
   command.add_option("lesson", options->lesson, "lesson file (TOML); assets/lessons holds six").type_name("FILE");
@@ -177,6 +187,11 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
   withdraw.type_name("CODE");
   withdraw.needs(out);
   withdraw.excludes(participant);
+  command
+      .add_option("--instructor", options->view.display.instructor,
+                  "open a second window for the instructor: its state, and Next, Skip, Stop and Hand off; give the "
+                  "name or number of the monitor that it fills (touchafm devices lists them), or \"window\"")
+      .type_name("MONITOR");
   add_stage_options(command, options->view.files, context);
   add_window_options(command, options->view);
   command.when_chosen([options, &context] { return run_lesson(*options, context.program_path); });

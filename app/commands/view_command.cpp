@@ -278,6 +278,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   std::optional<LiveLesson> guide;
   if (lesson != nullptr) guide.emplace(lesson->lesson, materials, stage->phrases(), lesson->study, clock);
   settings.lesson = guide ? &*guide : nullptr;
+  settings.instructor = (*display)->instructor();
   LiveView live(*stage, materials, windows, (*display)->picture(), start_servo, **wand, clock, settings);
   auto ran = live.run();
   auto kept = guide ? guide->finish() : core::Result<void>{};
