@@ -117,6 +117,9 @@ void add_picture_options(OptionList& command, ViewOptions& options) {
       .add_option("--monitor", options.display.window.monitor,
                   "open one window that fills this monitor, given by its name or number from touchafm devices")
       .type_name("NAME");
+  command.add_flag(
+      "--high-contrast", [&options] { options.display.contrast = render::PanelContrast::High; },
+      "draw the panels in white on opaque black, for people who see little");
   command
       .add_option("--eye-width", options.display.eye_width,
                   "width of each eye image in pixels, scaled to the window; default: the window's resolution")

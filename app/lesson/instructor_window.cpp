@@ -18,7 +18,7 @@ constexpr const char* kInstructorTitle = "TouchAFM, instructor";
 constexpr glm::uvec2 kFreeSizePx{960, 600};
 constexpr std::int64_t kAnewNs = 1'000'000'000;
 
-double aspect_of(glm::uvec2 size_px) { return static_cast<double>(size_px.x) / static_cast<double>(size_px.y); }
+double shape_of(glm::uvec2 size_px) { return static_cast<double>(size_px.x) / static_cast<double>(size_px.y); }
 
 }  // namespace
 
@@ -35,10 +35,12 @@ core::Result<render::Window> InstructorWindow::open_window(const std::string& pl
 
 core::Result<std::unique_ptr<InstructorWindow>> InstructorWindow::create(render::Context& context,
                                                                          render::Window& window,
-                                                                         const exhibit::Phrases& phrases) {
+                                                                         const exhibit::Phrases& phrases,
+                                                                         render::PanelContrast contrast) {
   const glm::uvec2 size_px = glm::max(window.size_px(), glm::uvec2(1));
   render::RendererOptions drawing{.eye_width = size_px.x, .eye_height = size_px.y, .samples = 1};
   drawing.panel_texels_per_m = 2.0 * size_px.y / exhibit::InstructorPage::kHeightM;
+  drawing.panel_contrast = contrast;
   auto renderer = render::Renderer::create(context, scene::Scene{}, drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   const std::array<render::Window*, 1> windows{&window};
@@ -56,7 +58,7 @@ InstructorWindow::InstructorWindow(render::Window& window, const exhibit::Phrase
       renderer_(std::move(renderer)),
       presenter_(std::move(presenter)),
       size_px_(size_px),
-      page_(aspect_of(size_px)) {}
+      page_(shape_of(size_px)) {}
 
 InstructorWindow::Input InstructorWindow::poll(const exhibit::LessonPrompt& prompt) {
   render::WindowInput input = window_.poll();
@@ -86,7 +88,7 @@ void InstructorWindow::follow_size() {
   if (size_px == size_px_ || size_px.x == 0 || size_px.y == 0) return;
   if (auto resized = renderer_.resize(size_px.x, size_px.y); !resized) return core::log_line(resized.error().message);
   size_px_ = size_px;
-  page_ = exhibit::InstructorPage(aspect_of(size_px));
+  page_ = exhibit::InstructorPage(shape_of(size_px));
   shown_.reset();
 }
 

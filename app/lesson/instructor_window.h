@@ -29,7 +29,8 @@ class InstructorWindow {
 
   // Draws into that window. All must outlive it.
   static core::Result<std::unique_ptr<InstructorWindow>> create(render::Context& context, render::Window& window,
-                                                                const exhibit::Phrases& phrases);
+                                                                const exhibit::Phrases& phrases,
+                                                                render::PanelContrast contrast);
 
   // What the instructor did since the last call: with the keys 1 to 4, or by a click on an action that acts at
   // `prompt`. Other keys that were pressed are the wall's.

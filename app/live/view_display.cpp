@@ -27,6 +27,7 @@ render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const 
     drawing.panel_texels_per_m = 2.0 * eye_px.x / narrowest_m;
     drawing.panel_millimetre_m = stage.wall_scene.panel_millimetre_m();
   }
+  drawing.panel_contrast = options.contrast;
   drawing.time_passes = options.frame_budget_ms > 0;
   return drawing;
 }
@@ -70,7 +71,8 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
                                             .frame_budget_ms = options.frame_budget_ms,
                                             .saved_folder = options.saved_folder});
   if (display->instructor_window_) {
-    auto instructor = InstructorWindow::create(*display->context_, *display->instructor_window_, stage.phrases());
+    auto instructor =
+        InstructorWindow::create(*display->context_, *display->instructor_window_, stage.phrases(), options.contrast);
     if (!instructor) return tl::unexpected(instructor.error());
     display->instructor_ = std::move(*instructor);
   }

@@ -25,7 +25,8 @@ struct DisplayOptions {
   double comfort_deg = 1;          // how much more or less the eyes may turn in than for the wall
   std::string saved_folder = ".";  // for the pictures that are saved
   bool validate = false;           // every Vulkan call
-  std::string instructor;          // where the instructor's window is, as open_window() takes it; empty: there is none
+  render::PanelContrast contrast = render::PanelContrast::Normal;
+  std::string instructor;  // where the instructor's window is, as open_window() takes it; empty: there is none
 };
 
 // The windows of the live view with all that draws into them. Main thread only.
