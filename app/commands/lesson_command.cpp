@@ -84,8 +84,6 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   const auto samples = exhibit::lesson_samples(*lesson, *library);
   if (!samples) return tl::unexpected(samples.error());
   const std::string code = participant->code();
-  const auto order = exhibit::order_of(options.out, code);
-  if (!order) return tl::unexpected(order.error());
   const std::uint64_t seed = seed_of(code, *lesson);
   auto data = exhibit::DataSet::create(*lesson, {.folder = options.out,
                                                  .code = code,
@@ -96,7 +94,7 @@ core::Result<void> run_simulated(const LessonOptions& options) {
                                                  .day = std::nullopt});
   if (!data) return tl::unexpected(data.error());
   exhibit::LessonRun run(
-      *lesson, *samples, phrases->wall, {.seed = seed, .order = *order},
+      *lesson, *samples, phrases->wall, {.seed = seed, .order = data->order()},
       [&](const exhibit::TrialRow& row) { return data->add(row); }, 0.0);
   exhibit::SimulatedStudent student(*participant, *lesson, *samples);
   if (auto taken = student.take(run); !taken) return taken;
@@ -131,13 +129,13 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
   const auto order = exhibit::order_of(options.out, code);
   if (!order) return tl::unexpected(order.error());
   const auto days = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()).time_since_epoch();
-  guided.study = {.entry = {.folder = options.out,
-                            .code = code,
-                            .device = view.servo.haptic_device,
-                            .wall = view.files.wall.empty() ? "powerwall" : view.files.wall,
-                            .seed = seed_of(code, guided.lesson),
-                            .day = days.count()},
-                  .order = *order};
+  guided.study = exhibit::DataSetEntry{.folder = options.out,
+                                       .code = code,
+                                       .device = view.servo.haptic_device,
+                                       .wall = view.files.wall.empty() ? "powerwall" : view.files.wall,
+                                       .seed = seed_of(code, guided.lesson),
+                                       .order = *order,
+                                       .day = days.count()};
   const std::string participant = options.out + "/sub-" + code;
   view.settings.record_folder = participant + "/task-" + guided.lesson.id + "_session";
   std::error_code error;

@@ -16,7 +16,8 @@ using Wants = exhibit::LessonPrompt::Wants;
 }  // namespace
 
 LiveLesson::LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::SampleModel>& samples,
-                       const exhibit::Phrases& phrases, const std::optional<Study>& study, const core::Clock& clock)
+                       const exhibit::Phrases& phrases, const std::optional<exhibit::DataSetEntry>& study,
+                       const core::Clock& clock)
     : lesson_(lesson),
       samples_(samples),
       phrases_(phrases),
@@ -24,8 +25,8 @@ LiveLesson::LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::
       clock_(clock),
       run_(
           lesson, samples, phrases,
-          {.seed = study ? study->entry.seed : static_cast<std::uint64_t>(clock.now_ns()),
-           .order = study ? study->order : 0,
+          {.seed = study ? study->seed : static_cast<std::uint64_t>(clock.now_ns()),
+           .order = study ? study->order.value_or(0) : 0,
            .ask_consent = study.has_value()},
           [this](const exhibit::TrialRow& row) { return keep(row); }, now_s()),
       varied_(samples.size(), false) {
@@ -56,7 +57,7 @@ void LiveLesson::acted() {
 }
 
 core::Result<void> LiveLesson::begin_data() {
-  auto data = exhibit::DataSet::create(lesson_, study_->entry);
+  auto data = exhibit::DataSet::create(lesson_, *study_);
   if (!data) return tl::unexpected(data.error());
   data_ = std::move(*data);
   core::log_line("lesson: results go to " + data_->participant_folder());
@@ -73,7 +74,7 @@ core::Result<void> LiveLesson::keep(const exhibit::TrialRow& row) {
 
 exhibit::InstructorState LiveLesson::instructor_state() const {
   return {.prompt = prompt_,
-          .participant = study_ ? study_->entry.code : "",
+          .participant = study_ ? study_->code : "",
           .elapsed_s = run_.elapsed_s(now_s()),
           .planned_min = lesson_.minutes,
           .right = right_,
@@ -123,14 +124,10 @@ void LiveLesson::step(int steps) {
 
 bool LiveLesson::takes_hand() const { return prompt_.wants == Wants::Answer; }
 
-void LiveLesson::hand_moved(const scene::TipSample& sample) {
-  if (prompt_.wants != Wants::Answer && prompt_.wants != Wants::GoOn) return;
-  if (!mark_.add(sample.hand_height_m, sample.turn_on != 0)) return;
-  if (prompt_.wants == Wants::GoOn) {
-    run_.go_on(now_s());
-  } else if (mark_.marked()) {
-    run_.answer(*mark_.marked(), now_s());
-  }
+void LiveLesson::hand_moved(double height_m, std::uint64_t presses) {
+  if (!mark_.add(height_m, presses)) return;
+  if (prompt_.wants == Wants::GoOn) run_.go_on(now_s());
+  if (prompt_.wants == Wants::Answer && mark_.marked()) run_.answer(*mark_.marked(), now_s());
   acted();
 }
 

@@ -24,15 +24,11 @@ namespace afm::app {
 // is kept of it. Main thread.
 class LiveLesson {
  public:
-  // Where results go; without a study nothing is kept and nobody is asked.
-  struct Study {
-    exhibit::DataSetEntry entry;
-    std::size_t order = 0;
-  };
-
-  // Lesson, samples, phrases and clock must outlive it.
+  // `study`: where results go; without one nothing is kept and nobody is asked. Lesson, samples, phrases and clock must
+  // outlive it.
   LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::SampleModel>& samples,
-             const exhibit::Phrases& phrases, const std::optional<Study>& study, const core::Clock& clock);
+             const exhibit::Phrases& phrases, const std::optional<exhibit::DataSetEntry>& study,
+             const core::Clock& clock);
 
   // Once a frame.
   void update();
@@ -53,8 +49,9 @@ class LiveLesson {
   void next();  // of the instructor: goes on where the person would press Enter
   void stop();  // of the instructor: the lesson ends here
 
-  // A tick of the hand, which moves the mark and answers with Turn-On where the lesson waits for no cycle.
-  void hand_moved(const scene::TipSample& sample);
+  // Once a frame, where a person moves the hand: its height moves the mark, and Turn-On answers or goes on, where the
+  // lesson waits for no cycle.
+  void hand_moved(double height_m, std::uint64_t presses);
   bool takes_hand() const;  // so that the hand needs no force
 
   // The answer under the mark, if that has moved since the last call.
@@ -100,7 +97,7 @@ class LiveLesson {
   const exhibit::Lesson& lesson_;
   const std::vector<curves::SampleModel>& samples_;
   const exhibit::Phrases& phrases_;
-  std::optional<Study> study_;
+  std::optional<exhibit::DataSetEntry> study_;
   const core::Clock& clock_;
   std::optional<exhibit::DataSet> data_;
   std::optional<core::Error> error_;

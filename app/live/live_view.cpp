@@ -65,10 +65,7 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::Sample
   panels_.set_friction(&servo_.friction());
   if (settings_.unattended) panels_.show_visitors_keys_only();
   if (lesson_ != nullptr) panels_.use_for(WallUse::Lesson);
-  servo_.hear([this](const scene::TipSample& sample) {
-    paint_with(sample);
-    if (lesson_ != nullptr && hand() != HandSource::Simulated) lesson_->hand_moved(sample);
-  });
+  servo_.hear([this](const scene::TipSample& sample) { paint_with(sample); });
   if (lesson_ != nullptr) {
     servo_.hear_jumps([this](const scene::TipEvent& event) { lesson_->happened(event, servo_.link()); });
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lesson at the live window: a guide on top of everything else.
+#include <glm/geometric.hpp>
 #include <string>
 #include <utility>
 
@@ -33,6 +34,12 @@ void LiveView::try_again() {
 
 void LiveView::follow_lesson(std::int64_t now_ns) {
   if (lesson_ == nullptr) return;
+  if (servo_.running() && hand() != HandSource::Simulated) {
+    const scene::HandState& moved = servo_.link().tip().hand;
+    const glm::dvec3 normal = glm::dmat3(view_wand_.navigation()) * stage_.wall_scene.sample_normal();
+    const glm::dvec3 place_m(moved.position_m[0], moved.position_m[1], moved.position_m[2]);
+    lesson_->hand_moved(glm::dot(place_m, glm::normalize(normal)), servo_.link().tip().presses);
+  }
   lesson_->update();
   sound_.set_tones(lesson_->has_tones());
   using Telling = exhibit::Narrator::Telling;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace afm::exhibit {
 
@@ -20,19 +21,18 @@ void HandAnswer::ask(std::size_t answers, Layout layout, std::optional<std::size
   step_m_ = std::clamp(kWayM / static_cast<double>(std::max<std::size_t>(answers, 1)), kShortestM, kLongestM);
   marked_ = marked;
   from_m_.reset();
-  released_ = false;
 }
 
-bool HandAnswer::add(double height_m, bool turn_on) {
+bool HandAnswer::add(double height_m, std::uint64_t presses) {
+  // who presses means the mark of the last frame, wherever the hand has gone since
+  if (std::exchange(presses_, presses).value_or(presses) != presses) return true;
   if (!from_m_) from_m_ = height_m;
   while (answers_ > 0 && std::abs(height_m - *from_m_) >= step_m_) {
     const bool down = height_m < *from_m_;
     *from_m_ += down ? -step_m_ : step_m_;
     move(down);
   }
-  const bool pressed = turn_on && released_;
-  released_ = !turn_on;
-  return pressed;
+  return false;
 }
 
 void HandAnswer::move(bool down) {

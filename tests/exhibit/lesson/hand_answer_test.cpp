@@ -11,19 +11,17 @@ namespace {
 
 using Layout = HandAnswer::Layout;
 
-// Moves from one height to the other as a servo sees it; false unless the button was pressed.
-bool moves(HandAnswer& answer, double from_m, double to_m, bool turn_on = false) {
-  constexpr int kTicks = 400;
-  bool pressed = false;
-  for (int i = 0; i <= kTicks; ++i) pressed = answer.add(from_m + (to_m - from_m) * i / kTicks, turn_on) || pressed;
-  return pressed;
+// Moves from one height to the other, without a press.
+void moves(HandAnswer& answer, double from_m, double to_m) {
+  constexpr int kFrames = 100;
+  for (int i = 0; i <= kFrames; ++i) EXPECT_FALSE(answer.add(from_m + (to_m - from_m) * i / kFrames, 7));
 }
 
 TEST(HandAnswer, MarksNothingOfAListBeforeTheHandHasMoved) {
   HandAnswer answer;
   answer.ask(5, Layout::List, std::nullopt);
   moves(answer, 0.060, 0.060);
-  for (int i = 0; i < 1000; ++i) answer.add(0.060 + 0.002 * std::sin(0.05 * i), false);  // tremor
+  for (int i = 0; i < 1000; ++i) answer.add(0.060 + 0.002 * std::sin(0.05 * i), 7);  // tremor
   EXPECT_EQ(answer.marked(), std::nullopt);
   moves(answer, 0.060, 0.044);
   EXPECT_EQ(answer.marked(), 0U) << "the first one from above";
@@ -63,13 +61,24 @@ TEST(HandAnswer, EveryAnswerIsWithinTheReachOfASmallDevice) {
   }
 }
 
-TEST(HandAnswer, TakesAPressForOneThatBeganAfterTheQuestion) {
+TEST(HandAnswer, GivesTheMarkThatWasShownWhenTheButtonWasPressed) {
   HandAnswer answer;
+  answer.ask(3, Layout::List, std::nullopt);
+  moves(answer, 0.060, 0.040);
+  EXPECT_TRUE(answer.add(0.010, 8)) << "in a slow frame the hand goes on";
+  EXPECT_EQ(answer.marked(), 0U);
+  EXPECT_FALSE(answer.add(0.010, 8));
+  EXPECT_EQ(answer.marked(), 2U);
+}
+
+TEST(HandAnswer, TakesEachPressOnceAndNoneFromBefore) {
+  HandAnswer answer;
+  EXPECT_FALSE(answer.add(0.0, 3)) << "pressed before anything was asked";
   answer.ask(0, Layout::List, std::nullopt);
-  EXPECT_FALSE(moves(answer, 0.0, 0.0, true)) << "held from before";
-  EXPECT_FALSE(moves(answer, 0.0, 0.0, false));
-  EXPECT_TRUE(answer.add(0.0, true));
-  EXPECT_FALSE(answer.add(0.0, true)) << "one press answers once";
+  EXPECT_TRUE(answer.add(0.0, 4)) << "however soon and however short it was";
+  EXPECT_FALSE(answer.add(0.0, 4));
+  answer.ask(2, Layout::List, std::nullopt);
+  EXPECT_FALSE(answer.add(0.0, 4)) << "one press answers once";
   EXPECT_EQ(answer.marked(), std::nullopt);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace afm::exhibit {
@@ -21,9 +22,9 @@ class HandAnswer {
   void set_marked(std::size_t marked) { marked_ = marked; }
   std::optional<std::size_t> marked() const { return marked_; }
 
-  // The hand's height and its button, every tick. True in the tick in which it is pressed: a button that is held from
-  // the beginning is no press.
-  bool add(double height_m, bool turn_on);
+  // The hand's height, and how often its button has been pressed: every frame, whatever is asked. True where it was
+  // pressed since the last call.
+  bool add(double height_m, std::uint64_t presses);
 
  private:
   void move(bool down);
@@ -32,8 +33,8 @@ class HandAnswer {
   Layout layout_ = Layout::List;
   double step_m_ = 0;
   std::optional<std::size_t> marked_;
-  std::optional<double> from_m_;  // where the mark moved last
-  bool released_ = false;
+  std::optional<double> from_m_;          // where the mark moved last
+  std::optional<std::uint64_t> presses_;  // at the last call
 };
 
 }  // namespace afm::exhibit
