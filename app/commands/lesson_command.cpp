@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -49,6 +50,9 @@ core::Result<void> check_usage(const LessonOptions& options) {
         fmt::format("--participant {}: write six capital letters that say nothing about the person, or sim:SEED",
                     options.participant));
   }
+  if (simulated && !options.view.display.instructor.empty()) {
+    return core::wrong_usage("--instructor: a simulated participant has no window to follow; leave it out");
+  }
   return {};
 }
 
@@ -80,8 +84,6 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   const auto samples = exhibit::lesson_samples(*lesson, *library);
   if (!samples) return tl::unexpected(samples.error());
   const std::string code = participant->code();
-  const auto order = exhibit::order_of(options.out, code);
-  if (!order) return tl::unexpected(order.error());
   const std::uint64_t seed = seed_of(code, *lesson);
   auto data = exhibit::DataSet::create(*lesson, {.folder = options.out,
                                                  .code = code,
@@ -92,7 +94,7 @@ core::Result<void> run_simulated(const LessonOptions& options) {
                                                  .day = std::nullopt});
   if (!data) return tl::unexpected(data.error());
   exhibit::LessonRun run(
-      *lesson, *samples, phrases->wall, {.seed = seed, .order = *order},
+      *lesson, *samples, phrases->wall, {.seed = seed, .order = data->order()},
       [&](const exhibit::TrialRow& row) { return data->add(row); }, 0.0);
   exhibit::SimulatedStudent student(*participant, *lesson, *samples);
   if (auto taken = student.take(run); !taken) return taken;
@@ -111,6 +113,11 @@ void remove_empty(const std::string& folder) {
 core::Result<void> run_live(const LessonOptions& options, const std::string& program) {
   auto lesson = exhibit::load_lesson(options.lesson);
   if (!lesson) return tl::unexpected(lesson.error());
+  const auto& conditions = lesson->conditions;
+  const bool heard = std::find(conditions.begin(), conditions.end(), exhibit::Condition::Sound) != conditions.end();
+  if (heard && !options.view.settings.sound.sound) {
+    return core::wrong_usage(options.lesson + ": a condition of this lesson is sound; add --sound");
+  }
   ViewOptions view = options.view;
   view.files.shown = lesson->materials;
   view.settings.scale = lesson->scale;
@@ -122,13 +129,13 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
   const auto order = exhibit::order_of(options.out, code);
   if (!order) return tl::unexpected(order.error());
   const auto days = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()).time_since_epoch();
-  guided.study = {.entry = {.folder = options.out,
-                            .code = code,
-                            .device = view.servo.haptic_device,
-                            .wall = view.files.wall.empty() ? "powerwall" : view.files.wall,
-                            .seed = seed_of(code, guided.lesson),
-                            .day = days.count()},
-                  .order = *order};
+  guided.study = exhibit::DataSetEntry{.folder = options.out,
+                                       .code = code,
+                                       .device = view.servo.haptic_device,
+                                       .wall = view.files.wall.empty() ? "powerwall" : view.files.wall,
+                                       .seed = seed_of(code, guided.lesson),
+                                       .order = *order,
+                                       .day = days.count()};
   const std::string participant = options.out + "/sub-" + code;
   view.settings.record_folder = participant + "/task-" + guided.lesson.id + "_session";
   std::error_code error;
@@ -160,6 +167,7 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
       "example: touchafm lesson assets/lessons/first-touch.toml\n"
       "         touchafm lesson assets/lessons/three-materials.toml --participant QXWERT --out study\n"
       "         touchafm lesson assets/lessons/three-materials.toml --participant sim:7 --out study\n"
+      "         touchafm lesson assets/lessons/first-touch.toml --fullscreen --instructor 2\n"
       "         touchafm lesson --withdraw ABCDEF --out study");
   const auto options = std::make_shared<LessonOptions>();
   command.add_option("lesson", options->lesson, "lesson file (TOML); assets/lessons holds six").type_name("FILE");
@@ -177,6 +185,11 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
   withdraw.type_name("CODE");
   withdraw.needs(out);
   withdraw.excludes(participant);
+  command
+      .add_option("--instructor", options->view.display.instructor,
+                  "open a second window for the instructor: its state, and Next, Skip, Stop and Hand off; give the "
+                  "name or number of the monitor that it fills (touchafm devices lists them), or \"window\"")
+      .type_name("MONITOR");
   add_stage_options(command, options->view.files, context);
   add_window_options(command, options->view);
   command.when_chosen([options, &context] { return run_lesson(*options, context.program_path); });

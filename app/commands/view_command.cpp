@@ -117,6 +117,9 @@ void add_picture_options(OptionList& command, ViewOptions& options) {
       .add_option("--monitor", options.display.window.monitor,
                   "open one window that fills this monitor, given by its name or number from touchafm devices")
       .type_name("NAME");
+  command.add_flag(
+      "--high-contrast", [&options] { options.display.contrast = render::PanelContrast::High; },
+      "draw the panels in white on opaque black, for people who see little");
   command
       .add_option("--eye-width", options.display.eye_width,
                   "width of each eye image in pixels, scaled to the window; default: the window's resolution")
@@ -278,6 +281,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   std::optional<LiveLesson> guide;
   if (lesson != nullptr) guide.emplace(lesson->lesson, materials, stage->phrases(), lesson->study, clock);
   settings.lesson = guide ? &*guide : nullptr;
+  settings.instructor = (*display)->instructor();
   LiveView live(*stage, materials, windows, (*display)->picture(), start_servo, **wand, clock, settings);
   auto ran = live.run();
   auto kept = guide ? guide->finish() : core::Result<void>{};

@@ -34,7 +34,7 @@ struct ViewOptions {
 // A lesson that guides through the window.
 struct ViewLesson {
   exhibit::Lesson lesson;
-  std::optional<LiveLesson::Study> study;
+  std::optional<exhibit::DataSetEntry> study;
 };
 
 // Opens the window and runs it to its end; `lesson` may be null. `program` is the running touchafm.

@@ -16,7 +16,8 @@ using Wants = exhibit::LessonPrompt::Wants;
 }  // namespace
 
 LiveLesson::LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::SampleModel>& samples,
-                       const exhibit::Phrases& phrases, const std::optional<Study>& study, const core::Clock& clock)
+                       const exhibit::Phrases& phrases, const std::optional<exhibit::DataSetEntry>& study,
+                       const core::Clock& clock)
     : lesson_(lesson),
       samples_(samples),
       phrases_(phrases),
@@ -24,10 +25,10 @@ LiveLesson::LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::
       clock_(clock),
       run_(
           lesson, samples, phrases,
-          {.seed = study ? study->entry.seed : static_cast<std::uint64_t>(clock.now_ns()),
-           .order = study ? study->order : 0,
+          {.seed = study ? study->seed : static_cast<std::uint64_t>(clock.now_ns()),
+           .order = study ? study->order.value_or(0) : 0,
            .ask_consent = study.has_value()},
-          [this](const exhibit::TrialRow& row) { return data_ ? data_->add(row) : core::Result<void>{}; }, now_s()),
+          [this](const exhibit::TrialRow& row) { return keep(row); }, now_s()),
       varied_(samples.size(), false) {
   acted();
 }
@@ -35,7 +36,10 @@ LiveLesson::LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::
 void LiveLesson::update() {
   exhibit::LessonPrompt next = run_.prompt(now_s());
   if (next.words != prompt_.words || next.progress != prompt_.progress) {
-    marked_ = next.marked;
+    const bool scale = is_scale(next);
+    mark_.ask(next.answers.size(), scale ? exhibit::HandAnswer::Layout::Scale : exhibit::HandAnswer::Layout::List,
+              scale ? std::optional(next.marked) : std::nullopt);
+    told_mark_ = mark_.marked();
     core::log_line("lesson: " + (next.progress.empty() ? "" : next.progress + ": ") + next.words);
   }
   prompt_ = std::move(next);
@@ -53,21 +57,37 @@ void LiveLesson::acted() {
 }
 
 core::Result<void> LiveLesson::begin_data() {
-  auto data = exhibit::DataSet::create(lesson_, study_->entry);
+  auto data = exhibit::DataSet::create(lesson_, *study_);
   if (!data) return tl::unexpected(data.error());
   data_ = std::move(*data);
   core::log_line("lesson: results go to " + data_->participant_folder());
   return {};
 }
 
+core::Result<void> LiveLesson::keep(const exhibit::TrialRow& row) {
+  if (row.correct && !row.practice) {
+    ++judged_;
+    if (*row.correct) ++right_;
+  }
+  return data_ ? data_->add(row) : core::Result<void>{};
+}
+
+exhibit::InstructorState LiveLesson::instructor_state() const {
+  return {.prompt = prompt_,
+          .participant = study_ ? study_->code : "",
+          .elapsed_s = run_.elapsed_s(now_s()),
+          .planned_min = lesson_.minutes,
+          .right = right_,
+          .judged = judged_};
+}
+
 bool LiveLesson::chooses_sample() const { return prompt_.wants == Wants::Cycle && !prompt_.material; }
 
 void LiveLesson::number(std::size_t number) {
   if (prompt_.wants != Wants::Answer || number >= prompt_.answers.size()) return;
-  if (prompt_.answers.size() > exhibit::kMostNumberedAnswers) {
+  if (is_scale(prompt_)) {
     // the keys stand for the whole scale
-    marked_ = number * (prompt_.answers.size() - 1) / (exhibit::kMostNumberedAnswers - 1);
-    return;
+    return mark_.set_marked(number * (prompt_.answers.size() - 1) / (exhibit::kMostNumberedAnswers - 1));
   }
   run_.answer(number, now_s());
   acted();
@@ -89,16 +109,32 @@ void LiveLesson::press(const exhibit::LessonTarget& target) {
 }
 
 void LiveLesson::enter() {
-  const bool scale = prompt_.wants == Wants::Answer && prompt_.answers.size() > exhibit::kMostNumberedAnswers;
-  if (scale) run_.answer(marked_, now_s());
+  const bool scale = prompt_.wants == Wants::Answer && is_scale(prompt_);
+  if (scale) run_.answer(mark_.marked().value_or(prompt_.marked), now_s());
   if (!scale) run_.go_on(now_s());
   acted();
 }
 
 void LiveLesson::step(int steps) {
-  if (prompt_.wants != Wants::Answer) return;
+  if (prompt_.wants != Wants::Answer || !is_scale(prompt_)) return;
   const auto last = static_cast<int>(prompt_.answers.size()) - 1;
-  marked_ = static_cast<std::size_t>(std::clamp(static_cast<int>(marked_) + steps, 0, last));
+  const auto marked = static_cast<int>(mark_.marked().value_or(prompt_.marked));
+  mark_.set_marked(static_cast<std::size_t>(std::clamp(marked + steps, 0, last)));
+}
+
+bool LiveLesson::takes_hand() const { return prompt_.wants == Wants::Answer; }
+
+void LiveLesson::hand_moved(double height_m, std::uint64_t presses) {
+  if (!mark_.add(height_m, presses)) return;
+  if (prompt_.wants == Wants::GoOn) run_.go_on(now_s());
+  if (prompt_.wants == Wants::Answer && mark_.marked()) run_.answer(*mark_.marked(), now_s());
+  acted();
+}
+
+std::optional<std::string> LiveLesson::newly_marked() {
+  if (prompt_.wants != Wants::Answer || told_mark_ == mark_.marked()) return std::nullopt;
+  told_mark_ = mark_.marked();
+  return told_mark_ ? std::optional(prompt_.answers[*told_mark_]) : std::nullopt;
 }
 
 void LiveLesson::skip() {
@@ -114,6 +150,16 @@ void LiveLesson::try_again() {
   acted();
 }
 
+void LiveLesson::next() {
+  run_.go_on(now_s());
+  acted();
+}
+
+void LiveLesson::stop() {
+  run_.stop();
+  acted();
+}
+
 // A blind sample is shown only where the condition asks for a picture.
 bool LiveLesson::shows_scene() const {
   if (prompt_.condition) return *prompt_.condition != Condition::Haptics;
@@ -121,6 +167,7 @@ bool LiveLesson::shows_scene() const {
 }
 
 bool LiveLesson::has_tones() const {
+  if (takes_hand()) return false;
   if (prompt_.condition) return *prompt_.condition == Condition::Sound;
   return !prompt_.hidden;
 }

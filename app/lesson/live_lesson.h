@@ -10,6 +10,8 @@
 #include "core/clock.h"
 #include "curves/sample_model.h"
 #include "exhibit/lesson/data_set.h"
+#include "exhibit/lesson/hand_answer.h"
+#include "exhibit/lesson/instructor_page.h"
 #include "exhibit/lesson/lesson.h"
 #include "exhibit/lesson/lesson_panel.h"
 #include "exhibit/lesson/lesson_run.h"
@@ -22,15 +24,11 @@ namespace afm::app {
 // is kept of it. Main thread.
 class LiveLesson {
  public:
-  // Where results go; without a study nothing is kept and nobody is asked.
-  struct Study {
-    exhibit::DataSetEntry entry;
-    std::size_t order = 0;
-  };
-
-  // Lesson, samples, phrases and clock must outlive it.
+  // `study`: where results go; without one nothing is kept and nobody is asked. Lesson, samples, phrases and clock must
+  // outlive it.
   LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::SampleModel>& samples,
-             const exhibit::Phrases& phrases, const std::optional<Study>& study, const core::Clock& clock);
+             const exhibit::Phrases& phrases, const std::optional<exhibit::DataSetEntry>& study,
+             const core::Clock& clock);
 
   // Once a frame.
   void update();
@@ -48,12 +46,25 @@ class LiveLesson {
   void step(int steps);  // of the mark of a scale
   void skip();
   void try_again();
+  void next();  // of the instructor: goes on where the person would press Enter
+  void stop();  // of the instructor: the lesson ends here
 
-  std::vector<exhibit::LessonTarget> targets() const { return lesson_targets(prompt_, marked_, phrases_); }
+  // Once a frame, where a person moves the hand: its height moves the mark, and Turn-On answers or goes on, where the
+  // lesson waits for no cycle.
+  void hand_moved(double height_m, std::uint64_t presses);
+  bool takes_hand() const;  // so that the hand needs no force
+
+  // The answer under the mark, if that has moved since the last call.
+  std::optional<std::string> newly_marked();
+
+  std::vector<exhibit::LessonTarget> targets() const { return lesson_targets(prompt_, mark_.marked(), phrases_); }
   render::DataPanel panel() const { return lesson_panel(prompt_, phrases_); }
 
   // What is to be spoken before the line of guidance, since the prompt is a new one.
-  std::string speech() const { return lesson_speech(prompt_, marked_, phrases_); }
+  std::string speech() const { return lesson_speech(prompt_, phrases_); }
+
+  // All of it but the hand.
+  exhibit::InstructorState instructor_state() const;
 
   // What this prompt leaves a participant: the scene on the wall, tones, the force.
   bool shows_scene() const;
@@ -81,17 +92,20 @@ class LiveLesson {
   double now_s() const { return static_cast<double>(clock_.now_ns()) * 1e-9; }
   void acted();
   core::Result<void> begin_data();
+  core::Result<void> keep(const exhibit::TrialRow& row);
 
   const exhibit::Lesson& lesson_;
   const std::vector<curves::SampleModel>& samples_;
   const exhibit::Phrases& phrases_;
-  std::optional<Study> study_;
+  std::optional<exhibit::DataSetEntry> study_;
   const core::Clock& clock_;
   std::optional<exhibit::DataSet> data_;
   std::optional<core::Error> error_;
+  std::size_t right_ = 0, judged_ = 0;  // of the counted trials
   exhibit::LessonRun run_;
   exhibit::LessonPrompt prompt_;
-  std::size_t marked_ = 0;
+  exhibit::HandAnswer mark_;
+  std::optional<std::size_t> told_mark_;
   std::optional<Laid> laid_;
   std::uint32_t edit_ = 0;    // of the variant under the tip; 0: as loaded
   std::vector<bool> varied_;  // materials whose parameters were changed

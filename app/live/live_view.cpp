@@ -60,7 +60,8 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::Sample
       hand_(hand_over(stage.wall_scene)),
       person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), input::HandPath{}),
       visitor_(static_cast<std::int64_t>(settings.idle_s * 1e9)),
-      lesson_(settings.lesson) {
+      lesson_(settings.lesson),
+      instructor_(settings.instructor) {
   panels_.set_friction(&servo_.friction());
   if (settings_.unattended) panels_.show_visitors_keys_only();
   if (lesson_ != nullptr) panels_.use_for(WallUse::Lesson);
@@ -107,6 +108,7 @@ void LiveView::run_frame(std::int64_t now_ns) {
   const ViewInput input = windows_.poll();
   leaving_ = input.close_requested && !settings_.unattended;
   for (const ViewEvent& event : input.events) handle(event, now_ns);
+  follow_instructor(now_ns);
   if (std::exchange(cursor_px_, input.cursor_px) != input.cursor_px && !hand_.dragging()) cursor_moved_ns_ = now_ns;
   if (settings_.unattended) follow_visitor(input, now_ns);
   move_hand(input, now_ns);
@@ -131,12 +133,14 @@ void LiveView::handle(const ViewEvent& input, std::int64_t now_ns) {
   if (event.kind == render::WindowEvent::Kind::ButtonDown && event.button == render::MouseButton::Left) {
     press(pointed_at(input.window, event.cursor_px), wand_.ray(picture_.picture(input.window), event.cursor_px));
   }
-  if (event.kind != render::WindowEvent::Kind::KeyDown) return;
+  if (event.kind == render::WindowEvent::Kind::KeyDown) press_key(event.key);
+}
+
+void LiveView::press_key(render::Key key) {
   const WallUse use = lesson_ == nullptr ? WallUse::Free : WallUse::Lesson;
   for (const LiveKey& row : live_keys()) {
-    if (!row.holds(event.key) || row.press == nullptr || !row.acts(use) || (row.staff && settings_.unattended))
-      continue;
-    row.press(*this, static_cast<std::size_t>(event.key) - static_cast<std::size_t>(row.key));
+    if (!row.holds(key) || row.press == nullptr || !row.acts(use) || (row.staff && settings_.unattended)) continue;
+    row.press(*this, static_cast<std::size_t>(key) - static_cast<std::size_t>(row.key));
   }
 }
 
@@ -372,6 +376,7 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   if (blank_) exhibit::blank(frame);
   const bool off_wall = std::abs(before_wall_m()) > kBesideWallM;
   picture_.show(frame, off_wall ? exhibit::Relief::BringToWall : exhibit::Relief::NarrowEyes, now_ns, beat);
+  show_to_instructor(now_ns, beat);
   const std::int64_t presented_ns = clock_.now_ns();
   log_frame(now_ns, presented_ns, head_.presented(presented_ns));
 }

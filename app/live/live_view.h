@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "app/lesson/instructor_window.h"
 #include "app/lesson/live_lesson.h"
 #include "app/live/live_sound.h"
 #include "app/live/mouse_hand.h"
@@ -44,7 +46,8 @@ struct ViewSettings {
   double idle_s = 60;         // without a visitor, until then
   std::string record_folder;  // for the sessions of what is felt; empty: none is kept
   LiveSoundSettings sound;
-  LiveLesson* lesson = nullptr;  // that guides through the window, and must outlive it; none
+  LiveLesson* lesson = nullptr;            // that guides through the window, and must outlive it; none
+  InstructorWindow* instructor = nullptr;  // of a lesson, the same
 };
 
 // The live window: a person's mouse points, chooses and moves the hand of the servo; every frame shows the newest state
@@ -67,6 +70,7 @@ class LiveView {
   void begin_with(servo::ServoClient& servo, std::optional<std::size_t> felt_before);
   void run_frame(std::int64_t now_ns);
   void handle(const ViewEvent& input, std::int64_t now_ns);
+  void press_key(render::Key key);
   static constexpr std::int64_t kForceTakenNs = 500'000'000;  // until a choice has taken the force away
 
   void press(const Pointed& pointed, const input::Ray& ray);
@@ -109,6 +113,9 @@ class LiveView {
   void skip_step();
   void try_again();
   void follow_lesson(std::int64_t now_ns);
+  void follow_instructor(std::int64_t now_ns);
+  void instruct(exhibit::InstructorAction action, std::int64_t now_ns);
+  void show_to_instructor(std::int64_t now_ns, const std::function<void()>& while_waiting);
   std::optional<exhibit::LessonTarget> lesson_target_at(const input::Ray& ray) const;
   void press_in_lesson(const input::Ray& ray, const Pointed& pointed);
   void hide_sample(exhibit::Moment& now) const;
@@ -180,6 +187,9 @@ class LiveView {
   std::int64_t wand_seen_ns_ = 0;
   glm::dvec2 cursor_seen_px_{0.0};
   LiveLesson* lesson_;
+  InstructorWindow* instructor_;
+  bool hand_off_ = false;  // the instructor keeps the force away
+  std::optional<std::int64_t> stop_asked_ns_;
   std::string lesson_said_, lesson_line_;  // spoken words of the newest prompt, and the guidance behind them
   bool blank_ = false;                     // for who goes by ear and hand
   bool leaving_ = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lesson at the live window: a guide on top of everything else.
+#include <glm/geometric.hpp>
 #include <string>
 #include <utility>
 
@@ -33,14 +34,23 @@ void LiveView::try_again() {
 
 void LiveView::follow_lesson(std::int64_t now_ns) {
   if (lesson_ == nullptr) return;
+  if (servo_.running() && hand() != HandSource::Simulated) {
+    const scene::HandState& moved = servo_.link().tip().hand;
+    const glm::dvec3 normal = glm::dmat3(view_wand_.navigation()) * stage_.wall_scene.sample_normal();
+    const glm::dvec3 place_m(moved.position_m[0], moved.position_m[1], moved.position_m[2]);
+    lesson_->hand_moved(glm::dot(place_m, glm::normalize(normal)), servo_.link().tip().presses);
+  }
   lesson_->update();
   sound_.set_tones(lesson_->has_tones());
-  sound_.narrator().set_discreet(lesson_->prompt().hidden);
+  using Telling = exhibit::Narrator::Telling;
+  const bool asks = lesson_->takes_hand() && hand() != HandSource::Simulated;
+  sound_.narrator().set_telling(asks ? Telling::Faults : lesson_->prompt().hidden ? Telling::Force : Telling::All);
+  if (const auto marked = lesson_->newly_marked()) sound_.narrator().note(*marked);
   if (!servo_.running()) return;
   lesson_->lay_sample(servo_.link());
   const scene::ServoState state = servo_.link().tip().servo_state;
   const bool force = state == scene::ServoState::Arming || state == scene::ServoState::Running;
-  if (!lesson_->has_force() && force && now_ns - force_taken_ns_ > kForceTakenNs) take_force_away(now_ns);
+  if ((asks || !lesson_->has_force()) && force && now_ns - force_taken_ns_ > kForceTakenNs) take_force_away(now_ns);
 }
 
 std::optional<exhibit::LessonTarget> LiveView::lesson_target_at(const input::Ray& ray) const {
@@ -88,9 +98,7 @@ void LiveView::add_lesson(render::FrameState& frame) {
   frame.data_placement = places.words;
   frame.control_placement = render::kNoPlacement;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    frame.labels.push_back({.text = targets[i].text,
-                            .highlighted = targets[i].action == exhibit::LessonTarget::Action::Confirm,
-                            .placement = places.targets[i]});
+    frame.labels.push_back({.text = targets[i].text, .highlighted = targets[i].marked, .placement = places.targets[i]});
   }
 }
 

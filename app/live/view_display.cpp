@@ -27,6 +27,7 @@ render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const 
     drawing.panel_texels_per_m = 2.0 * eye_px.x / narrowest_m;
     drawing.panel_millimetre_m = stage.wall_scene.panel_millimetre_m();
   }
+  drawing.panel_contrast = options.contrast;
   drawing.time_passes = options.frame_budget_ms > 0;
   return drawing;
 }
@@ -42,6 +43,11 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
   auto windows = ViewWindows::open(display->outputs_);
   if (!windows) return tl::unexpected(windows.error());
   display->windows_ = std::move(*windows);
+  if (!options.instructor.empty()) {
+    auto window = InstructorWindow::open_window(options.instructor, *monitors);
+    if (!window) return tl::unexpected(window.error());
+    display->instructor_window_ = std::move(*window);
+  }
   auto context = render::Context::open(options.validate ? render::Validation::On : render::Validation::Off,
                                        render::Presentation::Window);
   if (!context) return tl::unexpected(context.error());
@@ -64,6 +70,12 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
                                             .comfort_rad = glm::radians(options.comfort_deg),
                                             .frame_budget_ms = options.frame_budget_ms,
                                             .saved_folder = options.saved_folder});
+  if (display->instructor_window_) {
+    auto instructor =
+        InstructorWindow::create(*display->context_, *display->instructor_window_, stage.phrases(), options.contrast);
+    if (!instructor) return tl::unexpected(instructor.error());
+    display->instructor_ = std::move(*instructor);
+  }
   core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}; F1 shows the keys", drawing.eye_width,
                              drawing.eye_height, display->context_->device_name()));
   return display;

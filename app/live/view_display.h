@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/lesson/instructor_window.h"
 #include "app/live/view_outputs.h"
 #include "app/live/view_picture.h"
 #include "app/live/view_windows.h"
@@ -24,6 +25,8 @@ struct DisplayOptions {
   double comfort_deg = 1;          // how much more or less the eyes may turn in than for the wall
   std::string saved_folder = ".";  // for the pictures that are saved
   bool validate = false;           // every Vulkan call
+  render::PanelContrast contrast = render::PanelContrast::Normal;
+  std::string instructor;  // where the instructor's window is, as open_window() takes it; empty: there is none
 };
 
 // The windows of the live view with all that draws into them. Main thread only.
@@ -38,6 +41,7 @@ class ViewDisplay {
   ViewWindows& windows() { return *windows_; }
   ViewPicture& picture() { return *picture_; }
   render::Context& context() { return *context_; }
+  InstructorWindow* instructor() { return instructor_.get(); }  // null: there is none
 
  private:
   ViewDisplay() = default;
@@ -45,10 +49,12 @@ class ViewDisplay {
 
   std::vector<ViewOutput> outputs_;
   std::optional<ViewWindows> windows_;
+  std::optional<render::Window> instructor_window_;
   std::optional<render::Context> context_;
   std::optional<render::Renderer> renderer_;
   std::optional<render::Presenter> presenter_;
   std::optional<ViewPicture> picture_;
+  std::unique_ptr<InstructorWindow> instructor_;
 };
 
 }  // namespace afm::app

@@ -27,14 +27,6 @@ std::string list_of(const std::vector<render::Monitor>& monitors) {
   return list.empty() ? "none" : list;
 }
 
-// `who` begins the message: "--monitor".
-core::Result<std::string> monitor_name(const std::string& who, const std::string& wanted,
-                                       const std::vector<render::Monitor>& monitors) {
-  if (const render::Monitor* found = render::find_monitor(monitors, wanted)) return found->name;
-  return core::failure(ErrorCategory::DeviceMissing,
-                       fmt::format("{}: there is no monitor \"{}\"; choose from: {}", who, wanted, list_of(monitors)));
-}
-
 core::Result<render::WindowOptions> placed(const scene::Output& output, const std::vector<render::Monitor>& monitors) {
   render::WindowOptions window{.title = fmt::format("{}, {}", kTitle, output.name)};
   const std::string who = fmt::format("output \"{}\"", output.name);
@@ -91,6 +83,13 @@ core::Result<std::vector<ViewOutput>> one_window(const scene::Wall& wall, const 
 }
 
 }  // namespace
+
+core::Result<std::string> monitor_name(const std::string& who, const std::string& wanted,
+                                       const std::vector<render::Monitor>& monitors) {
+  if (const render::Monitor* found = render::find_monitor(monitors, wanted)) return found->name;
+  return core::failure(ErrorCategory::DeviceMissing,
+                       fmt::format("{}: there is no monitor \"{}\"; choose from: {}", who, wanted, list_of(monitors)));
+}
 
 render::Composition ViewOutput::composition(std::optional<StereoMode> other_mode, EyeOrder other_order) const {
   StereoMode shown = other_mode.value_or(mode);

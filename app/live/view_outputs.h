@@ -38,6 +38,11 @@ struct WindowOptions {
   bool full_screen = false;
 };
 
+// Name of the monitor of that name or number. DeviceMissing, listing them, if there is none; `who` begins the message:
+// "--monitor".
+core::Result<std::string> monitor_name(const std::string& who, const std::string& wanted,
+                                       const std::vector<render::Monitor>& monitors);
+
 // Expected size of the window, as far as it is known before the window opens.
 glm::uvec2 expected_size(const WindowOptions& window, const std::vector<render::Monitor>& monitors);
 

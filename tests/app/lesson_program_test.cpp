@@ -86,6 +86,14 @@ TEST(LessonProgram, SaysWhatIsWrongInOneLine) {
   EXPECT_EQ(lesson(kLessons + "first-touch.toml --participant sim:x" + out).exit_code, 2);
   EXPECT_EQ(lesson(kLessons + "first-touch.toml --participant sim:1").exit_code, 2);
   EXPECT_EQ(lesson("").exit_code, 2);
+  const std::string heard = folder.write(
+      "heard.toml",
+      "id = \"a\"\ntitle = { en = \"A\", de = \"A\" }\nminutes = 1\nmaterials = [\"mica\"]\nscale = \"fit\"\n"
+      "conditions = [\"both\", \"sound\"]\n[[step]]\nid = \"b\"\ntype = \"cycle\"\nmaterial = \"mica\"\n"
+      "each_condition = true\nwords = { en = \"C\", de = \"C\" }\n");
+  const auto silent = lesson(heard);
+  EXPECT_EQ(silent.exit_code, 2) << "without sound its data would be those of another condition";
+  EXPECT_THAT(silent.err, HasSubstr("add --sound"));
   EXPECT_FALSE(fs::exists(folder.file("study"))) << "what is refused leaves nothing";
 }
 

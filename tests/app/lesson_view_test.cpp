@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -31,10 +32,11 @@ std::string words(const std::string& step) { return kWords + step + ".\", de = \
 
 class LessonView : public ::testing::Test {
  protected:
-  std::vector<std::string> command(const std::string& file, std::vector<std::string> more = {}) const {
+  std::vector<std::string> command(const std::string& file, std::vector<std::string> more = {},
+                                   const std::string& hand = "sim") const {
     std::vector<std::string> all{AFM_PROGRAM,    "lesson",     file,          "--size", "640x480",
                                  "--frame-rate", "12",         "--eye-width", "320",    "--servo",
-                                 AFM_SERVO_MODE, "--validate", "--haptics",   "sim"};
+                                 AFM_SERVO_MODE, "--validate", "--haptics",   hand};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -139,6 +141,48 @@ TEST_F(LessonView, HidesWhatABlindStepAsksForAndLaysTheVariantsOfAThreshold) {
       << "the sample is as loaded again: " << view.said();
   key("Escape");
   EXPECT_EQ(view.ends(), 0) << view.said();
+}
+
+// What a person with the device alone does: no key but Turn-On, and no picture is read.
+TEST_F(LessonView, IsAnsweredByTheHandAloneAndSaysWhatItMarks) {
+  const std::string file = lesson("[[step]]\nid = \"hello\"\ntype = \"text\"\n" + words("hello") +
+                                  "[[step]]\nid = \"load\"\ntype = \"question\"\nquestionnaire = \"tlx\"\n" +
+                                  words("load") + "[[step]]\nid = \"draw\"\ntype = \"draw\"\n" + words("draw"));
+  ASSERT_EQ(::setenv("SDL_AUDIODRIVER", "dummy", 1), 0);
+  const std::string out = folder_.file("study");
+  support::LiveProgram view(
+      command(file, {"--speech", "--language", "en", "--participant", "QXWERT", "--out", out}, "mouse"),
+      display_.name());
+  const auto move_hand = [&](int down_px) {
+    const auto done =
+        support::run_program("DISPLAY=" + display_.name() + " xdotool mousemove 320 200 mousedown 3 mousemove 320 " +
+                             std::to_string(200 + down_px) + " mouseup 3");
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+  };
+  ASSERT_TRUE(view.says("says: This lesson keeps your answers")) << view.said();
+  key("t");  // which answers nothing: the hand has marked none
+  move_hand(34);
+  ASSERT_TRUE(view.says("says: Yes, I take part")) << view.said();
+  key("t");
+  ASSERT_TRUE(view.says("says: Words of hello")) << view.said();
+  key("t");
+  ASSERT_TRUE(view.says("says: Mental demand")) << view.said();
+  move_hand(12);
+  ASSERT_FALSE(view.says_one_of({"says: 45", "says: 40", "says: 35", "says: 30"}).empty()) << view.said();
+  key("t");
+  ASSERT_TRUE(view.says("says: Physical demand")) << view.said();
+  picture("by-hand");
+  for (int item = 2; item <= 6; ++item) {
+    key("t");
+    const std::string next = item < 6 ? "question " + std::to_string(item + 1) : "Words of draw";
+    ASSERT_TRUE(view.says(next)) << view.said();
+  }
+  key("Escape");
+  EXPECT_EQ(view.ends(), 0) << view.said();
+  const std::string events = core::read_file(out + "/sub-QXWERT/task-a-lesson_events.tsv").value();
+  EXPECT_THAT(events, HasSubstr("\ttlx-2\t50\t")) << "where the scale begins";
+  EXPECT_THAT(events, Not(HasSubstr("\ttlx-1\t50\t"))) << events;
+  EXPECT_THAT(view.said(), Not(HasSubstr("says: The force is on"))) << "Turn-On answers, and turns nothing on";
 }
 
 }  // namespace

@@ -261,8 +261,11 @@ core::Result<DataSet> DataSet::create(const Lesson& lesson, const DataSetEntry& 
   if (auto free = check_not_done(lesson, entry.folder, entry.code); !free) return tl::unexpected(free.error());
   auto participants = load_participants(data.folder_);
   if (!participants) return tl::unexpected(participants.error());
-  if (find_participant(*participants, entry.code) == participants->end()) {
-    participants->push_back({.id = "sub-" + entry.code, .order = free_order(*participants)});
+  if (const auto known = find_participant(*participants, entry.code); known != participants->end()) {
+    data.order_ = known->order;
+  } else {
+    data.order_ = entry.order.value_or(free_order(*participants));
+    participants->push_back({.id = "sub-" + entry.code, .order = data.order_});
   }
   const auto day = started_day(data.folder_, entry.day);
   if (!day) return tl::unexpected(day.error());

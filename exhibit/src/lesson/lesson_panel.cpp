@@ -16,17 +16,21 @@ constexpr double kTargetsShare = 0.5;     // of the panel's height, at most
 constexpr double kTargetShare = 0.14;     // of one target, at most
 constexpr double kGapShare = 0.08;        // of a target, between two
 
-std::size_t letters(std::string_view text) {
+std::size_t letters_of(std::string_view text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<std::uint8_t>(c) & 0xC0U) != 0x80U; }));
 }
 
-void add_lines(std::string_view text, std::vector<render::DataRow>& rows) {
+}  // namespace
+
+bool is_scale(const LessonPrompt& prompt) { return prompt.answers.size() > kMostNumberedAnswers; }
+
+void add_lines(std::string_view text, std::size_t letters, std::vector<render::DataRow>& rows) {
   std::string line;
   while (!text.empty()) {
     const std::string_view word = text.substr(0, text.find(' '));
     text.remove_prefix(std::min(word.size() + 1, text.size()));
-    if (!line.empty() && letters(line) + 1 + letters(word) > kLineLetters) {
+    if (!line.empty() && letters_of(line) + 1 + letters_of(word) > letters) {
       rows.push_back({std::move(line), "", ""});
       line.clear();
     }
@@ -35,31 +39,30 @@ void add_lines(std::string_view text, std::vector<render::DataRow>& rows) {
   if (!line.empty()) rows.push_back({std::move(line), "", ""});
 }
 
-bool is_scale(const LessonPrompt& prompt) { return prompt.answers.size() > kMostNumberedAnswers; }
-
-}  // namespace
-
-std::vector<LessonTarget> lesson_targets(const LessonPrompt& prompt, std::size_t marked, const Phrases& phrases) {
+std::vector<LessonTarget> lesson_targets(const LessonPrompt& prompt, std::optional<std::size_t> marked,
+                                         const Phrases& phrases) {
   using Action = LessonTarget::Action;
   if (prompt.wants == LessonPrompt::Wants::GoOn) return {{Action::GoOn, 0, phrases[Phrase::LessonPressEnter]}};
   if (prompt.wants != LessonPrompt::Wants::Answer) return {};
   if (is_scale(prompt)) {
-    return {{Action::Less, 0, "\u2212"}, {Action::Confirm, marked, prompt.answers[marked]}, {Action::More, 0, "+"}};
+    const std::size_t mark = marked.value_or(prompt.marked);
+    return {{Action::Less, 0, "\u2212"}, {Action::Confirm, mark, prompt.answers[mark], true}, {Action::More, 0, "+"}};
   }
   std::vector<LessonTarget> targets;
-  targets.reserve(targets.size() + prompt.answers.size());
+  targets.reserve(prompt.answers.size());
   for (std::size_t i = 0; i < prompt.answers.size(); ++i) {
-    targets.push_back({Action::Answer, i, fmt::format("{}  {}", i + 1, prompt.answers[i])});
+    targets.push_back({Action::Answer, i, fmt::format("{}  {}", i + 1, prompt.answers[i]), marked == i});
   }
   return targets;
 }
 
 render::DataPanel lesson_panel(const LessonPrompt& prompt, const Phrases& phrases) {
   render::DataPanel panel{.title = prompt.title, .subtitle = prompt.progress, .rows = {}};
-  add_lines(prompt.words, panel.rows);
-  add_lines(prompt.hint, panel.rows);
+  add_lines(prompt.words, kLineLetters, panel.rows);
+  add_lines(prompt.hint, kLineLetters, panel.rows);
   if (prompt.wants == LessonPrompt::Wants::Answer) {
-    add_lines(phrases[is_scale(prompt) ? Phrase::LessonPressScale : Phrase::LessonPressNumber], panel.rows);
+    add_lines(phrases[is_scale(prompt) ? Phrase::LessonPressScale : Phrase::LessonPressNumber], kLineLetters,
+              panel.rows);
   }
   return panel;
 }
@@ -80,12 +83,12 @@ LessonPlaces lesson_places(const render::PanelPlacement& whole, std::size_t targ
   return places;
 }
 
-std::string lesson_speech(const LessonPrompt& prompt, std::size_t marked, const Phrases& phrases) {
+std::string lesson_speech(const LessonPrompt& prompt, const Phrases& phrases) {
   std::string text = prompt.words;
   if (!prompt.hint.empty()) text += " " + prompt.hint;
   if (prompt.wants == LessonPrompt::Wants::GoOn) text += " " + phrases[Phrase::LessonPressEnter] + ".";
   if (prompt.wants != LessonPrompt::Wants::Answer) return text;
-  if (is_scale(prompt)) return text + " " + phrases[Phrase::LessonPressScale] + ". " + prompt.answers[marked];
+  if (is_scale(prompt)) return text + " " + phrases[Phrase::LessonPressScale] + ". " + prompt.answers[prompt.marked];
   for (std::size_t i = 0; i < prompt.answers.size(); ++i) text += fmt::format(" {}: {}.", i + 1, prompt.answers[i]);
   return text;
 }

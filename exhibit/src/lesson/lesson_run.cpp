@@ -96,6 +96,7 @@ core::Result<void> LessonRun::keep(TrialRow row) {
   row.step = lesson_.steps[task.step].id;
   row.kind = lesson_.steps[task.step].kind;
   row.condition = task.condition;
+  trial_over_ = true;
   return sink_(row);
 }
 
@@ -122,6 +123,7 @@ LessonPrompt LessonRun::prompt(double now_s) const {
   }
   const Task& task = tasks_[task_];
   const LessonStep& step = lesson_.steps[task.step];
+  prompt.in_step = true;
   prompt.kind = step.kind;
   prompt.task = task_;
   prompt.condition = task.condition;
@@ -157,16 +159,17 @@ void LessonRun::answer(std::size_t answer, double now_s) {
     return follow(now_s);
   }
   const bool yes = answer == 0;
-  if (stage_ == Stage::Consent) {
-    consented_ = yes;
-    if (!yes) end_ = LessonEnd::Withdrew;
-    began_s_ = now_s;
-  } else if (!yes) {
-    end_ = LessonEnd::Stopped;
-  }
-  stage_ = Stage::Steps;
+  const bool consent = std::exchange(stage_, Stage::Steps) == Stage::Consent;
   stretch_began_s_ = now_s;
-  if (!end_) begin_task(now_s);
+  if (!yes) {
+    end_ = consent ? LessonEnd::Withdrew : LessonEnd::Stopped;
+  } else if (consent) {
+    consented_ = true;
+    began_s_ = now_s;
+    begin_task(now_s);
+  } else {
+    reset(now_s);
+  }
 }
 
 void LessonRun::skip(double now_s) {
@@ -192,9 +195,13 @@ void LessonRun::follow(double now_s) {
     end_ = LessonEnd::Stopped;
     return;
   }
-  if (!activity_->done()) return;
-  ++task_;
-  begin_task(now_s);
+  const bool trial_over = std::exchange(trial_over_, false);
+  if (activity_->done()) {
+    ++task_;
+    begin_task(now_s);
+  } else if (!trial_over) {
+    return;
+  }
   if (!end_ && now_s - stretch_began_s_ >= kMostLessonMinutes * kMinuteS) stage_ = Stage::Break;
 }
 

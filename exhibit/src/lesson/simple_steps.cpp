@@ -32,7 +32,7 @@ class TextActivity final : public StepActivity {
     done_ = true;
     context_.keep({.onset_s = began_s_, .duration_s = now_s - began_s_});
   }
-  void reset(double) override {}
+  void reset(double now_s) override { began_s_ = now_s; }
   bool done() const override { return done_; }
 
  private:

@@ -9,10 +9,15 @@ namespace afm::exhibit {
 
 namespace {
 
-// Told whatever else is hidden: without a name or a figure it says when the hand gets force.
+// Without a name or a figure it says when the hand gets force.
 bool concerns_force(HeardEvent event) {
   return event == HeardEvent::ForceOn || event == HeardEvent::ForceOff || event == HeardEvent::Fault ||
          event == HeardEvent::TurnOnReady;
+}
+
+bool is_told(HeardEvent event, Narrator::Telling telling) {
+  if (telling == Narrator::Telling::Faults) return event == HeardEvent::Fault;
+  return telling == Narrator::Telling::All || concerns_force(event);
 }
 
 bool is_ready(Hint hint) { return hint == Hint::TurnOn || hint == Hint::TurnOnAndHold; }
@@ -25,11 +30,11 @@ Narrator::Narrator(const Phrases& phrases, std::vector<std::string> titles, cons
 
 std::string Narrator::title(std::int32_t material) const {
   const auto index = static_cast<std::size_t>(material);
-  return discreet_ || material < 0 || index >= titles_.size() ? std::string() : titles_[index];
+  return telling_ != Telling::All || material < 0 || index >= titles_.size() ? std::string() : titles_[index];
 }
 
 void Narrator::tell(const Heard& heard) {
-  if (discreet_ && !concerns_force(heard.event)) return;
+  if (!is_told(heard.event, telling_)) return;
   last_ = heard;
   const std::string sample = title(heard.material);
   captions_.add(heard.event, caption_of(phrases_, heard, sample), clock_.now_ns());
@@ -44,7 +49,7 @@ void Narrator::heard(const scene::TipEvent& event) { tell(heard_of(event)); }
 
 void Narrator::happened(HeardEvent event, std::int32_t material) {
   const Heard heard{.event = event, .time_ns = clock_.now_ns(), .material = material};
-  signal_(heard);
+  if (is_told(event, telling_)) signal_(heard);
   tell(heard);
 }
 
@@ -67,7 +72,7 @@ void Narrator::follow(const scene::TipState& tip, const Step& step) {
 }
 
 void Narrator::say_state(const scene::TipState& tip) {
-  if (discreet_) return say_({guidance_, SpeechKind::Event});
+  if (telling_ != Telling::All) return say_({guidance_, SpeechKind::Event});
   std::string text = last_ ? said_of(phrases_, *last_, title(last_->material)) + ". " : "";
   text += said_of_state(phrases_, tip, title(tip.material), guidance_);
   say_({std::move(text), SpeechKind::Event});

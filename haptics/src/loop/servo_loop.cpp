@@ -140,6 +140,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   } else if (model_ != nullptr) {
     model_->wait_for_lift();
   }
+  if (hand.turn_on && !turn_on_) ++state_.presses;
   turn_on_ = hand.turn_on;
 
   const Wanted wanted = meet_sample(elapsed_ns);

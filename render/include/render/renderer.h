@@ -24,6 +24,9 @@ enum class PassMode { Automatic, Multiview, TwoPasses };
 // with identical results: to measure, and to check the former.
 enum class Redraw { Changes, Everything };
 
+// Light ink on a dark plate that lets the scene shine through a little; or white on an opaque black one.
+enum class PanelContrast { Normal, High };
+
 struct RendererOptions {
   std::uint32_t eye_width = 960;
   std::uint32_t eye_height = 720;
@@ -36,6 +39,7 @@ struct RendererOptions {
   // Size of a panel's millimetre. Panel texts have their sizes for the paper's wall; a smaller wall has a smaller
   // millimetre.
   double panel_millimetre_m = 1e-3;
+  PanelContrast panel_contrast = PanelContrast::Normal;
   bool time_passes = false;  // for pass_times()
 };
 

@@ -16,10 +16,6 @@ constexpr float kPlateRounding = 22.0F;
 constexpr float kSubscriptScale = 0.70F;
 constexpr float kSubscriptDrop = 0.34F;  // of the line's height
 
-ImU32 packed(Color color) {
-  return ImGui::ColorConvertFloat4ToU32({color.srgb.r, color.srgb.g, color.srgb.b, color.alpha});
-}
-
 bool in_subscript(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return std::isalnum(byte) != 0 || byte >= 0x80;
@@ -27,8 +23,24 @@ bool in_subscript(char c) {
 
 }  // namespace
 
-Canvas::Canvas(ImDrawList& list, const PanelFonts& fonts, CanvasMemory& memory, glm::vec2 size_mm)
-    : list_(list), fonts_(fonts), memory_(memory), size_mm_(size_mm) {}
+Color shown(Color color, PanelContrast contrast) {
+  constexpr float kStronger = 2.5F;  // of what is drawn faintly
+  if (contrast == PanelContrast::Normal) return color;
+  if (color.srgb == palette::kPlate.srgb) return {glm::vec3(0.0F), 1.0F};
+  const auto neutral = {palette::kInk, palette::kMuted, palette::kEdge, palette::kAxis};
+  const bool is_neutral =
+      std::any_of(neutral.begin(), neutral.end(), [&](const Color& each) { return each.srgb == color.srgb; });
+  return is_neutral ? Color{glm::vec3(1.0F), std::min(1.0F, kStronger * color.alpha)} : color;
+}
+
+Canvas::Canvas(ImDrawList& list, const PanelFonts& fonts, CanvasMemory& memory, glm::vec2 size_mm,
+               PanelContrast contrast)
+    : list_(list), fonts_(fonts), memory_(memory), size_mm_(size_mm), contrast_(contrast) {}
+
+ImU32 Canvas::packed(Color color) const {
+  const Color drawn = shown(color, contrast_);
+  return ImGui::ColorConvertFloat4ToU32({drawn.srgb.r, drawn.srgb.g, drawn.srgb.b, drawn.alpha});
+}
 
 ImVec2 Canvas::texel(glm::vec2 mm) const { return {mm.x * fonts_.texels_per_mm, mm.y * fonts_.texels_per_mm}; }
 

@@ -10,6 +10,7 @@
 #include "panels/marker_layout.h"
 #include "panels/panel_fonts.h"
 #include "render/frame.h"
+#include "render/renderer.h"
 
 namespace afm::render {
 
@@ -32,6 +33,10 @@ inline constexpr Color kSkyBlue{{0.337F, 0.706F, 0.914F}, 1.0F};
 inline constexpr Color kYellow{{0.941F, 0.894F, 0.259F}, 1.0F};
 }  // namespace palette
 
+// How a colour is drawn: in high contrast the plate is black, and ink, edges and axes are white. What distinguishes
+// curves, states and values keeps its colour.
+Color shown(Color color, PanelContrast contrast);
+
 enum class Align { Left, Center, Right };
 
 // Scratch memory for painting, kept so that painting again allocates nothing.
@@ -45,7 +50,8 @@ struct CanvasMemory {
 // Draws in millimetres from the panel's top left corner, x to the right and y down. Hides Dear ImGui's draw list.
 class Canvas {
  public:
-  Canvas(ImDrawList& list, const PanelFonts& fonts, CanvasMemory& memory, glm::vec2 size_mm);
+  Canvas(ImDrawList& list, const PanelFonts& fonts, CanvasMemory& memory, glm::vec2 size_mm,
+         PanelContrast contrast = PanelContrast::Normal);
 
   glm::vec2 size_mm() const { return size_mm_; }
 
@@ -91,6 +97,7 @@ class Canvas {
 
  private:
   ImVec2 texel(glm::vec2 mm) const;
+  ImU32 packed(Color color) const;
   float draw_text_run(glm::vec2 position, TextStyle style, float scale, Color color, std::string_view run,
                       bool visible) const;
   float text_pass(glm::vec2 position, TextStyle style, float scale, Color color, std::string_view text,
@@ -100,6 +107,7 @@ class Canvas {
   const PanelFonts& fonts_;
   CanvasMemory& memory_;
   glm::vec2 size_mm_;
+  PanelContrast contrast_;
 };
 
 }  // namespace afm::render

@@ -97,9 +97,11 @@ void reserve(const Device& device, Buffer& buffer, const char* name, std::size_t
 
 void Panels::ContextDeleter::operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 
-Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout, Redraw redraw)
+Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout,
+               const RendererOptions& options)
     : device_(device),
-      redraw_(redraw),
+      redraw_(options.redraw),
+      contrast_(options.panel_contrast),
       largest_texture_(std::min(kLargestTexture, device.physical().getProperties().limits.maxImageDimension2D)),
       fonts_(std::move(fonts)),
       imgui_(ImGui::CreateContext(fonts_.atlas.get())),
@@ -214,7 +216,8 @@ void Panels::paint_on(Panel& panel, const Content& content, Texels texels) {
   ImGui::SetCurrentContext(imgui_.get());
   ImGui::GetIO().DisplaySize = {panel.canvas_texels.x, panel.canvas_texels.y};
   ImGui::NewFrame();
-  Canvas canvas(*ImGui::GetBackgroundDrawList(), fonts_, memory_, glm::vec2(size_mm(panel.placement, fonts_)));
+  Canvas canvas(*ImGui::GetBackgroundDrawList(), fonts_, memory_, glm::vec2(size_mm(panel.placement, fonts_)),
+                contrast_);
   paint(canvas, content);
   ImGui::Render();
 

@@ -39,7 +39,8 @@ struct PanelState {
 class Panels {
  public:
   // With Redraw::Everything textures are painted as a whole.
-  Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout, Redraw redraw);
+  Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout,
+         const RendererOptions& options);
   ~Panels();
 
   // Takes a frame's panels; whether one of them must be painted again. `slot` numbers the frame in flight, whose
@@ -110,6 +111,7 @@ class Panels {
 
   const Device& device_;
   Redraw redraw_;
+  PanelContrast contrast_;
   double largest_texture_;  // texels each way
   PanelFonts fonts_;
   std::unique_ptr<ImGuiContext, ContextDeleter> imgui_;

@@ -78,7 +78,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       frame_set_layout(create_frame_set_layout(device, ShadowMapUse::Read)),
       shadow_set_layout(create_frame_set_layout(device, ShadowMapUse::Drawn)),
       scene_pass(device, *frame_set_layout, *shadow_set_layout, materials, geometry.variants()),
-      panels(device, std::move(fonts), *frame_set_layout, options.redraw),
+      panels(device, std::move(fonts), *frame_set_layout, options),
       composer(device, eyes, eye_changes),
       timeline(create_timeline(device)) {
   for (std::size_t i = 0; i < kFramesInFlight; ++i) {

@@ -96,6 +96,21 @@ TEST_F(DataSetTest, GivesEachParticipantThenextOrderAndAWithdrawnOneAgain) {
   EXPECT_EQ(again.error().category, core::ErrorCategory::WrongUsage);
 }
 
+// Two lessons that begin at once on two machines: what is kept is the order that each of them had.
+TEST_F(DataSetTest, KeepsTheOrderThatALessonWasPlannedBy) {
+  DataSetEntry planned = entry("AAAAAA");
+  planned.order = order_of(study(), "AAAAAA").value();
+  DataSetEntry other = entry("BBBBBB");
+  other.order = order_of(study(), "BBBBBB").value();
+  EXPECT_EQ(DataSet::create(lesson_, planned)->order(), 0U);
+  EXPECT_EQ(DataSet::create(lesson_, other)->order(), 0U);
+  EXPECT_THAT(text("participants.tsv"), HasSubstr("sub-BBBBBB\t0\t"));
+  EXPECT_EQ(DataSet::create(lesson_, entry("CCCCCC"))->order(), 1U) << "the next one that is free";
+  Lesson another = lesson_;
+  another.id = "another";
+  EXPECT_EQ(DataSet::create(another, entry("CCCCCC"))->order(), 1U) << "a participant keeps theirs";
+}
+
 TEST_F(DataSetTest, CountsDaysFromTheFirstOneOfTheStudy) {
   const auto day_of = [&](const char* code) {
     return nlohmann::json::parse(text(std::string("sub-") + code + "/task-test_events.json"))["Lesson"]["started_day"];

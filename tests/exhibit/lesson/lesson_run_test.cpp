@@ -252,6 +252,28 @@ TEST_F(LessonRunTest, OffersABreakAfterTwentyMinutes) {
   EXPECT_EQ(run.end(), LessonEnd::Finished);
 }
 
+TEST_F(LessonRunTest, OffersTheBreakBetweenTheTrialsOfALongStepToo) {
+  LessonStep blind = step_of(StepKind::Identify, {0, 1});
+  blind.trials = 6;
+  lesson_.steps = {blind};
+  auto run = this->run();
+  const auto trial = [&](double now_s) {
+    feel(run, static_cast<std::int32_t>(*run.prompt(now_s).material), now_s);
+    run.answer(0, now_s + 2);
+  };
+  trial(600);
+  trial(1199);
+  ASSERT_EQ(run.prompt(1201).answers.size(), 2U);
+  EXPECT_FALSE(run.prompt(1201).in_step) << "a break, no trial";
+  run.answer(0, 1500);
+  EXPECT_THAT(run.prompt(1500).progress, HasSubstr("trial 3 of 6"));
+  trial(1510);
+  ASSERT_EQ(rows_.size(), 3U);
+  EXPECT_DOUBLE_EQ(rows_[2].onset_s, 1500) << "the break is no part of the trial";
+  for (const double now_s : {1520.0, 1530.0, 1540.0}) trial(now_s);
+  EXPECT_EQ(run.end(), LessonEnd::Finished);
+}
+
 TEST_F(LessonRunTest, ScoresACurveByTheShareOfItsPartsThatAreRight) {
   lesson_.steps = {step_of(StepKind::Draw)};
   auto run = this->run({.seed = 9});

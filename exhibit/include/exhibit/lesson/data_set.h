@@ -21,7 +21,8 @@ struct DataSetEntry {
   std::string code;    // six capital letters
   std::string device, wall;
   std::uint64_t seed = 0;
-  std::string observer{};  // JSON object of a simulated participant; empty for a person
+  std::string observer{};              // JSON object of a simulated participant; empty for a person
+  std::optional<std::size_t> order{};  // by which the lesson was planned; none: the next one that is free
   std::optional<std::int64_t>
       day{};  // days since 1970 of a person's lesson, kept only as a distance to the first one's
 };
@@ -49,6 +50,8 @@ class DataSet {
   // Says in participants.tsv how it ended.
   core::Result<void> finish(LessonEnd end);
 
+  std::size_t order() const { return order_; }  // as participants.tsv has it
+
   // sub-CODE
   const std::string& participant_folder() const { return participant_folder_; }
 
@@ -56,6 +59,7 @@ class DataSet {
   DataSet() = default;
 
   std::string folder_, code_, participant_folder_, events_path_;
+  std::size_t order_ = 0;
   core::FileDescriptor events_;
 };
 

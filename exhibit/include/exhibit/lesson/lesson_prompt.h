@@ -29,6 +29,7 @@ struct LessonPrompt {
   std::optional<scene::SharedContact> variant;  // its parameters; none: as loaded
   std::size_t task = 0;                         // another number for every step
   std::uint32_t cycle = 0;                      // another number for every cycle that is wanted
+  bool in_step = false;                         // neither consent, break nor end
   bool hidden = false;                          // names, curves, figures and sounds would give the answer away
   std::optional<Condition> condition;
   // for a participant that is simulated

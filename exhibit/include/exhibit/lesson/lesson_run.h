@@ -28,7 +28,7 @@ enum class LessonEnd { Finished, Stopped, Withdrew };
 // back, so that a simulated participant needs no clock. Names the trials that are over to a sink. One thread.
 //
 // A criterion is decided by the servo's events alone: a cycle is a jump to contact and a jump off contact on the
-// material that is asked for. After kMostLessonMinutes the lesson offers a break before it goes on.
+// material that is asked for. After kMostLessonMinutes the lesson offers a break before the next trial.
 class LessonRun {
  public:
   struct Setup {
@@ -57,6 +57,7 @@ class LessonRun {
   void reset(double now_s);                       // the trial under way begins again
   void stop();
 
+  double elapsed_s(double now_s) const { return now_s - began_s_; }  // since it began, with the consent
   bool consented() const { return consented_; }
   std::optional<LessonEnd> end() const { return end_; }
   // A trial that could not be kept ends the lesson.
@@ -88,6 +89,7 @@ class LessonRun {
   double stretch_began_s_ = 0;  // since the last break
   bool consented_ = false;
   bool snapped_in_ = false;
+  bool trial_over_ = false;  // since the last look at it
   std::optional<LessonEnd> end_;
   std::optional<core::Error> error_;
 };

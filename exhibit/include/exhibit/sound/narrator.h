@@ -43,8 +43,10 @@ class Narrator final : public servo::TipAudience {
   // The key Y: the last event, and how things are.
   void say_state(const scene::TipState& tip);
 
-  // Whether names and figures would give an answer away: then nothing is told of the tip but what concerns the force.
-  void set_discreet(bool discreet) { discreet_ = discreet; }
+  // What is told of the tip: everything; where names and figures would give an answer away, what concerns the force;
+  // and while a question waits for its answer, faults alone, so that nothing cuts it off.
+  enum class Telling { All, Force, Faults };
+  void set_telling(Telling telling) { telling_ = telling; }
 
   // What a key did, in words that go on the wall and are spoken.
   void note(const std::string& text);
@@ -69,7 +71,7 @@ class Narrator final : public servo::TipAudience {
   Hint hint_ = Hint::ChooseSample;
   std::uint32_t scan_lines_ = 0;
   bool servo_silent_ = false;
-  bool discreet_ = false;
+  Telling telling_ = Telling::All;
 };
 
 }  // namespace afm::exhibit

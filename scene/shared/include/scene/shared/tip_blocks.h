@@ -147,6 +147,7 @@ struct TipState {
   std::uint32_t garbage_blocks = 0;  // shared blocks refused as out of range
   std::uint32_t led = 0;             // 1: the scan leads the hand
   std::uint32_t level = 0;           // 1: the hand feels the sample level, as a scan's feedback has it
+  std::uint64_t presses = 0;         // of Turn-On since the servo began
 };
 
 template <class Visit, std::same_as<TipState>... Record>
@@ -169,6 +170,7 @@ constexpr void for_each_field(Visit&& visit, const Record&... state) {
   visit("garbage_blocks", state.garbage_blocks...);
   visit("led", state.led...);
   visit("level", state.level...);
+  visit("presses", state.presses...);
 }
 static_assert(all_fields_described<TipState>());
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/lesson/hand_answer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace afm::exhibit {
+
+namespace {
+
+constexpr double kWayM = 0.080;       // of the hand, through all answers: what small devices have
+constexpr double kShortestM = 0.004;  // of a step, well above a hand's tremor
+constexpr double kLongestM = 0.015;
+
+}  // namespace
+
+void HandAnswer::ask(std::size_t answers, Layout layout, std::optional<std::size_t> marked) {
+  answers_ = answers;
+  layout_ = layout;
+  step_m_ = std::clamp(kWayM / static_cast<double>(std::max<std::size_t>(answers, 1)), kShortestM, kLongestM);
+  marked_ = marked;
+  from_m_.reset();
+}
+
+bool HandAnswer::add(double height_m, std::uint64_t presses) {
+  // who presses means the mark of the last frame, wherever the hand has gone since
+  if (std::exchange(presses_, presses).value_or(presses) != presses) return true;
+  if (!from_m_) from_m_ = height_m;
+  while (answers_ > 0 && std::abs(height_m - *from_m_) >= step_m_) {
+    const bool down = height_m < *from_m_;
+    *from_m_ += down ? -step_m_ : step_m_;
+    move(down);
+  }
+  return false;
+}
+
+void HandAnswer::move(bool down) {
+  const bool onwards = down == (layout_ == Layout::List);
+  const std::size_t last = answers_ - 1;
+  if (!marked_) {
+    marked_ = onwards ? 0 : last;
+  } else if (onwards) {
+    marked_ = std::min(*marked_ + 1, last);
+  } else {
+    marked_ = *marked_ == 0 ? 0 : *marked_ - 1;
+  }
+}
+
+}  // namespace afm::exhibit
