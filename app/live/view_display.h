@@ -30,24 +30,29 @@ struct DisplayOptions {
 class ViewDisplay {
  public:
   // `stage` must outlive it. Fails as plan_view, ViewWindows and Context do, or where the display has not what the
-  // stereo mode needs.
-  static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayOptions& options);
+  // stereo mode needs. `runtime`: of the headset that shows the picture, whose left eye the windows then mirror; it may
+  // be null, and must outlive it, as the clock.
+  static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayOptions& options,
+                                                         render::HeadsetRuntime* runtime, const core::Clock& clock);
   ViewDisplay(const ViewDisplay&) = delete;
   ViewDisplay& operator=(const ViewDisplay&) = delete;
 
   ViewWindows& windows() { return *windows_; }
   ViewPicture& picture() { return *picture_; }
   render::Context& context() { return *context_; }
+  ViewHeadset* headset() { return headset_.get(); }  // null: none
 
  private:
   ViewDisplay() = default;
   render::RendererOptions drawing(const exhibit::Stage& stage, const DisplayOptions& options) const;
+  static render::RendererOptions drawing_in_headset(const exhibit::Stage& stage, glm::uvec2 eye_px);
 
   std::vector<ViewOutput> outputs_;
   std::optional<ViewWindows> windows_;
   std::optional<render::Context> context_;
   std::optional<render::Renderer> renderer_;
   std::optional<render::Presenter> presenter_;
+  std::unique_ptr<ViewHeadset> headset_;
   std::optional<ViewPicture> picture_;
 };
 
