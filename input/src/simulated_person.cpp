@@ -83,8 +83,9 @@ void SimulatedPerson::update(std::int64_t now_ns, const scene::TipState& tip) {
         hand_.turn_on_pressed = 0;
         move_hand(path_.push_m, stroke_seconds());
         enter(Step::MoveDown, now_ns);
-      } else if (tip.servo_state == scene::ServoState::Disarmed && now_ns - button_change_ns_ > kButtonNs) {
-        // the hand still swung when the button went down: let go and press again
+      } else if ((tip.servo_state == scene::ServoState::Disarmed || tip.servo_state == scene::ServoState::Fault) &&
+                 now_ns - button_change_ns_ > kButtonNs) {
+        // the hand still swung, or there was a fault, when the button went down: let go and press again
         hand_.turn_on_pressed = 1 - hand_.turn_on_pressed;
         button_change_ns_ = now_ns;
       }
