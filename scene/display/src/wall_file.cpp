@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "physics/quantity_text.h"
 #include "scene/config/toml_file.h"
@@ -148,15 +150,42 @@ glm::dmat3 read_keystone(const TableReader& reader, std::string_view key) {
   return glm::inverse(output_from_picture);
 }
 
-Output read_output(const toml::table& table, const std::vector<Screen>& screens) {
+WallNode read_node(const toml::table& table, const std::vector<WallNode>& earlier) {
+  const TableReader reader(table, "node");
+  reader.allow_only({"name", "host"});
+  WallNode node{.name = reader.text("name"), .host = reader.text("host")};
+  // they are typed into shells, and name units of systemd
+  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.'; };
+  for (const auto& [key, text] : {std::pair("name", &node.name), std::pair("host", &node.host)}) {
+    if (!std::all_of(text->begin(), text->end(), is_plain) || text->front() == '-') {
+      reader.fail(key, "must consist of letters, digits, \"-\", \"_\" and \".\"");
+    }
+  }
+  if (node.name.size() > kLongestNodeName) {
+    reader.fail("name", fmt::format("is longer than {} characters", kLongestNodeName));
+  }
+  for (const WallNode& other : earlier) {
+    if (other.name == node.name) reader.fail("name", fmt::format("\"{}\" is used twice", node.name));
+  }
+  if (earlier.size() == kMostNodes) reader.fail("name", fmt::format("is one of more than {} nodes", kMostNodes));
+  return node;
+}
+
+Output read_output(const toml::table& table, const std::vector<Screen>& screens, const std::vector<WallNode>& nodes) {
   const TableReader reader(table, "output");
-  reader.allow_only({"name", "screen", "mode", "eye", "swap", "monitor", "rect", "homography"});
+  reader.allow_only({"name", "screen", "node", "mode", "eye", "swap", "monitor", "rect", "homography"});
   Output output;
   output.name = reader.text("name");
   const std::string screen = reader.text("screen");
   const auto found = std::find_if(screens.begin(), screens.end(), [&](const Screen& s) { return s.name == screen; });
   if (found == screens.end()) reader.fail("screen", fmt::format("there is no [[screen]] with the name \"{}\"", screen));
   output.screen = static_cast<std::size_t>(found - screens.begin());
+  if (reader.has("node")) {
+    const std::string node = reader.text("node");
+    const auto its = std::find_if(nodes.begin(), nodes.end(), [&](const WallNode& n) { return n.name == node; });
+    if (its == nodes.end()) reader.fail("node", fmt::format("there is no [[node]] with the name \"{}\"", node));
+    output.node = static_cast<std::size_t>(its - nodes.begin());
+  }
   const auto mode = parse_stereo_mode(reader.text("mode"));
   if (!mode) reader.fail("mode", mode.error().message);
   output.mode = *mode;
@@ -195,10 +224,11 @@ void check_together(const Output& output, const std::vector<Output>& earlier, co
   const TableReader reader(table, "output");
   for (const Output& other : earlier) {
     if (other.name == output.name) reader.fail("name", fmt::format("\"{}\" is used twice", output.name));
-    if (!output.monitor.empty() && output.monitor == other.monitor) {
+    const bool one_desktop = output.node == other.node;
+    if (one_desktop && !output.monitor.empty() && output.monitor == other.monitor) {
       reader.fail("monitor", fmt::format("\"{}\" already shows output \"{}\"", output.monitor, other.name));
     }
-    if (output.monitor.empty() && other.monitor.empty() && overlap(output.rect, other.rect)) {
+    if (one_desktop && output.monitor.empty() && other.monitor.empty() && overlap(output.rect, other.rect)) {
       reader.fail("rect", fmt::format("overlaps that of output \"{}\"", other.name));
     }
     if (output.eye && other.eye == output.eye && other.screen == output.screen) {
@@ -273,7 +303,7 @@ void read_tables(const toml::table& root, std::string_view key, const Read& read
 }
 
 Wall read_wall(const toml::table& root) {
-  TableReader(root, "wall").allow_only({"screen", "output", "viewer"});
+  TableReader(root, "wall").allow_only({"screen", "node", "output", "viewer"});
   Wall wall;
   std::set<std::string> names;
   read_tables(root, "screen", [&](const toml::table& table) {
@@ -282,9 +312,12 @@ Wall read_wall(const toml::table& root) {
       throw Fault{table.source(), "screen.name", fmt::format("\"{}\" is used twice", wall.screens.back().name)};
     }
   });
+  if (root.contains("node")) {
+    read_tables(root, "node", [&](const toml::table& table) { wall.nodes.push_back(read_node(table, wall.nodes)); });
+  }
   if (root.contains("output")) {
     read_tables(root, "output", [&](const toml::table& table) {
-      wall.outputs.push_back(read_output(table, wall.screens));
+      wall.outputs.push_back(read_output(table, wall.screens, wall.nodes));
       check_together(wall.outputs.back(), {wall.outputs.begin(), wall.outputs.end() - 1}, table);
     });
     check_pairs(wall.outputs, *root.get("output")->as_array());

@@ -87,7 +87,8 @@ struct PixelRect {
 // Output that shows a screen's picture.
 struct Output {
   std::string name;
-  std::size_t screen = 0;  // of Wall::screens
+  std::size_t screen = 0;           // of Wall::screens
+  std::optional<std::size_t> node;  // of Wall::nodes; none: the machine with the hand
   StereoMode mode = StereoMode::Mono;
   std::optional<Eye> eye;  // of mode dual, and there alone: whose picture this is
   EyeOrder order = EyeOrder::Straight;
@@ -96,11 +97,24 @@ struct Output {
   glm::dmat3 picture_from_output{1.0};  // keystone, see render::Composition
 };
 
+// Another machine that shows outputs of the wall.
+struct WallNode {
+  std::string name;
+  std::string host;  // name or address, as the machine with the hand reaches it
+};
+
+inline constexpr std::size_t kMostNodes = 32;
+inline constexpr std::size_t kLongestNodeName = 31;
+
 struct Wall {
   std::vector<Screen> screens;
+  std::vector<WallNode> nodes;  // may be empty
   std::vector<Output> outputs;  // may be empty
   std::vector<Viewer> viewers;
 };
+
+// Leaves the outputs of a node alone, or those of the machine with the hand.
+void keep_outputs_of(std::optional<std::size_t> node, Wall& wall);
 
 // Reason why no head can be at this position in front of the wall, such as "0.85 m below the floor"; empty if it can.
 // The floor is at y = 0, or as low as a screen reaches, or a metre below the sweet spot where the room's origin lies
