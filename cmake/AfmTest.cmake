@@ -28,7 +28,7 @@ set(AFM_WITH_PRETENDED_DEVICES ${CMAKE_SOURCE_DIR}/tests/input/with_pseudo_termi
 # afm_test(NAME folder.unit SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT seconds] [OPTIMISED] [WHOLE] [PRETENDED_DEVICES])
 # One executable test_folder_unit; every TEST in it becomes a CTest case named folder.Suite.Case. With WHOLE the executable is
 # one case, for suites whose set-up is dear. Nothing runs beside it, nor beside a test of real time. PRETENDED_DEVICES is
-# WHOLE and runs under umockdev.
+# WHOLE and runs under umockdev. Under a sanitizer, where a program takes 0.15 s to start, the unit tests of one are one case.
 function(afm_test)
   cmake_parse_arguments(T "OPTIMISED;WHOLE;PRETENDED_DEVICES" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   string(REPLACE "." "_" target "test_${T_NAME}")
@@ -63,6 +63,11 @@ function(afm_test)
   if(T_WHOLE)
     add_test(NAME ${T_NAME} COMMAND ${wrapper} $<TARGET_FILE:${target}>)
     set_tests_properties(${T_NAME} PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL TRUE)
+    return()
+  endif()
+  if(AFM_SANITIZE AND T_LABELS STREQUAL "unit")
+    add_test(NAME ${T_NAME} COMMAND ${target})
+    set_tests_properties(${T_NAME} PROPERTIES LABELS unit TIMEOUT 600)
     return()
   endif()
   set(alone FALSE)

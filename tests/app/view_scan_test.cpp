@@ -29,6 +29,31 @@ class ViewScan : public ::testing::Test {
     const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool " + what);
     ASSERT_EQ(done.exit_code, 0) << "xdotool " << what << ": " << done.err << " (package xdotool)";
   }
+  // Turn-On is pressed until the force comes: a press before the hand is up, or still, is none.
+  bool turn_on(support::LiveProgram& program) const {
+    for (int presses = 0; presses < 40; ++presses) {
+      xdotool("key t");
+      if (program.says("force on", std::chrono::seconds(2))) return true;
+    }
+    return false;
+  }
+  void lift_hand() const { xdotool("mousemove 160 120 mousedown 3 mousemove 160 90 mouseup 3"); }
+
+  // Waits until the tip of the scanning hand lies on the sample. Where a tick came late, as on a busy machine, the servo has let
+  // go: then the scan ends, the hand lifts and begins it again, as the wall says.
+  bool hand_takes_the_image(support::LiveProgram& program) const {
+    for (int faults = 0; faults < 10; ++faults) {
+      const std::string said = program.says_one_of({"Your hand takes the image", "force off"});
+      if (said != "force off") return !said.empty();
+      xdotool("key l");
+      if (!program.says("scan: the tip scans alone")) return false;
+      lift_hand();
+      if (!turn_on(program)) return false;
+      xdotool("key l key l");
+      if (!program.says("scan: the hand takes the image")) return false;
+    }
+    return false;
+  }
 
   support::ScratchFolder folder_;
   support::VirtualDisplay display_{320, 240};
@@ -60,10 +85,8 @@ TEST_F(ViewScan, IsDrawnAgainFromItsSession) {
   ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
   xdotool("mousemove 160 10 key 1");
   ASSERT_TRUE(program.says("chosen: Gold")) << program.said();
-  xdotool("mousemove 160 120 mousedown 3 mousemove 160 90 mouseup 3");
-  for (int presses = 0; presses < 40 && !program.says("force on", std::chrono::seconds(2)); ++presses) {
-    xdotool("key t");
-  }
+  lift_hand();
+  ASSERT_TRUE(turn_on(program)) << program.said();
   xdotool("key i");
   ASSERT_TRUE(program.says("scan: Gold")) << program.said();
   // a line a second: the tip is where it was when the picture is drawn from the last frame of a slow machine
@@ -103,10 +126,8 @@ TEST_F(ViewScan, IsTakenByTheHandAndDrawnAgain) {
   ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
   xdotool("mousemove 160 10 key 1");
   ASSERT_TRUE(program.says("chosen: Gold")) << program.said();
-  xdotool("mousemove 160 120 mousedown 3 mousemove 160 90 mouseup 3");
-  for (int presses = 0; presses < 40 && !program.says("force on", std::chrono::seconds(2)); ++presses) {
-    xdotool("key t");
-  }
+  lift_hand();
+  ASSERT_TRUE(turn_on(program)) << program.said();
   xdotool("key k");
   ASSERT_TRUE(program.says("scan: press L first")) << program.said();
   xdotool("key l");
@@ -114,12 +135,12 @@ TEST_F(ViewScan, IsTakenByTheHandAndDrawnAgain) {
   EXPECT_FALSE(program.says_one_of({"Hold Turn-On: the tip leads", "press and hold Turn-On"}).empty());
   xdotool("key l");
   ASSERT_TRUE(program.says("scan: the hand takes the image")) << program.said();
-  ASSERT_TRUE(program.says("Your hand takes the image")) << program.said();
+  ASSERT_TRUE(hand_takes_the_image(program)) << program.said();
   xdotool("mousemove 160 120 mousedown 3");
   for (const char* place : {"200 120", "120 115", "200 110", "120 105", "200 125", "120 130", "200 135"}) {
     xdotool(std::string("mousemove ") + place + " sleep 1");
   }
-  xdotool("mouseup 3 key F12");
+  xdotool("mouseup 3 sleep 2 key F12");  // the hand has come to rest where a slow machine draws it last
   ASSERT_TRUE(program.says("saved ./touchafm-001.png")) << program.said();
   xdotool("key k");
   ASSERT_TRUE(program.says("scan: feedback off")) << program.said();
@@ -130,6 +151,7 @@ TEST_F(ViewScan, IsTakenByTheHandAndDrawnAgain) {
 
   const auto session = servo::load_session(folder_.file("kept/session-gold.afms"));
   ASSERT_TRUE(session) << program.said() << session.error().message;
+  puts(program.said().c_str());
   const auto painted = [](const servo::WallFrame& f) {
     return f.scan_hand && f.scan_hand->paints && f.scan_hand->feedback;
   };
