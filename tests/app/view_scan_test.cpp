@@ -39,8 +39,8 @@ class ViewScan : public ::testing::Test {
   }
   void lift_hand() const { xdotool("mousemove 160 120 mousedown 3 mousemove 160 90 mouseup 3"); }
 
-  // Waits until the tip of the scanning hand lies on the sample. Where a tick came late, as on a busy machine, the servo has let
-  // go: then the scan ends, the hand lifts and begins it again, as the wall says.
+  // Waits until the tip of the scanning hand lies on the sample. Where a tick came late, as on a busy machine, the
+  // servo has let go: then the scan ends, the hand lifts and begins it again, as the wall says.
   bool hand_takes_the_image(support::LiveProgram& program) const {
     for (int faults = 0; faults < 10; ++faults) {
       const std::string said = program.says_one_of({"Your hand takes the image", "force off"});
