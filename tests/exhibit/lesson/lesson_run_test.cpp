@@ -274,6 +274,50 @@ TEST_F(LessonRunTest, OffersTheBreakBetweenTheTrialsOfALongStepToo) {
   EXPECT_EQ(run.end(), LessonEnd::Finished);
 }
 
+TEST_F(LessonRunTest, OffersTheBreakToSomebodyWhoStaysOnATextOrAQuestion) {
+  lesson_.steps = {step_of(StepKind::Text), step_of(StepKind::Question)};
+  lesson_.steps[1].questionnaire = Questionnaire::Tlx;
+  auto run = this->run();
+  run.watch_time(1199);
+  EXPECT_EQ(run.prompt(1199).wants, Wants::GoOn);
+  run.watch_time(1200);
+  ASSERT_EQ(run.prompt(1200).answers.size(), 2U);
+  run.answer(1, 1201);  // a key that was meant for what was shown before stops nothing
+  ASSERT_FALSE(run.end());
+  run.answer(0, 1300);
+  EXPECT_THAT(run.prompt(1300).words, HasSubstr("Do this."));
+  run.go_on(1310);
+  run.answer(3, 1320);
+  const LessonPrompt second = run.prompt(1320);
+  run.watch_time(2500);
+  EXPECT_FALSE(run.prompt(2500).in_step) << "a break, no item";
+  run.answer(0, 2600);
+  EXPECT_EQ(run.prompt(2600).item, second.item) << "the answer to the first item is kept";
+  for (int item = 1; item < 6; ++item) run.answer(4, 2610);
+  EXPECT_EQ(run.end(), LessonEnd::Finished);
+  ASSERT_EQ(rows_.size(), 7U);
+  EXPECT_DOUBLE_EQ(rows_[0].onset_s, 1300);
+  EXPECT_EQ(rows_[1].response, "15");
+  EXPECT_DOUBLE_EQ(*rows_[2].rt_s, 10) << "the break is no time of thought";
+}
+
+TEST_F(LessonRunTest, CutsNoTrialOfWhichSomethingIsFelt) {
+  lesson_.steps = {step_of(StepKind::Identify, {0, 1})};
+  auto run = this->run();
+  const auto material = static_cast<std::int32_t>(*run.prompt(0).material);
+  run.happened(event(physics::EventKind::JumpToContact, material), 1190);
+  run.watch_time(1200);
+  EXPECT_TRUE(run.prompt(1200).in_step) << "the tip is in contact";
+  run.happened(event(physics::EventKind::JumpOffContact, material), 1210);
+  run.watch_time(1300);
+  EXPECT_EQ(run.prompt(1300).words, test::english()[Phrase::LessonWhich]);
+  lesson_.steps = {step_of(StepKind::Draw)};
+  auto drawing = this->run();
+  drawing.answer(0, 10);
+  drawing.watch_time(1300);
+  EXPECT_TRUE(drawing.prompt(1300).in_step) << "one part is answered";
+}
+
 TEST_F(LessonRunTest, ScoresACurveByTheShareOfItsPartsThatAreRight) {
   lesson_.steps = {step_of(StepKind::Draw)};
   auto run = this->run({.seed = 9});
