@@ -9,6 +9,7 @@
 #include "app/options/enum_option.h"
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
+#include "curves/image_file.h"
 
 namespace afm::app {
 
@@ -40,8 +41,9 @@ void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files) {
 void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files) {
   command
       .add_option("--sample", files.sample,
-                  "your own sample, drawn and felt: a glTF model with a node for the role surface, or a measured image "
-                  "(Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, JPK .jpk); the file's first bytes decide")
+                  fmt::format("your own sample, drawn and felt: a glTF model with a node for the role surface, or a "
+                              "measured image ({}); the file's first bytes decide",
+                              curves::kImageFiles))
       .type_name("FILE");
   add_channel_options(command, files.sample_channel, files.sample_levelling);
 }
