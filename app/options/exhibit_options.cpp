@@ -89,13 +89,13 @@ void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const
 void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
   add_phrase_options(command, files, context);
   command
-      .add_option(
-          "--wall", files.wall,
-          "wall file (TOML) with the screens' corners and the viewer; default: the paper's wall, 10 ft x 7.5 ft")
+      .add_option("--wall", files.wall,
+                  "wall file (TOML): the corners of the screens and the position of the viewer; default: the paper's "
+                  "wall, 10 ft x 7.5 ft")
       .type_name("FILE");
   command
       .add_option("--materials", files.materials,
-                  "show the materials of this TOML file instead of the paper's mica, gold and silicon nitride")
+                  "material file (TOML), shown instead of the paper's mica, gold and silicon nitride")
       .type_name("FILE");
 }
 
