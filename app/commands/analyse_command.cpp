@@ -20,6 +20,7 @@
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
+#include "curves/image_file.h"
 #include "physics/friction/friction.h"
 #include "physics/quantity_text.h"
 #include "servo/session_friction.h"
@@ -211,9 +212,9 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
   command
       .add_option(
           "file", options->file,
-          "curve: TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw; image: "
-          "Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, JPK .jpk; session: .afms, for its friction "
-          "loop")
+          fmt::format("curve: TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw; "
+                      "image: {}; session: .afms, for its friction loop",
+                      curves::kImageFiles))
       .required()
       .type_name("FILE");
   std::vector<OptionOfKind> of_kind = add_curve_options(command, *options);

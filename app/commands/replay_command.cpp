@@ -154,7 +154,9 @@ void add_replay_command(OptionList& program, const CommandContext&) {
       .add_option("--from", options->range.from_s,
                   "start of the comparison in seconds after the session's first tick; default: the first tick")
       .type_name("SECONDS");
-  command.add_option("--to", options->range.to_s, "end of the comparison in seconds; default: the end of the session")
+  command
+      .add_option("--to", options->range.to_s,
+                  "end of the comparison in seconds after the session's first tick; default: the end of the session")
       .type_name("SECONDS");
   command
       .add_option("--sound", options->sound,

@@ -158,7 +158,8 @@ void LiveView::bring_to_wall() {
   }
   const double before_m = before_wall_m();
   to_wall_ = glm::translate(glm::dmat4(1.0), -before_m * stage_.screen.normal()) * to_wall_;
-  core::log_line(fmt::format("moved the contact to the wall's plane by {:.3f} m", -before_m));
+  core::log_line(fmt::format("moved the contact {:.3f} m {} the viewer, into the plane of the wall", std::abs(before_m),
+                             before_m < 0.0 ? "towards" : "away from"));
 }
 
 double LiveView::before_wall_m() const {

@@ -78,12 +78,10 @@ void LiveView::paint_with(const scene::TipSample& sample) {
   if (scan_) scan_->follow_hand(sample);
 }
 
-// What the hand can do in the scan, or what is wrong with its image; nothing where the hand has the tip, or a fault.
+// What the hand can do in the scan, or what is wrong with its image; nothing where the procedure has to be said.
 std::optional<std::string> LiveView::scan_guidance(const exhibit::Phrases& phrases) const {
   const scene::TipState& tip = servo_.link().tip();
-  if (scan_has_hand() && tip.servo_state != scene::ServoState::Fault) {
-    return exhibit::hand_guidance(*scan_, tip, phrases);
-  }
+  if (scan_has_hand()) return exhibit::hand_guidance(*scan_, tip, phrases);
   if (!scan_ || exhibit::hand_uses_tip(tip)) return std::nullopt;
   return exhibit::scan_guidance(*scan_, phrases);
 }

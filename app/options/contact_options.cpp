@@ -107,7 +107,7 @@ void add_contact_options(OptionList& command, ContactOptions& options, const Com
   const Option probe =
       command
           .add_option("--probe", options.probe,
-                      "lever and tip from the probe file instead of the material's; touchafm material lists them")
+                      "name of a probe whose lever and tip replace the material's; touchafm material lists the probes")
           .type_name("PROBE");
   command
       .add_option("--probes", options.probe_files,

@@ -9,6 +9,7 @@
 #include "app/options/enum_option.h"
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
+#include "curves/image_file.h"
 
 namespace afm::app {
 
@@ -40,8 +41,9 @@ void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files) {
 void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files) {
   command
       .add_option("--sample", files.sample,
-                  "your own sample, drawn and felt: a glTF model with a node for the role surface, or a measured image "
-                  "(Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, JPK .jpk); the file's first bytes decide")
+                  fmt::format("your own sample, drawn and felt: a glTF model with a node for the role surface, or a "
+                              "measured image ({}); the file's first bytes decide",
+                              curves::kImageFiles))
       .type_name("FILE");
   add_channel_options(command, files.sample_channel, files.sample_levelling);
 }
@@ -87,13 +89,13 @@ void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const
 void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
   add_phrase_options(command, files, context);
   command
-      .add_option(
-          "--wall", files.wall,
-          "wall file (TOML) with the screens' corners and the viewer; default: the paper's wall, 10 ft x 7.5 ft")
+      .add_option("--wall", files.wall,
+                  "wall file (TOML): the corners of the screens and the position of the viewer; default: the paper's "
+                  "wall, 10 ft x 7.5 ft")
       .type_name("FILE");
   command
       .add_option("--materials", files.materials,
-                  "show the materials of this TOML file instead of the paper's mica, gold and silicon nitride")
+                  "material file (TOML), shown instead of the paper's mica, gold and silicon nitride")
       .type_name("FILE");
 }
 

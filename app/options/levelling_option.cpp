@@ -8,8 +8,9 @@
 namespace afm::app {
 
 std::array<Option, 2> add_channel_options(OptionList& command, std::string& channel, physics::Levelling& levelling) {
-  Option which = command.add_option(
-      "--channel", channel, "channel of a measured image, by its name; default: its height, trace before retrace");
+  Option which = command.add_option("--channel", channel,
+                                    "name of a channel of a measured image; default: the height, of the trace if there "
+                                    "is one, otherwise of the retrace");
   which.type_name("NAME");
   std::string meanings;
   for (const physics::LevellingText& row : physics::kLevellings) {

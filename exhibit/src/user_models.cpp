@@ -6,12 +6,16 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
+#include <system_error>
 #include <utility>
 
 #include "core/log.h"
+#include "curves/image_file.h"
 #include "exhibit/loading_notice.h"
 #include "exhibit/model_builder.h"
 #include "scene/gltf/gltf_loader.h"
@@ -135,6 +139,15 @@ core::Result<scene::Scene> load_sample(const std::string& file) {
   return sample;
 }
 
+// Whether a file that is there begins as no glTF model does: neither as a binary one nor as JSON.
+bool is_no_model(const std::string& path) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing)) return false;
+  std::ifstream file(path, std::ios::binary);
+  char first = '\0';
+  return file && (!(file >> first) || (first != '{' && first != 'g'));
+}
+
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -155,6 +168,11 @@ core::Result<UserModels> load_own_models(const std::string& probe_file, const st
     auto topography = load_topography_model(sample_file, reading);
     if (!topography) return tl::unexpected(topography.error());
     own.topography = std::move(*topography);
+  } else if (is_no_model(sample_file)) {
+    return core::failure(core::ErrorCategory::BadInputFile,
+                         fmt::format("cannot use the sample '{}': it is neither a glTF model nor an image that can be "
+                                     "read ({}); export it in one of these formats",
+                                     sample_file, curves::kImageFiles));
   } else if (!sample_file.empty()) {
     auto sample = load_sample(sample_file);
     if (!sample) return tl::unexpected(sample.error());

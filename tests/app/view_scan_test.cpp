@@ -151,7 +151,6 @@ TEST_F(ViewScan, IsTakenByTheHandAndDrawnAgain) {
 
   const auto session = servo::load_session(folder_.file("kept/session-gold.afms"));
   ASSERT_TRUE(session) << program.said() << session.error().message;
-  puts(program.said().c_str());
   const auto painted = [](const servo::WallFrame& f) {
     return f.scan_hand && f.scan_hand->paints && f.scan_hand->feedback;
   };

@@ -199,7 +199,7 @@ TEST_F(ViewTest, GoesThroughEveryStereoModeOfThisDisplayWhileItRuns) {
   ASSERT_TRUE(view.says("between the eyes: 63 mm")) << view.said();
   ASSERT_TRUE(view.says("from the eyes: ")) << "the depth meter: " << view.said();
   xdotool("key b");
-  ASSERT_TRUE(view.says("moved the contact to the wall's plane")) << view.said();
+  ASSERT_TRUE(view.says("into the plane of the wall")) << view.said();
   const render::Image scene = picture("stereo");
   xdotool("key g");
   double differs = 0.0;

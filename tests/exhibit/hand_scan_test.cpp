@@ -272,18 +272,41 @@ TEST(LeadingScan, FollowsTheHeightsOrStaysLevel) {
 }
 
 TEST(LeadingScan, SaysWhatTheHandCanDo) {
+  using testing::HasSubstr, testing::StartsWith;
   const LiveScan led(hills(), HandPart{.side_m = kSideM}), painted(hills(), part(true));
   scene::TipState tip;
-  EXPECT_THAT(hand_guidance(led, tip, english()), testing::HasSubstr("press and hold Turn-On"));
+  const auto said = [&](const LiveScan& scan) { return hand_guidance(scan, tip, english()).value_or(""); };
+  EXPECT_THAT(said(led), HasSubstr("press and hold Turn-On"));
   tip.servo_state = scene::ServoState::Running;
-  EXPECT_THAT(hand_guidance(led, tip, english()), testing::StartsWith("Hold Turn-On"));
+  tip.phase = physics::Phase::Free;
+  EXPECT_THAT(said(led), StartsWith("Hold Turn-On"));
   tip.led = 1;
-  EXPECT_THAT(hand_guidance(led, tip, english()), testing::HasSubstr("go along"));
-  EXPECT_THAT(hand_guidance(painted, tip, english()), testing::StartsWith("Lower the tip"));
+  EXPECT_THAT(said(led), HasSubstr("go along"));
+  EXPECT_THAT(said(painted), StartsWith("Lower the tip"));
   tip.phase = physics::Phase::Attached;
-  EXPECT_THAT(hand_guidance(painted, tip, english()), testing::StartsWith("Lift the tip off the sample once"));
+  EXPECT_THAT(said(painted), StartsWith("Lift the tip off the sample once"));
   tip.level = 1;
-  EXPECT_THAT(hand_guidance(painted, tip, english()), testing::StartsWith("Your hand takes the image"));
+  EXPECT_THAT(said(painted), StartsWith("Your hand takes the image"));
+}
+
+// The guidance of the procedure says what went wrong, and how to get the force back.
+TEST(LeadingScan, LeavesTheWayBackToTheForceToTheProcedure) {
+  const LiveScan led(hills(), HandPart{.side_m = kSideM}), painted(hills(), part(true));
+  scene::TipState tip;
+  tip.servo_state = scene::ServoState::Fault;
+  tip.fault = scene::FaultCode::LateTick;
+  EXPECT_EQ(hand_guidance(led, tip, english()), std::nullopt);
+  EXPECT_EQ(hand_guidance(painted, tip, english()), std::nullopt);
+  for (const physics::Phase phase : {physics::Phase::Free, physics::Phase::WaitForLift}) {
+    for (const scene::ServoState state :
+         {scene::ServoState::Fading, scene::ServoState::Disarmed, scene::ServoState::Arming}) {
+      tip.phase = phase;
+      tip.servo_state = state;
+      EXPECT_EQ(hand_guidance(painted, tip, english()), std::nullopt);
+    }
+  }
+  tip.phase = physics::Phase::Attached;  // it paints without a force, too
+  EXPECT_THAT(hand_guidance(painted, tip, english()).value_or(""), testing::StartsWith("Your hand takes the image"));
 }
 
 }  // namespace

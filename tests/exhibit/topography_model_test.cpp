@@ -102,6 +102,21 @@ TEST_F(MeasuredSample, HasABarWithItsReliefBesideIt) {
   EXPECT_THAT(texts({}), testing::Not(testing::Contains(testing::HasSubstr("heights \u00d7"))));
 }
 
+TEST(OwnSample, IsRefusedWithWhatWouldBeRead) {
+  const support::ScratchFolder folder;
+  for (const char* bytes : {"", "hello", "II*", "\\*EC File list"}) {
+    const std::string file = folder.file("sample.spm");
+    std::ofstream(file) << bytes;
+    const auto own = load_own_models("", file);
+    ASSERT_FALSE(own) << bytes;
+    EXPECT_EQ(own.error().category, core::ErrorCategory::BadInputFile);
+    EXPECT_THAT(own.error().message, testing::HasSubstr("neither a glTF model nor an image")) << bytes;
+    EXPECT_THAT(own.error().message, testing::HasSubstr("Nanoscope .spm or .001")) << bytes;
+  }
+  std::ofstream(folder.file("sample.gltf")) << "{";
+  EXPECT_THAT(load_own_models("", folder.file("sample.gltf")).error().message, testing::HasSubstr("JSON is invalid"));
+}
+
 TEST(ExaggerationOfHeights, KeepsTrueProportionsWhereTheyCanBeFelt) {
   EXPECT_EQ(exaggeration_of(1e-6, 10e-6), 1.0);
   EXPECT_EQ(exaggeration_of(2e-6, 10e-6), 0.5);

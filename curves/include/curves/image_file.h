@@ -21,6 +21,9 @@ enum class ImageFormat {
   Jpk         // JPK, .jpk
 };
 
+// All of them, as help and refusals list them.
+inline constexpr const char* kImageFiles = "Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, JPK .jpk";
+
 // "Nanoscope", as a sentence names it.
 std::string_view name_of(ImageFormat format);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "haptics/sample_axes.h"
 #include "haptics/scaling.h"
@@ -73,15 +74,19 @@ scene::ScanLead painting_lead(const LiveScan& scan) {
           .feedback = scan.progress().hand->feedback ? 1U : 0U};
 }
 
-const std::string& hand_guidance(const LiveScan& scan, const scene::TipState& tip, const Phrases& phrases) {
+std::optional<std::string> hand_guidance(const LiveScan& scan, const scene::TipState& tip, const Phrases& phrases) {
+  if (tip.servo_state == scene::ServoState::Fault) return std::nullopt;
+  const bool force = tip.servo_state == scene::ServoState::Running;
   if (scan.is_painted()) {
     const bool other = (tip.level != 0) != scan.progress().hand->feedback;
-    const bool force = tip.servo_state == scene::ServoState::Running;
-    if (other && force && tip.phase == physics::Phase::Attached) return phrases[Phrase::ScanHandLiftOnce];
-    return phrases[tip.phase == physics::Phase::Attached ? Phrase::ScanHandPaints : Phrase::ScanHandTouch];
+    if (tip.phase != physics::Phase::Attached) {
+      if (!force || tip.phase == physics::Phase::WaitForLift) return std::nullopt;
+      return phrases[Phrase::ScanHandTouch];
+    }
+    return phrases[other && force ? Phrase::ScanHandLiftOnce : Phrase::ScanHandPaints];
   }
   if (tip.led != 0) return phrases[Phrase::ScanHandLed];
-  return phrases[tip.servo_state == scene::ServoState::Running ? Phrase::ScanHandHold : Phrase::ScanHandLift];
+  return phrases[force ? Phrase::ScanHandHold : Phrase::ScanHandLift];
 }
 
 }  // namespace afm::exhibit

@@ -45,8 +45,8 @@ core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptio
   if (!system) return tl::unexpected(system.error());
   std::unique_ptr<WindowHandle> handle(new WindowHandle(std::move(*system)));
   if (glfwVulkanSupported() != GLFW_TRUE) {
-    return core::failure(kNoWindow, "this display cannot show Vulkan pictures (" + window_system_error() +
-                                        "): install mesa-vulkan-drivers");
+    return core::failure(
+        kNoWindow, "this display does not support Vulkan (" + window_system_error() + "): install mesa-vulkan-drivers");
   }
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);

@@ -93,7 +93,7 @@ class ProbeReader {
                     error.what());
     }
     table_.add_source({"spring_constant", physics::format_quantity(entry_.spring_constant, physics::kStiffnessUnits),
-                       "of the lever's geometry and modulus", true});
+                       "calculated from the lever's geometry and modulus", true});
   }
 
   void read_rectangular_lever() {
@@ -105,7 +105,7 @@ class ProbeReader {
     if (entry_.resonance_in_air) return;
     entry_.resonance_in_air = physics::vacuum_resonance(lever);
     table_.add_source({"resonance_in_air", physics::format_quantity(*entry_.resonance_in_air, physics::kFrequencyUnits),
-                       "of the lever's geometry, modulus and density, in vacuum", true});
+                       "calculated from the lever's geometry, modulus and density, for vacuum", true});
   }
 
   void read_v_shaped_lever() {

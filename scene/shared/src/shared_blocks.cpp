@@ -196,7 +196,8 @@ core::Result<void> validate(const SharedModel& model) {
     const SharedNode& node = model.nodes[i];
     if (!terminated(node.name)) return model_refused(fmt::format("the name of shared node {} is not terminated", i));
     if (node.parent != kNoParent && node.parent >= i) {
-      return model_refused(fmt::format("shared node {} precedes its parent {}", i, node.parent));
+      return model_refused(
+          fmt::format("shared node {} has parent {}, but a parent must come before its child", i, node.parent));
     }
     if (!all_sane(node.parent_from_node))
       return model_refused(fmt::format("shared node {} has an invalid transform", i));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 
 #include "exhibit/phrases.h"
@@ -52,7 +53,8 @@ class LeadingScan {
 // The same for a hand that paints.
 scene::ScanLead painting_lead(const LiveScan& scan);
 
-// One line for the wall: what the hand can do now. `scan` has a part for it.
-const std::string& hand_guidance(const LiveScan& scan, const scene::TipState& tip, const Phrases& phrases);
+// One line for the wall: what the hand can do now; nothing in a fault, or where a hand that paints must first get its
+// force: the guidance of the procedure says how. `scan` has a part for it.
+std::optional<std::string> hand_guidance(const LiveScan& scan, const scene::TipState& tip, const Phrases& phrases);
 
 }  // namespace afm::exhibit
