@@ -12,6 +12,7 @@
 
 #include "exhibit/cycle_history.h"
 #include "exhibit/friction/friction_history.h"
+#include "exhibit/jump_cue.h"
 #include "servo/servo_client.h"
 #include "servo/session_folder.h"
 #include "servo/session_recorder.h"

@@ -172,7 +172,6 @@ class Flashes : public ::testing::Test {
     see("data panel's place", std::to_string(glm::length(frame.data_placement.right_m)));
     see("banner", std::to_string(glm::length(frame.banner_placement.right_m)));
     see("stage", frame.force_panel.stage);
-    plot_area_m2_ = glm::length(glm::cross(frame.force_placement.right_m, frame.force_placement.up_m));
   }
 
  protected:
@@ -182,7 +181,6 @@ class Flashes : public ::testing::Test {
   Hint hint_ = Hint::ChooseSample;
   float ring_light_ = 0;
   int rings_ = 0;
-  double plot_area_m2_ = 0;
 };
 
 TEST_F(Flashes, NothingChangesMoreThanThreeTimesASecondHoweverFastTheTipChatters) {
@@ -199,13 +197,18 @@ TEST_F(Flashes, NothingChangesMoreThanThreeTimesASecondHoweverFastTheTipChatters
   }
 }
 
-// The line that names the part of the cycle follows it at once. It is too small to be a flash: together less than 0.006
-// steradians. It takes less than an eighth of its panel's height, and its letters cover less than a third of that.
+// The line that names the part of the cycle follows it at once. Its letters are too small for a flash: together they
+// take less than 0.006 steradians.
 TEST_F(Flashes, TheLineThatFollowsTheTipIsTooSmallForOne) {
-  constexpr double kLargestSafeSr = 0.006, kShareOfLine = 1.0 / 8.0 / 3.0;
+  constexpr double kLargestSafeSr = 0.006, kLetterMm = 40.0, kMeanWidth = 0.6;  // of a letter's height
   EXPECT_GT(chatter(20.0).most("stage"), 3U) << "or it needs no exception";
   const double distance_m = stage_->wall.viewers.front().sweet_spot.position_m.z;
-  EXPECT_LT(kShareOfLine * plot_area_m2_ / (distance_m * distance_m), kLargestSafeSr);
+  const double letter_m = kLetterMm * stage_->wall_scene.panel_millimetre_m();
+  for (std::size_t i = 0; after(Phrase::StageLift, i) != after(Phrase::StageFree, 1); ++i) {
+    const std::string& text = stage_->phrases()[after(Phrase::StageLift, i)];
+    const double area_m2 = kMeanWidth * letter_m * letter_m * static_cast<double>(text.size());
+    EXPECT_LT(area_m2 / (distance_m * distance_m), kLargestSafeSr) << text;
+  }
 }
 
 }  // namespace

@@ -90,18 +90,18 @@ TEST_F(HandAnswerTest, TakesEachPressOnceAndNoneFromBefore) {
   EXPECT_EQ(answer_.marked(), std::nullopt);
 }
 
-TEST_F(HandAnswerTest, TurnsRoundAtMostThreeTimesASecondHoweverTheHandShakes) {
+TEST_F(HandAnswerTest, MarksTheSameAnswerAtMostThreeTimesASecondHoweverTheHandShakes) {
   for (const double shakes_per_s : {1.0, 6.0, 20.0}) {
     answer_.ask(2, Layout::List, std::nullopt);
-    std::vector<double> changes_s;
+    std::vector<double> marked_s;  // the first answer
     std::optional<std::size_t> before;
     for (int i = 0; i < 10 * kFramesPerS; ++i) {
       add(0.020 * std::sin(6.283185 * shakes_per_s * i / kFramesPerS + 1.0), 7);
-      if (before && answer_.marked() != before) changes_s.push_back(now_s_);
+      if (answer_.marked() == 0U && before != 0U) marked_s.push_back(now_s_);
       before = answer_.marked();
     }
-    EXPECT_GT(changes_s.size(), 10U) << shakes_per_s << " Hz: the mark goes with the hand";
-    for (std::size_t i = 3; i < changes_s.size(); ++i) EXPECT_GT(changes_s[i] - changes_s[i - 3], 1.0) << shakes_per_s;
+    EXPECT_GT(marked_s.size(), 8U) << shakes_per_s << " Hz: the mark goes with the hand";
+    for (std::size_t i = 3; i < marked_s.size(); ++i) EXPECT_GT(marked_s[i] - marked_s[i - 3], 1.0) << shakes_per_s;
   }
 }
 
