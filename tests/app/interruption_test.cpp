@@ -36,7 +36,7 @@ constexpr auto kBound = milliseconds(4 * 500);
 constexpr auto kBound = milliseconds(2 * 500);
 #endif
 
-// Waits until the program holds SIGTERM back, to end by it in its own way: a sanitizer takes 0.2 s before it begins.
+// Waits until the program has blocked SIGTERM to handle it itself; under a sanitizer that takes 0.2 s.
 bool has_begun(const support::LiveProgram& program) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
   while (std::chrono::steady_clock::now() < end) {

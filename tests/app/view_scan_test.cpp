@@ -140,7 +140,7 @@ TEST_F(ViewScan, IsTakenByTheHandAndDrawnAgain) {
   for (const char* place : {"200 120", "120 115", "200 110", "120 105", "200 125", "120 130", "200 135"}) {
     xdotool(std::string("mousemove ") + place + " sleep 1");
   }
-  xdotool("mouseup 3 sleep 2 key F12");  // the hand has come to rest where a slow machine draws it last
+  xdotool("mouseup 3 sleep 2 key F12");  // a slow machine, too, saves and records a hand at rest
   ASSERT_TRUE(program.says("saved ./touchafm-001.png")) << program.said();
   xdotool("key k");
   ASSERT_TRUE(program.says("scan: feedback off")) << program.said();
