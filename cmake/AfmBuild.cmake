@@ -86,16 +86,41 @@ afm_precompiled(afm_formatting_headers LIBRARIES fmt::fmt HEADERS <fmt/format.h>
 afm_precompiled(afm_cold_headers OPTIONS ${AFM_COLD_CODE} LIBRARIES fmt::fmt nlohmann_json::nlohmann_json
                 HEADERS <fmt/format.h> <nlohmann/json.hpp>)
 
-# With CMAKE_UNITY_BUILD (every preset) so many sources of a module are compiled as one, which takes a third of the time: what they
-# name for themselves must differ within the module. `cmake --preset release -DCMAKE_UNITY_BUILD=OFF` finds a source that lacks an
-# include.
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 10)
+# Ten sources of a module are compiled as one, which takes a third of the time: what they name for themselves must differ within the
+# module. `cmake --preset release -DAFM_UNITY_BUILD=OFF` finds a source that lacks an include. CMake's own unity builds name the sources
+# by their absolute paths, and ccache would find none of them for another clone.
+option(AFM_UNITY_BUILD "compile ten sources of a module as one" ON)
+# afm_compile_together(TARGET [SOURCE that is compiled alone ...])
+function(afm_compile_together target)
+  if(NOT AFM_UNITY_BUILD)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE alone)
+  list(REMOVE_ITEM sources ${alone})
+  set_source_files_properties(${sources} PROPERTIES HEADER_FILE_ONLY ON)  # listed, not compiled
+  set(number 0)
+  while(sources)
+    list(SUBLIST sources 0 10 batch)
+    list(REMOVE_ITEM sources ${batch})
+    set(includes "")
+    foreach(source ${batch})
+      file(RELATIVE_PATH path ${CMAKE_CURRENT_BINARY_DIR}/Unity ${source})
+      string(APPEND includes "#include \"${path}\"\n")
+    endforeach()
+    set(unity ${CMAKE_CURRENT_BINARY_DIR}/Unity/unity_${target}_${number}.cpp)
+    file(CONFIGURE OUTPUT ${unity} CONTENT "${includes}" @ONLY)
+    target_sources(${target} PRIVATE ${unity})
+    math(EXPR number "${number} + 1")
+  endwhile()
+endfunction()
 
-# afm_module(NAME [COLD] PUBLIC ... PRIVATE ... [PRECOMPILED ...])
+# afm_module(NAME [COLD] PUBLIC ... PRIVATE ... [PRECOMPILED ...] [ALONE source that is not compiled together with others ...])
 # A folder is a static library afm::NAME of all that lies in its include/ and src/. Only include/ is exported, so that including a
 # module that is not linked fails; every public header is compiled alone by the target all_verify_interface_header_sets.
 function(afm_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 M "COLD" "" "PUBLIC;PRIVATE;PRECOMPILED")
+  cmake_parse_arguments(PARSE_ARGV 1 M "COLD" "" "PUBLIC;PRIVATE;PRECOMPILED;ALONE")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/*.cpp)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS include/*.h)
   add_library(afm_${name} STATIC ${sources})
@@ -114,4 +139,5 @@ function(afm_module name)
     target_precompile_headers(afm_${name} REUSE_FROM afm_plain_headers)
   endif()
   set_target_properties(afm_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+  afm_compile_together(afm_${name} ${M_ALONE})
 endfunction()
