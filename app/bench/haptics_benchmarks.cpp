@@ -181,13 +181,13 @@ void add_haptics_benchmarks(OptionList& bench, const CommandContext& context) {
       "haptics",
       "measure a servo tick with each law, the scheduling latency alongside the renderer, and the release of the hand");
   const auto options = std::make_shared<HapticsBenchOptions>();
-  command.add_option("--ticks", options->ticks, "ticks per law, 1000 to 10000000")
+  command.add_option("--ticks", options->ticks, "ticks per law")
       .within(1000, 10'000'000)
       .show_default();
-  command.add_option("--seconds", options->seconds, "run time of the servo alongside the renderer, s, 0.5 to 600")
+  command.add_option("--seconds", options->seconds, "run time of the servo alongside the renderer, s")
       .within(0.5, 600.0)
       .show_default();
-  command.add_option("--rounds", options->rounds, "number of renderers to kill and to stop, 1 to 1000")
+  command.add_option("--rounds", options->rounds, "number of renderers to kill and to stop")
       .within(1, 1000)
       .show_default();
   command.add_flag("--json", options->json, "print JSON with times in seconds instead of tables");

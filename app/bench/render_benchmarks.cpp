@@ -229,17 +229,17 @@ void add_render_benchmarks(OptionList& bench, const CommandContext& context) {
   OptionList command =
       bench.add_command("render", "measure frames of the wall and of other scenes, and the time to the first frame");
   const auto options = std::make_shared<RenderBenchOptions>();
-  command.add_option("--rounds", options->plan.rounds, "number of rounds, each of which draws everything, 1 to 1000")
+  command.add_option("--rounds", options->plan.rounds, "number of rounds, each of which draws everything")
       .within(1, 1000)
       .show_default();
-  command.add_option("--frames", options->plan.frames, "frames per scene and method in a round, 1 to 10000")
+  command.add_option("--frames", options->plan.frames, "frames per scene and method in a round")
       .within(1, 10'000)
       .show_default();
   command.add_option("--eye-width", options->eye_width, "width of each eye image in pixels")
       .within(16, 8192)
       .show_default()
       .type_name("PIXELS");
-  command.add_option("--samples", options->plan.samples, "samples per pixel: 1 or 4").one_of({1, 4}).show_default();
+  command.add_option("--samples", options->plan.samples, "samples per pixel").one_of({1, 4}).show_default();
   command.add_option("--gltf", options->gltf, "glTF file to draw as well; repeatable").type_name("FILE");
   command
       .add_option("--peer", options->plan.peers,

@@ -128,7 +128,7 @@ void add_picture_options(OptionList& command, ViewOptions& options) {
   add_frame_budget(command, options.display.frame_budget_ms);
   command
       .add_option("--comfort", options.display.comfort_deg,
-                  "largest disparity in degrees, 0.1 to 3; where the scene exceeds it, the picture uses a smaller eye "
+                  "largest disparity in degrees; where the scene exceeds it, the picture uses a smaller eye "
                   "distance; many people see double above 1")
       .within(0.1, 3.0)
       .show_default()
@@ -141,7 +141,7 @@ void add_picture_options(OptionList& command, ViewOptions& options) {
       .type_name("DIR");
   command
       .add_option("--frame-rate", options.frame_rate,
-                  "highest frame rate in frames per second, 10 to 1000; default: the display's refresh rate")
+                  "highest frame rate in frames per second; default: the display's refresh rate")
       .within(kSlowestFrames, kFastestFrames)
       .type_name("RATE");
 }
@@ -198,7 +198,7 @@ void add_servo_options(OptionList& command, ViewOptions& options) {
       std::optional(kForceLimits));
   command
       .add_option("--servo-rate", options.servo.settings.rate_hz,
-                  "rate of the servo, 100 Hz to 10 kHz; a force-feedback device needs 400 Hz or more")
+                  "ticks of the servo per second; a force-feedback device needs 400 Hz or more")
       .within(100.0, 10'000.0)
       .show_default()
       .type_name("HZ");
@@ -210,7 +210,7 @@ void add_servo_options(OptionList& command, ViewOptions& options) {
       .type_name("MICROSECONDS");
   command
       .add_option("--linger", options.servo.settings.linger_s,
-                  "time for which the servo keeps its device for another touchafm view after this one dies, 0 to 600")
+                  "time for which the servo keeps its device for another touchafm view after this one dies")
       .within(0.0, 600.0)
       .show_default()
       .type_name("SECONDS");
@@ -227,7 +227,7 @@ void add_exhibition_options(OptionList& command, ViewOptions& options) {
   command
       .add_option("--idle", options.settings.idle_s,
                   "with --unattended or --kiosk, time without input after which the wall assumes that the visitor has "
-                  "left, 5 to 3600")
+                  "left")
       .within(5.0, 3600.0)
       .show_default()
       .type_name("SECONDS");

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/options/command_line.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -24,6 +27,17 @@ std::string names_of(const char* word, const std::set<CLI::Option*>& options) {
   return text;
 }
 
+// "PIXELS from 64 to 8192", "{csv,json}"; of a flag empty.
+std::string value_of(const CLI::Option& option) {
+  if (option.get_items_expected_max() == 0) return "";
+  const std::string value = option.get_type_name();  // the type, then a colon before what each check says of itself
+  const std::size_t colon = value.find(':');
+  if (colon == std::string::npos) return value;
+  std::string type = value.substr(0, colon);
+  if (type == "INT" || type == "UINT" || type == "FLOAT") type = "NUMBER";
+  return type + (type.empty() ? "" : " ") + value.substr(colon + 1);
+}
+
 OptionDescription describe_option(const CLI::Option& option) {
   std::string rules = option.get_required() ? "required" : "";
   for (const std::string& rule :
@@ -31,7 +45,7 @@ OptionDescription describe_option(const CLI::Option& option) {
     if (!rule.empty()) rules += (rules.empty() ? "" : "; ") + rule;
   }
   return {.name = option.get_name(false, true),
-          .value = option.get_items_expected_max() == 0 ? "" : option.get_type_name(),
+          .value = value_of(option),
           .help = option.get_description(),
           .fallback = option.get_default_str(),
           .rules = rules,
@@ -60,6 +74,23 @@ CommandDescription describe_command(const CLI::App& app) {
   }
   return command;
 }
+
+// CLI11's help, but for an option's value, default and rules: its own wording of these differs from version to version.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  [[nodiscard]] std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string value = value_of(*option);
+    return value.empty() ? "" : " " + value;
+  }
+
+  [[nodiscard]] std::string make_option_desc(const CLI::Option* option) const override {
+    const OptionDescription described = describe_option(*option);
+    std::string text = described.help;
+    if (!described.fallback.empty()) text += "; default: " + described.fallback;
+    if (!described.rules.empty()) text += "; " + described.rules;
+    return text;
+  }
+};
 
 }  // namespace
 
@@ -94,16 +125,17 @@ Option& Option::excludes(const Option& other) {
 }
 
 Option& Option::within(int least, int most) {
-  option_->check(CLI::Range(least, most));
+  option_->check(CLI::Range(least, most).description(fmt::format("from {} to {}", least, most)));
   return *this;
 }
 
 Option& Option::within(double least, double most) {
   // CLI11's own check lets through what is not a number
-  option_->check(CLI::Range(least, most))->check([](const std::string& text) {
-    double value = 0.0;
-    return CLI::detail::lexical_cast(text, value) && std::isnan(value) ? text + " is not a number" : std::string();
-  });
+  option_->check(CLI::Range(least, most).description(fmt::format("from {:g} to {:g}", least, most)))
+      ->check([](const std::string& text) {
+        double value = 0.0;
+        return CLI::detail::lexical_cast(text, value) && std::isnan(value) ? text + " is not a number" : std::string();
+      });
   return *this;
 }
 
@@ -118,7 +150,7 @@ Option& Option::one_of(std::initializer_list<const char*> words) {
 }
 
 Option& Option::existing_folder() {
-  option_->check(CLI::ExistingDirectory);
+  option_->check(CLI::Validator(CLI::ExistingDirectory).description(""));
   return *this;
 }
 
@@ -183,6 +215,7 @@ void OptionList::when_chosen(Action action) {
 
 CommandLine::CommandLine(const std::string& program, const std::string& version, const std::string& help)
     : CommandLine(std::make_unique<CLI::App>(help, program)) {
+  app_->formatter(std::make_shared<HelpFormatter>());
   app_->set_version_flag("--version", program + " " + version);
 }
 

@@ -95,7 +95,7 @@ render::DataRow DynamicResolution::row(const exhibit::Phrases& phrases) const {
 void add_frame_budget(OptionList& command, double& budget_ms) {
   command
       .add_option("--frame-budget", budget_ms,
-                  "time budget for drawing a frame, 1 to 1000 ms; slower frames are drawn with fewer pixels, down to "
+                  "time budget for drawing a frame; slower frames are drawn with fewer pixels, down to "
                   "half in each direction, then with one sample per pixel; default: no limit")
       .within(1.0, 1000.0)
       .type_name("MS");

@@ -45,7 +45,7 @@ Option pixel_size_option(OptionList& command, const std::string& name, std::opti
     return {};
   };
   return command.add_parsed_option(name, read, description)
-      .type_name("WIDTHxHEIGHT" + (legal_values.empty() ? "" : " in " + legal_values));
+      .type_name("WIDTHxHEIGHT" + (legal_values.empty() ? "" : " from " + legal_values));
 }
 
 }  // namespace afm::app

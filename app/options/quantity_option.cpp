@@ -58,7 +58,7 @@ Option si_option(OptionList& command, const std::string& name, std::function<voi
     return {};
   };
   return command.add_parsed_option(name, read, description)
-      .type_name(fmt::format("{} in {}", type_word(domain.sort), legal_values(domain)));
+      .type_name(fmt::format("{} {} {}", type_word(domain.sort), domain.range ? "from" : "in", legal_values(domain)));
 }
 
 }  // namespace afm::app

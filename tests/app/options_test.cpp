@@ -96,8 +96,7 @@ TEST_F(OptionsTest, ANumberStaysWithinItsRange) {
   for (const char* wrong : {"0.4", "601", "soon"}) EXPECT_THAT(refusal(wrong), HasSubstr("not in range")) << wrong;
   for (const char* wrong : {"nan", "-NaN"}) EXPECT_THAT(refusal(wrong), HasSubstr("is not a number")) << wrong;
   EXPECT_EQ(seconds, 600.0);
-  // CLI11 2.1 (Debian 12) and 2.4 (Debian 13)
-  EXPECT_THAT(help(), testing::AnyOf(HasSubstr("[0.5 - 600]=2.5"), HasSubstr("[0.5 - 600] [2.5]")));
+  EXPECT_THAT(help(), AllOf(HasSubstr("--option NUMBER from 0.5 to 600"), HasSubstr("how long; default: 2.5")));
 }
 
 TEST_F(OptionsTest, AQuantityIsReadInSiAndRefusedWithItsUnits) {
@@ -122,7 +121,7 @@ TEST_F(OptionsTest, AQuantityOutsideItsRangeIsRefusedWithTheRange) {
     EXPECT_THAT(refusal(wrong), HasSubstr("is outside 5mm/s to 200mm/s")) << wrong;
   }
   EXPECT_EQ(read_m_per_s, 0.2);
-  EXPECT_THAT(help(), HasSubstr("--option VELOCITY in 5mm/s to 200mm/s"));
+  EXPECT_THAT(help(), HasSubstr("--option VELOCITY from 5mm/s to 200mm/s"));
 }
 
 TEST_F(OptionsTest, AChoiceIsARowOfItsTable) {
@@ -147,7 +146,7 @@ TEST_F(OptionsTest, ASizeIsTwoNumbersWithinItsRange) {
   for (const char* wrong : {"63x64", "64x16385"}) {
     EXPECT_THAT(refusal(wrong), HasSubstr("is not WIDTHxHEIGHT in pixels of 64 to 16384 each")) << wrong;
   }
-  EXPECT_THAT(help(), HasSubstr("--option WIDTHxHEIGHT in 64 to 16384 each"));
+  EXPECT_THAT(help(), HasSubstr("--option WIDTHxHEIGHT from 64 to 16384 each"));
 }
 
 TEST_F(OptionsTest, AVolumeIsALevelWithItsUnit) {
