@@ -34,6 +34,7 @@ LiveLesson::LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::
 }
 
 void LiveLesson::update() {
+  run_.watch_time(now_s());
   exhibit::LessonPrompt next = run_.prompt(now_s());
   if (next.words != prompt_.words || next.progress != prompt_.progress) {
     const bool scale = is_scale(next);
@@ -125,7 +126,7 @@ void LiveLesson::step(int steps) {
 bool LiveLesson::takes_hand() const { return prompt_.wants == Wants::Answer; }
 
 void LiveLesson::hand_moved(double height_m, std::uint64_t presses) {
-  if (!mark_.add(height_m, presses)) return;
+  if (!mark_.add(height_m, presses, now_s())) return;
   if (prompt_.wants == Wants::GoOn) run_.go_on(now_s());
   if (prompt_.wants == Wants::Answer && mark_.marked()) run_.answer(*mark_.marked(), now_s());
   acted();

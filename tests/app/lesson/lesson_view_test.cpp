@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -141,52 +140,6 @@ TEST_F(LessonView, HidesWhatABlindStepAsksForAndLaysTheVariantsOfAThreshold) {
       << "the sample is as loaded again: " << view.said();
   key("Escape");
   EXPECT_EQ(view.ends(), 0) << view.said();
-}
-
-// What a person with the device alone does: no key but Turn-On, and no picture is read.
-TEST_F(LessonView, IsAnsweredByTheHandAloneAndSaysWhatItMarks) {
-  const std::string file = lesson("[[step]]\nid = \"hello\"\ntype = \"text\"\n" + words("hello") +
-                                  "[[step]]\nid = \"load\"\ntype = \"question\"\nquestionnaire = \"tlx\"\n" +
-                                  words("load") + "[[step]]\nid = \"draw\"\ntype = \"draw\"\n" + words("draw"));
-  ASSERT_EQ(::setenv("SDL_AUDIODRIVER", "dummy", 1), 0);
-  const std::string out = folder_.file("study");
-  support::LiveProgram view(
-      command(file, {"--speech", "--language", "en", "--participant", "QXWERT", "--out", out}, "mouse"),
-      display_.name());
-  const auto move_hand = [&](int down_px) {
-    const auto done =
-        support::run_program("DISPLAY=" + display_.name() + " xdotool mousemove 320 200 mousedown 3 mousemove 320 " +
-                             std::to_string(200 + down_px) + " mouseup 3");
-    ASSERT_EQ(done.exit_code, 0) << done.err;
-  };
-  // a press that comes while the last one still counts as held is none: who gets no answer presses again
-  const auto turn_on_until_it_says = [&](const std::string& text) {
-    for (int press = 0; press < 3; ++press) {
-      key("t");
-      if (view.says(text, std::chrono::seconds(20))) return true;
-    }
-    return false;
-  };
-  ASSERT_TRUE(view.says("says: This lesson keeps your answers")) << view.said();
-  key("t");  // which answers nothing: the hand has marked none
-  move_hand(34);
-  ASSERT_TRUE(view.says("says: Yes, I take part")) << view.said();
-  ASSERT_TRUE(turn_on_until_it_says("says: Words of hello")) << view.said();
-  ASSERT_TRUE(turn_on_until_it_says("says: Mental demand")) << view.said();
-  move_hand(12);
-  ASSERT_FALSE(view.says_one_of({"says: 45", "says: 40", "says: 35", "says: 30"}).empty()) << view.said();
-  ASSERT_TRUE(turn_on_until_it_says("says: Physical demand")) << view.said();
-  picture("by-hand");
-  for (int item = 2; item <= 6; ++item) {
-    ASSERT_TRUE(turn_on_until_it_says(item < 6 ? "question " + std::to_string(item + 1) : "Words of draw"))
-        << view.said();
-  }
-  key("Escape");
-  EXPECT_EQ(view.ends(), 0) << view.said();
-  const std::string events = core::read_file(out + "/sub-QXWERT/task-a-lesson_events.tsv").value();
-  EXPECT_THAT(events, HasSubstr("\ttlx-2\t50\t")) << "where the scale begins";
-  EXPECT_THAT(events, Not(HasSubstr("\ttlx-1\t50\t"))) << events;
-  EXPECT_THAT(view.said(), Not(HasSubstr("says: The force is on"))) << "Turn-On answers, and turns nothing on";
 }
 
 }  // namespace
