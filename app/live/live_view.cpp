@@ -244,7 +244,7 @@ void LiveView::stop_force() {
 // So that the tip follows the cursor.
 double LiveView::hand_m_per_px(std::size_t window) const {
   const WallPicture shown = picture_.picture(window);
-  const double stroke_m = exhibit::kStrokeHeight * 1e3 * stage_.wall_scene.panel_millimetre_m();
+  const double stroke_m = exhibit::kStrokeHeight * stage_.wall_scene.unit_m();
   return kDrawnHandM / stroke_m * shown.screen.height_m() / shown.place.size_px.y;
 }
 
