@@ -73,6 +73,12 @@ core::Result<void> LiveLesson::keep(const exhibit::TrialRow& row) {
   return data_ ? data_->add(row) : core::Result<void>{};
 }
 
+void LiveLesson::sound_is_lost() {
+  if (!data_ || error_ || over() || std::exchange(sound_lost_noted_, true)) return;
+  core::log_line("lesson: the results say that there is no sound from now on");
+  if (auto noted = data_->note_sound_lost(run_.elapsed_s(now_s())); !noted) error_ = noted.error();
+}
+
 exhibit::InstructorState LiveLesson::instructor_state() const {
   return {.prompt = prompt_,
           .participant = study_ ? study_->code : "",

@@ -279,16 +279,21 @@ TEST_F(HeardView, GoesOnWithoutASoundCardAndWhenItIsLost) {
     xdotool("key Escape");
     EXPECT_EQ(live->ends(), 0) << live->said();
   }
-  // a card that takes nothing
+  // a card that takes nothing, in a study
   const Variable driver("SDL_AUDIODRIVER", "disk"), file("SDL_DISKAUDIOFILE", "/dev/full");
-  const auto live = view({"--sound"});
+  const std::string lesson = folder_.write("lesson.toml", kLesson), out = folder_.file("study");
+  const auto live = this->live({"lesson", lesson}, {"--sound", "--participant", "QXWERT", "--out", out});
   ASSERT_TRUE(live->says("no sound: the sound card is gone")) << live->said();
   xdotool("key 1");
+  ASSERT_TRUE(live->says("Words of feel")) << live->said();
+  xdotool("key 1");
   ASSERT_TRUE(live->says("chosen: Mica")) << live->said();
+  ASSERT_TRUE(live->says("the results say that there is no sound")) << live->said();
+  EXPECT_THAT(core::read_file(out + "/sub-QXWERT/task-a-lesson_events.json").value(), HasSubstr("\"sound_lost_s\": "));
   xdotool("key Escape");
   EXPECT_EQ(live->ends(), 0) << live->said();
   const std::string said = live->said();
-  EXPECT_EQ(said.find("no sound", said.find("no sound") + 1), std::string::npos) << said;
+  EXPECT_EQ(said.find("no sound:", said.find("no sound:") + 1), std::string::npos) << said;
 }
 
 TEST_F(HeardView, WithoutEspeakEndsWhereSpeechWasAskedForAndElseSaysSoOnce) {
