@@ -122,7 +122,7 @@ void add_picture_options(OptionList& command, ViewOptions& options) {
       "draw the panels in white on opaque black, for people who see little");
   command
       .add_option("--text-size", options.files.text_size,
-                  "how much larger the panels' texts are, 1 to 1.5; a panel that is full shrinks them until they fit")
+                  "how much larger the texts of the panels are, 1 to 1.5, as far as each panel has the room")
       .within(1.0, exhibit::kLargestText)
       .show_default()
       .type_name("TIMES");

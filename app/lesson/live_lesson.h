@@ -58,7 +58,7 @@ class LiveLesson {
   std::optional<std::string> newly_marked();
 
   std::vector<exhibit::LessonTarget> targets() const { return lesson_targets(prompt_, mark_.marked(), phrases_); }
-  render::DataPanel panel(double text_size) const { return lesson_panel(prompt_, phrases_, text_size); }
+  render::DataPanel panel() const { return lesson_panel(prompt_, phrases_); }
 
   // What is to be spoken before the line of guidance, since the prompt is a new one.
   std::string speech() const { return lesson_speech(prompt_, phrases_); }

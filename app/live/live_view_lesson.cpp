@@ -95,7 +95,7 @@ void LiveView::add_lesson(render::FrameState& frame) {
   }
   const auto targets = lesson_->targets();
   const exhibit::LessonPlaces places = exhibit::lesson_places(stage_.wall_scene.parameter_placement(), targets.size());
-  frame.data_panel = lesson_->panel(stage_.wall_scene.text_size());
+  frame.data_panel = lesson_->panel();
   frame.data_placement = places.words;
   frame.control_placement = render::kNoPlacement;
   for (std::size_t i = 0; i < targets.size(); ++i) {

@@ -240,7 +240,7 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   for (const LessonPrompt& prompt : full_prompts(phrases)) {
     const auto targets = lesson_targets(prompt, std::nullopt, phrases);
     const LessonPlaces places = lesson_places(stage.wall_scene.parameter_placement(), targets.size());
-    expect_whole(lesson_panel(prompt, phrases, stage.wall_scene.text_size()), places.words, "the words of a lesson");
+    expect_whole(lesson_panel(prompt, phrases), places.words, "the words of a lesson");
     for (std::size_t i = 0; i < targets.size(); ++i) {
       expect_whole(render::Label{.text = targets[i].text, .highlighted = false, .placement = places.targets[i]},
                    places.targets[i], targets[i].text.c_str());
@@ -297,25 +297,34 @@ TEST_P(ReadableWalls, HaveLargerLettersWhereTheyAreAskedFor) {
   ExhibitFiles files;
   files.assets_dir = AFM_SOURCE_DIR "/assets";
   files.wall = fmt::format("{}/walls/{}.toml", files.assets_dir, GetParam());
-  float before_px = 0.0F, guidance_before_px = 0.0F;
-  for (const double times : {1.0, kLargestText}) {
-    files.text_size = times;
-    const auto stage = load_exhibit(files);
-    ASSERT_TRUE(stage) << stage.error().message;
-    const render::FrameState frame = app::wall_subject(*stage, 64, app::WallMotion::Tip).value().frames.back();
-    Painter painter(2.0 * 1280 / stage->screen.width_m(), stage->wall_scene.panel_millimetre_m());
-    const LessonPrompt consent = full_prompts(stage->phrases()).front();
-    const LessonPlaces places = lesson_places(stage->wall_scene.parameter_placement(), consent.answers.size());
-    const float letter_px =
-        painter.paint(lesson_panel(consent, stage->phrases(), stage->wall_scene.text_size()), places.words).letter_px;
-    const float guidance_px = painter.paint(frame.banner, frame.banner_placement).letter_px;
-    if (times > 1.0) {
-      EXPECT_GT(letter_px, 1.2F * before_px);
-      EXPECT_GT(guidance_px, 1.2F * guidance_before_px);
-    }
-    before_px = letter_px;
-    guidance_before_px = guidance_px;
-  }
+  struct Letters {
+    float guidance_px = 0.0F, words_px = 0.0F, consent_px = 0.0F;
+  };
+  const auto letters_at = [&](double text_size) {
+    files.text_size = text_size;
+    const auto stage = load_exhibit(files).value();
+    Painter painter(2.0 * 1280 / stage.screen.width_m(), stage.wall_scene.panel_millimetre_m());
+    const render::FrameState frame = app::wall_subject(stage, 64, app::WallMotion::Tip).value().frames.back();
+    const auto words_px = [&](const LessonPrompt& prompt) {
+      const std::size_t targets = lesson_targets(prompt, std::nullopt, stage.phrases()).size();
+      const LessonPlaces places = lesson_places(stage.wall_scene.parameter_placement(), targets);
+      return painter.paint(lesson_panel(prompt, stage.phrases()), places.words).letter_px;
+    };
+    LessonPrompt consent = full_prompts(stage.phrases()).front(), cycle;
+    cycle.wants = LessonPrompt::Wants::Cycle;
+    cycle.words = "Lift the tip, press Turn-On, and lower it until it snaps to the surface.";
+    render::Banner banner = frame.banner;
+    banner.guidance = "Lower the tip";
+    banner.scale.clear();
+    banner.state_word.clear();
+    return Letters{painter.paint(banner, frame.banner_placement).letter_px, words_px(cycle), words_px(consent)};
+  };
+  const Letters normal = letters_at(1.0), large = letters_at(kLargestText);
+  EXPECT_GT(large.guidance_px, 1.3F * normal.guidance_px);
+  EXPECT_GT(large.words_px, 1.2F * normal.words_px);
+  EXPECT_GT(large.consent_px, 0.95F * normal.consent_px) << "the longest text of all fills its panel already";
+  std::printf("%s: guidance %.2f, words %.2f, consent %.2f\n", GetParam(), large.guidance_px / normal.guidance_px,
+              large.words_px / normal.words_px, large.consent_px / normal.consent_px);
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, ReadableWalls, ::testing::ValuesIn(kPresets));

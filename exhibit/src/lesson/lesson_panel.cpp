@@ -11,7 +11,6 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kLineLetters = 42;    // of a panel, so that its letters keep their size
 constexpr double kTargetsShare = 0.5;  // of the panel's height, at most
 constexpr double kTargetShare = 0.14;  // of one target, at most
 constexpr double kGapShare = 0.08;     // of a target, between two
@@ -56,13 +55,12 @@ std::vector<LessonTarget> lesson_targets(const LessonPrompt& prompt, std::option
   return targets;
 }
 
-render::DataPanel lesson_panel(const LessonPrompt& prompt, const Phrases& phrases, double text_size) {
-  const auto letters = static_cast<std::size_t>(kLineLetters / text_size);
+render::DataPanel lesson_panel(const LessonPrompt& prompt, const Phrases& phrases) {
   render::DataPanel panel{.title = prompt.title, .subtitle = prompt.progress, .rows = {}};
-  add_lines(prompt.words, letters, panel.rows);
-  add_lines(prompt.hint, letters, panel.rows);
+  if (!prompt.words.empty()) panel.rows.push_back({prompt.words, "", ""});
+  if (!prompt.hint.empty()) panel.rows.push_back({prompt.hint, "", ""});
   if (prompt.wants == LessonPrompt::Wants::Answer) {
-    add_lines(phrases[is_scale(prompt) ? Phrase::LessonPressScale : Phrase::LessonPressNumber], letters, panel.rows);
+    panel.rows.push_back({phrases[is_scale(prompt) ? Phrase::LessonPressScale : Phrase::LessonPressNumber], "", ""});
   }
   return panel;
 }

@@ -32,9 +32,8 @@ bool is_scale(const LessonPrompt& prompt);
 std::vector<LessonTarget> lesson_targets(const LessonPrompt& prompt, std::optional<std::size_t> marked,
                                          const Phrases& phrases);
 
-// The guide's words as a panel: title, progress, words and hint in lines, and how to answer. Lines
-// are so much shorter as the text is larger.
-render::DataPanel lesson_panel(const LessonPrompt& prompt, const Phrases& phrases, double text_size);
+// The guide's words as a panel: title, progress, words and hint in lines, and how to answer.
+render::DataPanel lesson_panel(const LessonPrompt& prompt, const Phrases& phrases);
 
 // Adds the words as rows of at most so many letters.
 void add_lines(std::string_view text, std::size_t letters, std::vector<render::DataRow>& rows);
