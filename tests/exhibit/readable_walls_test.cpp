@@ -323,8 +323,6 @@ TEST_P(ReadableWalls, HaveLargerLettersWhereTheyAreAskedFor) {
   EXPECT_GT(large.guidance_px, 1.3F * normal.guidance_px);
   EXPECT_GT(large.words_px, 1.2F * normal.words_px);
   EXPECT_GT(large.consent_px, 0.95F * normal.consent_px) << "the longest text of all fills its panel already";
-  std::printf("%s: guidance %.2f, words %.2f, consent %.2f\n", GetParam(), large.guidance_px / normal.guidance_px,
-              large.words_px / normal.words_px, large.consent_px / normal.consent_px);
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, ReadableWalls, ::testing::ValuesIn(kPresets));
