@@ -200,7 +200,7 @@ double alpha_of(const std::map<std::string, std::array<std::optional<double>, it
   return cronbach_alpha(people);
 }
 
-constexpr Interval kAnswers{0.0, 4.0};  // to the paper's questions
+constexpr Interval kAnswerScale{0.0, kSurveyHighest};  // of the paper's questions
 
 void add_survey(const StudyData& data, StudyResults& results) {
   const auto answers = newest_answers<8>(data, "paper-");
@@ -213,7 +213,7 @@ void add_survey(const StudyData& data, StudyResults& results) {
       if (given[i]) list.push_back(*given[i]);
     }
     const Summary summary = summary_of(list);
-    results.survey.push_back({summary, t_interval(summary).within(kAnswers),
+    results.survey.push_back({summary, t_interval(summary).within(kAnswerScale),
                               as_result("Welch t", welch_test(summary, printed_summary(survey_questions()[i])), "d")});
   }
   std::vector<double> differences;

@@ -111,16 +111,24 @@ bool for_each_line(const Canvas& canvas, const DataPanel& panel, float scale, co
   return fits;
 }
 
-// Nothing but words: in lines as large as the panel has room for.
-void paint_text(Canvas& canvas, const DataPanel& panel, float top, float room) {
-  constexpr float kSmaller = 0.97F, kLeast = 0.2F, kMostPitch = 84.0F;
-  float scale = 1.0F, lines = 0.0F;
-  while (true) {
-    lines = 0.0F;
+constexpr float kHeader = 150.0F, kBelowRows = 18.0F;  // of a data panel
+constexpr float kMostPitch = 84.0F;
+
+// So large that the lines of a panel with nothing but words fill it, its header with them.
+float text_scale(const Canvas& canvas, const DataPanel& panel) {
+  constexpr float kSmaller = 0.99F, kLeast = 0.2F;
+  float scale = 1.0F;
+  for (; scale > kLeast; scale *= kSmaller) {
+    float lines = 0.0F;
     const bool fits = for_each_line(canvas, panel, scale, [&](std::string_view) { lines += 1.0F; });
-    if (scale < kLeast || (fits && lines * words_line_mm() * scale <= room)) break;
-    scale *= kSmaller;
+    if (fits && scale * (kHeader + kBelowRows + lines * words_line_mm()) <= canvas.size_mm().y) break;
   }
+  return scale;
+}
+
+void paint_text(Canvas& canvas, const DataPanel& panel, float top, float room, float scale) {
+  float lines = 0.0F;
+  for_each_line(canvas, panel, scale, [&](std::string_view) { lines += 1.0F; });
   const float pitch = std::min(kMostPitch * scale, room / lines);
   for_each_line(canvas, panel, scale, [&](std::string_view line) {
     canvas.text({kMargin, top + 14.0F * scale}, TextStyle::Strong, palette::kInk, line, Align::Left, scale);
@@ -160,16 +168,18 @@ void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
 void paint(Canvas& canvas, const DataPanel& panel) {
   canvas.panel_background();
   const float width = canvas.size_mm().x - 2.0F * kMargin;
-  shrunk_text(canvas, {kMargin, 24.0F}, {TextStyle::Title, palette::kInk}, panel.title, width);
-  shrunk_text(canvas, {kMargin, 92.0F}, {TextStyle::Body, palette::kYellow}, panel.subtitle, width);
-  const float top = 150.0F;
+  const bool text = !panel.rows.empty() && std::all_of(panel.rows.begin(), panel.rows.end(), is_words);
+  const float scale = text ? text_scale(canvas, panel) : 1.0F;
+  shrunk_text(canvas, {kMargin, scale * 24.0F}, {TextStyle::Title, palette::kInk}, panel.title, width, scale);
+  shrunk_text(canvas, {kMargin, scale * 92.0F}, {TextStyle::Body, palette::kYellow}, panel.subtitle, width, scale);
+  const float top = scale * kHeader;
   canvas.line({kMargin, top}, {kMargin + width, top}, 2.0F, palette::kEdge);
   if (panel.rows.empty()) {
     return;
   }
-  const float room = canvas.size_mm().y - top - 18.0F;
-  if (std::all_of(panel.rows.begin(), panel.rows.end(), is_words)) return paint_text(canvas, panel, top, room);
-  const float pitch = std::min(84.0F, room / static_cast<float>(panel.rows.size()));
+  const float room = canvas.size_mm().y - top - scale * kBelowRows;
+  if (text) return paint_text(canvas, panel, top, room, scale);
+  const float pitch = std::min(kMostPitch, room / static_cast<float>(panel.rows.size()));
   for (std::size_t i = 0; i < panel.rows.size(); ++i) {
     const DataRow& row = panel.rows[i];
     const float at = top + pitch * static_cast<float>(i);
