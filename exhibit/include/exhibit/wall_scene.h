@@ -73,7 +73,6 @@ class WallScene {
 
   // The length that panels draw as a millimetre: of the layout, or more, so that texts and lines are larger.
   double panel_millimetre_m() const { return 1e-3 * text_size_ * unit_m(); }
-  double text_size() const { return text_size_; }
   void set_text_size(double times) { text_size_ = times; }  // before the first frame
 
   // Outward normal of the sample in the room, and its x axis, to the right; unit.
