@@ -13,9 +13,11 @@
 
 #include "app/command.h"
 #include "app/commands/view_command.h"
+#include "app/options/enum_option.h"
 #include "app/options/exhibit_options.h"
 #include "core/fnv1a.h"
 #include "core/log.h"
+#include "exhibit/lesson/age_band.h"
 #include "exhibit/lesson/data_set.h"
 #include "exhibit/lesson/lesson_file.h"
 #include "exhibit/lesson/lesson_run.h"
@@ -34,6 +36,7 @@ struct LessonOptions {
   std::string participant;
   std::string out;
   std::string withdrawn;
+  std::string age_band;
 };
 
 core::Result<void> check_usage(const LessonOptions& options) {
@@ -49,6 +52,9 @@ core::Result<void> check_usage(const LessonOptions& options) {
     return core::wrong_usage(
         fmt::format("--participant {}: write six capital letters that say nothing about the person, or sim:SEED",
                     options.participant));
+  }
+  if (simulated && !options.age_band.empty()) {
+    return core::wrong_usage("--age-band: a simulated participant has no age; leave it out");
   }
   if (simulated && !options.view.display.instructor.empty()) {
     return core::wrong_usage("--instructor: a simulated participant has no window to follow; leave it out");
@@ -134,6 +140,7 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
                                        .device = view.servo.haptic_device,
                                        .wall = view.files.wall.empty() ? "powerwall" : view.files.wall,
                                        .seed = seed_of(code, guided.lesson),
+                                       .age_band = options.age_band,
                                        .order = *order,
                                        .day = days.count()};
   const std::string participant = options.out + "/sub-" + code;
@@ -180,6 +187,9 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
   auto out = command.add_option("--out", options->out, "the study's folder, which is made if need be");
   out.type_name("DIR");
   participant.needs(out);
+  enum_option(command, "--age-band", options->age_band, "an age band", exhibit::kAgeBands, &exhibit::AgeBandRow::word,
+              &exhibit::AgeBandRow::word, "age of the participant in years, for the study; default: not given")
+      .needs(participant);
   auto withdraw =
       command.add_option("--withdraw", options->withdrawn, "delete the folder and the row of this participant");
   withdraw.type_name("CODE");

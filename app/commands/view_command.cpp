@@ -121,6 +121,12 @@ void add_picture_options(OptionList& command, ViewOptions& options) {
       "--high-contrast", [&options] { options.display.contrast = render::PanelContrast::High; },
       "draw the panels in white on opaque black, for people who see little");
   command
+      .add_option("--text-size", options.files.text_size,
+                  "how much larger the texts of the panels are, 1 to 1.5, as far as each panel has the room")
+      .within(1.0, exhibit::kLargestText)
+      .show_default()
+      .type_name("TIMES");
+  command
       .add_option("--eye-width", options.display.eye_width,
                   "width of each eye image in pixels, scaled to the window; default: the window's resolution")
       .within(64, 8192)

@@ -34,6 +34,7 @@ LiveLesson::LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::
 }
 
 void LiveLesson::update() {
+  run_.watch_time(now_s());
   exhibit::LessonPrompt next = run_.prompt(now_s());
   if (next.words != prompt_.words || next.progress != prompt_.progress) {
     const bool scale = is_scale(next);
@@ -70,6 +71,12 @@ core::Result<void> LiveLesson::keep(const exhibit::TrialRow& row) {
     if (*row.correct) ++right_;
   }
   return data_ ? data_->add(row) : core::Result<void>{};
+}
+
+void LiveLesson::sound_is_lost() {
+  if (!data_ || error_ || over() || std::exchange(sound_lost_noted_, true)) return;
+  core::log_line("lesson: the results say that there is no sound from now on");
+  if (auto noted = data_->note_sound_lost(run_.elapsed_s(now_s())); !noted) error_ = noted.error();
 }
 
 exhibit::InstructorState LiveLesson::instructor_state() const {
@@ -125,7 +132,7 @@ void LiveLesson::step(int steps) {
 bool LiveLesson::takes_hand() const { return prompt_.wants == Wants::Answer; }
 
 void LiveLesson::hand_moved(double height_m, std::uint64_t presses) {
-  if (!mark_.add(height_m, presses)) return;
+  if (!mark_.add(height_m, presses, now_s())) return;
   if (prompt_.wants == Wants::GoOn) run_.go_on(now_s());
   if (prompt_.wants == Wants::Answer && mark_.marked()) run_.answer(*mark_.marked(), now_s());
   acted();

@@ -66,6 +66,9 @@ class LiveLesson {
   // All of it but the hand.
   exhibit::InstructorState instructor_state() const;
 
+  // Sound was asked for, and there is none from now on: what is kept says so. Once a frame.
+  void sound_is_lost();
+
   // What this prompt leaves a participant: the scene on the wall, tones, the force.
   bool shows_scene() const;
   bool has_tones() const;
@@ -101,6 +104,7 @@ class LiveLesson {
   const core::Clock& clock_;
   std::optional<exhibit::DataSet> data_;
   std::optional<core::Error> error_;
+  bool sound_lost_noted_ = false;
   std::size_t right_ = 0, judged_ = 0;  // of the counted trials
   exhibit::LessonRun run_;
   exhibit::LessonPrompt prompt_;

@@ -39,6 +39,7 @@ class LiveSound {
 
   // Once a frame: whether the card is still there.
   void check_card();
+  bool lacks_card() const { return settings_.sound && !output_; }
 
   // Whether tones and signals are heard, where --sound asks for them; speech always is.
   void set_tones(bool heard);

@@ -244,7 +244,7 @@ void LiveView::stop_force() {
 // So that the tip follows the cursor.
 double LiveView::hand_m_per_px(std::size_t window) const {
   const WallPicture shown = picture_.picture(window);
-  const double stroke_m = exhibit::kStrokeHeight * 1e3 * stage_.wall_scene.panel_millimetre_m();
+  const double stroke_m = exhibit::kStrokeHeight * stage_.wall_scene.unit_m();
   return kDrawnHandM / stroke_m * shown.screen.height_m() / shown.place.size_px.y;
 }
 
@@ -311,7 +311,7 @@ exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) {
   now.wall.wand = wand_points() ? view_wand_.state() : wand_.towards(pointed.point_m, now_ns);
   now.wall.navigation = to_wall_ * view_wand_.navigation();
   now.guidance = guidance(stage_.phrases());
-  now.wall.cue = exhibit::jump_cue(servo_.events(), servo.tip().time_ns);
+  now.wall.cue = servo_.cues().at(servo.tip().time_ns);
   now.wall.centerpiece = travel_.orders() ? exhibit::Centerpiece::Journey
                          : analogy_       ? exhibit::Centerpiece::Analogy
                                           : exhibit::Centerpiece::Instrument;

@@ -41,6 +41,7 @@ void LiveView::follow_lesson(std::int64_t now_ns) {
     lesson_->hand_moved(glm::dot(place_m, glm::normalize(normal)), servo_.link().tip().presses);
   }
   lesson_->update();
+  if (sound_.lacks_card()) lesson_->sound_is_lost();
   sound_.set_tones(lesson_->has_tones());
   using Telling = exhibit::Narrator::Telling;
   const bool asks = lesson_->takes_hand() && hand() != HandSource::Simulated;

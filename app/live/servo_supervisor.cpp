@@ -84,9 +84,8 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         cycles_.add(event);
         recorder_.add(event);
         audience_.heard(event);
+        cues_.add(event);
         if (event.kind == physics::EventKind::Slip) return;  // many times a second
-        newest_event_ = event;
-        has_event_ = true;
         core::log_line(text_of(event));
         if (hears_jumps_) hears_jumps_(event);
       });

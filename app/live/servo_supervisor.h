@@ -12,6 +12,7 @@
 
 #include "exhibit/cycle_history.h"
 #include "exhibit/friction/friction_history.h"
+#include "exhibit/jump_cue.h"
 #include "servo/servo_client.h"
 #include "servo/session_folder.h"
 #include "servo/session_recorder.h"
@@ -64,8 +65,7 @@ class ServoSupervisor {
 
   const exhibit::CycleHistory& cycles() const { return cycles_; }
   const exhibit::FrictionHistory& friction() const { return friction_; }
-  // The newest jump, if there has been one.
-  std::span<const scene::TipEvent> events() const { return {&newest_event_, has_event_ ? 1U : 0U}; }
+  const exhibit::JumpCues& cues() const { return cues_; }
   void forget_cycles() {
     cycles_ = exhibit::CycleHistory(materials_);
     friction_ = {};
@@ -97,8 +97,7 @@ class ServoSupervisor {
   std::optional<servo::SessionFolder> folder_;
   servo::SessionRecorder recorder_;
   std::int64_t kept_ns_ = 0;  // when a part of the session was kept last
-  scene::TipEvent newest_event_;
-  bool has_event_ = false;
+  exhibit::JumpCues cues_;
   scene::ServoState logged_state_ = scene::ServoState::Disarmed;
 };
 

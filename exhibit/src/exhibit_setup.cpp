@@ -124,6 +124,7 @@ core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
   if (!own) return tl::unexpected(own.error());
   auto wall_scene = WallScene::load(files.assets_dir, *materials, place, phrases->wall, *own);
   if (!wall_scene) return tl::unexpected(wall_scene.error());
+  wall_scene->set_text_size(files.text_size);
   return Stage{std::move(*materials),  std::move(*wall),           place.main, *eyes,
                std::move(*wall_scene), std::move(phrases->english)};
 }

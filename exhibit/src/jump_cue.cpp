@@ -2,6 +2,7 @@
 #include "exhibit/jump_cue.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace afm::exhibit {
 
@@ -12,16 +13,32 @@ constexpr glm::vec3 kInColor(0.25F, 1.1F, 2.0F), kOffColor(2.2F, 0.75F, 0.05F);
 
 }  // namespace
 
-std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::int64_t now_ns) {
-  auto later = std::upper_bound(events.begin(), events.end(), now_ns,
-                                [](std::int64_t t, const scene::TipEvent& e) { return t < e.time_ns; });
-  // a slip is felt many times a second: nothing that may flash
-  while (later != events.begin() && (later - 1)->kind == physics::EventKind::Slip) --later;
-  if (later == events.begin()) return std::nullopt;
-  const scene::TipEvent& newest = *(later - 1);
-  const double age_s = static_cast<double>(now_ns - newest.time_ns) * 1e-9;
+void JumpCues::add(const scene::TipEvent& event) {
+  if (event.kind == physics::EventKind::Slip) return;
+  if (next_ && next_->since_ns <= event.time_ns) shown_ = std::exchange(next_, std::nullopt);
+  if (!shown_ || event.time_ns - shown_->since_ns >= kLeastNs) {
+    shown_ = {event.kind, event.time_ns};
+    next_.reset();
+  } else {
+    next_ = {event.kind, shown_->since_ns + kLeastNs};
+  }
+}
+
+std::optional<JumpCue> JumpCues::at(std::int64_t now_ns) const {
+  const std::optional<Shown>& shown = next_ && next_->since_ns <= now_ns ? next_ : shown_;
+  if (!shown || now_ns < shown->since_ns) return std::nullopt;
+  const double age_s = static_cast<double>(now_ns - shown->since_ns) * 1e-9;
   if (age_s > kCueSeconds) return std::nullopt;
-  return JumpCue{newest.kind, age_s};
+  return JumpCue{shown->kind, age_s};
+}
+
+std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::int64_t now_ns) {
+  JumpCues cues;
+  for (const scene::TipEvent& event : events) {
+    if (event.time_ns > now_ns) break;
+    cues.add(event);
+  }
+  return cues.at(now_ns);
 }
 
 CueRing cue_ring(const JumpCue& cue) {

@@ -185,7 +185,7 @@ std::vector<dmat4> WallScene::node_transforms(const WallState& state) const {
   return compose(local_transforms(state, bend));
 }
 
-double WallScene::panel_millimetre_m() const { return 1e-3 * glm::length(dvec3(room_from_layout_[0])); }
+double WallScene::unit_m() const { return glm::length(dvec3(room_from_layout_[0])); }
 
 std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) const {
   using enum Centerpiece;

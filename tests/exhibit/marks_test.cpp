@@ -52,6 +52,23 @@ TEST(JumpCue, LastsHalfASecondFromTheNewestJump) {
   EXPECT_FALSE(jump_cue({}, 5));
 }
 
+TEST(JumpCue, OfATipThatChattersChangesThreeTimesASecondAndEndsWithTheLastJump) {
+  using enum physics::EventKind;
+  std::vector<scene::TipEvent> events;
+  for (int i = 0; i < 200; ++i) events.push_back(event(i % 2 == 0 ? JumpToContact : JumpOffContact, i * 25'000'000LL));
+  std::vector<std::int64_t> began_ns;
+  double before_s = kCueSeconds;
+  for (std::int64_t now_ns = 0; now_ns < 5'400'000'000; now_ns += 5'000'000) {
+    const auto cue = jump_cue(events, now_ns);
+    if (cue && cue->age_s < before_s) began_ns.push_back(now_ns);
+    before_s = cue ? cue->age_s : kCueSeconds;
+  }
+  ASSERT_GT(began_ns.size(), 10U);
+  for (std::size_t i = 3; i < began_ns.size(); ++i) EXPECT_GE(began_ns[i] - began_ns[i - 3], 1'000'000'000);
+  ASSERT_TRUE(jump_cue(events, 5'300'000'000));
+  EXPECT_EQ(jump_cue(events, 5'300'000'000)->kind, JumpOffContact);
+}
+
 TEST(JumpCue, ClosesInOnAJumpToContactAndSpreadsFromAJumpOff) {
   using enum physics::EventKind;
   for (double age_s = 0.0; age_s + 0.05 <= kCueSeconds; age_s += 0.05) {

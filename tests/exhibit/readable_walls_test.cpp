@@ -25,6 +25,8 @@
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/friction/friction_panel.h"
 #include "exhibit/guidance.h"
+#include "exhibit/lesson/lesson_panel.h"
+#include "exhibit/lesson/questionnaire.h"
 #include "exhibit/parameter_panel.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
@@ -55,6 +57,7 @@ struct Painted {
   glm::vec2 size{0.0F};
   bool cut = false;              // there is an ellipsis
   float state_height_px = 0.0F;  // of the plate around the state's word
+  float letter_px = 0.0F;        // height of its letters, on average
 
   bool inside(float slack = 1.0F) const {
     return low.x >= -slack && low.y >= -slack && high.x <= size.x + slack && high.y <= size.y + slack;
@@ -96,11 +99,25 @@ class Painter {
       bottom = std::max(bottom, vertex.pos.y);
     }
     painted.state_height_px = 0.5F * (bottom - top);
+    painted.letter_px = 0.5F * mean_letter(list);
     ImGui::Render();
     return painted;
   }
 
  private:
+  // Letters are the rectangles that take both directions of the atlas.
+  static float mean_letter(const ImDrawList& list) {
+    float sum = 0.0F;
+    int letters = 0;
+    for (int i = 0; i + 3 < list.VtxBuffer.Size; ++i) {
+      const ImDrawVert &a = list.VtxBuffer[i], &b = list.VtxBuffer[i + 1], &c = list.VtxBuffer[i + 2];
+      if (a.uv.y != b.uv.y || a.uv.x == b.uv.x || b.uv.x != c.uv.x || b.uv.y == c.uv.y) continue;
+      sum += c.pos.y - a.pos.y;
+      ++letters;
+    }
+    return letters > 0 ? sum / static_cast<float>(letters) : 0.0F;
+  }
+
   bool is_ellipsis(const ImVec2& uv) const {
     constexpr ImWchar kEllipsis = 0x2026;
     return std::any_of(fonts_.fonts.begin(), fonts_.fonts.end(), [&](ImFont* font) {
@@ -174,6 +191,25 @@ render::ForcePanel full_friction_loop(physics::FrictionLaw law, const Phrases& p
   return friction_panel(history, law, phrases);
 }
 
+// The questions of a lesson with most words and most answers.
+std::vector<LessonPrompt> full_prompts(const Phrases& phrases) {
+  LessonPrompt consent;
+  consent.wants = LessonPrompt::Wants::Answer;
+  consent.title = phrases[Phrase::AllKeys];
+  consent.words = phrases[Phrase::LessonConsent];
+  consent.progress =
+      phrases.text<Phrase::LessonStep>("12", "12") + " \u00b7 " + phrases.text<Phrase::LessonPractice>("12", "12");
+  consent.answers = {phrases[Phrase::LessonConsentYes], phrases[Phrase::LessonConsentNo]};
+  LessonPrompt draw = consent;
+  draw.words = phrases[Phrase::LessonBreak];
+  draw.hint = phrases[Phrase::DrawPart1];
+  draw.answers.clear();
+  for (std::size_t i = 0; i < 5; ++i) draw.answers.push_back(phrases[after(Phrase::DrawShape1, i)]);
+  LessonPrompt scale = consent;
+  scale.answers = answers_of(Questionnaire::Tlx, phrases);
+  return {consent, draw, scale};
+}
+
 // What a visitor can see on one wall in one language, at one width.
 void expect_readable(const Stage& stage, const render::FrameState& frame, std::uint32_t width_px,
                      const std::string& where) {
@@ -200,6 +236,15 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   expect_whole(full_parameters(stage), stage.wall_scene.parameter_placement(), "the parameters");
   for (const auto law : {physics::FrictionLaw::None, physics::FrictionLaw::Lattice}) {
     expect_whole(full_friction_loop(law, phrases), stage.wall_scene.parameter_placement(), "the friction loop");
+  }
+  for (const LessonPrompt& prompt : full_prompts(phrases)) {
+    const auto targets = lesson_targets(prompt, std::nullopt, phrases);
+    const LessonPlaces places = lesson_places(stage.wall_scene.parameter_placement(), targets.size());
+    expect_whole(lesson_panel(prompt, phrases), places.words, "the words of a lesson");
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      expect_whole(render::Label{.text = targets[i].text, .highlighted = false, .placement = places.targets[i]},
+                   places.targets[i], targets[i].text.c_str());
+    }
   }
   const LiveScan scan = full_scan(stage);
   expect_whole(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.force_placement, "the images");
@@ -236,14 +281,48 @@ TEST_P(ReadableWalls, CutNoWordAndShowTheStateOnPicturesOfEverySizeInEveryLangua
     files.wall = fmt::format("{}/walls/{}.toml", files.assets_dir, GetParam());
     files.language = language;
     files.guidance = own;
-    const auto stage = load_exhibit(files);
+    auto stage = load_exhibit(files);
     ASSERT_TRUE(stage) << stage.error().message;
     const render::FrameState frame = app::wall_subject(*stage, 64, app::WallMotion::Tip).value().frames.back();
+    const std::string name = own.empty() ? language : "pseudo";
     for (const std::uint32_t width_px : kWidthsPx) {
-      expect_readable(*stage, frame, width_px,
-                      fmt::format("{} at {} pixels, {}", GetParam(), width_px, own.empty() ? language : "pseudo"));
+      expect_readable(*stage, frame, width_px, fmt::format("{} at {} pixels, {}", GetParam(), width_px, name));
     }
+    stage->wall_scene.set_text_size(kLargestText);
+    expect_readable(*stage, frame, 1280, fmt::format("{} with large texts, {}", GetParam(), name));
   }
+}
+
+TEST_P(ReadableWalls, HaveLargerLettersWhereTheyAreAskedFor) {
+  ExhibitFiles files;
+  files.assets_dir = AFM_SOURCE_DIR "/assets";
+  files.wall = fmt::format("{}/walls/{}.toml", files.assets_dir, GetParam());
+  struct Letters {
+    float guidance_px = 0.0F, words_px = 0.0F, consent_px = 0.0F;
+  };
+  const auto letters_at = [&](double text_size) {
+    files.text_size = text_size;
+    const auto stage = load_exhibit(files).value();
+    Painter painter(2.0 * 1280 / stage.screen.width_m(), stage.wall_scene.panel_millimetre_m());
+    const render::FrameState frame = app::wall_subject(stage, 64, app::WallMotion::Tip).value().frames.back();
+    const auto words_px = [&](const LessonPrompt& prompt) {
+      const std::size_t targets = lesson_targets(prompt, std::nullopt, stage.phrases()).size();
+      const LessonPlaces places = lesson_places(stage.wall_scene.parameter_placement(), targets);
+      return painter.paint(lesson_panel(prompt, stage.phrases()), places.words).letter_px;
+    };
+    LessonPrompt consent = full_prompts(stage.phrases()).front(), cycle;
+    cycle.wants = LessonPrompt::Wants::Cycle;
+    cycle.words = "Lift the tip, press Turn-On, and lower it until it snaps to the surface.";
+    render::Banner banner = frame.banner;
+    banner.guidance = "Lower the tip";
+    banner.scale.clear();
+    banner.state_word.clear();
+    return Letters{painter.paint(banner, frame.banner_placement).letter_px, words_px(cycle), words_px(consent)};
+  };
+  const Letters normal = letters_at(1.0), large = letters_at(kLargestText);
+  EXPECT_GT(large.guidance_px, 1.3F * normal.guidance_px);
+  EXPECT_GT(large.words_px, 1.2F * normal.words_px);
+  EXPECT_GT(large.consent_px, 0.93F * normal.consent_px) << "it fills its panel already, and only the margins grow";
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, ReadableWalls, ::testing::ValuesIn(kPresets));

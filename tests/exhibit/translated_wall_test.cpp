@@ -23,6 +23,7 @@
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/guidance.h"
+#include "exhibit/lesson/instructor_page.h"
 #include "exhibit/parameter_panel.h"
 #include "exhibit/servo_rows.h"
 #include "places.h"
@@ -209,6 +210,25 @@ TEST_F(TranslatedWall, HasNoEnglishWordOnItsPanels) {
     check(frame.calibration.legend);
     check(frame.calibration.ruler);
   }
+}
+
+TEST_F(TranslatedWall, HasNoEnglishWordOnTheInstructorsPage) {
+  InstructorState state;
+  for (const auto wants : core::kEnumerators<LessonPrompt::Wants>) {
+    state.prompt.wants = wants;
+    state.prompt.in_step = wants != LessonPrompt::Wants::Nothing;
+    for (const scene::ServoState hand : core::kEnumerators<scene::ServoState>) {
+      state.hand = hand;
+      for (const bool asked : {false, true}) {
+        state.hand_off = state.stop_asked = asked;
+        state.judged = asked ? 4 : 0;
+        const render::FrameState page = InstructorPage(16.0 / 9.0).frame(state, std::nullopt, phrases());
+        check(page.data_panel);
+        for (const render::Label& target : page.labels) check(target.text);
+      }
+    }
+  }
+  EXPECT_GT(checked_, 500U);
 }
 
 TEST_F(TranslatedWall, HasNoEnglishWordInItsReport) {

@@ -139,6 +139,18 @@ TEST(ServoLoop, GivesForceOnlyWhileTurnOnIsHeldWithADeadMan) {
   EXPECT_EQ(state.fault, FaultCode::DeadManReleased);
 }
 
+TEST(ServoLoop, CountsEachPressOfTurnOnOnceHoweverLongItIsHeld) {
+  ServoBench bench;
+  for (std::uint64_t press = 1; press <= 3; ++press) {
+    bench.aim(ServoBench::kTop, 0.0, true);
+    bench.run(press == 2 ? 1.0 : 0.002);
+    EXPECT_EQ(bench.state().presses, press) << "while it is held";
+    bench.aim(ServoBench::kTop, 0.0);
+    bench.run(0.002);
+    EXPECT_EQ(bench.state().presses, press) << "after it was released";
+  }
+}
+
 TEST(ServoLoop, GivesNoForceBeforeTurnOn) {
   ServoBench bench;
   bench.choose(kMica);

@@ -21,11 +21,6 @@ namespace {
 using scene::EyeOrder;
 using scene::StereoMode;
 
-std::array<int, 3> rgb_at(const render::Image& image, unsigned x, unsigned y) {
-  const Pixel p = pixel(image, x, y);
-  return {p.r, p.g, p.b};
-}
-
 constexpr unsigned kWallPx = 320, kHighPx = 192;
 constexpr int kFrustumSteps = 2;  // as between a tile and a whole wall
 

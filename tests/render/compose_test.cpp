@@ -19,10 +19,7 @@ constexpr std::array kOrders{EyeOrder::Straight, EyeOrder::Swapped};
 
 class Compose : public VulkanTest {
  protected:
-  static std::array<int, 3> rgb(const render::Image& image, glm::uvec2 at) {
-    const Pixel p = pixel(image, at.x, at.y);
-    return {p.r, p.g, p.b};
-  }
+  static std::array<int, 3> rgb(const render::Image& image, glm::uvec2 at) { return rgb_at(image, at.x, at.y); }
 
   void render(render::PassMode passes = render::PassMode::Multiview) {
     renderer_.emplace(make_renderer(test_.scene, small(4, passes)));

@@ -19,11 +19,6 @@ namespace {
 using scene::EyeOrder;
 using scene::StereoMode;
 
-std::array<int, 3> rgb_at(const render::Image& image, unsigned x, unsigned y) {
-  const Pixel p = pixel(image, x, y);
-  return {p.r, p.g, p.b};
-}
-
 using PlaceOfPicture = std::function<glm::dvec2(const glm::dvec2& output)>;
 
 std::shared_ptr<const scene::WarpMesh> mesh_of(std::uint32_t columns, std::uint32_t rows, const PlaceOfPicture& place,

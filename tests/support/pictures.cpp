@@ -43,6 +43,11 @@ Pixel pixel(const render::Image& image, std::uint32_t x, std::uint32_t y) {
   return {image.rgba.at(i), image.rgba.at(i + 1), image.rgba.at(i + 2)};
 }
 
+std::array<int, 3> rgb_at(const render::Image& image, std::uint32_t x, std::uint32_t y) {
+  const Pixel p = pixel(image, x, y);
+  return {p.r, p.g, p.b};
+}
+
 std::optional<glm::dvec2> centroid(const render::Image& image, const std::function<double(const Pixel&)>& weight) {
   glm::dvec2 sum(0.0);
   double total = 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <glm/vec2.hpp>
@@ -16,6 +17,7 @@ struct Pixel {
   int r = 0, g = 0, b = 0;
 };
 Pixel pixel(const render::Image& image, std::uint32_t x, std::uint32_t y);
+std::array<int, 3> rgb_at(const render::Image& image, std::uint32_t x, std::uint32_t y);
 
 // Middle of the pixels weighted by `weight`, in pixels from the top left corner; nothing if no pixel weighs anything.
 std::optional<glm::dvec2> centroid(const render::Image& image, const std::function<double(const Pixel&)>& weight);

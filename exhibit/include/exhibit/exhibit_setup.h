@@ -35,10 +35,14 @@ inline constexpr std::array kLanguages{LanguageRow{"en", "English"}, LanguageRow
 std::string language_of_locale(std::span<const std::string> values);
 
 // The files that a picture of the wall is made of.
+// Beyond it panels have no room for their words.
+inline constexpr double kLargestText = 1.5;
+
 struct ExhibitFiles {
   std::string assets_dir;
   std::string wall;                // empty: the paper's wall in the assets
   std::optional<double> aspect{};  // width to height of the picture, which the paper's wall takes on
+  double text_size = 1.0;          // 1 to kLargestText: how much larger panels are drawn, where they have the room
   std::string language = "en";     // a row of kLanguages
   std::string guidance;            // a phrase file of the user's own on top of it; empty: none
   std::string materials;           // a file of the user's own; empty: none

@@ -19,7 +19,26 @@ struct JumpCue {
   double age_s = 0;  // 0 to kCueSeconds
 };
 
-// The newest of the events, which stand in the order of their times, if it is young enough at `now_ns`.
+// The jump that is shown: the newest one, but none gives way to the next before kLeastNs, so that a tip that chatters
+// does not flash more than three times a second (WCAG 2.3.1). One thread.
+class JumpCues {
+ public:
+  static constexpr std::int64_t kLeastNs = 400'000'000;
+
+  // Every event, in the order of their times. Slips are many times a second, and not shown.
+  void add(const scene::TipEvent& event);
+
+  std::optional<JumpCue> at(std::int64_t now_ns) const;
+
+ private:
+  struct Shown {
+    physics::EventKind kind = physics::EventKind::JumpToContact;
+    std::int64_t since_ns = 0;
+  };
+  std::optional<Shown> shown_, next_;
+};
+
+// What they show of these events, which stand in the order of their times.
 std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::int64_t now_ns);
 
 // The ring of light that shows it: told apart by the way that it goes, not by its colour alone. A jump to contact

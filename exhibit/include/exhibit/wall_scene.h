@@ -68,8 +68,12 @@ class WallScene {
   // The contact point, in the wall's plane as long as nothing has been moved.
   glm::dvec3 contact_m() const { return glm::dvec3(room_from_layout_[3]); }
 
-  // The length that panels draw as a millimetre, so that they look the same on every wall.
-  double panel_millimetre_m() const;
+  // The length of what the layout has as a metre, so that every wall looks the same.
+  double unit_m() const;
+
+  // The length that panels draw as a millimetre: of the layout, or more, so that texts and lines are larger.
+  double panel_millimetre_m() const { return 1e-3 * text_size_ * unit_m(); }
+  void set_text_size(double times) { text_size_ = times; }  // before the first frame
 
   // Outward normal of the sample in the room, and its x axis, to the right; unit.
   glm::dvec3 sample_normal() const;
@@ -168,6 +172,7 @@ class WallScene {
   // origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre
   glm::dmat4 room_from_layout_{1.0};
   glm::dmat4 room_from_wall_{1.0};  // the same, with y along the main screen: another only where that lies flat
+  double text_size_ = 1.0;
   WallShape shape_;
   double half_width_ = 0;  // of the composition, in layout units
   double wall_top_ = 0;

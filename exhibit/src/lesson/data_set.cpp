@@ -62,7 +62,7 @@ constexpr std::array kParticipantRows{
     ColumnRow{"participant_id", "sub- and the participant's code of six letters", nullptr, nullptr},
     ColumnRow{"order", "place in the study from 0; modulo the number of orders it is the row of the Williams design",
               nullptr, nullptr},
-    ColumnRow{"age_band", "age in years, as a band", nullptr, nullptr},
+    ColumnRow{"age_band", "age in years, as a band", nullptr, "under-14 14-17 18-24 25-39 40-59 60-or-more"},
     ColumnRow{"comfort", "how the participant's newest lesson ended", nullptr, "finished stopped withdrew"}};
 
 ordered_json described(std::span<const ColumnRow> columns) {
@@ -267,10 +267,12 @@ core::Result<DataSet> DataSet::create(const Lesson& lesson, const DataSetEntry& 
     data.order_ = entry.order.value_or(free_order(*participants));
     participants->push_back({.id = "sub-" + entry.code, .order = data.order_});
   }
+  if (!entry.age_band.empty()) find_participant(*participants, entry.code)->age_band = entry.age_band;
   const auto day = started_day(data.folder_, entry.day);
   if (!day) return tl::unexpected(day.error());
   if (auto saved = save_participants(data.folder_, *participants); !saved) return tl::unexpected(saved.error());
-  auto written = core::write_file(task + "_events.json", events_json(lesson, entry, *day));
+  data.description_path_ = task + "_events.json";
+  auto written = core::write_file(data.description_path_, events_json(lesson, entry, *day));
   if (!written) return tl::unexpected(written.error());
   data.events_ = core::FileDescriptor(
       ::open(data.events_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_NOFOLLOW | O_CLOEXEC, kEventsMode));
@@ -285,6 +287,17 @@ core::Result<void> DataSet::add(const TrialRow& row) {
   const int error = core::write_all(events_.get(), line_of(row));
   if (error != 0) return tl::unexpected(failed("write", events_path_, error));
   return {};
+}
+
+core::Result<void> DataSet::note_sound_lost(double onset_s) {
+  const auto text = core::read_file(description_path_);
+  if (!text) return tl::unexpected(text.error());
+  ordered_json json = ordered_json::parse(*text, nullptr, false);
+  if (!json.is_object() || !json["Lesson"].is_object()) {
+    return core::failure(core::ErrorCategory::BadInputFile, description_path_ + ": is no longer the lesson's JSON");
+  }
+  json["Lesson"]["sound_lost_s"] = onset_s;
+  return core::write_file(description_path_, json.dump(2) + "\n");
 }
 
 core::Result<void> DataSet::finish(LessonEnd end) {

@@ -12,6 +12,7 @@ namespace {
 constexpr double kWayM = 0.080;       // of the hand, through all answers: what small devices have
 constexpr double kShortestM = 0.004;  // of a step, well above a hand's tremor
 constexpr double kLongestM = 0.015;
+constexpr double kTurnS = 0.35;  // from a step to one back
 
 }  // namespace
 
@@ -21,14 +22,18 @@ void HandAnswer::ask(std::size_t answers, Layout layout, std::optional<std::size
   step_m_ = std::clamp(kWayM / static_cast<double>(std::max<std::size_t>(answers, 1)), kShortestM, kLongestM);
   marked_ = marked;
   from_m_.reset();
+  went_down_.reset();
 }
 
-bool HandAnswer::add(double height_m, std::uint64_t presses) {
+bool HandAnswer::add(double height_m, std::uint64_t presses, double now_s) {
   // who presses means the mark of the last frame, wherever the hand has gone since
   if (std::exchange(presses_, presses).value_or(presses) != presses) return true;
   if (!from_m_) from_m_ = height_m;
   while (answers_ > 0 && std::abs(height_m - *from_m_) >= step_m_) {
     const bool down = height_m < *from_m_;
+    if (went_down_.value_or(down) != down && now_s - moved_s_ < kTurnS) break;
+    went_down_ = down;
+    moved_s_ = now_s;
     *from_m_ += down ? -step_m_ : step_m_;
     move(down);
   }

@@ -86,6 +86,7 @@ class IdentifyActivity final : public StepActivity {
     began_s_ = now_s;
   }
   bool done() const override { return count_.done(); }
+  bool may_pause() const override { return !felt_; }
 
  private:
   std::string title(std::size_t material) const {
@@ -159,6 +160,7 @@ class ThresholdActivity final : public StepActivity {
     began_s_ = now_s;
   }
   bool done() const override { return count_.done(); }
+  bool may_pause() const override { return felt_ == 0; }
 
  private:
   const ThresholdPlan& plan() const { return context_.step.threshold; }
@@ -237,6 +239,7 @@ class DrawActivity final : public StepActivity {
     context_.random.shuffle(std::span<std::size_t>(shapes_));
   }
   bool done() const override { return count_.done(); }
+  bool may_pause() const override { return part_ == 0; }
 
  private:
   StepContext context_;

@@ -11,10 +11,9 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr std::size_t kLineLetters = 42;  // of a panel, so that its letters keep their size
-constexpr double kTargetsShare = 0.5;     // of the panel's height, at most
-constexpr double kTargetShare = 0.14;     // of one target, at most
-constexpr double kGapShare = 0.08;        // of a target, between two
+constexpr double kTargetsShare = 0.5;  // of the panel's height, at most
+constexpr double kTargetShare = 0.14;  // of one target, at most
+constexpr double kGapShare = 0.08;     // of a target, between two
 
 std::size_t letters_of(std::string_view text) {
   return static_cast<std::size_t>(
@@ -58,11 +57,10 @@ std::vector<LessonTarget> lesson_targets(const LessonPrompt& prompt, std::option
 
 render::DataPanel lesson_panel(const LessonPrompt& prompt, const Phrases& phrases) {
   render::DataPanel panel{.title = prompt.title, .subtitle = prompt.progress, .rows = {}};
-  add_lines(prompt.words, kLineLetters, panel.rows);
-  add_lines(prompt.hint, kLineLetters, panel.rows);
+  if (!prompt.words.empty()) panel.rows.push_back({prompt.words, "", ""});
+  if (!prompt.hint.empty()) panel.rows.push_back({prompt.hint, "", ""});
   if (prompt.wants == LessonPrompt::Wants::Answer) {
-    add_lines(phrases[is_scale(prompt) ? Phrase::LessonPressScale : Phrase::LessonPressNumber], kLineLetters,
-              panel.rows);
+    panel.rows.push_back({phrases[is_scale(prompt) ? Phrase::LessonPressScale : Phrase::LessonPressNumber], "", ""});
   }
   return panel;
 }

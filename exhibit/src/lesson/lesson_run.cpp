@@ -12,6 +12,8 @@ namespace afm::exhibit {
 namespace {
 
 constexpr double kMinuteS = 60;
+constexpr double kLongestTrialS = 120;  // beyond the time of the break, which then cuts the trial
+constexpr double kTooEarlyS = 2;  // for an answer to a break that came uncalled: it was meant for what was shown before
 
 using MakeActivity = std::unique_ptr<StepActivity> (*)(const StepContext& context, double now_s);
 struct ActivityRow {
@@ -96,7 +98,6 @@ core::Result<void> LessonRun::keep(TrialRow row) {
   row.step = lesson_.steps[task.step].id;
   row.kind = lesson_.steps[task.step].kind;
   row.condition = task.condition;
-  trial_over_ = true;
   return sink_(row);
 }
 
@@ -146,6 +147,11 @@ void LessonRun::happened(const scene::TipEvent& event, double now_s) {
   follow(now_s);
 }
 
+void LessonRun::watch_time(double now_s) {
+  if (end_ || error_ || stage_ != Stage::Steps) return;
+  if (offer_break_where_due(now_s)) break_answers_from_s_ = now_s + kTooEarlyS;
+}
+
 void LessonRun::go_on(double now_s) {
   if (end_ || error_ || stage_ != Stage::Steps) return;
   activity_->go_on(now_s);
@@ -158,6 +164,7 @@ void LessonRun::answer(std::size_t answer, double now_s) {
     activity_->answer(answer, now_s);
     return follow(now_s);
   }
+  if (now_s < break_answers_from_s_) return;
   const bool yes = answer == 0;
   const bool consent = std::exchange(stage_, Stage::Steps) == Stage::Consent;
   stretch_began_s_ = now_s;
@@ -195,14 +202,18 @@ void LessonRun::follow(double now_s) {
     end_ = LessonEnd::Stopped;
     return;
   }
-  const bool trial_over = std::exchange(trial_over_, false);
   if (activity_->done()) {
     ++task_;
     begin_task(now_s);
-  } else if (!trial_over) {
-    return;
   }
-  if (!end_ && now_s - stretch_began_s_ >= kMostLessonMinutes * kMinuteS) stage_ = Stage::Break;
+  if (!end_) offer_break_where_due(now_s);
+}
+
+bool LessonRun::offer_break_where_due(double now_s) {
+  const double late_s = now_s - stretch_began_s_ - kMostLessonMinutes * kMinuteS;
+  if (late_s < 0.0 || snapped_in_ || (late_s < kLongestTrialS && !activity_->may_pause())) return false;
+  stage_ = Stage::Break;
+  return true;
 }
 
 }  // namespace afm::exhibit

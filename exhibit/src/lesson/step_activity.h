@@ -41,6 +41,7 @@ class StepActivity {
   virtual void felt(const FeltCycle&, double) {}
   virtual void reset(double now_s) = 0;  // the trial under way
   virtual bool done() const = 0;
+  virtual bool may_pause() const { return true; }   // nothing of a trial would be lost if it began again
   virtual bool says_stop() const { return false; }  // the participant had better end here
 };
 

@@ -49,9 +49,9 @@ Interval t_interval(const Summary& summary) {
   return {summary.mean - half, summary.mean + half};
 }
 
-Estimate mean_estimate(std::span<const double> values) {
+Estimate mean_estimate(std::span<const double> values, const Interval& scale) {
   const Summary summary = summary_of(values);
-  return {summary.n, summary.mean, t_interval(summary)};
+  return {summary.n, summary.mean, t_interval(summary).within(scale)};
 }
 
 Interval standardised_interval(double t, double degrees, double scale) {

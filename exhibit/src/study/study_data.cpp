@@ -14,6 +14,7 @@
 
 #include "core/printable.h"
 #include "core/whole_file.h"
+#include "exhibit/lesson/age_band.h"
 #include "study/study_table.h"
 
 namespace afm::exhibit {
@@ -48,6 +49,10 @@ bool is_person(std::string_view id) {
   constexpr std::size_t kLetters = 6;
   return id.starts_with(kPersonPrefix) && id.size() == kPersonPrefix.size() + kLetters &&
          std::all_of(id.begin() + kPersonPrefix.size(), id.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
+}
+
+bool is_age_band(std::string_view text) {
+  return std::any_of(kAgeBands.begin(), kAgeBands.end(), [&](const AgeBandRow& band) { return band.word == text; });
 }
 
 // Names in a folder that begin and end so, sorted; nothing where it cannot be read.
@@ -103,6 +108,10 @@ core::Result<LessonVisit> read_visit(const std::string& folder, const std::strin
   auto facts = parse_lesson_facts(*text, folder + "/" + description);
   if (!facts) return tl::unexpected(facts.error());
   visit.facts = std::move(*facts);
+  if (visit.facts.sound_lost_s) {
+    data.remarks.push_back(fmt::format("{}: without sound from {:.0f} s on; the trials since then count", description,
+                                       *visit.facts.sound_lost_s));
+  }
   return visit;
 }
 
@@ -143,14 +152,16 @@ core::Result<PeopleFile> parse_people(std::string_view bytes, const std::string&
     if (!is_person(fields[0])) return table->bad(row, "participant_id is not sub- and six capital letters");
     if (!ids.insert(fields[0]).second) return table->bad(row, "this participant is there twice");
     if (!order || *order != std::floor(*order)) return table->bad(row, "order is not a whole number from 0");
-    if (fields[2].size() > 32) return table->bad(row, "age_band is longer than 32 bytes");
+    if (!fields[2].empty() && !is_age_band(fields[2])) {
+      return table->bad(row, "age_band is none of those that touchafm lesson --age-band takes, nor n/a");
+    }
     if (!fields[3].empty() && std::find(kComforts.begin(), kComforts.end(), fields[3]) == kComforts.end()) {
       return table->bad(row, "comfort is none of finished, stopped, withdrew and n/a");
     }
     if (ids.size() > kMostPeople) return table->bad(row, fmt::format("more than {} participants", kMostPeople));
     file.people.push_back({.id = std::string(fields[0]),
                            .order = static_cast<std::size_t>(*order),
-                           .age_band = printable(fields[2]),
+                           .age_band = std::string(fields[2]),
                            .comfort = std::string(fields[3])});
   }
   return file;
@@ -161,6 +172,11 @@ core::Result<LessonFacts> parse_lesson_facts(std::string_view bytes, const std::
   if (!json.is_object()) return bad_file(name, "it is no JSON object");
   const auto lesson = json.find("Lesson");
   if (lesson == json.end() || !lesson->is_object()) return bad_file(name, "there is no table \"Lesson\"");
+  const auto lost = lesson->find("sound_lost_s");
+  const bool has_lost = lost != lesson->end();
+  if (has_lost && !(lost->is_number() && lost->get<double>() >= 0.0)) {
+    return bad_file(name, "sound_lost_s is not a number from 0");
+  }
   return LessonFacts{.id = text_in(*lesson, "id"),
                      .title = text_in(*lesson, "title"),
                      .digest = text_in(*lesson, "digest"),
@@ -168,7 +184,8 @@ core::Result<LessonFacts> parse_lesson_facts(std::string_view bytes, const std::
                      .device = text_in(*lesson, "device"),
                      .scale = text_in(*lesson, "scale"),
                      .wall = text_in(*lesson, "wall"),
-                     .simulated = lesson->contains("observer")};
+                     .simulated = lesson->contains("observer"),
+                     .sound_lost_s = has_lost ? std::optional(lost->get<double>()) : std::nullopt};
 }
 
 core::Result<StudyData> read_study(const std::string& folder) {

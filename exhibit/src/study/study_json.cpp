@@ -143,6 +143,7 @@ std::string study_json(const StudyResults& results) {
   const auto test = [](const TestResult& each) { return json_of(each); };
   const Json root{{"listed", results.listed},
                   {"participants", results.people},
+                  {"ages", results.ages},
                   {"left_out", results.left_out},
                   {"remarks", results.remarks},
                   {"lessons", array_of(results.lessons, lesson_json)},

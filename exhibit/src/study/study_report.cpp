@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "exhibit/lesson/age_band.h"
 #include "exhibit/study/survey_report.h"
 #include "study/study_page.h"
 
@@ -18,12 +19,25 @@ void append_blocks(std::vector<PageBlock>& page, std::vector<PageBlock> more) {
   for (PageBlock& block : more) page.push_back(std::move(block));
 }
 
+std::string ages_text(const StudyResults& results) {
+  std::string text = "Ages in years:";
+  std::size_t given = 0;
+  for (const AgeBandRow& band : kAgeBands) {
+    const auto found = results.ages.find(std::string(band.word));
+    if (found == results.ages.end()) continue;
+    given += found->second;
+    text += fmt::format(" {}: {},", band.word, found->second);
+  }
+  return text + fmt::format(" not given: {}", results.people - given);
+}
+
 std::vector<PageBlock> people_blocks(const StudyResults& results) {
   std::vector<PageBlock> blocks{
       PageHeading{2, "Participants"},
       PageText{fmt::format("{} listed, {} with data that count; lessons: {}. Every interval is of 95 %. p is two-sided "
                            "unless the test says otherwise.",
                            results.listed, results.people, results.lessons.size())}};
+  if (!results.ages.empty()) blocks.push_back(PageText{ages_text(results)});
   PageList list;
   for (const std::string& line : results.left_out) list.items.push_back("left out: " + line);
   for (const std::string& line : results.remarks) list.items.push_back(line);
@@ -74,7 +88,8 @@ std::vector<PageBlock> method_blocks() {
       "Weber fraction: the level at which an observer without preference is right in 75 % of the trials; bias in the "
       "units of d'. Both are medians of the posterior distribution, with its quantiles.");
   list.items.emplace_back(
-      "Means: Student's t. Conditions: paired where at least two people did both, otherwise Welch's t; d and d_z with "
+      "Means: Student's t; an interval ends where the scale of its values does. Conditions: paired where at least two "
+      "people did both, otherwise Welch's t; d and d_z with "
       "intervals by the noncentral t. Holm's correction is among the comparisons of one measure.");
   list.items.emplace_back(
       "SUS: Brooke 1996. NASA-TLX: the mean of the six ratings (Hart 2006). SSQ: Kennedy et al. 1993.");

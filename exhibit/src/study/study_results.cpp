@@ -144,6 +144,8 @@ LessonResults lesson_results(const std::string& task, const LessonVisits& lesson
   share.key = "right", seconds.key = "answer_time_s", newtons.key = "pull_off_felt_N", score.key = "drawing";
   seconds.unit = "s";
   newtons.unit = "nN", newtons.per_si = 1e9;
+  share.scale = score.scale = kShares;
+  seconds.scale = newtons.scale = kNotNegative;
   const auto value = [](const StudyTrial& trial) { return trial.value; };
   const auto rt = [](const StudyTrial& trial) { return trial.rt_s; };
   add_means(
@@ -198,6 +200,8 @@ double alpha_of(const std::map<std::string, std::array<std::optional<double>, it
   return cronbach_alpha(people);
 }
 
+constexpr Interval kAnswerScale{0.0, kSurveyHighest};  // of the paper's questions
+
 void add_survey(const StudyData& data, StudyResults& results) {
   const auto answers = newest_answers<8>(data, "paper-");
   results.sus_alpha = alpha_of(newest_answers<10>(data, "sus-"), true);
@@ -209,7 +213,7 @@ void add_survey(const StudyData& data, StudyResults& results) {
       if (given[i]) list.push_back(*given[i]);
     }
     const Summary summary = summary_of(list);
-    results.survey.push_back({summary, t_interval(summary),
+    results.survey.push_back({summary, t_interval(summary).within(kAnswerScale),
                               as_result("Welch t", welch_test(summary, printed_summary(survey_questions()[i])), "d")});
   }
   std::vector<double> differences;
@@ -230,6 +234,9 @@ StudyResults study_results(const StudyData& data) {
   results.people = data.members.size();
   results.left_out = data.left_out;
   results.remarks = data.remarks;
+  for (const StudyData::Member& member : data.members) {
+    if (!member.person.age_band.empty()) ++results.ages[member.person.age_band];
+  }
   std::map<std::string, LessonVisits> lessons;
   for (const StudyData::Member& member : data.members) {
     for (const LessonVisit& visit : member.visits) lessons[visit.task].visits.emplace_back(member.person.id, &visit);

@@ -61,6 +61,8 @@ void add_measure(const Answers<items>& answers, Measure measure, const Score& sc
   if (!measure.values.empty()) results.measures.push_back(std::move(measure));
 }
 
+constexpr Interval kOf100{0.0, 100.0};
+
 struct SsqScale {
   const char* name;
   double SsqScores::* score;
@@ -95,7 +97,7 @@ void add_ssq(const Answers<16>& answers, LessonResults& results) {
       differences.push_back(after.back() - before.back());
     }
     if (before.empty()) return;
-    results.ssq.push_back({scale.name, mean_estimate(before), mean_estimate(after),
+    results.ssq.push_back({scale.name, mean_estimate(before, kNotNegative), mean_estimate(after, kNotNegative),
                            as_result("paired t", paired_test(differences), "d_z")});
   }
 }
@@ -136,11 +138,17 @@ void add_questionnaires(const std::map<std::string, std::vector<const StudyTrial
                         LessonResults& results) {
   add_measure(
       gathered<10>(questions, "sus-", condition_of),
-      {.key = "sus", .title = "SUS", .unit = "of 100", .per_si = 1.0, .decimals = 1, .values = {}},
+      {.key = "sus", .title = "SUS", .unit = "of 100", .per_si = 1.0, .decimals = 1, .scale = kOf100, .values = {}},
       [](const std::array<double, 10>& values) { return sus_score(values); }, results);
   add_measure(
       gathered<6>(questions, "tlx-", condition_of),
-      {.key = "tlx", .title = "NASA-TLX, raw", .unit = "of 100", .per_si = 1.0, .decimals = 1, .values = {}},
+      {.key = "tlx",
+       .title = "NASA-TLX, raw",
+       .unit = "of 100",
+       .per_si = 1.0,
+       .decimals = 1,
+       .scale = kOf100,
+       .values = {}},
       [](const std::array<double, 6>& values) { return tlx_raw(values); }, results);
   add_ssq(gathered<16>(questions, "ssq-", time_of), results);
 }
@@ -148,8 +156,8 @@ void add_questionnaires(const std::map<std::string, std::vector<const StudyTrial
 Estimate Measure::mean(const std::string& condition) const {
   std::vector<double> list = values_of(values.at(condition));
   for (double& value : list) value = on_scale(*this, value);
+  if (!logarithmic) return mean_estimate(list, scale);
   const Estimate estimate = mean_estimate(list);
-  if (!logarithmic) return estimate;
   return {estimate.n, std::exp(estimate.value), {std::exp(estimate.interval.low), std::exp(estimate.interval.high)}};
 }
 

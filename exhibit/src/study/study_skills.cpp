@@ -54,8 +54,8 @@ LearningResult learning_of(const std::string& step, const TrialsByPerson& before
       ++(same->second ? down : up);
     }
   }
-  result.before = mean_estimate(pre);
-  result.after = mean_estimate(post);
+  result.before = mean_estimate(pre, kShares);
+  result.after = mean_estimate(post, kShares);
   result.gain = normalised_gain(result.before.value, result.after.value);
   result.change = as_result("paired t", paired_test(differences), "d_z");
   result.single_trials = sign_test(up, down);

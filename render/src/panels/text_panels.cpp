@@ -78,10 +78,68 @@ void shrunk_text(Canvas& canvas, glm::vec2 position, const Ink& ink, std::string
   canvas.text(position + glm::vec2(0.0F, lift), ink.style, ink.color, text, Align::Left, fit * scale);
 }
 
+bool is_words(const DataRow& row) { return row.value.empty() && row.source.empty(); }
+
+// The height of a line of words with the gap above it.
+float words_line_mm() { return text_height_mm(TextStyle::Strong) + 8.0F; }
+
+// Takes so many words from the front as a line of this width has room for; one at least, and the blank behind them.
+std::string_view take_line(const Canvas& canvas, std::string_view& words, float width_mm, float scale) {
+  std::size_t end = words.find(' ');
+  while (end != std::string_view::npos) {
+    const std::size_t next = words.find(' ', end + 1);
+    if (canvas.text_width_mm(TextStyle::Strong, words.substr(0, next), scale) > width_mm) break;
+    end = next;
+  }
+  const std::string_view line = words.substr(0, end);
+  words.remove_prefix(std::min(line.size() + 1, words.size()));
+  return line;
+}
+
+// Calls `draw` with each line of the rows; false where one is too wide.
+template <class Draw>
+bool for_each_line(const Canvas& canvas, const DataPanel& panel, float scale, const Draw& draw) {
+  const float width = canvas.size_mm().x - 2.0F * kMargin;
+  bool fits = true;
+  for (const DataRow& row : panel.rows) {
+    for (std::string_view rest = row.name; !rest.empty();) {
+      const std::string_view line = take_line(canvas, rest, width, scale);
+      fits = fits && canvas.text_width_mm(TextStyle::Strong, line, scale) <= width;
+      draw(line);
+    }
+  }
+  return fits;
+}
+
+constexpr float kHeader = 150.0F, kBelowRows = 18.0F;  // of a data panel
+constexpr float kMostPitch = 84.0F;
+
+// So large that the lines of a panel with nothing but words fill it, its header with them.
+float text_scale(const Canvas& canvas, const DataPanel& panel) {
+  constexpr float kSmaller = 0.99F, kLeast = 0.2F;
+  float scale = 1.0F;
+  for (; scale > kLeast; scale *= kSmaller) {
+    float lines = 0.0F;
+    const bool fits = for_each_line(canvas, panel, scale, [&](std::string_view) { lines += 1.0F; });
+    if (fits && scale * (kHeader + kBelowRows + lines * words_line_mm()) <= canvas.size_mm().y) break;
+  }
+  return scale;
+}
+
+void paint_text(Canvas& canvas, const DataPanel& panel, float top, float room, float scale) {
+  float lines = 0.0F;
+  for_each_line(canvas, panel, scale, [&](std::string_view) { lines += 1.0F; });
+  const float pitch = std::min(kMostPitch * scale, room / lines);
+  for_each_line(canvas, panel, scale, [&](std::string_view line) {
+    canvas.text({kMargin, top + 14.0F * scale}, TextStyle::Strong, palette::kInk, line, Align::Left, scale);
+    top += pitch;
+  });
+}
+
 // A row with nothing but a name is a line of words.
 void paint_words(Canvas& canvas, std::string_view words, float top, float pitch) {
   const float room = canvas.size_mm().x - 2.0F * kMargin;
-  const float by_height = std::min(1.0F, pitch / (text_height_mm(TextStyle::Strong) + 8.0F));
+  const float by_height = std::min(1.0F, pitch / words_line_mm());
   const float by_width = room / std::max(canvas.text_width_mm(TextStyle::Strong, words), 1.0F);
   canvas.text({kMargin, top + 14.0F * by_height}, TextStyle::Strong, palette::kInk, words, Align::Left,
               std::min(by_height, by_width));
@@ -110,20 +168,22 @@ void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
 void paint(Canvas& canvas, const DataPanel& panel) {
   canvas.panel_background();
   const float width = canvas.size_mm().x - 2.0F * kMargin;
-  shrunk_text(canvas, {kMargin, 24.0F}, {TextStyle::Title, palette::kInk}, panel.title, width);
-  shrunk_text(canvas, {kMargin, 92.0F}, {TextStyle::Body, palette::kYellow}, panel.subtitle, width);
-  const float top = 150.0F;
+  const bool text = !panel.rows.empty() && std::all_of(panel.rows.begin(), panel.rows.end(), is_words);
+  const float scale = text ? text_scale(canvas, panel) : 1.0F;
+  shrunk_text(canvas, {kMargin, scale * 24.0F}, {TextStyle::Title, palette::kInk}, panel.title, width, scale);
+  shrunk_text(canvas, {kMargin, scale * 92.0F}, {TextStyle::Body, palette::kYellow}, panel.subtitle, width, scale);
+  const float top = scale * kHeader;
   canvas.line({kMargin, top}, {kMargin + width, top}, 2.0F, palette::kEdge);
   if (panel.rows.empty()) {
     return;
   }
-  const float room = canvas.size_mm().y - top - 18.0F;
-  const float pitch = std::min(84.0F, room / static_cast<float>(panel.rows.size()));
+  const float room = canvas.size_mm().y - top - scale * kBelowRows;
+  if (text) return paint_text(canvas, panel, top, room, scale);
+  const float pitch = std::min(kMostPitch, room / static_cast<float>(panel.rows.size()));
   for (std::size_t i = 0; i < panel.rows.size(); ++i) {
     const DataRow& row = panel.rows[i];
     const float at = top + pitch * static_cast<float>(i);
-    row.value.empty() && row.source.empty() ? paint_words(canvas, row.name, at, pitch)
-                                            : paint_row(canvas, row, at, pitch);
+    is_words(row) ? paint_words(canvas, row.name, at, pitch) : paint_row(canvas, row, at, pitch);
   }
 }
 
@@ -145,17 +205,20 @@ void paint(Canvas& canvas, const Banner& banner) {
   canvas.text({kMargin, top + lift}, TextStyle::Guidance, palette::kInk, banner.guidance, Align::Left, scale);
 
   const float second = top + text_height_mm(TextStyle::Guidance) + 16.0F;
-  const float width = banner.warning.empty() ? 0.0F : canvas.text_width_mm(TextStyle::Body, banner.warning);
+  // what is below the guidance gives way to it
+  const float lower = std::clamp((canvas.size_mm().y - second) / (text_height_mm(TextStyle::Body) + third), 0.1F, 1.0F);
+  const float width = banner.warning.empty() ? 0.0F : canvas.text_width_mm(TextStyle::Body, banner.warning, lower);
   const bool beside_state = state.to.y > second;  // enlarged, it reaches down to these lines
   const float end_mm = beside_state ? state.from.x - 24.0F : right;
   const float whole = end_mm - kMargin;
   constexpr Ink kLower{TextStyle::Body, palette::kMuted, 0.0F};
   shrunk_text(canvas, {kMargin, second}, kLower, std::string_view(banner.scale).substr(0, end),
-              banner.warning.empty() ? whole : whole - width - 70.0F);
-  if (!more.empty()) shrunk_text(canvas, {kMargin, second + third}, kLower, more, whole);
+              banner.warning.empty() ? whole : whole - width - 70.0F, lower);
+  if (!more.empty()) shrunk_text(canvas, {kMargin, second + lower * third}, kLower, more, whole, lower);
   if (!banner.warning.empty()) {
-    paint_shape(canvas, StateShape::Triangle, {end_mm - width - 30.0F, second + 21.0F}, 17.0F, palette::kOrange);
-    canvas.text({end_mm, second}, TextStyle::Body, palette::kOrange, banner.warning, Align::Right);
+    paint_shape(canvas, StateShape::Triangle, {end_mm - width - 30.0F, second + 21.0F * lower}, 17.0F * lower,
+                palette::kOrange);
+    canvas.text({end_mm, second}, TextStyle::Body, palette::kOrange, banner.warning, Align::Right, lower);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/whole_file.h"
+#include "exhibit/lesson/age_band.h"
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {
@@ -121,6 +122,29 @@ TEST_F(DataSetTest, CountsDaysFromTheFirstOneOfTheStudy) {
   EXPECT_EQ(day_of("SIMULA"), 0);
   EXPECT_EQ(day_of("AAAAAA"), 0);
   EXPECT_EQ(day_of("BBBBBB"), 3);
+}
+
+TEST_F(DataSetTest, KeepsAnAgeBandThatWasGiven) {
+  DataSetEntry young = entry("ABCDEF");
+  young.age_band = "14-17";
+  ASSERT_TRUE(DataSet::create(lesson_, young)->finish(LessonEnd::Finished));
+  EXPECT_THAT(text("participants.tsv"), HasSubstr("sub-ABCDEF\t0\t14-17\tfinished\n"));
+  lesson_.id = "other";
+  ASSERT_TRUE(DataSet::create(lesson_, entry("ABCDEF")));
+  EXPECT_THAT(text("participants.tsv"), HasSubstr("\t14-17\t")) << "a lesson without one forgets none";
+  const auto levels = nlohmann::json::parse(text("participants.json"))["age_band"]["Levels"];
+  ASSERT_EQ(levels.size(), kAgeBands.size());
+  for (std::size_t i = 0; i < kAgeBands.size(); ++i) EXPECT_EQ(levels[i], kAgeBands[i].word);
+}
+
+TEST_F(DataSetTest, NotesThatTheSoundWasLostBesideWhatItSaidBefore) {
+  auto data = DataSet::create(lesson_, entry("ABCDEF"));
+  ASSERT_TRUE(data);
+  const std::string name = "sub-ABCDEF/task-test_events.json";
+  auto before = nlohmann::json::parse(text(name));
+  ASSERT_TRUE(data->note_sound_lost(12.5));
+  before["Lesson"]["sound_lost_s"] = 12.5;
+  EXPECT_EQ(nlohmann::json::parse(text(name)), before);
 }
 
 TEST_F(DataSetTest, RefusesATableOfParticipantsThatIsNone) {

@@ -274,6 +274,51 @@ TEST_F(LessonRunTest, OffersTheBreakBetweenTheTrialsOfALongStepToo) {
   EXPECT_EQ(run.end(), LessonEnd::Finished);
 }
 
+TEST_F(LessonRunTest, OffersTheBreakToSomebodyWhoStaysOnATextOrAQuestion) {
+  lesson_.steps = {step_of(StepKind::Text), step_of(StepKind::Question)};
+  lesson_.steps[1].questionnaire = Questionnaire::Tlx;
+  auto run = this->run();
+  run.watch_time(1199);
+  EXPECT_EQ(run.prompt(1199).wants, Wants::GoOn);
+  run.watch_time(1200);
+  ASSERT_EQ(run.prompt(1200).answers.size(), 2U);
+  run.answer(1, 1201);  // a key that was meant for what was shown before stops nothing
+  run.answer(0, 1300);
+  EXPECT_EQ(run.prompt(1300).wants, Wants::GoOn) << "nor does it end the break";
+  run.go_on(1310);
+  run.answer(3, 1320);
+  run.watch_time(2500);
+  EXPECT_FALSE(run.prompt(2500).in_step) << "a break, no item";
+  run.answer(0, 2600);
+  EXPECT_EQ(run.prompt(2600).item, "tlx-2") << "the answer to the first item is kept";
+  for (int item = 1; item < 6; ++item) run.answer(4, 2610);
+  EXPECT_EQ(run.end(), LessonEnd::Finished);
+  EXPECT_DOUBLE_EQ(rows_.at(0).onset_s, 1300);
+  EXPECT_EQ(rows_.at(1).response, "15");
+  EXPECT_DOUBLE_EQ(*rows_.at(2).rt_s, 10) << "the break is no time of thought";
+}
+
+TEST_F(LessonRunTest, CutsNoTrialOfWhichSomethingIsFeltBeforeTwoMinutesMore) {
+  lesson_.steps = {step_of(StepKind::Identify, {0})};
+  auto run = this->run();
+  run.happened(event(physics::EventKind::JumpToContact, 0), 1190);
+  run.watch_time(1205);
+  run.go_on(1206);
+  EXPECT_TRUE(run.prompt(1206).in_step) << "the tip is in contact";
+  run.happened(event(physics::EventKind::JumpOffContact, 0), 1210);
+  run.watch_time(1319);
+  EXPECT_EQ(run.prompt(1319).words, test::english()[Phrase::LessonWhich]);
+  run.watch_time(1320);
+  run.answer(0, 1400);
+  EXPECT_EQ(run.prompt(1400).wants, Wants::Cycle) << "the sample is felt again";
+  EXPECT_TRUE(rows_.empty());
+  lesson_.steps = {step_of(StepKind::Draw)};
+  auto drawing = this->run();
+  drawing.answer(0, 10);
+  drawing.watch_time(1300);
+  EXPECT_TRUE(drawing.prompt(1300).in_step) << "one part is answered";
+}
+
 TEST_F(LessonRunTest, ScoresACurveByTheShareOfItsPartsThatAreRight) {
   lesson_.steps = {step_of(StepKind::Draw)};
   auto run = this->run({.seed = 9});

@@ -149,14 +149,14 @@ TEST(StudyEvents, HaveALimit) {
 
 TEST(StudyPeople, AreReadOrRefusedByLine) {
   const auto people =
-      parse_people(kPeopleHeader + std::string("sub-ABCDEF\t0\tn/a\tfinished\nsub-GHIJKL\t1\t20-29"), "p");
+      parse_people(kPeopleHeader + std::string("sub-ABCDEF\t0\tn/a\tfinished\nsub-GHIJKL\t1\t18-24"), "p");
   ASSERT_TRUE(people.has_value());
   ASSERT_EQ(people->people.size(), 1U);
   EXPECT_EQ(people->people[0].id, "sub-ABCDEF");
   EXPECT_EQ(people->people[0].age_band, "");
   EXPECT_EQ(people->cut_line, 3U);
   for (const char* line : {"sub-abcdef\t0\tn/a\tn/a\n", "sub-../../x\t0\tn/a\tn/a\n", "sub-ABCDEF\tx\tn/a\tn/a\n",
-                           "sub-ABCDEF\t0\tn/a\tbored\n", "sub-ABCDEF\t0\tn/a\n"}) {
+                           "sub-ABCDEF\t0\tn/a\tbored\n", "sub-ABCDEF\t0\t37\tn/a\n", "sub-ABCDEF\t0\tn/a\n"}) {
     const auto refused = parse_people(std::string(kPeopleHeader) + line, "p");
     ASSERT_FALSE(refused.has_value()) << line;
     EXPECT_THAT(refused.error().message, HasSubstr("p:2: "));
@@ -165,12 +165,22 @@ TEST(StudyPeople, AreReadOrRefusedByLine) {
   EXPECT_THAT(parse_people(kPeopleHeader + one + one, "p").error().message, HasSubstr("p:3: this participant"));
 }
 
+TEST(LessonFacts, SayWhenTheSoundWasLost) {
+  EXPECT_EQ(parse_lesson_facts(R"({"Lesson": {"sound_lost_s": 12.5}})", "x")->sound_lost_s, 12.5);
+  for (const char* wrong : {"-1", "\"12\"", "null", "true", "[1]"}) {
+    const auto refused = parse_lesson_facts(std::string(R"({"Lesson": {"sound_lost_s": )") + wrong + "}}", "x.json");
+    ASSERT_FALSE(refused.has_value()) << wrong;
+    EXPECT_THAT(refused.error().message, HasSubstr("x.json: sound_lost_s is not a number from 0"));
+  }
+}
+
 TEST(LessonFacts, TakeTheEnglishTitle) {
   const auto facts = parse_lesson_facts(test::facts_json("omni"), "x.json");
   ASSERT_TRUE(facts.has_value());
   EXPECT_EQ(facts->title, "Three materials");
   EXPECT_EQ(facts->device, "omni");
   EXPECT_TRUE(facts->simulated);
+  EXPECT_FALSE(facts->sound_lost_s);
   EXPECT_FALSE(parse_lesson_facts("{", "x").has_value());
   EXPECT_FALSE(parse_lesson_facts("[]", "x").has_value());
   EXPECT_FALSE(parse_lesson_facts("{\"Lesson\": 3}", "x").has_value());

@@ -161,6 +161,51 @@ TEST_F(StudyReport, FindsTheAbilitiesThatItsPeopleWereGiven) {
   EXPECT_GT(first.test.effect.interval.low, 1.0) << "0.3 more right answers with an SD of a tenth";
 }
 
+TEST_F(StudyReport, KeepsEveryIntervalWithinTheScaleOfItsValues) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    test::SimulatedEvents events(static_cast<unsigned>(i + 1));
+    const bool best = i > 0;  // of four people three are perfect: t alone would go beyond the end
+    for (const char* step : {"blind-before", "blind-after"}) {
+      for (int trial = 1; trial <= 4; ++trial) {
+        const bool right = best || trial < 3;
+        events.line(step, "identify", "n/a", false, trial, "n/a", "mica", right ? "mica" : "gold", right ? "1" : "0");
+      }
+    }
+    events.line("sketch", "draw", "n/a", false, 1, "n/a", "n/a", best ? "0" : "0.8", "n/a");
+    events.questions("load", "tlx", 6, best ? 100 : 60, best ? 100 : 60);
+    events.questions("survey", "paper", 8, best ? 4 : 1, best ? 4 : 1);
+    events.questions("ssq-before", "ssq", 16, best ? 0 : 1, best ? 0 : 1);
+    events.questions("ssq-after", "ssq", 16, 0, 0);
+    writer_.add_person(i, events.text());
+  }
+  const StudyResults study = results();
+  const LessonResults& lesson = study.lessons.at(0);
+  std::map<std::string, Interval> mean;
+  for (const Measure& measure : lesson.measures) mean[measure.key] = measure.mean("").interval;
+  EXPECT_DOUBLE_EQ(mean.at("right.blind-before").high, 1.0);
+  EXPECT_GT(mean.at("right.blind-before").low, 0.0) << "an end that can be is as t has it";
+  EXPECT_DOUBLE_EQ(mean.at("drawing.sketch").low, 0.0);
+  EXPECT_DOUBLE_EQ(mean.at("tlx").high, 100.0);
+  EXPECT_DOUBLE_EQ(lesson.learning.at(0).before.interval.high, 1.0);
+  EXPECT_DOUBLE_EQ(lesson.ssq.at(3).before.interval.low, 0.0);
+  EXPECT_DOUBLE_EQ(study.survey.at(0).interval.high, 4.0);
+}
+
+TEST_F(StudyReport, CountsAgesAndSaysWhoseSoundWasLost) {
+  test::SimulatedEvents events(1);
+  events.identify("sound", 0.8, 4);
+  writer_.add_person(0, events.text());
+  writer_.add_person(1, events.text());
+  test::StudyWriter::write(folder_.file("sub-AAAAAB/task-three_events.json"), R"({"Lesson": {"sound_lost_s": 61.7}})");
+  const std::string people = folder_.file("participants.tsv");
+  test::StudyWriter::write(
+      people, std::string(test::kPeopleHeader) + "sub-AAAAAA\t0\t14-17\tfinished\nsub-AAAAAB\t1\tn/a\tfinished\n");
+  const auto all = files();
+  EXPECT_THAT(all.at("study.md"), AllOf(HasSubstr("Ages in years: 14-17: 1, not given: 1"),
+                                        HasSubstr("sub-AAAAAB/task-three_events.json: without sound from 62 s on")));
+  EXPECT_EQ(Json::parse(all.at("study.json"))["ages"]["14-17"], 1);
+}
+
 TEST_F(StudyReport, ComparesDifferentPeopleByWelch) {
   for (std::size_t i = 0; i < 8; ++i) {
     test::SimulatedEvents events(static_cast<unsigned>(i + 1));

@@ -45,7 +45,7 @@ class StudyWriter {
 
   void add_person(std::size_t person, const std::string& events, const std::string& comfort = "finished",
                   const std::string& task = "three") {
-    people_ += code(person) + "\t" + std::to_string(person) + "\t20-29\t" + comfort + "\n";
+    people_ += code(person) + "\t" + std::to_string(person) + "\t18-24\t" + comfort + "\n";
     const std::string path = folder_ + "/" + code(person);
     std::filesystem::create_directories(path);
     write(path + "/task-" + task + "_events.tsv", kEventsHeader + events);

@@ -21,6 +21,7 @@ struct DataSetEntry {
   std::string code;    // six capital letters
   std::string device, wall;
   std::uint64_t seed = 0;
+  std::string age_band{};              // a word of kAgeBands; empty: not given
   std::string observer{};              // JSON object of a simulated participant; empty for a person
   std::optional<std::size_t> order{};  // by which the lesson was planned; none: the next one that is free
   std::optional<std::int64_t>
@@ -47,6 +48,9 @@ class DataSet {
 
   core::Result<void> add(const TrialRow& row);
 
+  // Says in the events' JSON that the sound ended so late in the lesson.
+  core::Result<void> note_sound_lost(double onset_s);
+
   // Says in participants.tsv how it ended.
   core::Result<void> finish(LessonEnd end);
 
@@ -58,7 +62,7 @@ class DataSet {
  private:
   DataSet() = default;
 
-  std::string folder_, code_, participant_folder_, events_path_;
+  std::string folder_, code_, participant_folder_, events_path_, description_path_;
   std::size_t order_ = 0;
   core::FileDescriptor events_;
 };

@@ -9,7 +9,7 @@ namespace afm::exhibit {
 
 // An answer given with the haptic device alone: its height moves a mark through the answers, Turn-On answers. Down goes
 // to the next answer of a list and down a scale. The mark stays at an end however far the hand goes, and turns round
-// with it. One thread.
+// with it, three times a second at most, so that it does not flash (WCAG 2.3.1). One thread.
 class HandAnswer {
  public:
   enum class Layout { List, Scale };
@@ -23,8 +23,8 @@ class HandAnswer {
   std::optional<std::size_t> marked() const { return marked_; }
 
   // The hand's height, and how often its button has been pressed: every frame, whatever is asked. True where it was
-  // pressed since the last call.
-  bool add(double height_m, std::uint64_t presses);
+  // pressed since the last call. Time never goes back.
+  bool add(double height_m, std::uint64_t presses, double now_s);
 
  private:
   void move(bool down);
@@ -33,7 +33,9 @@ class HandAnswer {
   Layout layout_ = Layout::List;
   double step_m_ = 0;
   std::optional<std::size_t> marked_;
-  std::optional<double> from_m_;          // where the mark moved last
+  std::optional<double> from_m_;   // where the mark moved last
+  std::optional<bool> went_down_;  // then
+  double moved_s_ = 0;
   std::optional<std::uint64_t> presses_;  // at the last call
 };
 

@@ -28,7 +28,9 @@ enum class LessonEnd { Finished, Stopped, Withdrew };
 // back, so that a simulated participant needs no clock. Names the trials that are over to a sink. One thread.
 //
 // A criterion is decided by the servo's events alone: a cycle is a jump to contact and a jump off contact on the
-// material that is asked for. After kMostLessonMinutes the lesson offers a break before the next trial.
+// material that is asked for. After kMostLessonMinutes the lesson offers a break: before the next trial, or while
+// nothing of one would be lost, also to somebody who does nothing. A trial that takes two more minutes begins again
+// after the break.
 class LessonRun {
  public:
   struct Setup {
@@ -50,6 +52,9 @@ class LessonRun {
 
   // A jump of the tip, of the material and the variant that the prompt asks for.
   void happened(const scene::TipEvent& event, double now_s);
+
+  // Offers a break that is due; in a lesson with a person, once a frame.
+  void watch_time(double now_s);
 
   void go_on(double now_s);
   void answer(std::size_t answer, double now_s);  // one that the prompt has; others are ignored
@@ -73,6 +78,7 @@ class LessonRun {
   void plan(std::size_t order);
   void begin_task(double now_s);
   void follow(double now_s);  // after whatever happened
+  bool offer_break_where_due(double now_s);
   core::Result<void> keep(TrialRow row);
 
   const Lesson& lesson_;
@@ -87,9 +93,9 @@ class LessonRun {
   double began_s_ = 0;  // the lesson
   double step_began_s_ = 0;
   double stretch_began_s_ = 0;  // since the last break
+  double break_answers_from_s_ = 0;
   bool consented_ = false;
   bool snapped_in_ = false;
-  bool trial_over_ = false;  // since the last look at it
   std::optional<LessonEnd> end_;
   std::optional<core::Error> error_;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -8,6 +10,7 @@
 namespace afm::exhibit {
 
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // All intervals of a study are of 95 %.
 inline constexpr double kIntervalAlpha = 0.05;
@@ -18,7 +21,15 @@ struct Interval {
   double high = kNoValue;
 
   bool holds(double value) const { return low <= value && value <= high; }
+
+  // What of it can be: a truth that lies within its scale is held as before. NaN stays.
+  Interval within(const Interval& scale) const {
+    const auto clamped = [&](double end) { return std::isnan(end) ? end : std::clamp(end, scale.low, scale.high); };
+    return {clamped(low), clamped(high)};
+  }
 };
+
+inline constexpr Interval kShares{0.0, 1.0}, kNotNegative{0.0, kUnbounded};
 
 // A number that was estimated from `n` people or trials.
 struct Estimate {

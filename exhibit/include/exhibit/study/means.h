@@ -20,7 +20,8 @@ Summary summary_of(std::span<const double> values);
 
 // mean -+ t(0.975, n-1) SD/sqrt(n) (Student 1908).
 Interval t_interval(const Summary& summary);
-Estimate mean_estimate(std::span<const double> values);
+// Of values on a scale with ends, beyond which no mean lies.
+Estimate mean_estimate(std::span<const double> values, const Interval& scale = {-kUnbounded, kUnbounded});
 
 // Means of different people, of unequal variance, and of the same people.
 struct TTest {

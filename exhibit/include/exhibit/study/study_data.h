@@ -69,6 +69,7 @@ core::Result<PeopleFile> parse_people(std::string_view bytes, const std::string&
 struct LessonFacts {
   std::string id{}, title{}, digest{}, program{}, device{}, scale{}, wall{};
   bool simulated = false;
+  std::optional<double> sound_lost_s{};  // into the lesson, when sound was asked for and there was none from then on
 };
 core::Result<LessonFacts> parse_lesson_facts(std::string_view bytes, const std::string& name);
 

@@ -64,6 +64,7 @@ struct Measure {
   double per_si = 1.0;  // units in one SI unit
   int decimals = 2;
   bool logarithmic = false;                                     // compared as ratios
+  Interval scale{-kUnbounded, kUnbounded};                      // of its values, SI
   std::map<std::string, std::map<std::string, double>> values;  // by condition and person
 
   Estimate mean(const std::string& condition) const;  // geometric where it is logarithmic; SI
@@ -115,6 +116,7 @@ struct SurveyResult {
 
 struct StudyResults {
   std::size_t listed = 0, people = 0;
+  std::map<std::string, std::size_t> ages;  // people of each age band, where one was given
   std::vector<std::string> left_out, remarks;
   std::vector<SurveyResult> survey;  // the paper's eight questions; empty where nobody was asked
   double survey_alpha = kNoValue, sus_alpha = kNoValue;

@@ -32,6 +32,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // A variable of the environment of what is started, until the end of this.
 class Variable {
@@ -53,12 +54,20 @@ class HeardView : public ::testing::Test {
  protected:
   static constexpr double kHandPerPixel = 0.085 / 0.30 / 480;
 
-  std::unique_ptr<support::LiveProgram> view(std::vector<std::string> more) const {
-    std::vector<std::string> all{AFM_PROGRAM,   "view", "--size",  "640x480",      "--frame-rate", "12",
-                                 "--eye-width", "320",  "--servo", AFM_SERVO_MODE, "--linger",     "0"};
-    if (std::find(more.begin(), more.end(), "--language") == more.end()) more.insert(more.end(), {"--language", "en"});
+  std::unique_ptr<support::LiveProgram> live(const std::vector<std::string>& command,
+                                             const std::vector<std::string>& more) const {
+    std::vector<std::string> all{AFM_PROGRAM};
+    all.insert(all.end(), command.begin(), command.end());
+    for (const char* word : {"--size", "640x480", "--frame-rate", "12", "--eye-width", "320", "--servo", AFM_SERVO_MODE,
+                             "--linger", "0"}) {
+      all.emplace_back(word);
+    }
+    if (std::find(more.begin(), more.end(), "--language") == more.end()) all.insert(all.end(), {"--language", "en"});
     all.insert(all.end(), more.begin(), more.end());
     return std::make_unique<support::LiveProgram>(all, display_.name());
+  }
+  std::unique_ptr<support::LiveProgram> view(const std::vector<std::string>& more) const {
+    return live({"view"}, more);
   }
   void xdotool(const std::string& what) const {
     const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool " + what);
@@ -97,9 +106,41 @@ class HeardView : public ::testing::Test {
     return false;
   }
 
+  // A press that comes while the last one still counts as held is none: nobody presses so fast, and who gets no answer
+  // presses again.
+  bool turn_on_until(support::LiveProgram& view, const std::string& text) const {
+    for (int press = 0; press < 6; ++press) {
+      std::this_thread::sleep_for(milliseconds(300));
+      xdotool("key t");
+      if (view.says(text, seconds(10))) return true;
+    }
+    return false;
+  }
+
   support::ScratchFolder folder_;
   support::VirtualDisplay display_{640, 480};
 };
+
+const char* const kLesson = R"(id = "a-lesson"
+title = { en = "A lesson", de = "Lektion" }
+minutes = 5
+materials = ["mica", "si3n4"]
+scale = "fit"
+[[step]]
+id = "feel"
+type = "free"
+cycles = 9
+words = { en = "Words of feel.", de = "Worte." }
+[[step]]
+id = "think"
+type = "text"
+words = { en = "Words of think.", de = "Worte." }
+[[step]]
+id = "load"
+type = "question"
+questionnaire = "tlx"
+words = { en = "Words of load.", de = "Worte." }
+)";
 
 constexpr std::size_t kThin = 8;
 
@@ -135,27 +176,53 @@ double likeness(const std::vector<double>& sound, const std::vector<double>& sig
   return best / (test::rms(signal) * std::sqrt(static_cast<double>(signal.size())));
 }
 
-TEST_F(HeardView, GoesThroughTheWholeProcedureByWhatIsSaidAlone) {
+TEST_F(HeardView, GoesThroughALessonFromConsentToItsLastAnswerByEarAndHandAlone) {
   const Variable driver("SDL_AUDIODRIVER", "disk"), file("SDL_DISKAUDIOFILE", folder_.file("sound.raw"));
-  std::filesystem::create_directory(folder_.file("kept"));
-  const auto live = view({"--sound", "--speech", "--record", folder_.file("kept")});
+  const std::string lesson = folder_.write("lesson.toml", kLesson), out = folder_.file("study");
+  const auto live = this->live({"lesson", lesson},
+                               {"--sound", "--speech", "--haptics", "mouse", "--participant", "QXWERT", "--out", out});
   ASSERT_TRUE(live->says("sound: disk")) << live->said();
   ASSERT_TRUE(live->says("speech: /")) << live->said();
-  ASSERT_TRUE(live->says("says: Choose a sample: ")) << live->said();
+  ASSERT_TRUE(live->says("says: This lesson keeps your answers")) << live->said();
   xdotool("key x");
   ASSERT_TRUE(live->says("says: The picture is off")) << live->said();
+  xdotool("key t");  // which answers nothing: the hand has marked none
+  move_hand(-0.020);
+  ASSERT_TRUE(live->says("says: Yes, I take part")) << live->said();
+  ASSERT_TRUE(turn_on_until(*live, "says: Words of feel")) << live->said();
+
   xdotool("key 1");
   ASSERT_TRUE(live->says("says: Mica")) << live->said();
   ASSERT_TRUE(feel_a_cycle(*live)) << live->said();
   xdotool("key y");
   ASSERT_TRUE(live->says("says: The tip let go. 1.4 nanonewtons. Mica. FORCE")) << live->said();
   xdotool("key Return");
-  ASSERT_TRUE(live->says("says: The force is off")) << live->said();
+  const std::string off = "says: The force is off", think = "says: Words of think";
+  const std::string first = live->says_one_of({off, think});
+  ASSERT_TRUE(live->says(first == off ? think : off)) << live->said();
+
+  ASSERT_TRUE(turn_on_until(*live, "says: Mental demand")) << live->said();
+  move_hand(-0.007);
+  ASSERT_FALSE(live->says_one_of({"says: 45", "says: 40", "says: 35", "says: 30"}).empty()) << live->said();
+  ASSERT_TRUE(turn_on_until(*live, "says: Physical demand")) << live->said();
+  for (int item = 2; item <= 6; ++item) {
+    const std::string next = "question " + std::to_string(item + 1);
+    ASSERT_TRUE(turn_on_until(*live, item < 6 ? next : "The lesson is finished")) << live->said();
+  }
   xdotool("key Escape");
   EXPECT_EQ(live->ends(), 0) << live->said();
+  const std::string said = live->said();
+  EXPECT_EQ(said.find("says: The force is on", said.find("says: Mental demand")), std::string::npos)
+      << "Turn-On answers, and turns nothing on: " << said;
+  const std::string events = core::read_file(out + "/sub-QXWERT/task-a-lesson_events.tsv").value();
+  EXPECT_THAT(events, HasSubstr("\tfeel\tfree\t"));
+  EXPECT_THAT(events, HasSubstr("\ttlx-2\t50\t")) << "where the scale begins";
+  EXPECT_THAT(events, Not(HasSubstr("\ttlx-1\t50\t"))) << events;
+  EXPECT_THAT(core::read_file(out + "/participants.tsv").value(), HasSubstr("sub-QXWERT\t0\tn/a\tfinished"));
 
   // the same by the sound alone, whatever the tone and the voice do meanwhile
-  const auto session = servo::load_session(folder_.file("kept/session-mica.afms"));
+  const std::string kept = out + "/sub-QXWERT/task-a-lesson_session/session-mica.afms";
+  const auto session = servo::load_session(kept);
   ASSERT_TRUE(session.has_value()) << session.error().message;
   EXPECT_NE(session->find(physics::EventKind::JumpOffContact), nullptr);
   const auto sound = thinned(test::channel(test::floats_of(core::read_file(folder_.file("sound.raw")).value()), 0));
@@ -167,8 +234,7 @@ TEST_F(HeardView, GoesThroughTheWholeProcedureByWhatIsSaidAlone) {
   EXPECT_LT(likeness(sound, signal_of(HeardEvent::Fault)), 0.3) << "which never sounded";
   // sound changes no force
   const auto replayed =
-      support::run_program(std::string(AFM_PROGRAM) + " replay " + folder_.file("kept/session-mica.afms") +
-                           " --sound " + folder_.file("mica.wav"));
+      support::run_program(std::string(AFM_PROGRAM) + " replay " + kept + " --sound " + folder_.file("mica.wav"));
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_THAT(replayed.out, HasSubstr("identical, bit for bit"));
   EXPECT_GT(std::filesystem::file_size(folder_.file("mica.wav")), 100'000U);
@@ -215,16 +281,20 @@ TEST_F(HeardView, GoesOnWithoutASoundCardAndWhenItIsLost) {
     xdotool("key Escape");
     EXPECT_EQ(live->ends(), 0) << live->said();
   }
-  // a card that takes nothing
+  // a card that takes nothing, in a study
   const Variable driver("SDL_AUDIODRIVER", "disk"), file("SDL_DISKAUDIOFILE", "/dev/full");
-  const auto live = view({"--sound"});
+  const std::string lesson = folder_.write("lesson.toml", kLesson), out = folder_.file("study");
+  const auto live = this->live({"lesson", lesson}, {"--sound", "--participant", "QXWERT", "--out", out});
   ASSERT_TRUE(live->says("no sound: the sound card is gone")) << live->said();
   xdotool("key 1");
+  ASSERT_TRUE(live->says("the results say that there is no sound")) << live->said();
+  xdotool("key 1");
   ASSERT_TRUE(live->says("chosen: Mica")) << live->said();
+  EXPECT_THAT(core::read_file(out + "/sub-QXWERT/task-a-lesson_events.json").value(), HasSubstr("\"sound_lost_s\": "));
   xdotool("key Escape");
   EXPECT_EQ(live->ends(), 0) << live->said();
   const std::string said = live->said();
-  EXPECT_EQ(said.find("no sound", said.find("no sound") + 1), std::string::npos) << said;
+  EXPECT_EQ(said.find("no sound:", said.find("no sound:") + 1), std::string::npos) << said;
 }
 
 TEST_F(HeardView, WithoutEspeakEndsWhereSpeechWasAskedForAndElseSaysSoOnce) {

@@ -5,13 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
+#include <cmath>
 #include <filesystem>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "core/whole_file.h"
+#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame_builder.h"
+#include "exhibit/lesson/lesson_panel.h"
 #include "places.h"
 #include "render/image_file.h"
 #include "support/live_program.h"
@@ -32,6 +37,8 @@ std::string words(const std::string& step) { return kWords + step + ".\", de = \
 
 class LessonView : public ::testing::Test {
  protected:
+  static constexpr int kWidth = 640, kHeight = 480;
+
   std::vector<std::string> command(const std::string& file, std::vector<std::string> more = {},
                                    const std::string& hand = "sim") const {
     std::vector<std::string> all{AFM_PROGRAM,    "lesson",     file,          "--size", "640x480",
@@ -43,6 +50,23 @@ class LessonView : public ::testing::Test {
   void key(const std::string& name) const {
     const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool key " + name);
     ASSERT_EQ(done.exit_code, 0) << done.err << " (package xdotool)";
+  }
+  // On one of so many targets of the guide, as one eye sees it.
+  void click(std::size_t target, std::size_t targets) const {
+    exhibit::ExhibitFiles files;
+    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    files.aspect = static_cast<double>(kWidth) / kHeight;
+    exhibit::Stage stage = exhibit::load_exhibit(files).value();
+    stage.wall.viewers.front().ipd_m = 0.0;
+    const auto place = exhibit::lesson_places(stage.wall_scene.parameter_placement(), targets).targets.at(target);
+    const glm::dvec3 middle_m = place.lower_left_m + 0.5 * (place.right_m + place.up_m);
+    const scene::EyeView eye = exhibit::eyes_at_sweet_spot(stage.wall).value()[0];
+    const glm::dvec4 clip = eye.projection * eye.view * glm::dvec4(middle_m, 1.0);
+    const glm::dvec2 pixel = 0.5 * glm::dvec2(kWidth, kHeight) * (glm::dvec2(clip) / clip.w + 1.0);
+    const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool mousemove " +
+                                           std::to_string(std::lround(pixel.x)) + " " +
+                                           std::to_string(std::lround(pixel.y)) + " click 1");
+    ASSERT_EQ(done.exit_code, 0) << done.err;
   }
   // Kept in the build tree for people to look at.
   void picture(const std::string& name) const {
@@ -56,7 +80,7 @@ class LessonView : public ::testing::Test {
   }
 
   const support::ScratchFolder folder_;
-  support::VirtualDisplay display_{640, 480};
+  support::VirtualDisplay display_{kWidth, kHeight};
 };
 
 TEST_F(LessonView, GoesFromConsentThroughTextAndCycleToTheEndAndKeepsItsTrials) {
@@ -66,7 +90,8 @@ TEST_F(LessonView, GoesFromConsentThroughTextAndCycleToTheEndAndKeepsItsTrials) 
                  "[[step]]\nid = \"ask\"\ntype = \"question\"\nquestionnaire = \"tlx\"\n" + words("ask"),
              "fit");
   const std::string out = folder_.file("study");
-  support::LiveProgram view(command(file, {"--participant", "QXWERT", "--out", out}), display_.name());
+  support::LiveProgram view(command(file, {"--participant", "QXWERT", "--out", out, "--age-band", "18-24"}),
+                            display_.name());
   ASSERT_TRUE(view.says("Do you take part?")) << view.said();
   EXPECT_FALSE(fs::exists(out + "/participants.tsv")) << "nothing is kept before the consent";
   key("1");
@@ -82,6 +107,11 @@ TEST_F(LessonView, GoesFromConsentThroughTextAndCycleToTheEndAndKeepsItsTrials) 
     }
     if (item == 1) key("9 minus");
     if (item == 2) picture("scale");
+    if (item == 3) {  // with the pointer: less, and the mark itself
+      click(0, 3);
+      click(1, 3);
+      continue;
+    }
     key("Return");
   }
   ASSERT_TRUE(view.says("The lesson is finished")) << view.said();
@@ -91,8 +121,9 @@ TEST_F(LessonView, GoesFromConsentThroughTextAndCycleToTheEndAndKeepsItsTrials) 
   EXPECT_THAT(events, HasSubstr("\thello\ttext\t"));
   EXPECT_THAT(events, HasSubstr("\tfeel\tcycle\tn/a\t0\t1\tn/a\tn/a\t1.39989e-09\t"));
   EXPECT_THAT(events, HasSubstr("\ttlx-1\t95\t")) << "the upper end, and a step less";
+  EXPECT_THAT(events, HasSubstr("\ttlx-3\t45\t"));
   EXPECT_THAT(events, HasSubstr("\ttlx-6\t50\t"));
-  EXPECT_THAT(core::read_file(out + "/participants.tsv").value(), HasSubstr("sub-QXWERT\t0\tn/a\tfinished"));
+  EXPECT_THAT(core::read_file(out + "/participants.tsv").value(), HasSubstr("sub-QXWERT\t0\t18-24\tfinished"));
   EXPECT_TRUE(fs::exists(out + "/sub-QXWERT/task-a-lesson_session/session-mica.afms")) << view.said();
 }
 
@@ -108,24 +139,16 @@ TEST_F(LessonView, LeavesNothingOfAPersonWhoDoesNotTakePart) {
   EXPECT_FALSE(fs::exists(folder_.file("study"))) << view.said();
 }
 
-TEST_F(LessonView, HidesWhatABlindStepAsksForAndLaysTheVariantsOfAThreshold) {
-  const std::string file =
-      lesson("[[step]]\nid = \"blind\"\ntype = \"identify\"\ntrials = 1\n" + words("blind") +
-             "[[step]]\nid = \"harder\"\ntype = \"threshold\"\nmaterial = \"si3n4\"\nstaircase = \"weighted\"\n"
-             "distance = \"kept\"\nstart = 0.5\ntrials = 1\n" +
-             words("harder") + "[[step]]\nid = \"again\"\ntype = \"cycle\"\nmaterial = \"si3n4\"\n" + words("again"));
-  support::LiveProgram view(command(file), display_.name());
-  ASSERT_TRUE(view.says("Words of blind")) << view.said();
-  ASSERT_TRUE(view.says("jump to contact")) << view.said();
-  picture("blind");
-  for (const char* locked : {"F2", "m", "i", "1"}) key(locked);  // would change or choose the sample
-  ASSERT_TRUE(view.says("jump off contact")) << view.said();
-  ASSERT_TRUE(view.says("Which sample was it?")) << view.said();
-  EXPECT_THAT(view.said(), Not(HasSubstr("chosen: "))) << "the log of a blind step names no sample";
-  EXPECT_THAT(view.said(), Not(HasSubstr("scale fit")));
-  picture("which");
-  // a person thinks before the answer; the simulated hand has meanwhile begun the next cycle on the old sample
-  std::this_thread::sleep_for(std::chrono::seconds(2));
+// By this participant's numbers the second cycle of the threshold is the stronger one, and the sample to be identified
+// is the one that the threshold varied.
+TEST_F(LessonView, LaysTheVariantsOfAThresholdAndHidesWhatABlindStepAsksFor) {
+  const std::string file = lesson(
+      "[[step]]\nid = \"harder\"\ntype = \"threshold\"\nmaterial = \"si3n4\"\nstaircase = \"weighted\"\n"
+      "distance = \"kept\"\nstart = 0.5\ntrials = 1\n" +
+      words("harder") + "[[step]]\nid = \"blind\"\ntype = \"identify\"\ntrials = 1\n" + words("blind"));
+  const std::string out = folder_.file("study");
+  support::LiveProgram view(command(file, {"--participant", "QXWEAC", "--out", out}), display_.name());
+  ASSERT_TRUE(view.says("Do you take part?")) << view.said();
   key("1");
   ASSERT_TRUE(view.says("First cycle.")) << view.said();
   ASSERT_TRUE(view.says("Second cycle.", std::chrono::minutes(2))) << view.said();
@@ -133,60 +156,24 @@ TEST_F(LessonView, HidesWhatABlindStepAsksForAndLaysTheVariantsOfAThreshold) {
   // one of both is half as strong again
   EXPECT_THAT(view.said(), HasSubstr("pull 0.9001 nN"));
   EXPECT_THAT(view.said(), HasSubstr("pull 0.6000 nN"));
+  // a person thinks before the answer; the simulated hand has meanwhile begun the next cycle on the old sample
+  std::this_thread::sleep_for(std::chrono::seconds(2));
   key("2");
-  ASSERT_TRUE(view.says("Words of again")) << view.said();
-  ASSERT_TRUE(view.says("jump off contact", std::chrono::minutes(2))) << view.said();
+  ASSERT_TRUE(view.says("Words of blind")) << view.said();
+  picture("blind");
+  for (const char* locked : {"F2", "m", "i", "1"}) key(locked);  // would change or choose the sample
+  ASSERT_TRUE(view.says("pull 0.6000 nN", std::chrono::minutes(2))) << "the sample is as loaded again: " << view.said();
+  ASSERT_TRUE(view.says("Which sample was it?")) << view.said();
+  EXPECT_THAT(view.said(), Not(HasSubstr("chosen: "))) << "the log of a blind step names no sample";
+  EXPECT_THAT(view.said(), Not(HasSubstr("scale fit")));
+  picture("which");
+  key("2");
   ASSERT_TRUE(view.says("The lesson is finished")) << view.said();
-  EXPECT_NE(view.said().find("pull 0.6000 nN", view.said().find("Words of again")), std::string::npos)
-      << "the sample is as loaded again: " << view.said();
   key("Escape");
   EXPECT_EQ(view.ends(), 0) << view.said();
-}
-
-// What a person with the device alone does: no key but Turn-On, and no picture is read.
-TEST_F(LessonView, IsAnsweredByTheHandAloneAndSaysWhatItMarks) {
-  const std::string file = lesson("[[step]]\nid = \"hello\"\ntype = \"text\"\n" + words("hello") +
-                                  "[[step]]\nid = \"load\"\ntype = \"question\"\nquestionnaire = \"tlx\"\n" +
-                                  words("load") + "[[step]]\nid = \"draw\"\ntype = \"draw\"\n" + words("draw"));
-  ASSERT_EQ(::setenv("SDL_AUDIODRIVER", "dummy", 1), 0);
-  const std::string out = folder_.file("study");
-  support::LiveProgram view(
-      command(file, {"--speech", "--language", "en", "--participant", "QXWERT", "--out", out}, "mouse"),
-      display_.name());
-  const auto move_hand = [&](int down_px) {
-    const auto done =
-        support::run_program("DISPLAY=" + display_.name() + " xdotool mousemove 320 200 mousedown 3 mousemove 320 " +
-                             std::to_string(200 + down_px) + " mouseup 3");
-    ASSERT_EQ(done.exit_code, 0) << done.err;
-  };
-  // a press that comes while the last one still counts as held is none: who gets no answer presses again
-  const auto turn_on_until_it_says = [&](const std::string& text) {
-    for (int press = 0; press < 3; ++press) {
-      key("t");
-      if (view.says(text, std::chrono::seconds(20))) return true;
-    }
-    return false;
-  };
-  ASSERT_TRUE(view.says("says: This lesson keeps your answers")) << view.said();
-  key("t");  // which answers nothing: the hand has marked none
-  move_hand(34);
-  ASSERT_TRUE(view.says("says: Yes, I take part")) << view.said();
-  ASSERT_TRUE(turn_on_until_it_says("says: Words of hello")) << view.said();
-  ASSERT_TRUE(turn_on_until_it_says("says: Mental demand")) << view.said();
-  move_hand(12);
-  ASSERT_FALSE(view.says_one_of({"says: 45", "says: 40", "says: 35", "says: 30"}).empty()) << view.said();
-  ASSERT_TRUE(turn_on_until_it_says("says: Physical demand")) << view.said();
-  picture("by-hand");
-  for (int item = 2; item <= 6; ++item) {
-    ASSERT_TRUE(turn_on_until_it_says(item < 6 ? "question " + std::to_string(item + 1) : "Words of draw"))
-        << view.said();
-  }
-  key("Escape");
-  EXPECT_EQ(view.ends(), 0) << view.said();
-  const std::string events = core::read_file(out + "/sub-QXWERT/task-a-lesson_events.tsv").value();
-  EXPECT_THAT(events, HasSubstr("\ttlx-2\t50\t")) << "where the scale begins";
-  EXPECT_THAT(events, Not(HasSubstr("\ttlx-1\t50\t"))) << events;
-  EXPECT_THAT(view.said(), Not(HasSubstr("says: The force is on"))) << "Turn-On answers, and turns nothing on";
+  const std::string events = core::read_file(out + "/sub-QXWEAC/task-a-lesson_events.tsv").value();
+  EXPECT_THAT(events, HasSubstr("\tharder\tthreshold\tn/a\t0\t1\t0.5\tsecond\tsecond\t1\t"));
+  EXPECT_THAT(events, HasSubstr("\tblind\tidentify\tn/a\t0\t1\tn/a\tsi3n4\tsi3n4\t1\t"));
 }
 
 }  // namespace
