@@ -61,6 +61,11 @@ class ServoClient {
   // ms at least.
   void stop(std::int64_t now_ns);
 
+  // Nobody sees the picture, as when a headset is lost: cuts the force as stop() does, and then sends no heartbeat, so
+  // that there is no force, until somebody sees it again. Once a frame.
+  enum class Picture { Seen, Unseen };
+  void follow_sight(Picture picture, std::int64_t now_ns);
+
   const scene::TipState& tip() const { return tip_; }
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
   const haptics::ServoSettings& settings() const { return settings_; }
@@ -118,6 +123,7 @@ class ServoClient {
   std::uint32_t leads_ = 0;
   std::uint64_t beats_ = 0;
   std::optional<std::int64_t> stopped_ns_;  // when stop() was called last
+  Picture picture_ = Picture::Seen;         // as follow_sight() was told last
   std::unique_ptr<TipListener> listener_;
   std::unique_ptr<Servo> servo_;  // last: it ends before its segment goes
 };
