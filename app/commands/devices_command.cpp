@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/command.h"
-#include "app/live/headset_runtime.h"
+#include "app/headset/headset_runtime.h"
 #include "core/clock.h"
 #include "core/printable.h"
 #include "input/dtrack_source.h"

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "app/live/headset_runtime.h"
+#include "app/headset/headset_runtime.h"
 #include "servo/haptic_choice.h"
 #include "servo/servo_client.h"
 

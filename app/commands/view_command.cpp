@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/command.h"
-#include "app/live/headset_runtime.h"
+#include "app/headset/headset_runtime.h"
 #include "app/live/speech_choice.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"

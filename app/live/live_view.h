@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/headset/view_headset.h"
 #include "app/lesson/instructor_window.h"
 #include "app/lesson/live_lesson.h"
 #include "app/live/live_sound.h"
@@ -15,7 +16,6 @@
 #include "app/live/mouse_wand.h"
 #include "app/live/servo_supervisor.h"
 #include "app/live/view_head.h"
-#include "app/live/view_headset.h"
 #include "app/live/view_keys.h"
 #include "app/live/view_panels.h"
 #include "app/live/view_picture.h"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "app/headset/view_headset.h"
 #include "app/live/frame_times.h"
 #include "app/live/mouse_wand.h"
-#include "app/live/view_headset.h"
 #include "app/live/view_outputs.h"
 #include "app/live/view_windows.h"
 #include "app/options/dynamic_resolution.h"

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/live/view_headset.h"
+#include "app/headset/view_headset.h"
 #include "exhibit/exhibit_setup.h"
 #include "places.h"
 #include "support/live_program.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/headset_runtime.h"
+#include "app/headset/headset_runtime.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
