@@ -51,10 +51,10 @@ core::Result<void> HeadsetRuntimeParts::open() {
   if (opened) opened = find_headset();
   if (opened) return opened;
   calls.close();
-  return core::failure(
-      opened.error().category,
-      fmt::format("no headset: {}; tried the runtime of {}; {}", opened.error().message,
-                  manifest.empty() ? "no manifest, since none is installed" : manifest, kInstallRuntime));
+  return core::failure(opened.error().category, fmt::format("no headset: {}; {}; {}", opened.error().message,
+                                                            manifest.empty() ? "no manifest of a runtime is installed"
+                                                                             : "tried the runtime of " + manifest,
+                                                            kInstallRuntime));
 }
 
 core::Result<void> HeadsetRuntimeParts::find_headset() {
