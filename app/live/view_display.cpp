@@ -28,7 +28,6 @@ render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const 
     drawing.panel_texels_per_m = 2.0 * eye_px.x / narrowest_m;
     drawing.panel_millimetre_m = stage.wall_scene.panel_millimetre_m();
   }
-  drawing.panel_contrast = options.contrast;
   drawing.time_passes = options.frame_budget_ms > 0;
   return drawing;
 }
@@ -67,8 +66,9 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
                                        render::Presentation::Window, runtime);
   if (!context) return tl::unexpected(context.error());
   display->context_ = std::move(*context);
-  const render::RendererOptions drawing =
+  render::RendererOptions drawing =
       runtime != nullptr ? drawing_in_headset(stage, runtime->eye_px()) : display->drawing(stage, options);
+  drawing.panel_contrast = options.contrast;
   auto renderer = render::Renderer::create(*display->context_, stage.wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   display->renderer_ = std::move(*renderer);

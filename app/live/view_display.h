@@ -44,7 +44,7 @@ class ViewDisplay {
   ViewPicture& picture() { return *picture_; }
   render::Context& context() { return *context_; }
   InstructorWindow* instructor() { return instructor_.get(); }  // null: there is none
-  ViewHeadset* headset() { return headset_.get(); }  // null: none
+  ViewHeadset* headset() { return headset_.get(); }             // null: none
 
  private:
   ViewDisplay() = default;
