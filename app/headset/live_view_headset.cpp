@@ -5,13 +5,23 @@
 
 namespace afm::app {
 
+// A heartbeat says whether anybody sees the picture, as far as that is known when it is sent.
+std::function<void()> LiveView::heartbeat() {
+  const servo::FrameHeartbeat beat(servo_.link(), clock_);
+  if (settings_.headset == nullptr) return beat;
+  return [this, beat] {
+    using Picture = servo::ServoClient::Picture;
+    servo_.link().set_picture(settings_.headset->blind(clock_.now_ns()) ? Picture::Unseen : Picture::Seen);
+    beat();
+  };
+}
+
 void LiveView::follow_headset() {
   ViewHeadset& headset = *settings_.headset;
-  const servo::FrameHeartbeat beat(servo_.link(), clock_);
+  const std::function<void()> beat = heartbeat();
   headset.follow(beat);
+  beat();
   const std::int64_t now_ns = clock_.now_ns();
-  using Picture = servo::ServoClient::Picture;
-  servo_.link().follow_sight(headset.blind(now_ns) ? Picture::Unseen : Picture::Seen, now_ns);
   view_wand_.hold(headset.wand(now_ns));
   picture_.look_from(headset.head());
 

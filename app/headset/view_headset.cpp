@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <utility>
 
 #include "core/log.h"
 
@@ -72,26 +73,51 @@ void ViewHeadset::log_news() {
 }
 
 void ViewHeadset::follow(const std::function<void()>& while_waiting) {
-  turn_ = headset_->next_turn(while_waiting);
-  if (!wants_picture() && !unseen_since_ns_) unseen_since_ns_ = clock_.now_ns();
+  const Turn before = std::exchange(turn_, headset_->next_turn(while_waiting));
+  if (!wants_picture()) note_unseen();
   log_news();
+  if (before != turn_) log_turn();
+}
+
+void ViewHeadset::note_unseen() {
+  if (!unseen_since_ns_) unseen_since_ns_ = clock_.now_ns();
+}
+
+// The states of the session are in the news; what is said here may come without another state.
+void ViewHeadset::log_turn() {
+  if (turn_ == Turn::Hidden) core::log_line("headset: hidden: its runtime shows something else, or nothing");
+  if (turn_ == Turn::Frozen) core::log_line("headset: frozen: its runtime has asked for no frame for 250 ms");
+  if (turn_ == Turn::Frame) core::log_line("headset: its runtime asks for frames");
+}
+
+const char* ViewHeadset::turn_word() const {
+  switch (turn_) {
+    case Turn::Off:
+      return "off";
+    case Turn::Frozen:
+      return "frozen";
+    case Turn::Hidden:
+      return "hidden";
+    case Turn::Frame:
+      return unseen_since_ns_ ? "hidden" : "shown";
+  }
+  return "";
 }
 
 MirroredEye ViewHeadset::locate_eyes() {
   if (!wants_picture()) return resting_;
   const auto eyes = headset_->locate_eyes();
-  if (!eyes) {
-    if (!unseen_since_ns_) unseen_since_ns_ = clock_.now_ns();
-    return resting_;
-  }
+  if (!eyes) return resting_;
   const auto& [left, right] = *eyes;
   head_ = {.position_m = 0.5 * (left.pose.position_m + right.pose.position_m),
            .room_from_head = glm::slerp(left.pose.room_from_head, right.pose.room_from_head, 0.5)};
-  unseen_since_ns_.reset();
   return mirrored(left.pose, left.fov, {left.view, right.view}, wall_m_);
 }
 
-void ViewHeadset::show(const std::function<void()>& while_waiting) { headset_->show(while_waiting); }
+void ViewHeadset::show(const std::function<void()>& while_waiting) {
+  note_unseen();  // until it is shown: the runtime may lend no image
+  if (headset_->show(while_waiting)) unseen_since_ns_.reset();
+}
 
 bool ViewHeadset::blind(std::int64_t now_ns) const {
   if (turn_ == Turn::Off || turn_ == Turn::Frozen) return true;

@@ -42,9 +42,12 @@ class ViewHeadset {
   void show(const std::function<void()>& while_waiting);
 
   // Nobody sees the picture: the hand must be free. At once where the headset is off, lost or frozen; where its runtime
-  // hides the picture or has lost the eyes, once it has done so for as long as a picture may hang. A slow picture is
-  // seen.
+  // hides the picture, has lost the eyes or lends no image, once it has done so for as long as a picture may hang. A
+  // slow picture is seen.
   bool blind(std::int64_t now_ns) const;
+
+  // Of this turn, for the frame log: shown, hidden, frozen, off.
+  const char* turn_word() const;
 
   // The controller, as every other wand; none while the headset has none.
   std::optional<input::WandState> wand(std::int64_t now_ns) const;
@@ -57,6 +60,8 @@ class ViewHeadset {
  private:
   ViewHeadset(const exhibit::Stage& stage, const render::HeadsetRuntime& runtime, const core::Clock& clock);
   void log_news();
+  void log_turn();
+  void note_unseen();
 
   const core::Clock& clock_;
   double wall_m_;  // how far away the screen is from the sweet spot

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live/live_view.h"
-#include "servo/frame_heartbeat.h"
 
 #include <fmt/format.h>
 
@@ -356,7 +355,7 @@ void LiveView::record(const exhibit::Moment& now) {
 }
 
 void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
-  const servo::FrameHeartbeat beat(servo_.link(), clock_);
+  const std::function<void()> beat = heartbeat();
   follow_edits();
   travel(now_ns);
   follow_lesson(now_ns);

@@ -79,6 +79,7 @@ class LiveView {
   void follow_wand(std::int64_t now_ns);
   void follow_head(std::int64_t now_ns);
   void follow_headset();
+  std::function<void()> heartbeat();  // of one frame
   void choose(std::size_t material);  // that there is
   void follow_visitor(const ViewInput& input, std::int64_t now_ns);
   void begin_for_visitors();

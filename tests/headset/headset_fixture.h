@@ -82,7 +82,7 @@ class HeadsetTest : public testing::Test {
         frame_.eyes = {(*eyes)[0].view, (*eyes)[1].view};
         renderer_->render(frame_);
       }
-      headset_->show([] {});
+      shown_ = headset_->show([this] { ++beats_; });
       return eyes;
     }
     return std::nullopt;
@@ -99,6 +99,7 @@ class HeadsetTest : public testing::Test {
 
   HandClock clock_;
   int beats_ = 0;
+  bool shown_ = false;  // what draw_next() drew last
   TestScene scene_ = make_test_scene();
   render::FrameState frame_ = full_frame(scene_);
   scene::HeadPose room_from_floor_{.position_m = {0.0, -1.6, 2.5}};  // the test scene's wall is before its origin

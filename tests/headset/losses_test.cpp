@@ -155,6 +155,22 @@ TEST_F(HeadsetLosses, AFrozenRuntimeIsWaitedForWithBeatsFor250MsAndThenWithout) 
   EXPECT_TRUE(draw_next());
 }
 
+// The wearer sees the last picture for as long as no image is lent, which the loop has to know.
+TEST_F(HeadsetLosses, ARuntimeThatLendsNoImageIsWaitedForWithBeatsAndNotedAsUnseen) {
+  connect();
+  ASSERT_TRUE(draw_next());
+  EXPECT_TRUE(shown_);
+  script().lends = false;
+  beats_ = 0;
+  ASSERT_TRUE(draw_next());
+  EXPECT_FALSE(shown_);
+  EXPECT_GE(beats_, 50);
+  EXPECT_THAT(log().frames.back().eyes, testing::IsEmpty());
+  script().lends = true;
+  ASSERT_TRUE(draw_next());
+  EXPECT_TRUE(shown_);
+}
+
 TEST_F(HeadsetLosses, MissingPartsAreNamedInOneLine) {
   const auto refusal = [] {
     const auto runtime = render::HeadsetRuntime::connect("/etc/runtime.json");

@@ -103,8 +103,9 @@ class Headset {
   // Empty while the runtime has lost them; the frame is then shown without a picture.
   std::optional<std::array<HeadsetEye, 2>> locate_eyes();
 
-  // Shows the renderer's newest frame, drawn for the eyes that were located last.
-  void show(const std::function<void()>& while_waiting);
+  // Shows the renderer's newest frame, drawn for the eyes that were located last. False: nobody sees it, because the
+  // runtime has lost the eyes, lends no image, or is gone.
+  bool show(const std::function<void()>& while_waiting);
 
   // As of this turn.
   const HeadsetController& controller() const;

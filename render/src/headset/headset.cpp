@@ -105,8 +105,10 @@ std::optional<std::array<HeadsetEye, 2>> Headset::locate_eyes() {
   return eyes;
 }
 
-void Headset::show(const std::function<void()>& while_waiting) {
-  if (parts_->session) parts_->follow_loss([&] { parts_->session->show(while_waiting); });
+bool Headset::show(const std::function<void()>& while_waiting) {
+  bool shown = false;
+  if (parts_->session) parts_->follow_loss([&] { shown = parts_->session->show(while_waiting); });
+  return shown;
 }
 
 const HeadsetController& Headset::controller() const {

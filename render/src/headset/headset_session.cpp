@@ -207,12 +207,16 @@ std::optional<std::array<HeadsetEye, 2>> HeadsetSession::locate_eyes() {
   return eyes;
 }
 
-void HeadsetSession::show(const std::function<void()>& while_waiting) {
-  if (!frame_) return;
-  if (!located_ || !pictures_.take(while_waiting)) return end_frame(Picture::None);
+bool HeadsetSession::show(const std::function<void()>& while_waiting) {
+  if (!frame_) return false;
+  if (!located_ || !pictures_.take(while_waiting)) {
+    end_frame(Picture::None);
+    return false;
+  }
   submit_copies();
   pictures_.give_back();
   end_frame(Picture::Eyes);
+  return true;
 }
 
 void HeadsetSession::submit_copies() {

@@ -29,7 +29,7 @@ class HeadsetSession {
 
   Headset::Turn next_turn(const core::Clock& clock, const std::function<void()>& while_waiting);
   std::optional<std::array<HeadsetEye, 2>> locate_eyes();
-  void show(const std::function<void()>& while_waiting);
+  bool show(const std::function<void()>& while_waiting);
 
   // Over, and nothing of it is under way: it can be destroyed without waiting.
   bool over() const { return states_.phase() == SessionPhase::Over && !wait_->under_way(); }

@@ -61,10 +61,10 @@ class ServoClient {
   // ms at least.
   void stop(std::int64_t now_ns);
 
-  // Nobody sees the picture, as when a headset is lost: cuts the force as stop() does, and then sends no heartbeat, so
-  // that there is no force, until somebody sees it again. Once a frame.
+  // What every heartbeat from now on says of the picture. While nobody sees it, as when a headset is lost, the servo
+  // gives no force; when somebody does again, the hand lifts and Turn-On is pressed as after the start.
   enum class Picture { Seen, Unseen };
-  void follow_sight(Picture picture, std::int64_t now_ns);
+  void set_picture(Picture picture) { picture_ = picture; }
 
   const scene::TipState& tip() const { return tip_; }
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
@@ -123,7 +123,7 @@ class ServoClient {
   std::uint32_t leads_ = 0;
   std::uint64_t beats_ = 0;
   std::optional<std::int64_t> stopped_ns_;  // when stop() was called last
-  Picture picture_ = Picture::Seen;         // as follow_sight() was told last
+  Picture picture_ = Picture::Seen;         // as set_picture() was told last
   std::unique_ptr<TipListener> listener_;
   std::unique_ptr<Servo> servo_;  // last: it ends before its segment goes
 };

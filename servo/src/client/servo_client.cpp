@@ -71,19 +71,17 @@ core::Result<std::unique_ptr<ServoClient>> ServoClient::start(const scene::Share
 }
 
 void ServoClient::beat(std::int64_t now_ns) {
-  if (picture_ == Picture::Unseen) return;
   const bool stop = stopped_ns_ && now_ns - *stopped_ns_ < kStopNs;
-  side_.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = beats_++, .leaving = 0, .stop = stop ? 1U : 0U});
+  side_.store(scene::RendererHeartbeat{.time_ns = now_ns,
+                                       .frame = beats_++,
+                                       .leaving = 0,
+                                       .stop = stop ? 1U : 0U,
+                                       .unseen = picture_ == Picture::Unseen ? 1U : 0U});
 }
 
 void ServoClient::stop(std::int64_t now_ns) {
   stopped_ns_ = now_ns;
   beat(now_ns);
-}
-
-void ServoClient::follow_sight(Picture picture, std::int64_t now_ns) {
-  if (picture == Picture::Unseen && picture_ == Picture::Seen) stop(now_ns);
-  picture_ = picture;
 }
 
 core::Result<ServoClient::Update> ServoClient::poll(std::int64_t now_ns) {

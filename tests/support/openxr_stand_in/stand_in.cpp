@@ -31,7 +31,15 @@ bool enter(const char* call, XrResult& result) {
   if (failing == s.script.failing.end()) return true;
   result = failing->second;
   s.script.failing.erase(failing);
+  note("failed");
   return false;
+}
+
+void note(const std::string& what) {
+  static std::set<std::string> noted;
+  const char* path = std::getenv("AFM_STAND_IN");
+  if (path == nullptr || !noted.insert(what).second) return;
+  std::ofstream(std::string(path) + ".log", std::ios::app) << what << ' ' << now_ns() << std::endl;
 }
 
 // Lines of the file that have come since the last look, such as "state 7", "fail xrWaitFrame -13" or "press 1 select".
@@ -62,6 +70,8 @@ void follow_script_file() {
     }
     if (verb == "block") s.script.blocked = true;
     if (verb == "unblock") s.script.blocked = false;
+    if (verb == "keep") s.script.lends = false;
+    if (verb == "lend") s.script.lends = true;
     if (verb == "hide") s.script.should_render = false;
     if (verb == "unhide") s.script.should_render = true;
     if (verb == "gone") s.script.available = false;

@@ -48,6 +48,7 @@ struct Script {
   bool headset_plugged_in = true;                // to xrGetSystem
   std::int64_t frame_ns = 0;                     // how long xrWaitFrame keeps the program at least
   bool blocked = false;                          // xrWaitFrame keeps it until this is false
+  bool lends = true;                             // images
   std::map<std::string, XrResult> failing;       // calls, once each
   std::array<std::set<std::string>, 2> pressed;  // actions, by hand
   std::array<XrPosef, 2> aims{{{{0, 0, 0, 1}, {-0.2F, 1.2F, -0.3F}}, {{0, 0, 0, 1}, {0.2F, 1.2F, -0.3F}}}};
@@ -104,6 +105,7 @@ SubmittedEye read_image(const Swapchain& chain, std::uint32_t layer, const XrRec
 std::int64_t now_ns();
 bool enter(const char* call, XrResult& result);  // logs it; false: it fails as the script says
 void follow_script_file();
+void note(const std::string& what);  // when it happens first, in that file's neighbour ".log"
 
 XrResult find_frame_call(const char* name, PFN_xrVoidFunction* function);
 

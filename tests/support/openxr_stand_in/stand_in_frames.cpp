@@ -189,6 +189,10 @@ XrResult XRAPI_CALL wait_image(XrSwapchain handle, const XrSwapchainImageWaitInf
   AFM_ENTER_FRAME("xrWaitSwapchainImage");
   auto& chain = *reinterpret_cast<Swapchain*>(handle);
   if (chain.acquired != 1) return fault(XR_ERROR_CALL_ORDER_INVALID, "waited for an image that was not acquired");
+  if (!s.script.lends) {
+    note("kept");
+    return XR_TIMEOUT_EXPIRED;
+  }
   chain.acquired = 2;
   return XR_SUCCESS;
 }
@@ -211,6 +215,7 @@ XrResult XRAPI_CALL wait_frame(XrSession, const XrFrameWaitInfo*, XrFrameState* 
   if (!s.running) return fault(XR_ERROR_SESSION_NOT_RUNNING, "waited for a frame of a session that does not run");
   const std::int64_t until_ns = now_ns() + s.script.frame_ns;
   while (s.script.blocked || now_ns() < until_ns) {
+    if (s.script.blocked) note("blocked");
     lock.unlock();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     lock.lock();
