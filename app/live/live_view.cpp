@@ -58,6 +58,8 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::Sample
       simulated_head_(stage.wall.viewers.front().sweet_spot, settings.head_script),
       hand_(hand_over(stage.wall_scene)),
       person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), input::HandPath{}),
+      travel_(settings.headset == nullptr ? exhibit::JourneyTravel::Motion::Glide
+                                          : exhibit::JourneyTravel::Motion::Steps),
       visitor_(static_cast<std::int64_t>(settings.idle_s * 1e9)),
       lesson_(settings.lesson),
       instructor_(settings.instructor) {
