@@ -34,6 +34,7 @@ TEST_F(HeadsetLosses, AHeadsetThatIsTakenOffAndPutOnThreeTimesShowsThePictureEac
     ASSERT_TRUE(draw_next()) << i;
     say({XR_SESSION_STATE_VISIBLE, XR_SESSION_STATE_SYNCHRONIZED, XR_SESSION_STATE_STOPPING});
     EXPECT_EQ(turn(), Headset::Turn::Off);
+    EXPECT_FALSE(headset_->controller().connected) << "nobody holds it";
     EXPECT_EQ(turn(), Headset::Turn::Off);
     say({XR_SESSION_STATE_READY});
   }
@@ -169,6 +170,13 @@ TEST_F(HeadsetLosses, ARuntimeThatLendsNoImageIsWaitedForWithBeatsAndNotedAsUnse
   script().lends = true;
   ASSERT_TRUE(draw_next());
   EXPECT_TRUE(shown_);
+}
+
+TEST_F(HeadsetLosses, ANameThatIsNoTextIsPrintedSafely) {
+  script().name = "\x1b[2J" + std::string(XR_MAX_SYSTEM_NAME_SIZE, 'x');  // without an end
+  connect();
+  EXPECT_EQ(runtime_->headset_name().find('\x1b'), std::string::npos);
+  EXPECT_LE(runtime_->headset_name().size(), XR_MAX_SYSTEM_NAME_SIZE + 2U);
 }
 
 TEST_F(HeadsetLosses, MissingPartsAreNamedInOneLine) {

@@ -107,7 +107,7 @@ class Headset {
   // runtime has lost the eyes, lends no image, or is gone.
   bool show(const std::function<void()>& while_waiting);
 
-  // As of this turn.
+  // As of this turn; none where it brought no frame.
   const HeadsetController& controller() const;
 
   // A short push of the controller that was used last.

@@ -18,6 +18,7 @@ struct Headset::Parts {
   const core::Clock& clock;
   std::vector<std::string> news;
   std::unique_ptr<HeadsetSession> session;  // none while the headset is lost
+  Turn turn = Turn::Off;
   std::int64_t looked_ns = 0;
   std::string said_missing;
 
@@ -80,23 +81,23 @@ Headset::~Headset() = default;
 core::Result<std::unique_ptr<Headset>> Headset::create(HeadsetRuntime& runtime, Context& context, Renderer& renderer,
                                                        const scene::HeadPose& room_from_floor,
                                                        const core::Clock& clock) {
-  std::unique_ptr<Parts> parts(
-      new Parts{runtime.parts(), context.device(), *renderer.parts_, room_from_floor, clock, {}, nullptr, 0, {}});
+  std::unique_ptr<Parts> parts(new Parts{
+      runtime.parts(), context.device(), *renderer.parts_, room_from_floor, clock, {}, nullptr, Turn::Off, 0, {}});
   if (auto begun = parts->begin(); !begun) return tl::unexpected(begun.error());
   return std::unique_ptr<Headset>(new Headset(std::move(parts)));
 }
 
 Headset::Turn Headset::next_turn(const std::function<void()>& while_waiting) {
   Parts& parts = *parts_;
+  parts.turn = Turn::Off;
   if (!parts.session) parts.look_again();
   if (!parts.session) return Turn::Off;
-  Turn turn = Turn::Off;
-  parts.follow_loss([&] { turn = parts.session->next_turn(parts.clock, while_waiting); });
+  parts.follow_loss([&] { parts.turn = parts.session->next_turn(parts.clock, while_waiting); });
   if (parts.session->over()) {
     parts.forget();
-    return Turn::Off;
+    parts.turn = Turn::Off;
   }
-  return turn;
+  return parts.turn;
 }
 
 std::optional<std::array<HeadsetEye, 2>> Headset::locate_eyes() {
@@ -113,7 +114,9 @@ bool Headset::show(const std::function<void()>& while_waiting) {
 
 const HeadsetController& Headset::controller() const {
   static const HeadsetController kNone;
-  return parts_->session ? parts_->session->controller() : kNone;
+  // no button stays pressed where no frame came in which it could have been released
+  const bool known = parts_->turn == Turn::Hidden || parts_->turn == Turn::Frame;
+  return parts_->session && known ? parts_->session->controller() : kNone;
 }
 
 void Headset::pulse() {

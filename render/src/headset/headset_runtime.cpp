@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <string_view>
 #include <utility>
 
+#include "core/printable.h"
 #include "device/device.h"
 #include "headset/runtime_parts.h"
 
@@ -28,6 +30,12 @@ void check_made(XrResult result, const char* call) {
     throw vk::SystemError(vk::make_error_code(vk::Result::eErrorInitializationFailed),
                           fmt::format("{}: {}", call, name_of(result)));
   }
+}
+
+// What a runtime says for people may be anything.
+template <std::size_t kSize>
+std::string words_of(const char (&said)[kSize]) {
+  return core::printable({said, ::strnlen(said, kSize)});
 }
 
 }  // namespace
@@ -62,14 +70,14 @@ core::Result<void> HeadsetRuntimeParts::find_headset() {
     auto properties = openxr_struct<XrInstanceProperties>(XR_TYPE_INSTANCE_PROPERTIES);
     check_openxr(calls.GetInstanceProperties(calls.handle(), &properties), "xrGetInstanceProperties");
     const XrVersion version = properties.runtimeVersion;
-    runtime_name = fmt::format("{} {}.{}.{}", static_cast<const char*>(properties.runtimeName),
-                               XR_VERSION_MAJOR(version), XR_VERSION_MINOR(version), XR_VERSION_PATCH(version));
+    runtime_name = fmt::format("{} {}.{}.{}", words_of(properties.runtimeName), XR_VERSION_MAJOR(version),
+                               XR_VERSION_MINOR(version), XR_VERSION_PATCH(version));
     const XrSystemGetInfo get{
         .type = XR_TYPE_SYSTEM_GET_INFO, .next = nullptr, .formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY};
     check_openxr(calls.GetSystem(calls.handle(), &get, &system), "xrGetSystem");
     auto found = openxr_struct<XrSystemProperties>(XR_TYPE_SYSTEM_PROPERTIES);
     check_openxr(calls.GetSystemProperties(calls.handle(), system, &found), "xrGetSystemProperties");
-    headset_name = static_cast<const char*>(found.systemName);
+    headset_name = words_of(found.systemName);
     auto required = openxr_struct<XrGraphicsRequirementsVulkan2KHR>(XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN2_KHR);
     check_openxr(calls.GetVulkanGraphicsRequirements2KHR(calls.handle(), system, &required),
                  "xrGetVulkanGraphicsRequirements2KHR");

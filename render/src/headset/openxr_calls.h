@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -72,14 +74,17 @@ Struct openxr_struct(XrStructureType type) {
   return made;
 }
 
+inline constexpr std::uint32_t kMostOpenXrItems = 10'000;  // that a runtime may list
+
 // Asks a call of the runtime twice, for the length of a list and for the list. `ask(capacity, count, list)`.
 template <class Item, class Ask>
 std::vector<Item> openxr_list(const char* call, const Item& empty, Ask&& ask) {
   std::uint32_t count = 0;
   check_openxr(ask(0U, &count, static_cast<Item*>(nullptr)), call);
+  if (count > kMostOpenXrItems) throw OpenXrFailure(XR_ERROR_RUNTIME_FAILURE, call);
   std::vector<Item> items(count, empty);
   check_openxr(ask(count, &count, items.data()), call);
-  items.resize(count);
+  items.resize(std::min<std::size_t>(count, items.size()));
   return items;
 }
 

@@ -141,7 +141,7 @@ XrResult XRAPI_CALL get_system(XrInstance, const XrSystemGetInfo*, XrSystemId* s
 
 XrResult XRAPI_CALL system_properties(XrInstance, XrSystemId, XrSystemProperties* properties) {
   AFM_ENTER("xrGetSystemProperties");
-  std::strncpy(properties->systemName, "headset without lenses", XR_MAX_SYSTEM_NAME_SIZE - 1);
+  s.script.name.copy(properties->systemName, XR_MAX_SYSTEM_NAME_SIZE);
   return XR_SUCCESS;
 }
 

@@ -34,6 +34,7 @@ struct SubmittedFrame {
 };
 
 struct Script {
+  std::string name = "headset without lenses";
   std::vector<std::int64_t> formats{91, 97, 43, 50, 37, 44, 126};
   std::uint32_t images = 3;
   std::uint32_t eye_width = 256, eye_height = 192;
