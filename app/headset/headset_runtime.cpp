@@ -18,6 +18,7 @@ std::string from_environment(const char* name) {
   return value == nullptr ? "" : value;
 }
 
+// NOLINTNEXTLINE(concurrency-mt-unsafe): no command has another thread then that asks
 void silence_loader() { ::setenv("XR_LOADER_DEBUG", "none", 0); }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "headset/openxr_pose.h"
@@ -53,10 +54,10 @@ constexpr std::array<ProfileRow, 5> kControllerProfiles{
        "input/thumbstick", kPulseOutput}}}};
 
 std::string input_of(const char* inputs, std::size_t hand) {
-  const std::string both(inputs);
+  const std::string_view both(inputs);
   const std::size_t bar = both.find('|');
-  if (bar == std::string::npos) return both;
-  return hand == 0 ? both.substr(0, bar) : both.substr(bar + 1);
+  if (bar == std::string_view::npos) return std::string(both);
+  return std::string(hand == 0 ? both.substr(0, bar) : both.substr(bar + 1));
 }
 
 template <std::size_t kSize>
