@@ -76,7 +76,7 @@ void ViewHeadset::follow(const std::function<void()>& while_waiting) {
   const Turn before = std::exchange(turn_, headset_->next_turn(while_waiting));
   if (!wants_picture()) note_unseen();
   log_news();
-  if (before != turn_) log_turn();
+  if (before != turn_) log_turn(before);
 }
 
 void ViewHeadset::note_unseen() {
@@ -84,8 +84,9 @@ void ViewHeadset::note_unseen() {
 }
 
 // The states of the session are in the news; what is said here may come without another state.
-void ViewHeadset::log_turn() {
-  if (turn_ == Turn::Hidden) core::log_line("headset: hidden: its runtime shows something else, or nothing");
+void ViewHeadset::log_turn(render::Headset::Turn before) const {
+  if (turn_ == Turn::Hidden && before == Turn::Frame)
+    core::log_line("headset: hidden: its runtime shows something else, or nothing");
   if (turn_ == Turn::Frozen) core::log_line("headset: frozen: its runtime has asked for no frame for 250 ms");
   if (turn_ == Turn::Frame) core::log_line("headset: its runtime asks for frames");
 }

@@ -60,7 +60,7 @@ class ViewHeadset {
  private:
   ViewHeadset(const exhibit::Stage& stage, const render::HeadsetRuntime& runtime, const core::Clock& clock);
   void log_news();
-  void log_turn();
+  void log_turn(render::Headset::Turn before) const;
   void note_unseen();
 
   const core::Clock& clock_;
