@@ -30,7 +30,6 @@ struct SubmittedEye {
 };
 struct SubmittedFrame {
   std::vector<SubmittedEye> eyes;  // none where the frame had no layer
-  std::int64_t pose_age_ns = 0;    // from the last xrLocateViews
 };
 
 struct Script {
@@ -62,7 +61,6 @@ struct Log {
   std::vector<std::string> calls;   // all but xrPollEvent and xrGetActionState...
   std::vector<std::string> faults;  // against the specification
   std::vector<SubmittedFrame> frames;
-  std::uint64_t frame_count = 0;
   int pulses = 0;
 };
 
@@ -83,7 +81,6 @@ struct StandIn {
   bool running = false;
   int waited = 0, begun = 0;  // frames
   bool recentered = false;
-  std::int64_t located_ns = 0;
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;

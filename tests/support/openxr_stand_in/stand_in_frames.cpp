@@ -247,17 +247,14 @@ XrResult XRAPI_CALL locate_views(XrSession, const XrViewLocateInfo* info, XrView
     views[i].pose.position.y -= reinterpret_cast<const Space*>(info->space)->height_m();
     views[i].fov = s.script.fovs[i];
   }
-  s.located_ns = now_ns();
   return XR_SUCCESS;
 }
 
 XrResult XRAPI_CALL end_frame(XrSession, const XrFrameEndInfo* info) {
   AFM_ENTER_FRAME("xrEndFrame");
   if (s.begun != s.waited) return fault(XR_ERROR_CALL_ORDER_INVALID, "ended a frame that was not begun");
-  ++s.log.frame_count;
   if (!s.keeps_frames) return XR_SUCCESS;
   SubmittedFrame frame;
-  frame.pose_age_ns = now_ns() - s.located_ns;
   for (std::uint32_t i = 0; i < info->layerCount; ++i) {
     if (info->layers[i]->type != XR_TYPE_COMPOSITION_LAYER_PROJECTION) continue;
     const auto* layer = reinterpret_cast<const XrCompositionLayerProjection*>(info->layers[i]);
