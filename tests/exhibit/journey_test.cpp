@@ -226,7 +226,7 @@ TEST(JourneyTravel, GoesThereAndBackWithoutACut) {
   EXPECT_EQ(travel.orders(), std::nullopt);
 }
 
-TEST(JourneyTravel, InStepsChangesTheScaleOnlyBehindAVeil) {
+TEST(JourneyTravel, InStepsChangesTheScaleOnlyWhereNothingIsSeen) {
   JourneyTravel travel(JourneyTravel::Motion::Steps);
   std::int64_t now_ns = 5'000'000'000;
   travel.update(now_ns);
