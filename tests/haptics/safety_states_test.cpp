@@ -150,7 +150,7 @@ TEST(SafetyStates, FollowTheTableForEveryStateAndEverythingThatATickCanFind) {
       ++looked;
     }
   }
-  EXPECT_EQ(looked, 6 * 5 * 5 * 3 * 64);
+  EXPECT_EQ(looked, 6 * 5 * 6 * 3 * 64);
   for (const Row& row : rows) EXPECT_GT(row.used, 0) << "never taken: " << row.when;
 }
 

@@ -136,7 +136,7 @@ TEST_F(ViewInAHeadset, LetsTheHandGoInTimeWheneverTheHeadsetIsGone) {
   tell("state 4\nstate 3\nstate 6");
   EXPECT_TRUE(view.says(off)) << view.said();
   tell("state 2");
-  ASSERT_TRUE(view.says("jump to contact")) << view.said();
+  ASSERT_TRUE(view.says("force on")) << view.said();
   tell("fail xrEndFrame -13");
   EXPECT_TRUE(view.says("looking for it every 2 s")) << view.said();
   EXPECT_TRUE(view.says(off)) << view.said();
@@ -145,7 +145,7 @@ TEST_F(ViewInAHeadset, LetsTheHandGoInTimeWheneverTheHeadsetIsGone) {
   tell("block");
   EXPECT_TRUE(view.says(off)) << view.said();
   tell("unblock");
-  ASSERT_TRUE(view.says("jump to contact")) << view.said();
+  ASSERT_TRUE(view.says("force on")) << view.said();
   tell("keep");
   EXPECT_TRUE(view.says(off)) << view.said();
   tell("lend");
