@@ -126,6 +126,7 @@ TEST(SharedBlocks, SayYesOrNoByOneOrZeroAlone) {
     EXPECT_EQ(is_valid(HandScript{.turn_on_pressed = answer}), good) << answer;
     EXPECT_EQ(is_valid(RendererHeartbeat{.leaving = answer}), good) << answer;
     EXPECT_EQ(is_valid(RendererHeartbeat{.stop = answer}), good) << answer;
+    EXPECT_EQ(is_valid(RendererHeartbeat{.unseen = answer}), good) << answer;
     EXPECT_EQ(is_valid(TipSample{.device_healthy = answer}, model), good) << answer;
     EXPECT_EQ(is_valid(TipSample{.changing = answer}, model), good) << answer;
     device.has_own_hand = answer;
