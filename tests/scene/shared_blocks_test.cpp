@@ -56,7 +56,7 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   EXPECT_FALSE(renderer.tip_state());
   servo.store(TipState{.servo_state = static_cast<ServoState>(77)});
   EXPECT_FALSE(renderer.tip_state());
-  servo.store(TipState{.fault = static_cast<FaultCode>(13)});
+  servo.store(TipState{.fault = static_cast<FaultCode>(14)});
   EXPECT_FALSE(renderer.tip_state());
   servo.push(TipEvent{.kind = static_cast<afm::physics::EventKind>(0)});
   servo.push(TipEvent{.kind = afm::physics::EventKind::JumpToContact, .material = 3});
