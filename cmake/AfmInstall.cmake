@@ -100,6 +100,6 @@ computes curves of any tip, lever and sample, and analyses measured ones.")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
     "libvulkan1, libx11-xcb1, libxcursor1, libxi6, libxinerama1, libxrandr2, fonts-inter, fonts-dejavu-core")
-# a GPU's own driver will do; SDL2 is for gamepads and sound, espeak-ng for speech
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd, libsdl2-2.0-0, espeak-ng")
+# a GPU's own driver will do; SDL2 is for gamepads and sound, espeak-ng for speech, OpenXR's loader for headsets
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd, libsdl2-2.0-0, espeak-ng, libopenxr-loader1")
 include(CPack)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/headset/headset_runtime.h"
 #include "core/clock.h"
 #include "core/printable.h"
 #include "input/dtrack_source.h"
@@ -109,6 +110,11 @@ std::vector<Row> look_for_devices(const WandPlaces& places) {
     rows.push_back({"vulkan", "any", false, devices.error().message});
   }
   look_for_monitors(rows);
+  if (const auto headset = find_headset()) {
+    rows.push_back({"headset", headset->headset, true, text_of(*headset)});
+  } else {
+    rows.push_back({"headset", "OpenXR", false, headset.error().message});
+  }
   for (const haptics::ProbeLine& line : haptics::probe_devices(servo::environment())) {
     rows.push_back({"haptic", line.subject, line.usable, line.said});
   }
@@ -145,9 +151,9 @@ core::Result<void> list(const std::string& assets_dir, const std::string& wand_f
 }  // namespace
 
 void add_devices_command(OptionList& program, const CommandContext& context) {
-  OptionList command = program.add_command(
-      "devices",
-      "list the Vulkan devices, monitors, haptic devices, wands and trackers, and explain why any of them is unusable");
+  OptionList command = program.add_command("devices",
+                                           "list the Vulkan devices, monitors, headset, haptic devices, wands and "
+                                           "trackers, and explain why any of them is unusable");
   const auto json = std::make_shared<bool>(false);
   command.add_flag("--json", *json, "print the list as JSON");
   const auto wand_file = std::make_shared<std::string>();

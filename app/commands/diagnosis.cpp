@@ -76,6 +76,13 @@ Finding display(const MachineFacts& facts) {
           "log in to a desktop, or run: export DISPLAY=:0"};
 }
 
+Finding headset(const MachineFacts& facts) {
+  if (facts.headset_manifest.empty()) return {"headset", Verdict::Good, "no OpenXR runtime is installed", {}};
+  if (!facts.headset.empty()) return {"headset", Verdict::Good, facts.headset, {}};
+  return {"headset", Verdict::Limited, facts.headset_refusal,
+          fmt::format("connect the headset, and start the runtime of {}", facts.headset_manifest)};
+}
+
 Finding hid(const MachineFacts& facts) {
   const auto open =
       std::count_if(facts.hid_nodes.begin(), facts.hid_nodes.end(), [](const auto& n) { return n.accessible; });
@@ -134,6 +141,7 @@ std::vector<Finding> diagnose(const MachineFacts& facts) {
           servo_program(facts),
           graphics(facts),
           display(facts),
+          headset(facts),
           haptic_device(facts),
           haptic_port(facts),
           hid(facts)};

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "app/headset/headset_runtime.h"
 #include "servo/haptic_choice.h"
 #include "servo/servo_client.h"
 
@@ -78,6 +79,12 @@ MachineFacts look_at_machine(const core::Clock& clock, const std::string& progra
     facts.graphics_refusal = graphics.error().message;
   }
   facts.display = display();
+  facts.headset_manifest = headset_manifest();
+  if (!facts.headset_manifest.empty()) {
+    const auto headset = find_headset();
+    facts.headset = headset ? text_of(*headset) : "";
+    facts.headset_refusal = headset ? "" : headset.error().message;
+  }
   facts.render_nodes = nodes("/dev/dri", "renderD");
   facts.hid_nodes = nodes("/dev", "hidraw");
   facts.serial_nodes = nodes("/dev", "ttyACM");

@@ -27,6 +27,9 @@ struct MachineFacts {
   std::vector<render::DeviceDescription> graphics;
   std::string graphics_refusal;  // why there are none
   std::string display;           // empty: none
+  std::string headset_manifest;  // of OpenXR's runtime; empty: none is installed
+  std::string headset;           // what the runtime says; empty: it does not answer
+  std::string headset_refusal;   // then why not
   std::vector<DeviceNode> render_nodes;
   std::vector<DeviceNode> hid_nodes;
   std::vector<DeviceNode> serial_nodes;

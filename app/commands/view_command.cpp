@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/headset/headset_runtime.h"
 #include "app/live/speech_choice.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
@@ -246,8 +247,15 @@ void add_exhibition_options(OptionList& command, ViewOptions& options) {
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson) {
   const core::CodeOfInterruption released(core::ExitCode::Done);
   const core::MonotonicClock clock;
+  // first: without a headset nothing else is loaded
+  std::unique_ptr<render::HeadsetRuntime> runtime;
+  if (options.headset) {
+    auto connected = connect_headset();
+    if (!connected) return tl::unexpected(connected.error());
+    runtime = std::move(*connected);
+  }
   exhibit::ExhibitFiles files = options.files;
-  files.aspect = expected_aspect(options.display);
+  if (!options.headset) files.aspect = expected_aspect(options.display);
   auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
   const auto samples = felt_samples(*stage, options.friction);
@@ -273,7 +281,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
                             stage->wall_scene.height_fields(), {}, stage->wall_scene.topography().size());
   if (!model) return tl::unexpected(model.error());
 
-  auto display = ViewDisplay::open(*stage, options.display);
+  auto display = ViewDisplay::open(*stage, options.display, runtime.get(), clock);
   if (!display) return tl::unexpected(display.error());
   ViewWindows& windows = (*display)->windows();
   settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : windows.at(0).refresh_hz();
@@ -286,6 +294,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   };
   std::optional<LiveLesson> guide;
   if (lesson != nullptr) guide.emplace(lesson->lesson, materials, stage->phrases(), lesson->study, clock);
+  settings.headset = (*display)->headset();
   settings.lesson = guide ? &*guide : nullptr;
   settings.instructor = (*display)->instructor();
   LiveView live(*stage, materials, windows, (*display)->picture(), start_servo, **wand, clock, settings);
@@ -326,6 +335,10 @@ void add_view_command(OptionList& program, const CommandContext& context) {
       .one_value_each()
       .type_name("MATERIAL");
   add_window_options(command, *options);
+  command.add_flag(
+      "--headset", options->headset,
+      "show the picture in a headset through OpenXR, at true scale; its controller is a wand, and the window "
+      "mirrors the left eye");
   add_exhibition_options(command, *options);
   command.when_chosen([options, &context]() -> core::Result<void> {
     if (!options->kiosk) return run_view(*options, context.program_path);

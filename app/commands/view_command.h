@@ -25,6 +25,7 @@ struct ViewOptions {
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   double frame_rate = 0;  // 0: the display's
   bool speech = false;
+  bool headset = false;
   bool kiosk = false;  // an unattended window that is opened again whenever it fails
   servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = 10.0}};
   std::int64_t spin_us = 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live/live_view.h"
-#include "servo/frame_heartbeat.h"
 
 #include <fmt/format.h>
 
@@ -59,6 +58,8 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::Sample
       simulated_head_(stage.wall.viewers.front().sweet_spot, settings.head_script),
       hand_(hand_over(stage.wall_scene)),
       person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), input::HandPath{}),
+      travel_(settings.headset == nullptr ? exhibit::JourneyTravel::Motion::Glide
+                                          : exhibit::JourneyTravel::Motion::Steps),
       visitor_(static_cast<std::int64_t>(settings.idle_s * 1e9)),
       lesson_(settings.lesson),
       instructor_(settings.instructor) {
@@ -91,7 +92,10 @@ core::Result<void> LiveView::run() {
   hand_moved_ns_ = clock_.now_ns();
   std::optional<core::Error> lost;
   try {
-    while (!leaving_ && !core::interrupted()) run_frame(clock_.now_ns());
+    while (!leaving_ && !core::interrupted()) {
+      if (settings_.headset != nullptr) follow_headset();
+      run_frame(clock_.now_ns());
+    }
   } catch (const render::DeviceFailure& failure) {
     lost = core::Error{core::ErrorCategory::Failed, failure.what()};
   }
@@ -114,13 +118,13 @@ void LiveView::run_frame(std::int64_t now_ns) {
   move_hand(input, now_ns);
   servo_.update(now_ns);
   follow_wand(now_ns);
-  if (windows_.hidden()) {
+  if (windows_.hidden() && settings_.headset == nullptr) {
     picture_.rest();
     windows_.at(0).wait(kHiddenPauseS);
     return;
   }
   picture_.fit(now_ns);
-  follow_head(now_ns);
+  if (settings_.headset == nullptr) follow_head(now_ns);
   draw(input, now_ns);
   pace(now_ns);
 }
@@ -353,7 +357,7 @@ void LiveView::record(const exhibit::Moment& now) {
 }
 
 void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
-  const servo::FrameHeartbeat beat(servo_.link(), clock_);
+  const std::function<void()> beat = heartbeat();
   follow_edits();
   travel(now_ns);
   follow_lesson(now_ns);
@@ -382,7 +386,9 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   log_frame(now_ns, presented_ns, head_.presented(presented_ns));
 }
 
+// A headset's runtime paces its frames.
 void LiveView::pace(std::int64_t frame_start_ns) const {
+  if (settings_.headset != nullptr && settings_.headset->wants_picture()) return;
   const auto frame_ns = static_cast<std::int64_t>(1e9 / settings_.most_frames_per_s);
   const std::int64_t left_ns = frame_start_ns + frame_ns - clock_.now_ns();
   if (left_ns > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(left_ns));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/headset/view_headset.h"
 #include "app/lesson/instructor_window.h"
 #include "app/lesson/live_lesson.h"
 #include "app/live/live_sound.h"
@@ -46,6 +47,7 @@ struct ViewSettings {
   double idle_s = 60;         // without a visitor, until then
   std::string record_folder;  // for the sessions of what is felt; empty: none is kept
   LiveSoundSettings sound;
+  ViewHeadset* headset = nullptr;          // that shows the picture, and must outlive it; none
   LiveLesson* lesson = nullptr;            // that guides through the window, and must outlive it; none
   InstructorWindow* instructor = nullptr;  // of a lesson, the same
 };
@@ -76,6 +78,8 @@ class LiveView {
   void press(const Pointed& pointed, const input::Ray& ray);
   void follow_wand(std::int64_t now_ns);
   void follow_head(std::int64_t now_ns);
+  void follow_headset();
+  std::function<void()> heartbeat();  // of one frame
   void choose(std::size_t material);  // that there is
   void follow_visitor(const ViewInput& input, std::int64_t now_ns);
   void begin_for_visitors();
@@ -191,6 +195,7 @@ class LiveView {
   bool hand_off_ = false;  // the instructor keeps the force away
   std::optional<std::int64_t> stop_asked_ns_;
   std::string lesson_said_, lesson_line_;  // spoken words of the newest prompt, and the guidance behind them
+  std::int64_t pulsed_ns_ = 0;             // the jump that the headset's controller has told of
   bool blank_ = false;                     // for who goes by ear and hand
   bool leaving_ = false;
 };

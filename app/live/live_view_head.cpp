@@ -41,7 +41,8 @@ void LiveView::log_frame(std::int64_t begun_ns, std::int64_t presented_ns, std::
                    .farthest_rad = measured ? std::optional(depth.farthest.crossed_rad) : std::nullopt,
                    .ipd_m = picture_.viewing().ipd_m,
                    .servo_late_us = servo_lateness_.since_last(timing),
-                   .servo_missed = timing.missed});
+                   .servo_missed = timing.missed,
+                   .headset = settings_.headset == nullptr ? "" : settings_.headset->turn_word()});
 }
 
 }  // namespace afm::app

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <utility>
 
@@ -27,16 +28,29 @@ render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const 
     drawing.panel_texels_per_m = 2.0 * eye_px.x / narrowest_m;
     drawing.panel_millimetre_m = stage.wall_scene.panel_millimetre_m();
   }
-  drawing.panel_contrast = options.contrast;
   drawing.time_passes = options.frame_budget_ms > 0;
   return drawing;
 }
 
-core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stage& stage,
-                                                             const DisplayOptions& options) {
+// The pixels that the runtime recommends; panels as sharp as a right angle of these at the wall's distance.
+render::RendererOptions ViewDisplay::drawing_in_headset(const exhibit::Stage& stage, glm::uvec2 eye_px) {
+  const double wall_m = glm::distance(stage.wall.viewers.front().sweet_spot.position_m, stage.screen.center());
+  render::RendererOptions drawing;
+  drawing.eye_width = eye_px.x;
+  drawing.eye_height = eye_px.y;
+  drawing.panel_texels_per_m = 2.0 * eye_px.x / (2.0 * wall_m);
+  drawing.panel_millimetre_m = stage.wall_scene.panel_millimetre_m();
+  return drawing;
+}
+
+core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stage& stage, const DisplayOptions& options,
+                                                             render::HeadsetRuntime* runtime,
+                                                             const core::Clock& clock) {
   const auto monitors = render::list_monitors();
   if (!monitors) return tl::unexpected(monitors.error());
-  auto outputs = plan_view(stage.wall, stage.screen, options.picture, options.window, *monitors);
+  exhibit::PictureOptions picture = options.picture;
+  if (runtime != nullptr) picture.mode = scene::StereoMode::Left;
+  auto outputs = plan_view(stage.wall, stage.screen, picture, options.window, *monitors);
   if (!outputs) return tl::unexpected(outputs.error());
   std::unique_ptr<ViewDisplay> display(new ViewDisplay());
   display->outputs_ = std::move(*outputs);
@@ -49,10 +63,12 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
     display->instructor_window_ = std::move(*window);
   }
   auto context = render::Context::open(options.validate ? render::Validation::On : render::Validation::Off,
-                                       render::Presentation::Window);
+                                       render::Presentation::Window, runtime);
   if (!context) return tl::unexpected(context.error());
   display->context_ = std::move(*context);
-  const render::RendererOptions drawing = display->drawing(stage, options);
+  render::RendererOptions drawing =
+      runtime != nullptr ? drawing_in_headset(stage, runtime->eye_px()) : display->drawing(stage, options);
+  drawing.panel_contrast = options.contrast;
   auto renderer = render::Renderer::create(*display->context_, stage.wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   display->renderer_ = std::move(*renderer);
@@ -62,6 +78,11 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
   for (const ViewOutput& output : display->outputs_) {
     if (auto shown = display->presenter_->check_mode(output.mode); !shown) return tl::unexpected(shown.error());
   }
+  if (runtime != nullptr) {
+    auto headset = ViewHeadset::begin(stage, *runtime, *display->context_, *display->renderer_, clock);
+    if (!headset) return tl::unexpected(headset.error());
+    display->headset_ = std::move(*headset);
+  }
   display->picture_.emplace(stage, display->outputs_, *display->context_, *display->windows_, *display->renderer_,
                             *display->presenter_,
                             PictureSettings{.ipd_m = options.picture.ipd_m.value_or(stage.wall.viewers.front().ipd_m),
@@ -69,7 +90,8 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
                                             .fixed_eye_size = options.eye_width > 0,
                                             .comfort_rad = glm::radians(options.comfort_deg),
                                             .frame_budget_ms = options.frame_budget_ms,
-                                            .saved_folder = options.saved_folder});
+                                            .saved_folder = options.saved_folder,
+                                            .headset = display->headset_.get()});
   if (display->instructor_window_) {
     auto instructor =
         InstructorWindow::create(*display->context_, *display->instructor_window_, stage.phrases(), options.contrast);

@@ -33,8 +33,10 @@ struct DisplayOptions {
 class ViewDisplay {
  public:
   // `stage` must outlive it. Fails as plan_view, ViewWindows and Context do, or where the display has not what the
-  // stereo mode needs.
-  static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayOptions& options);
+  // stereo mode needs. `runtime`: of the headset that shows the picture, whose left eye the windows then mirror; it may
+  // be null, and must outlive it, as the clock.
+  static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayOptions& options,
+                                                         render::HeadsetRuntime* runtime, const core::Clock& clock);
   ViewDisplay(const ViewDisplay&) = delete;
   ViewDisplay& operator=(const ViewDisplay&) = delete;
 
@@ -42,10 +44,12 @@ class ViewDisplay {
   ViewPicture& picture() { return *picture_; }
   render::Context& context() { return *context_; }
   InstructorWindow* instructor() { return instructor_.get(); }  // null: there is none
+  ViewHeadset* headset() { return headset_.get(); }             // null: none
 
  private:
   ViewDisplay() = default;
   render::RendererOptions drawing(const exhibit::Stage& stage, const DisplayOptions& options) const;
+  static render::RendererOptions drawing_in_headset(const exhibit::Stage& stage, glm::uvec2 eye_px);
 
   std::vector<ViewOutput> outputs_;
   std::optional<ViewWindows> windows_;
@@ -53,6 +57,7 @@ class ViewDisplay {
   std::optional<render::Context> context_;
   std::optional<render::Renderer> renderer_;
   std::optional<render::Presenter> presenter_;
+  std::unique_ptr<ViewHeadset> headset_;
   std::optional<ViewPicture> picture_;
   std::unique_ptr<InstructorWindow> instructor_;
 };

@@ -54,6 +54,7 @@ ViewPicture::ViewPicture(const exhibit::Stage& stage, const std::vector<ViewOutp
 }
 
 void ViewPicture::fit(std::int64_t now_ns) {
+  if (settings_.headset != nullptr) return;
   drawn_ipd_m_ = comfort_.ipd_m(settings_.ipd_m, now_ns);
   look_from(head_);
   const glm::uvec2 wanted = eye_size_for_all(stage_, outputs_, other_mode_, windows_);
@@ -91,6 +92,7 @@ void ViewPicture::share_out() {
 
 void ViewPicture::look_from(const scene::HeadPose& head) {
   head_ = head;
+  if (settings_.headset != nullptr) return;
   for (Share& share : shares_) {
     if (const auto eyes = exhibit::eyes_before(share.screen, head, share.flat ? 0.0 : drawn_ipd_m_)) share.eyes = *eyes;
   }
@@ -201,6 +203,7 @@ void ViewPicture::log_update(const std::vector<render::SavedPicture>& saved) {
 
 void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::int64_t now_ns,
                        const std::function<void()>& while_waiting) {
+  if (settings_.headset != nullptr) return show_in_headset(frame, now_ns, while_waiting);
   if (!calibrating_ && !shares_.front().flat)
     frame.labels.push_back(exhibit::depth_label(depth_, stage_.screen, stage_.phrases()));
   while_waiting();

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/headset/view_headset.h"
 #include "app/live/frame_times.h"
 #include "app/live/mouse_wand.h"
 #include "app/live/view_outputs.h"
@@ -30,6 +31,7 @@ struct PictureSettings {
   double comfort_rad = scene::kComfortableDisparityRad;  // how much more or less the eyes may turn in than for the wall
   double frame_budget_ms = 0;                            // frames are drawn coarser to stay within it; 0: as they are
   std::string saved_folder = ".";                        // for the pictures that are saved
+  ViewHeadset* headset = nullptr;                        // whose left eye the window mirrors; must outlive it; none
 };
 
 // Picture of the wall in the live windows: eyes, layout and size. Main thread only.
@@ -44,7 +46,8 @@ class ViewPicture {
   // the eyes the distance at which the depth that was measured last is comfortable.
   void fit(std::int64_t now_ns);
 
-  // The eyes of a head somewhere before the wall; behind a screen, its picture stays as it was.
+  // The eyes of a head somewhere before the wall; behind a screen, its picture stays as it was. With a headset they are
+  // its own.
   void look_from(const scene::HeadPose& head);
 
   void swap_eyes();
@@ -106,6 +109,8 @@ class ViewPicture {
   void share_out();
   void measure_depth(exhibit::Relief relief, std::int64_t now_ns);
   void save_newest();
+  void show_in_headset(render::FrameState& frame, std::int64_t now_ns, const std::function<void()>& while_waiting);
+  void mirror(const std::function<void()>& while_waiting);
   static void log_update(const std::vector<render::SavedPicture>& saved);
 
   const exhibit::Stage& stage_;
@@ -133,6 +138,7 @@ class ViewPicture {
   FrameTimes times_;
   std::int64_t depth_measured_ns_ = 0;
   std::int64_t depth_logged_ns_ = 0;
+  std::int64_t mirrored_ns_ = 0;
   bool calibrating_ = false;
 };
 

@@ -180,6 +180,11 @@ void ViewWand::update(std::int64_t now_ns, const scene::TipState& tip, const glm
   const bool pressed_before = wand_.pressed(input::WandButton::Select);
   const std::uint32_t stops_before = wand_.stops;
   if (wand_thread_) wand_ = wand_thread_->newest();
+  if (controller_) {
+    wand_ = *controller_;
+  } else if (!wand_thread_ && !simulated_) {
+    wand_.connected = false;
+  }
   if (tracker_report_) {
     if (const auto line = tracker_report_->follow(dtrack_->newest(), now_ns)) core::log_line(*line);
   }

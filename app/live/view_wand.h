@@ -52,6 +52,9 @@ class ViewWand {
   // Once a frame. `eye_m` is between the eyes.
   void update(std::int64_t now_ns, const scene::TipState& tip, const glm::dvec3& eye_m);
 
+  // The controller of a headset takes the place of the wand; none: it does not.
+  void hold(const std::optional<input::WandState>& controller) { controller_ = controller; }
+
   // True if a wand points; used_ns() is the time of its last motion or press. Wand and mouse take turns.
   bool points() const { return wand_.connected && wand_.orientation_valid; }
   std::int64_t used_ns() const { return used_ns_; }
@@ -90,6 +93,7 @@ class ViewWand {
   input::Selector::Result pointing_;
   input::Navigation navigation_;
   input::WandState wand_;
+  std::optional<input::WandState> controller_;
   bool select_pressed_ = false;
   bool stop_pressed_ = false;
   bool was_locked_ = false;

@@ -27,6 +27,8 @@ constexpr double kBelowPixel = 0.0015;  // layout units
 
 constexpr double kVeilS = 0.5, kTravelS = 20.0;
 constexpr double kWholeS = 2.0 * kVeilS + kTravelS;
+constexpr double kStepS = kTravelS / (kJourneyOrders + 1.0);  // at each power of ten
+static_assert(kStepS > 2.0 * kVeilS);
 
 double eased(double t) {
   const double x = std::clamp(t, 0.0, 1.0);
@@ -115,11 +117,18 @@ void JourneyTravel::update(std::int64_t now_ns) {
   progress_s_ = std::clamp(progress_s_ + direction_ * passed_s, 0.0, kWholeS);
 }
 
-double JourneyTravel::fade() const { return std::max(0.0, 1.0 - std::abs(progress_s_ - kVeilS) / kVeilS); }
+double JourneyTravel::fade() const {
+  const auto veil = [&](double at_s) { return std::max(0.0, 1.0 - std::abs(progress_s_ - at_s) / kVeilS); };
+  if (motion_ == Motion::Glide) return veil(kVeilS);
+  const double nearest = std::clamp(std::round((progress_s_ - 2.0 * kVeilS) / kStepS), 1.0, kJourneyOrders);
+  return std::max(veil(kVeilS), veil(2.0 * kVeilS + nearest * kStepS));
+}
 
 std::optional<double> JourneyTravel::orders() const {
   if (progress_s_ <= kVeilS) return std::nullopt;
-  return kJourneyOrders * eased((progress_s_ - 2.0 * kVeilS) / kTravelS);
+  const double travelled_s = progress_s_ - 2.0 * kVeilS;
+  if (motion_ == Motion::Steps) return std::clamp(std::floor(travelled_s / kStepS), 0.0, kJourneyOrders);
+  return kJourneyOrders * eased(travelled_s / kTravelS);
 }
 
 }  // namespace afm::exhibit

@@ -74,6 +74,8 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
        }},
       {"graphics", Verdict::Missing, "Vulkan driver", [](MachineFacts& m) { m.graphics.clear(); }},
       {"display", Verdict::Missing, "DISPLAY=:0", [](MachineFacts& m) { m.display.clear(); }},
+      {"headset", Verdict::Limited, "start the runtime of /etc/xdg/openxr/1/active_runtime.json",
+       [](MachineFacts& m) { m.headset_manifest = "/etc/xdg/openxr/1/active_runtime.json"; }},
       {"haptic device", Verdict::Limited, "TOUCHAFM_HD_LIBRARY", [](MachineFacts& m) { m.haptics.clear(); }},
       {"haptic device", Verdict::Limited, "switch it on", [](MachineFacts& m) { m.haptics[1].usable = false; }},
       {"haptic port (USB)", Verdict::Missing, "sudo usermod -aG dialout",

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 
 #include "exhibit/wall_scene.h"
@@ -223,6 +224,31 @@ TEST(JourneyTravel, GoesThereAndBackWithoutACut) {
   }
   EXPECT_FALSE(travel.away());
   EXPECT_EQ(travel.orders(), std::nullopt);
+}
+
+TEST(JourneyTravel, InStepsChangesTheScaleOnlyWhereNothingIsSeen) {
+  JourneyTravel travel(JourneyTravel::Motion::Steps);
+  std::int64_t now_ns = 5'000'000'000;
+  travel.update(now_ns);
+  std::set<double> clear;  // the scales at which everything was seen
+  double before = 0.0;
+  for (const int steps : {1210, 300, 2200, 3000}) {
+    travel.turn_round(now_ns);
+    for (int i = 0; i < steps; ++i) {
+      now_ns += 10'000'000;
+      travel.update(now_ns);
+      const double orders = travel.orders().value_or(0.0);
+      if (orders != before) {
+        EXPECT_GT(travel.fade(), 0.97) << "at " << orders;
+        EXPECT_EQ(std::abs(orders - before), 1.0);
+      }
+      before = orders;
+      if (travel.fade() == 0.0) clear.insert(orders);
+    }
+  }
+  EXPECT_EQ(clear.size(), 10U);
+  EXPECT_EQ(*clear.rbegin(), kJourneyOrders);
+  EXPECT_FALSE(travel.away());
 }
 
 }  // namespace

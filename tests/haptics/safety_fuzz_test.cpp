@@ -61,7 +61,7 @@ TEST(GovernorFuzz, StaysFiniteWithinCapAndSlewWhateverComesIn) {
     input.device_healthy = calm || random() % 100 != 0;
     input.led = random() % 3 == 0;
     input.damping_n_s_per_m = calm ? 2.0 : any_double(random);
-    input.renderer = calm ? RendererLink::Alive : static_cast<RendererLink>(random() % 6);
+    input.renderer = calm ? RendererLink::Alive : static_cast<RendererLink>(random() % 7);
 
     const glm::dvec3 force_n = governor.step(input).command.force_n();
     const double length_n = glm::length(force_n);

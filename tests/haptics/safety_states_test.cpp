@@ -25,7 +25,7 @@ const char* name(ServoState state) {
 
 // Every state that the servo can be in when a tick begins; what it remembers of an earlier fault differs from any that
 // a tick could give.
-constexpr FaultCode kEarlier{13};
+constexpr FaultCode kEarlier{14};
 std::vector<SafetyState> all_states() {
   return {{Disarmed, kEarlier, 0},         {Arming, FaultCode::None, 0},     {Running, FaultCode::None, 0},
           {Fading, kEarlier, kSlowFadeNs}, {Fading, kEarlier, kQuickFadeNs}, {Fault, kEarlier, 0}};
@@ -36,8 +36,8 @@ std::vector<SafetyConditions> all_conditions() {
   std::vector<SafetyConditions> all;
   for (const FaultCode cut : {FaultCode::None, FaultCode::DeviceError, FaultCode::NotFinite, FaultCode::StopPressed,
                               FaultCode::VelocityTrip}) {
-    for (const RendererLink renderer :
-         {RendererLink::Absent, RendererLink::Alive, RendererLink::Hung, RendererLink::Leaving, RendererLink::Died}) {
+    for (const RendererLink renderer : {RendererLink::Absent, RendererLink::Alive, RendererLink::Hung,
+                                        RendererLink::Leaving, RendererLink::Died, RendererLink::Unseen}) {
       for (const auto& [edge, held] : {std::pair(false, false), std::pair(false, true), std::pair(true, true)}) {
         for (unsigned bits = 0; bits < 64; ++bits) {
           all.push_back({.cut = cut,
@@ -101,6 +101,8 @@ std::vector<Row> table() {
        kQuickFadeNs},
       {kForce, "renderer died", [](const SafetyConditions& f) { return f.renderer == RendererLink::Died; }, Fading,
        FaultCode::RendererDied, kQuickFadeNs},
+      {kForce, "picture unseen", [](const SafetyConditions& f) { return f.renderer == RendererLink::Unseen; }, Fading,
+       FaultCode::PictureUnseen, kQuickFadeNs},
       {kForce, "dead-man released", [](const SafetyConditions& f) { return f.dead_man && !f.turn_on_held; }, Fading,
        FaultCode::DeadManReleased, kQuickFadeNs},
       {{Arming, Running},
@@ -148,7 +150,7 @@ TEST(SafetyStates, FollowTheTableForEveryStateAndEverythingThatATickCanFind) {
       ++looked;
     }
   }
-  EXPECT_EQ(looked, 6 * 5 * 5 * 3 * 64);
+  EXPECT_EQ(looked, 6 * 5 * 6 * 3 * 64);
   for (const Row& row : rows) EXPECT_GT(row.used, 0) << "never taken: " << row.when;
 }
 

@@ -52,7 +52,9 @@ class ServoBench {
 
   // One tick `late_ns` after its time.
   void tick(std::int64_t late_ns = 0) {
-    if (heartbeats) renderer.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = ++frame});
+    if (heartbeats) {
+      renderer.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = ++frame, .unseen = unseen ? 1U : 0U});
+    }
     now_ns += loop->period_ns() + late_ns;
     loop->tick(now_ns, static_cast<std::uint32_t>(late_ns / 1000));
     while (const auto sample = renderer.pop_sample()) samples.push_back(*sample);
@@ -126,6 +128,7 @@ class ServoBench {
   std::vector<scene::TipEvent> events;
   std::int64_t now_ns = 1'000'000'000;
   bool heartbeats = true;
+  bool unseen = false;
   std::uint64_t frame = 0;
   std::uint32_t selection = 0;
   std::uint32_t edits = 0;

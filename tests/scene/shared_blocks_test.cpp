@@ -56,7 +56,7 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   EXPECT_FALSE(renderer.tip_state());
   servo.store(TipState{.servo_state = static_cast<ServoState>(77)});
   EXPECT_FALSE(renderer.tip_state());
-  servo.store(TipState{.fault = static_cast<FaultCode>(13)});
+  servo.store(TipState{.fault = static_cast<FaultCode>(14)});
   EXPECT_FALSE(renderer.tip_state());
   servo.push(TipEvent{.kind = static_cast<afm::physics::EventKind>(0)});
   servo.push(TipEvent{.kind = afm::physics::EventKind::JumpToContact, .material = 3});
@@ -126,6 +126,7 @@ TEST(SharedBlocks, SayYesOrNoByOneOrZeroAlone) {
     EXPECT_EQ(is_valid(HandScript{.turn_on_pressed = answer}), good) << answer;
     EXPECT_EQ(is_valid(RendererHeartbeat{.leaving = answer}), good) << answer;
     EXPECT_EQ(is_valid(RendererHeartbeat{.stop = answer}), good) << answer;
+    EXPECT_EQ(is_valid(RendererHeartbeat{.unseen = answer}), good) << answer;
     EXPECT_EQ(is_valid(TipSample{.device_healthy = answer}, model), good) << answer;
     EXPECT_EQ(is_valid(TipSample{.changing = answer}, model), good) << answer;
     device.has_own_hand = answer;

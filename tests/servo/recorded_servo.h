@@ -75,7 +75,8 @@ class Recording {
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i, ++tick_) {
       if (heartbeats && tick_ % 16 == 0)
-        renderer_.store(scene::RendererHeartbeat{.frame = ++frame_, .stop = stop ? 1U : 0U});
+        renderer_.store(
+            scene::RendererHeartbeat{.frame = ++frame_, .stop = stop ? 1U : 0U, .unseen = unseen ? 1U : 0U});
       if (scan && tick_ % 16 == 0) {
         scene::ScanLead lead = scan();
         lead.time_ns = now_ns;
@@ -125,6 +126,7 @@ class Recording {
   std::vector<RecordedSession> sessions;
   bool heartbeats = true;
   bool stop = false;
+  bool unseen = false;
   std::function<scene::ScanLead()> scan;  // of a frame; empty: none
   std::int64_t now_ns = 7'000'000'000;
 

@@ -142,6 +142,21 @@ TEST(Replay, GivesFaultsHangsAndLateTicksAgain) {
   recording.run(50);
   recording.aim(0.062, 0.3, true);
   recording.run(500);
+  // a headset is taken off, whose runtime then hangs
+  recording.arm();
+  recording.aim(0.010, 0.3);
+  recording.run(400);
+  recording.unseen = true;
+  recording.run(300);
+  EXPECT_EQ(recording.state().fault, FaultCode::PictureUnseen);
+  recording.heartbeats = false;
+  recording.run(400);
+  recording.heartbeats = true;
+  recording.run(30);
+  recording.unseen = false;
+  recording.run(50);
+  recording.aim(0.062, 0.3);
+  recording.run(500);
   // a material that is chosen in a fault
   recording.device.healthy = false;
   recording.run(10);

@@ -64,6 +64,11 @@ class Journey {
 // eased, by equal factors in equal times; and the same way back. It can be turned round at any time.
 class JourneyTravel {
  public:
+  // Steps: from each power of ten to the next behind a veil, for a headset, in which a scene that moves by itself makes
+  // people feel sick.
+  enum class Motion { Glide, Steps };
+  explicit JourneyTravel(Motion motion = Motion::Glide) : motion_(motion) {}
+
   void turn_round(std::int64_t now_ns);
   void update(std::int64_t now_ns);
 
@@ -72,6 +77,7 @@ class JourneyTravel {
   std::optional<double> orders() const;            // none: the instrument is still, or again, in view
 
  private:
+  Motion motion_;
   double progress_s_ = 0;
   double direction_ = -1;
   std::int64_t updated_ns_ = 0;

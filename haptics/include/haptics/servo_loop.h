@@ -125,9 +125,8 @@ class ServoLoop {
   scene::TipState state_;
   std::int64_t previous_ns_ = 0;
 
-  bool heard_renderer_ = false;
+  std::optional<scene::RendererHeartbeat> heartbeat_;  // the newest
   bool leaving_ = false;
-  bool stop_pressed_ = false;
   std::int64_t heartbeat_seen_ns_ = 0;
   std::uint32_t refused_transforms_ = 0;
   enum class Presence { Here, Lost, Died };

@@ -217,9 +217,8 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
   if (const auto heartbeat = shared_.new_heartbeat()) {
     // the time of its arrival counts, not the time that it claims
     heartbeat_seen_ns_ = now_ns;
-    heard_renderer_ = true;
     leaving_ = leaving_ || heartbeat->leaving != 0;
-    stop_pressed_ = heartbeat->stop != 0;
+    heartbeat_ = heartbeat;
   }
   if (const auto transforms = shared_.new_transforms()) {
     const SampleAxes before = sample_;
@@ -281,9 +280,10 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
 RendererLink ServoLoop::renderer_link(std::int64_t now_ns) const noexcept {
   if (presence_.load(std::memory_order_relaxed) != Presence::Here) return RendererLink::Died;
   if (leaving_ || stop_.load(std::memory_order_relaxed)) return RendererLink::Leaving;
-  if (!heard_renderer_) return RendererLink::Absent;
-  if (stop_pressed_) return RendererLink::Stopped;
-  return now_ns - heartbeat_seen_ns_ > SafetyGovernor::kHangNs ? RendererLink::Hung : RendererLink::Alive;
+  if (!heartbeat_) return RendererLink::Absent;
+  if (heartbeat_->stop != 0) return RendererLink::Stopped;
+  if (now_ns - heartbeat_seen_ns_ > SafetyGovernor::kHangNs) return RendererLink::Hung;
+  return heartbeat_->unseen != 0 ? RendererLink::Unseen : RendererLink::Alive;
 }
 
 void ServoLoop::publish_events(std::int64_t now_ns) noexcept {

@@ -22,6 +22,7 @@ std::optional<Reason> reason_to_fade(const SafetyConditions& conditions) {
   if (conditions.energy_exceeded) return Reason{kQuickFadeNs, FaultCode::EnergyExceeded};
   if (conditions.outside) return Reason{kQuickFadeNs, FaultCode::OutOfWorkspace};
   if (conditions.renderer == RendererLink::Died) return Reason{kQuickFadeNs, FaultCode::RendererDied};
+  if (conditions.renderer == RendererLink::Unseen) return Reason{kQuickFadeNs, FaultCode::PictureUnseen};
   if (conditions.dead_man && !conditions.turn_on_held) return Reason{kQuickFadeNs, FaultCode::DeadManReleased};
   if (conditions.hot) return Reason{kSlowFadeNs, FaultCode::MotorsHot};
   if (conditions.renderer == RendererLink::Hung) return Reason{kSlowFadeNs, FaultCode::RendererHung};

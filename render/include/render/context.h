@@ -11,6 +11,7 @@
 namespace afm::render {
 
 class Device;
+class HeadsetRuntime;
 
 // Off in the programs; on in every test, together with synchronisation validation.
 enum class Validation { Off, On };
@@ -34,8 +35,10 @@ class Context {
  public:
   // DeviceMissing: no loader, no driver, no device that can do what the renderer needs, or, with Validation::On, no
   // validation layer. The message says what to install.
+  // `runtime`: of the headset that the device shows pictures in; it then chooses the device, and must be there for as
+  // long as this call takes.
   static core::Result<Context> open(Validation validation = Validation::Off,
-                                    Presentation presentation = Presentation::None);
+                                    Presentation presentation = Presentation::None, HeadsetRuntime* runtime = nullptr);
 
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;

@@ -111,6 +111,7 @@ class Renderer {
 
  private:
   friend class DepthMeter;
+  friend class Headset;
   friend class ScreenshotQueue;
   friend class Presenter;
   struct Parts;

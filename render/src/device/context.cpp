@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "device/device.h"
+#include "render/headset.h"
 
 namespace afm::render {
 
@@ -12,8 +13,8 @@ Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
-core::Result<Context> Context::open(Validation validation, Presentation presentation) {
-  auto device = Device::open(validation, presentation);
+core::Result<Context> Context::open(Validation validation, Presentation presentation, HeadsetRuntime* runtime) {
+  auto device = Device::open(validation, presentation, runtime == nullptr ? nullptr : &runtime->device_source());
   if (!device) {
     return tl::unexpected(device.error());
   }

@@ -171,7 +171,7 @@ std::vector<std::string> MessageSink::take() {
 }
 
 core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader, Validation validation,
-                                                 Presentation presentation, MessageSink& sink) {
+                                                 Presentation presentation, MessageSink& sink, DeviceSource* source) {
   const bool validate = validation == Validation::On;
   if (validate && !has_validation_layer(loader)) {
     return core::failure(core::ErrorCategory::DeviceMissing,
@@ -200,7 +200,7 @@ core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader
       .ppEnabledExtensionNames = extensions.data(),
   };
   try {
-    return vk::raii::Instance(loader, info);
+    return source != nullptr ? source->create_instance(loader, info) : vk::raii::Instance(loader, info);
   } catch (const vk::SystemError& error) {
     return core::failure(core::ErrorCategory::DeviceMissing,
                          std::string("cannot start Vulkan (") + error.what() + "): " + kInstallDriver);
@@ -221,10 +221,14 @@ DeviceDescription describe(const vk::raii::PhysicalDevice& physical) {
   return description;
 }
 
-core::Result<void> Device::choose_physical(Presentation presentation) {
+core::Result<void> Device::choose_physical(Presentation presentation, DeviceSource* source) {
   auto candidates = physical_devices(instance_);
   if (!candidates) {
     return tl::unexpected(candidates.error());
+  }
+  if (source != nullptr) {
+    candidates->clear();
+    candidates->push_back(source->choose_device(instance_));
   }
   int best = -1;
   std::string reasons;
@@ -250,7 +254,7 @@ core::Result<void> Device::choose_physical(Presentation presentation) {
   return {};
 }
 
-void Device::create_device(Presentation presentation) {
+void Device::create_device(Presentation presentation, DeviceSource* source) {
   const std::array extensions{VK_KHR_SWAPCHAIN_EXTENSION_NAME};
   const float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue_info{
@@ -264,11 +268,12 @@ void Device::create_device(Presentation presentation) {
                    .multiview == VK_TRUE;
   const vk::PhysicalDeviceVulkan11Features features11{.pNext = &features12,
                                                       .multiview = multiview_ ? VK_TRUE : VK_FALSE};
-  device_ = vk::raii::Device(physical_, {.pNext = &features11,
-                                         .queueCreateInfoCount = 1,
-                                         .pQueueCreateInfos = &queue_info,
-                                         .enabledExtensionCount = presentation == Presentation::Window ? 1U : 0U,
-                                         .ppEnabledExtensionNames = extensions.data()});
+  const vk::DeviceCreateInfo info{.pNext = &features11,
+                                  .queueCreateInfoCount = 1,
+                                  .pQueueCreateInfos = &queue_info,
+                                  .enabledExtensionCount = presentation == Presentation::Window ? 1U : 0U,
+                                  .ppEnabledExtensionNames = extensions.data()};
+  device_ = source != nullptr ? source->create_device(physical_, info) : vk::raii::Device(physical_, info);
   queue_ = device_.getQueue(queue_family_, 0);
   const auto properties = physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
   clips_first_view_only_ = properties.get<vk::PhysicalDeviceDriverProperties>().driverID == vk::DriverId::eMesaLlvmpipe;
@@ -276,14 +281,15 @@ void Device::create_device(Presentation presentation) {
       device_, {.flags = vk::CommandPoolCreateFlagBits::eTransient, .queueFamilyIndex = queue_family_});
 }
 
-core::Result<std::unique_ptr<Device>> Device::open(Validation validation, Presentation presentation) {
+core::Result<std::unique_ptr<Device>> Device::open(Validation validation, Presentation presentation,
+                                                   DeviceSource* source) {
   auto loader = open_loader();
   if (!loader) {
     return tl::unexpected(loader.error());
   }
   std::unique_ptr<Device> device(new Device());
   device->loader_ = std::move(*loader);
-  auto instance = create_instance(*device->loader_, validation, presentation, *device->messages_);
+  auto instance = create_instance(*device->loader_, validation, presentation, *device->messages_, source);
   if (!instance) {
     return tl::unexpected(instance.error());
   }
@@ -292,12 +298,12 @@ core::Result<std::unique_ptr<Device>> Device::open(Validation validation, Presen
   if (validation == Validation::On) {
     device->messenger_ = vk::raii::DebugUtilsMessengerEXT(device->instance_, messenger_info(*device->messages_));
   }
-  if (auto chosen = device->choose_physical(presentation); !chosen) {
+  if (auto chosen = device->choose_physical(presentation, source); !chosen) {
     return tl::unexpected(chosen.error());
   }
   if (device->physical_.getProperties().deviceType == vk::PhysicalDeviceType::eCpu) check_threads();
   try {
-    device->create_device(presentation);
+    device->create_device(presentation, source);
   } catch (const vk::SystemError& error) {
     return core::failure(core::ErrorCategory::DeviceMissing, "cannot open the Vulkan device " + device->name_ + " (" +
                                                                  error.what() + "): " + kInstallDriver);

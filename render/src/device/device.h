@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "device/device_source.h"
 #include "device/vulkan.h"
 #include "render/context.h"
 
@@ -28,14 +29,17 @@ class MessageSink {
 // The steps that Device::open() and list_devices() share; DeviceMissing with what to install.
 core::Result<std::unique_ptr<vk::raii::Context>> open_loader();
 core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader, Validation validation,
-                                                 Presentation presentation, MessageSink& sink);
+                                                 Presentation presentation, MessageSink& sink,
+                                                 DeviceSource* source = nullptr);
 core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::raii::Instance& instance);
 DeviceDescription describe(const vk::raii::PhysicalDevice& physical);
 
 // Implementation of Context: the Vulkan objects that every part of the renderer needs.
 class Device {
  public:
-  static core::Result<std::unique_ptr<Device>> open(Validation validation, Presentation presentation);
+  // `source`: what makes instance and device instead of the Vulkan loader; may be null.
+  static core::Result<std::unique_ptr<Device>> open(Validation validation, Presentation presentation,
+                                                    DeviceSource* source = nullptr);
 
   const vk::raii::Device& operator*() const { return device_; }
   const vk::raii::Device* operator->() const { return &device_; }
@@ -85,8 +89,8 @@ class Device {
 
  private:
   Device() = default;
-  core::Result<void> choose_physical(Presentation presentation);
-  void create_device(Presentation presentation);
+  core::Result<void> choose_physical(Presentation presentation, DeviceSource* source);
+  void create_device(Presentation presentation, DeviceSource* source);
 
   std::unique_ptr<MessageSink> messages_ = std::make_unique<MessageSink>();
   std::unique_ptr<vk::raii::Context> loader_;

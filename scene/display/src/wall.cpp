@@ -113,13 +113,18 @@ glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m, const glm::
   return head.position_m + head.room_from_head * (eye_from_tracker_m + glm::dvec3(side * ipd_m, 0.0, 0.0));
 }
 
-std::string doubt_of_head(const Wall& wall, const glm::dvec3& head_m) {
+double floor_height_m(const Wall& wall) {
   constexpr double kSitting = 1.0;  // a seated head is higher above its floor
   double floor = std::min(0.0, wall.viewers.front().sweet_spot.position_m.y - kSitting);
   for (const Screen& screen : wall.screens) {
     const double lowest = std::min({screen.lower_left.y, screen.lower_right.y, screen.upper_left.y});
     floor = std::min(floor, lowest);
   }
+  return floor;
+}
+
+std::string doubt_of_head(const Wall& wall, const glm::dvec3& head_m) {
+  const double floor = floor_height_m(wall);
   if (head_m.y < floor) return fmt::format("{:.2f} m below the floor", floor - head_m.y);
   for (const Screen& screen : wall.screens) {
     const double before = glm::dot(head_m - screen.lower_left, screen.normal());
@@ -162,6 +167,44 @@ core::Result<EyeView> off_axis_view(const Screen& screen, const glm::dvec3& eye_
   result.view = glm::translate(view_from_axes, -eye_position_m);
   result.eye_position_m = eye_position_m;
   return result;
+}
+
+core::Result<EyeView> eye_from_fov(const HeadPose& eye, const FieldOfView& fov, DepthConvention convention,
+                                   double near_m, double far_m) {
+  constexpr double kRightAngle = 1.5707963267948966;
+  constexpr double kUnitError = 1e-3;  // of a runtime's quaternion, in single precision
+  const auto ordered = [](double low, double high) { return -kRightAngle < low && low < high && high < kRightAngle; };
+  if (!ordered(fov.left_rad, fov.right_rad) || !ordered(fov.down_rad, fov.up_rad)) {
+    return failure(ErrorCategory::Failed,
+                   fmt::format("no eye has a field of view from {:g} to {:g} rad and from {:g} to {:g} rad",
+                               fov.left_rad, fov.right_rad, fov.down_rad, fov.up_rad));
+  }
+  if (!finite(eye.position_m) || !(std::abs(glm::length(eye.room_from_head) - 1.0) < kUnitError)) {
+    return failure(ErrorCategory::Failed, fmt::format("no eye is at {} with that orientation", text(eye.position_m)));
+  }
+  const glm::dquat turn = glm::normalize(eye.room_from_head);
+  const Extent extent{.left = near_m * std::tan(fov.left_rad),
+                      .right = near_m * std::tan(fov.right_rad),
+                      .bottom = near_m * std::tan(fov.down_rad),
+                      .top = near_m * std::tan(fov.up_rad),
+                      .near = near_m,
+                      .far = far_m};
+  EyeView result;
+  result.projection = projection_matrix(extent, convention);
+  result.view = glm::translate(glm::mat4_cast(glm::conjugate(turn)), -eye.position_m);
+  result.eye_position_m = eye.position_m;
+  return result;
+}
+
+Screen screen_of_fov(const HeadPose& eye, const FieldOfView& fov, double distance_m) {
+  const auto corner = [&](double across_rad, double up_rad) {
+    const glm::dvec3 in_eye(std::tan(across_rad), std::tan(up_rad), -1.0);
+    return eye.position_m + eye.room_from_head * (distance_m * in_eye);
+  };
+  return {.name = "field of view",
+          .lower_left = corner(fov.left_rad, fov.down_rad),
+          .lower_right = corner(fov.right_rad, fov.down_rad),
+          .upper_left = corner(fov.left_rad, fov.up_rad)};
 }
 
 }  // namespace afm::scene

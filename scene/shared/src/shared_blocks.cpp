@@ -251,7 +251,9 @@ bool is_valid(const ScanLead& lead) {
          lead.gain_per_s <= kMostScanGainPerS;
 }
 
-bool is_valid(const RendererHeartbeat& heartbeat) { return heartbeat.leaving <= 1 && heartbeat.stop <= 1; }
+bool is_valid(const RendererHeartbeat& heartbeat) {
+  return heartbeat.leaving <= 1 && heartbeat.stop <= 1 && heartbeat.unseen <= 1;
+}
 
 bool is_valid(const SharedDevice& device) {
   // limits may be infinite

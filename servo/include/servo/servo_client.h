@@ -61,6 +61,11 @@ class ServoClient {
   // ms at least.
   void stop(std::int64_t now_ns);
 
+  // What every heartbeat from now on says of the picture. While nobody sees it, as when a headset is lost, the servo
+  // gives no force; when somebody does again, the hand lifts and Turn-On is pressed as after the start.
+  enum class Picture { Seen, Unseen };
+  void set_picture(Picture picture) { picture_ = picture; }
+
   const scene::TipState& tip() const { return tip_; }
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
   const haptics::ServoSettings& settings() const { return settings_; }
@@ -118,6 +123,7 @@ class ServoClient {
   std::uint32_t leads_ = 0;
   std::uint64_t beats_ = 0;
   std::optional<std::int64_t> stopped_ns_;  // when stop() was called last
+  Picture picture_ = Picture::Seen;         // as set_picture() was told last
   std::unique_ptr<TipListener> listener_;
   std::unique_ptr<Servo> servo_;  // last: it ends before its segment goes
 };

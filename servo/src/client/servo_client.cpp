@@ -72,7 +72,11 @@ core::Result<std::unique_ptr<ServoClient>> ServoClient::start(const scene::Share
 
 void ServoClient::beat(std::int64_t now_ns) {
   const bool stop = stopped_ns_ && now_ns - *stopped_ns_ < kStopNs;
-  side_.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = beats_++, .leaving = 0, .stop = stop ? 1U : 0U});
+  side_.store(scene::RendererHeartbeat{.time_ns = now_ns,
+                                       .frame = beats_++,
+                                       .leaving = 0,
+                                       .stop = stop ? 1U : 0U,
+                                       .unseen = picture_ == Picture::Unseen ? 1U : 0U});
 }
 
 void ServoClient::stop(std::int64_t now_ns) {

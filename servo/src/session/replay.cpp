@@ -74,11 +74,13 @@ std::optional<Difference> difference(std::size_t index, const Record& recorded, 
   return first;
 }
 
+bool lives(RendererLink link) { return link == RendererLink::Alive || link == RendererLink::Unseen; }
+
 // Whether a heartbeat with this tick lets the servo see what it saw then: the last one before a hang must be just old
 // enough when the hang was noticed.
 bool beats(std::span<const TipSample> from_here) {
   const std::int64_t now_ns = from_here.front().time_ns;
-  if (from_here.front().renderer != RendererLink::Alive) return false;
+  if (!lives(from_here.front().renderer)) return false;
   for (const TipSample& sample : from_here) {
     if (sample.time_ns - now_ns > SafetyGovernor::kHangNs) break;
     if (sample.renderer == RendererLink::Hung) return false;
@@ -105,8 +107,10 @@ class Player {
   bool play(std::size_t index) {
     const TipSample& sample = session_.samples[index];
     const bool was_stopped = index > 0 && session_.samples[index - 1].renderer == RendererLink::Stopped;
-    const bool goes_on = was_stopped && sample.renderer == RendererLink::Alive;
-    if (goes_on || beats(std::span(session_.samples).subspan(index))) beat({});
+    const bool goes_on = was_stopped && lives(sample.renderer);
+    if (goes_on || beats(std::span(session_.samples).subspan(index))) {
+      beat({.unseen = sample.renderer == RendererLink::Unseen ? 1U : 0U});
+    }
     if (sample.renderer == RendererLink::Stopped) beat({.stop = 1});
     if (sample.renderer == RendererLink::Leaving) beat({.leaving = 1});
     if (sample.renderer == RendererLink::Died) loop_->renderer_died();

@@ -74,6 +74,21 @@ core::Result<EyeView> off_axis_view(const Screen& screen, const glm::dvec3& eye_
 // The near plane of every picture: closer to an eye nothing is drawn.
 inline constexpr double kNearM = 0.1;
 
+// What an eye of a headset sees, as angles from straight ahead: to the left and down they are negative. An eye need not
+// look through the middle of its display.
+struct FieldOfView {
+  double left_rad = 0, right_rad = 0, down_rad = 0, up_rad = 0;
+};
+
+// The view of a headset's eye: along the eye's own pose, since displays may be canted. Arguments and conventions as for
+// off_axis_view(). Failed: a pose or angles that no eye can have, which a headset's runtime may send.
+core::Result<EyeView> eye_from_fov(const HeadPose& eye, const FieldOfView& fov, DepthConvention convention,
+                                   double near_m, double far_m);
+
+// The rectangle across an eye's line of sight, at this distance, that fills its field of view: the screen on which a
+// mirror of a headset's picture is pointed at.
+Screen screen_of_fov(const HeadPose& eye, const FieldOfView& fov, double distance_m);
+
 struct Viewer {
   std::string name = "viewer";
   double ipd_m = 0.063;
@@ -116,9 +131,11 @@ struct Wall {
 // Blending of a picture of that screen by projectors of which nothing is known; null where nothing overlaps it.
 std::shared_ptr<const Blend> usual_blend(const Wall& wall, std::size_t screen);
 
+// Height of the room's floor: at y = 0, or as low as a screen reaches, or a metre below the sweet spot where the room's
+// origin lies higher.
+double floor_height_m(const Wall& wall);
+
 // Reason why no head can be at this position in front of the wall, such as "0.85 m below the floor"; empty if it can.
-// The floor is at y = 0, or as low as a screen reaches, or a metre below the sweet spot where the room's origin lies
-// higher.
 std::string doubt_of_head(const Wall& wall, const glm::dvec3& head_m);
 
 // Reads and checks a wall file: TOML, or the corners of a ParaView .pvx. The error names file, line and key.

@@ -23,6 +23,7 @@ enum class FaultCode : std::uint32_t {
   EnergyExceeded = 10,
   OutOfWorkspace = 11,
   StopPressed = 12,
+  PictureUnseen = 13,
 };
 
 struct FaultText {
@@ -44,7 +45,8 @@ inline constexpr std::array kFaultTexts{
     FaultText{FaultCode::MotorsHot, "motors-hot", "the device's motors are hot"},
     FaultText{FaultCode::EnergyExceeded, "energy-exceeded", "the hand was given more energy than the model holds"},
     FaultText{FaultCode::OutOfWorkspace, "out-of-workspace", "the hand left the device's workspace"},
-    FaultText{FaultCode::StopPressed, "stop-pressed", "Stop was pressed"}};
+    FaultText{FaultCode::StopPressed, "stop-pressed", "Stop was pressed"},
+    FaultText{FaultCode::PictureUnseen, "picture-unseen", "nobody sees the picture in the headset"}};
 static_assert(core::has_row_for_each(kFaultTexts, &FaultText::code));
 
 // "the renderer gave no frame for 250 ms"

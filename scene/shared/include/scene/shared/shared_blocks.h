@@ -179,6 +179,8 @@ struct RendererHeartbeat {
   std::uint64_t frame = 0;
   std::uint32_t leaving = 0;  // 1: the renderer ends in good order; the servo releases the hand and ends too
   std::uint32_t stop = 0;     // 1: a person wants no force at all, now
+  std::uint32_t unseen = 0;   // 1: nobody sees the picture, so that there is no force as long as this lasts
+  std::uint32_t padding = 0;
 };
 
 // ---- written by touchafm-servo ----
@@ -193,6 +195,7 @@ enum class RendererLink : std::uint32_t {
   Leaving = 3,  // said goodbye
   Died = 4,
   Stopped = 5,  // lives, and a person has pressed Stop there
+  Unseen = 6,   // lives, and nobody sees its picture
 };
 
 // The servo's device: limits as in haptics::DeviceSpec, positions in the device frame from the contact point, metres.

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture in a headset, and its left eye's in the window.
+#include <chrono>
+#include <thread>
+
+#include "app/live/view_picture.h"
+
+namespace afm::app {
+
+namespace {
+
+// Less often than any display shows pictures: the headset must not wait for the window.
+constexpr std::int64_t kMirrorNs = 33'000'000;
+
+}  // namespace
+
+void ViewPicture::show_in_headset(render::FrameState& frame, std::int64_t now_ns,
+                                  const std::function<void()>& while_waiting) {
+  ViewHeadset& headset = *settings_.headset;
+  // the eyes are located once nothing else is to be waited for
+  while (!renderer_.ready()) {
+    while_waiting();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const MirroredEye seen = headset.locate_eyes();
+  frame.eyes = seen.eyes;
+  renderer_.render(frame);
+  headset.show(while_waiting);
+  if (headset.wants_picture()) {
+    times_.shown(now_ns);
+  } else {
+    times_.hidden();
+  }
+  Share& share = shares_.front();
+  share.eyes = seen.eyes;
+  share.screen = seen.screen;
+  save_newest();
+  while_waiting();
+  if (now_ns - mirrored_ns_ < kMirrorNs) return;
+  mirrored_ns_ = now_ns;
+  mirror(while_waiting);
+}
+
+void ViewPicture::mirror(const std::function<void()>& while_waiting) {
+  if (!presenter_.begin(pictures_, while_waiting)) return;
+  presenter_.draw(shares_.front().windows, while_waiting);
+  presenter_.show();
+  while_waiting();
+}
+
+}  // namespace afm::app

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/headset.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "device/device_error.h"
+#include "headset/headset_session.h"
+
+namespace afm::render {
+
+struct Headset::Parts {
+  HeadsetRuntimeParts& runtime;
+  const Device& device;
+  const Renderer::Parts& renderer;
+  scene::HeadPose room_from_floor;
+  const core::Clock& clock;
+  std::vector<std::string> news;
+  std::unique_ptr<HeadsetSession> session;  // none while the headset is lost
+  Turn turn = Turn::Off;
+  std::int64_t looked_ns = 0;
+  std::string said_missing;
+
+  core::Result<void> begin();
+  void look_again();
+  void forget();
+  template <class Call>
+  void follow_loss(Call&& call);
+};
+
+core::Result<void> Headset::Parts::begin() {
+  try {
+    session = std::make_unique<HeadsetSession>(runtime, device, renderer.eyes, room_from_floor, news);
+  } catch (const OpenXrFailure& failure) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         fmt::format("no headset: {} takes no picture of ours ({}): restart it, or bring it up to date",
+                                     runtime.runtime_name, failure.what()));
+  } catch (const vk::SystemError& error) {
+    return core::failure(core::ErrorCategory::Failed, describe_error(error, device, "the headset's pictures"));
+  }
+  news.push_back(fmt::format("headset: {} through {}", runtime.headset_name, runtime.runtime_name));
+  return {};
+}
+
+void Headset::Parts::forget() {
+  session.reset();
+  runtime.close();
+  looked_ns = clock.now_ns();
+  said_missing.clear();
+  news.emplace_back("headset: lost; looking for it every 2 s");
+}
+
+void Headset::Parts::look_again() {
+  const std::int64_t now_ns = clock.now_ns();
+  if (now_ns - looked_ns < kLookAgainNs) return;
+  auto found = runtime.open();
+  if (found) found = runtime.check_device(device);
+  if (found) found = begin();
+  looked_ns = clock.now_ns();
+  if (found) return;
+  runtime.close();
+  // the same again and again is said once
+  if (std::exchange(said_missing, found.error().message) != found.error().message) news.push_back(said_missing);
+}
+
+// Whatever the runtime refuses, another session may get: none is mended.
+template <class Call>
+void Headset::Parts::follow_loss(Call&& call) {
+  try {
+    rethrow_as_device_failure(device, "showing a picture in the headset", std::forward<Call>(call));
+  } catch (const OpenXrFailure& failure) {
+    news.push_back(fmt::format("headset: {}", failure.what()));
+    session->lost();
+  }
+}
+
+Headset::Headset(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Headset::~Headset() = default;
+
+core::Result<std::unique_ptr<Headset>> Headset::create(HeadsetRuntime& runtime, Context& context, Renderer& renderer,
+                                                       const scene::HeadPose& room_from_floor,
+                                                       const core::Clock& clock) {
+  std::unique_ptr<Parts> parts(new Parts{
+      runtime.parts(), context.device(), *renderer.parts_, room_from_floor, clock, {}, nullptr, Turn::Off, 0, {}});
+  if (auto begun = parts->begin(); !begun) return tl::unexpected(begun.error());
+  return std::unique_ptr<Headset>(new Headset(std::move(parts)));
+}
+
+Headset::Turn Headset::next_turn(const std::function<void()>& while_waiting) {
+  Parts& parts = *parts_;
+  parts.turn = Turn::Off;
+  if (!parts.session) parts.look_again();
+  if (!parts.session) return Turn::Off;
+  parts.follow_loss([&] { parts.turn = parts.session->next_turn(parts.clock, while_waiting); });
+  if (parts.session->over()) {
+    parts.forget();
+    parts.turn = Turn::Off;
+  }
+  return parts.turn;
+}
+
+std::optional<std::array<HeadsetEye, 2>> Headset::locate_eyes() {
+  std::optional<std::array<HeadsetEye, 2>> eyes;
+  if (parts_->session) parts_->follow_loss([&] { eyes = parts_->session->locate_eyes(); });
+  return eyes;
+}
+
+bool Headset::show(const std::function<void()>& while_waiting) {
+  bool shown = false;
+  if (parts_->session) parts_->follow_loss([&] { shown = parts_->session->show(while_waiting); });
+  return shown;
+}
+
+const HeadsetController& Headset::controller() const {
+  static const HeadsetController kNone;
+  // no button stays pressed where no frame came in which it could have been released
+  const bool known = parts_->turn == Turn::Hidden || parts_->turn == Turn::Frame;
+  return parts_->session && known ? parts_->session->controller() : kNone;
+}
+
+void Headset::pulse() {
+  if (parts_->session) parts_->follow_loss([&] { parts_->session->pulse(); });
+}
+
+std::vector<std::string> Headset::take_news() { return std::exchange(parts_->news, {}); }
+
+}  // namespace afm::render

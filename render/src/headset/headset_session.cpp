@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "headset/headset_session.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "core/interruption.h"
+#include "device/device.h"
+#include "headset/openxr_pose.h"
+
+namespace afm::render {
+namespace {
+
+constexpr std::chrono::milliseconds kTurnOfFrameWait{5};
+constexpr std::chrono::seconds kLastWait{2};  // for a runtime that keeps a frame at the end of the program
+constexpr int kMostEventsATurn = 100;
+constexpr double kUnusedFarM = 100.0;  // of a projection without a far plane
+
+struct StateRow {
+  XrSessionState state;
+  SessionEvent event;
+  const char* news;  // null: of no interest to people
+};
+constexpr std::array<StateRow, 8> kStates{
+    {{XR_SESSION_STATE_IDLE, SessionEvent::BecameIdle, "headset: not worn"},
+     {XR_SESSION_STATE_READY, SessionEvent::BecameReady, nullptr},
+     {XR_SESSION_STATE_SYNCHRONIZED, SessionEvent::BecameSynchronized, nullptr},
+     {XR_SESSION_STATE_VISIBLE, SessionEvent::BecameVisible, "headset: shows the picture"},
+     {XR_SESSION_STATE_FOCUSED, SessionEvent::BecameFocused, "headset: has the controllers"},
+     {XR_SESSION_STATE_STOPPING, SessionEvent::BecameStopping, nullptr},
+     {XR_SESSION_STATE_LOSS_PENDING, SessionEvent::BecameLossPending, "headset: the runtime is about to end"},
+     {XR_SESSION_STATE_EXITING, SessionEvent::BecameExiting, "headset: its user has closed the session"}}};
+
+}  // namespace
+
+HeadsetSession::HeadsetSession(HeadsetRuntimeParts& runtime, const Device& device, const EyeTargets& eyes,
+                               const scene::HeadPose& room_from_floor, std::vector<std::string>& news)
+    : calls_(runtime.calls),
+      device_(device),
+      eyes_(eyes),
+      room_from_floor_(room_from_floor),
+      news_(news),
+      session_(runtime, device),
+      floor_(calls_, session_, runtime.has(XR_EXT_LOCAL_FLOOR_EXTENSION_NAME)),
+      actions_(calls_, session_),
+      pictures_(calls_, session_, device, choose_format(), eyes.extent()),
+      pool_(*device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                               .queueFamilyIndex = device.queue_family()}) {
+  for (Copying& copying : copying_) {
+    copying.commands = std::move(
+        vk::raii::CommandBuffers(
+            *device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1})
+            .front());
+    copying.done = vk::raii::Fence(*device, vk::FenceCreateInfo{.flags = vk::FenceCreateFlagBits::eSignaled});
+  }
+  wait_.emplace(calls_.WaitFrame, session_);
+}
+
+HeadsetSession::~HeadsetSession() {
+  if (wait_->under_way() && !wait_->answer_within(kLastWait)) {
+    core::end_at_once(core::ExitCode::RunFailed,
+                      "error: the headset's runtime keeps a frame that the program waits for: restart the runtime");
+  }
+  // the runtime's images are filled by what may still be under way
+  device_.wait_idle();
+}
+
+HeadsetFormat HeadsetSession::choose_format() const {
+  const auto format = choose_headset_format(session_.formats());
+  if (!format) throw OpenXrFailure(XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED, "xrEnumerateSwapchainFormats");
+  return *format;
+}
+
+void HeadsetSession::follow_events() {
+  for (int i = 0; i < kMostEventsATurn; ++i) {
+    auto event = openxr_struct<XrEventDataBuffer>(XR_TYPE_EVENT_DATA_BUFFER);
+    const XrResult polled = calls_.PollEvent(calls_.handle(), &event);
+    check_openxr(polled, "xrPollEvent");
+    if (polled == XR_EVENT_UNAVAILABLE) return;
+    take(event);
+  }
+}
+
+void HeadsetSession::take(const XrEventDataBuffer& event) {
+  switch (event.type) {
+    case XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED:
+      return follow_state(reinterpret_cast<const XrEventDataSessionStateChanged&>(event).state);
+    case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
+      news_.emplace_back("headset: the runtime is about to end");
+      states_.take(SessionEvent::WasLost);
+      return;
+    case XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING:
+      floor_.recentered();
+      return;
+    default:
+      return;
+  }
+}
+
+void HeadsetSession::follow_state(XrSessionState state) {
+  for (const StateRow& row : kStates) {
+    if (row.state != state) continue;
+    if (row.news != nullptr) news_.emplace_back(row.news);
+    const SessionDuty duty = states_.take(row.event);
+    if (duty == SessionDuty::Begin) begin_session();
+    ending_ = ending_ || duty == SessionDuty::End;
+  }
+}
+
+void HeadsetSession::begin_session() {
+  // the last one may not have ended yet: its frame is still waited for
+  if (ending_ && !wait_->under_way()) end_session();
+  const XrSessionBeginInfo info{.type = XR_TYPE_SESSION_BEGIN_INFO,
+                                .next = nullptr,
+                                .primaryViewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO};
+  check_openxr(calls_.BeginSession(session_, &info), "xrBeginSession");
+}
+
+void HeadsetSession::end_session() {
+  ending_ = false;
+  check_openxr(calls_.EndSession(session_), "xrEndSession");
+}
+
+std::optional<FrameWait::Answer> HeadsetSession::wait_for_frame(const core::Clock& clock,
+                                                                const std::function<void()>& while_waiting) {
+  while (true) {
+    if (auto answer = wait_->answer_within(kTurnOfFrameWait)) return answer;
+    if (clock.now_ns() - wait_began_ns_ >= Headset::kFrozenNs) return std::nullopt;
+    while_waiting();
+  }
+}
+
+Headset::Turn HeadsetSession::next_turn(const core::Clock& clock, const std::function<void()>& while_waiting) {
+  const auto gone = [this] { return states_.phase() == SessionPhase::Over; };
+  if (gone()) frame_.reset();
+  if (frame_) end_frame(Picture::None);
+  if (!gone()) follow_events();
+  const bool wanted = states_.phase() == SessionPhase::Running || ending_;
+  if (!wanted && !wait_->under_way()) return Headset::Turn::Off;
+  if (!wait_->under_way()) {
+    if (ending_) {
+      end_session();
+      return Headset::Turn::Off;
+    }
+    wait_->begin();
+    wait_began_ns_ = clock.now_ns();
+  }
+  const auto answer = wait_for_frame(clock, while_waiting);
+  if (!answer) return Headset::Turn::Frozen;
+  if (gone()) return Headset::Turn::Off;
+  begin_frame(*answer);
+  const bool seen = states_.visible() && answer->frame.shouldRender == XR_TRUE;
+  if (!ending_)
+    controller_ =
+        actions_.read(floor_.at(frame_->predictedDisplayTime), frame_->predictedDisplayTime, room_from_floor_);
+  if (!seen || ending_) end_frame(Picture::None);
+  if (ending_) {
+    end_session();
+    return Headset::Turn::Off;
+  }
+  return seen ? Headset::Turn::Frame : Headset::Turn::Hidden;
+}
+
+void HeadsetSession::begin_frame(const FrameWait::Answer& answer) {
+  check_openxr(answer.result, "xrWaitFrame");
+  const XrFrameBeginInfo info{.type = XR_TYPE_FRAME_BEGIN_INFO, .next = nullptr};
+  check_openxr(calls_.BeginFrame(session_, &info), "xrBeginFrame");
+  frame_ = answer.frame;
+  located_ = false;
+  const XrSpace floor = floor_.at(frame_->predictedDisplayTime);
+  if (floor != XR_NULL_HANDLE && !std::exchange(said_floor_, true)) {
+    news_.push_back("headset: the floor is " + floor_.source());
+  }
+}
+
+std::optional<std::array<HeadsetEye, 2>> HeadsetSession::locate_eyes() {
+  located_ = false;
+  if (!frame_) return std::nullopt;
+  const XrViewLocateInfo info{.type = XR_TYPE_VIEW_LOCATE_INFO,
+                              .next = nullptr,
+                              .viewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO,
+                              .displayTime = frame_->predictedDisplayTime,
+                              .space = floor_.at(frame_->predictedDisplayTime)};
+  auto state = openxr_struct<XrViewState>(XR_TYPE_VIEW_STATE);
+  std::uint32_t count = 0;
+  for (XrView& view : views_) view = openxr_struct<XrView>(XR_TYPE_VIEW);
+  check_openxr(
+      calls_.LocateViews(session_, &info, &state, static_cast<std::uint32_t>(views_.size()), &count, views_.data()),
+      "xrLocateViews");
+  if (count != views_.size() || !is_placed(state.viewStateFlags)) return std::nullopt;
+  std::array<HeadsetEye, 2> eyes;
+  for (std::size_t i = 0; i < eyes.size(); ++i) {
+    const XrFovf& fov = views_[i].fov;
+    eyes[i].pose = in_room(room_from_floor_, to_pose(views_[i].pose));
+    eyes[i].fov = {.left_rad = static_cast<double>(fov.angleLeft),
+                   .right_rad = static_cast<double>(fov.angleRight),
+                   .down_rad = static_cast<double>(fov.angleDown),
+                   .up_rad = static_cast<double>(fov.angleUp)};
+    const auto view = scene::eye_from_fov(eyes[i].pose, eyes[i].fov, scene::DepthConvention::VulkanReversedInfinite,
+                                          scene::kNearM, kUnusedFarM);
+    if (!view) return std::nullopt;
+    eyes[i].view = *view;
+  }
+  located_ = true;
+  return eyes;
+}
+
+bool HeadsetSession::show(const std::function<void()>& while_waiting) {
+  if (!frame_) return false;
+  if (!located_ || !pictures_.take(while_waiting)) {
+    end_frame(Picture::None);
+    return false;
+  }
+  submit_copies();
+  pictures_.give_back();
+  end_frame(Picture::Eyes);
+  return true;
+}
+
+void HeadsetSession::submit_copies() {
+  const Copying& copying = copying_[copied_++ % copying_.size()];
+  device_.wait_for(copying.done);
+  device_->resetFences(*copying.done);
+  copying.commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  pictures_.record(copying.commands, eyes_);
+  copying.commands.end();
+  const vk::CommandBufferSubmitInfo submit{.commandBuffer = *copying.commands};
+  device_.queue().submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submit}, *copying.done);
+}
+
+void HeadsetSession::end_frame(Picture picture) {
+  std::array<XrCompositionLayerProjectionView, 2> views{};
+  for (const scene::Eye eye : scene::kEyes) {
+    const std::size_t i = eye == scene::Eye::Left ? 0 : 1;
+    if (picture == Picture::None) break;
+    views[i] = {.type = XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW,
+                .next = nullptr,
+                .pose = views_[i].pose,
+                .fov = views_[i].fov,
+                .subImage = pictures_.sub_image(eye, eyes_.drawing().extent)};
+  }
+  const XrCompositionLayerProjection eyes{.type = XR_TYPE_COMPOSITION_LAYER_PROJECTION,
+                                          .next = nullptr,
+                                          .layerFlags = 0,
+                                          .space = floor_.at(frame_->predictedDisplayTime),
+                                          .viewCount = static_cast<std::uint32_t>(views.size()),
+                                          .views = views.data()};
+  const std::array layers{reinterpret_cast<const XrCompositionLayerBaseHeader*>(&eyes)};
+  const XrFrameEndInfo info{.type = XR_TYPE_FRAME_END_INFO,
+                            .next = nullptr,
+                            .displayTime = frame_->predictedDisplayTime,
+                            .environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE,
+                            .layerCount = picture == Picture::Eyes ? 1U : 0U,
+                            .layers = layers.data()};
+  frame_.reset();
+  check_openxr(calls_.EndFrame(session_, &info), "xrEndFrame");
+}
+
+void HeadsetSession::pulse() {
+  if (states_.focused()) actions_.pulse();
+}
+
+}  // namespace afm::render

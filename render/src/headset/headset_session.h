@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "headset/controller_actions.h"
+#include "headset/eye_swapchains.h"
+#include "headset/floor_space.h"
+#include "headset/frame_wait.h"
+#include "headset/session_handle.h"
+#include "headset/session_states.h"
+#include "passes/renderer_parts.h"
+
+namespace afm::render {
+
+// One session with the runtime, from its first state to its last. Every call throws OpenXrFailure when session or
+// runtime are gone, after which it can only be destroyed.
+class HeadsetSession {
+ public:
+  HeadsetSession(HeadsetRuntimeParts& runtime, const Device& device, const EyeTargets& eyes,
+                 const scene::HeadPose& room_from_floor, std::vector<std::string>& news);
+  HeadsetSession(const HeadsetSession&) = delete;
+  HeadsetSession& operator=(const HeadsetSession&) = delete;
+  ~HeadsetSession();
+
+  Headset::Turn next_turn(const core::Clock& clock, const std::function<void()>& while_waiting);
+  std::optional<std::array<HeadsetEye, 2>> locate_eyes();
+  bool show(const std::function<void()>& while_waiting);
+
+  // Over, and nothing of it is under way: it can be destroyed without waiting.
+  bool over() const { return states_.phase() == SessionPhase::Over && !wait_->under_way(); }
+  void lost() { states_.take(SessionEvent::WasLost); }
+  const HeadsetController& controller() const { return controller_; }
+  void pulse();
+
+ private:
+  // What copies one frame.
+  struct Copying {
+    vk::raii::CommandBuffer commands{nullptr};
+    vk::raii::Fence done{nullptr};
+  };
+
+  HeadsetFormat choose_format() const;
+  void follow_events();
+  void take(const XrEventDataBuffer& event);
+  void follow_state(XrSessionState state);
+  std::optional<FrameWait::Answer> wait_for_frame(const core::Clock& clock, const std::function<void()>& while_waiting);
+  void begin_frame(const FrameWait::Answer& answer);
+  enum class Picture { None, Eyes };
+  void end_frame(Picture picture);
+  void begin_session();
+  void end_session();
+  void submit_copies();
+
+  const OpenXrInstance& calls_;
+  const Device& device_;
+  const EyeTargets& eyes_;
+  scene::HeadPose room_from_floor_;
+  std::vector<std::string>& news_;
+  SessionStates states_;
+  SessionHandle session_;
+  FloorSpace floor_;
+  ControllerActions actions_;
+  EyeSwapchains pictures_;
+  vk::raii::CommandPool pool_;
+  std::array<Copying, 2> copying_;
+  std::size_t copied_ = 0;         // frames
+  std::optional<FrameWait> wait_;  // never without, once it is made
+  std::int64_t wait_began_ns_ = 0;
+  std::optional<XrFrameState> frame_;  // begun, and to be ended
+  std::array<XrView, 2> views_{};      // as they were located last
+  bool located_ = false;
+  bool ending_ = false;  // the runtime wants the session's end, once its last frame is
+  bool said_floor_ = false;
+  HeadsetController controller_;
+};
+
+}  // namespace afm::render

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "device/device_source.h"
+#include "headset/openxr_calls.h"
+#include "render/headset.h"
+
+namespace afm::render {
+
+struct HeadsetRuntimeParts : DeviceSource {
+  explicit HeadsetRuntimeParts(std::string the_manifest) : manifest(std::move(the_manifest)) {}
+
+  // Connects, or connects again after close(). DeviceMissing as HeadsetRuntime::connect().
+  core::Result<void> open();
+  void close() { calls.close(); }
+
+  // After connecting again: the runtime must still want the device that everything is drawn with.
+  core::Result<void> check_device(const Device& device) const;
+
+  bool has(const char* extension) const;
+
+  vk::raii::Instance create_instance(const vk::raii::Context& loader, const vk::InstanceCreateInfo& info) override;
+  vk::raii::PhysicalDevice choose_device(const vk::raii::Instance& instance) override;
+  vk::raii::Device create_device(const vk::raii::PhysicalDevice& physical, const vk::DeviceCreateInfo& info) override;
+
+  std::string manifest;  // of the runtime, for people
+  OpenXrInstance calls;
+  XrSystemId system = XR_NULL_SYSTEM_ID;
+  std::vector<const char*> extensions;  // optional ones that the runtime has
+  std::string runtime_name, headset_name;
+  glm::uvec2 eye_px{0};
+  PFN_vkGetInstanceProcAddr vulkan = nullptr;
+
+ private:
+  core::Result<void> find_headset();
+  VkPhysicalDevice wanted_device(VkInstance instance) const;
+};
+
+// Optional extensions, and what goes without them.
+struct HeadsetExtension {
+  const char* name;
+  const char* without;
+};
+const std::vector<HeadsetExtension>& headset_extensions();
+
+}  // namespace afm::render

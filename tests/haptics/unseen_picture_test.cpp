@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "servo_bench.h"
+
+// A headset that is off, lost or hidden: the renderer lives, and nobody sees its picture.
+namespace afm::haptics {
+namespace {
+
+using scene::FaultCode;
+using scene::ServoState;
+using test::kMica;
+using test::ServoBench;
+
+TEST(UnseenPicture, TakesTheForceAwayAndGivesNoneUntilItIsSeenAgain) {
+  ServoBench bench;
+  bench.hold_attached(kMica);
+  bench.unseen = true;
+  bench.run(0.025);  // a fade of 20 ms, and the tick that hears of it
+  EXPECT_EQ(bench.hand_force_n(), 0.0);
+  EXPECT_EQ(bench.state().fault, FaultCode::PictureUnseen);
+  bench.move(ServoBench::kTop, 0.3);
+  bench.run(1.0);
+  bench.aim(ServoBench::kTop, 0.0, true);
+  bench.run(0.5);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed) << "armed although nobody sees the picture";
+  bench.unseen = false;
+  bench.run(0.5);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed) << "armed without another press";
+  bench.aim(ServoBench::kTop, 0.0);
+  bench.run(0.1);
+  bench.arm(kMica);
+}
+
+TEST(UnseenPicture, IsNoFaultBeforeTheFirstOne) {
+  ServoBench bench;
+  bench.unseen = true;
+  bench.choose(kMica);
+  bench.run(0.5);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
+  EXPECT_EQ(bench.state().fault, FaultCode::None);
+}
+
+}  // namespace
+}  // namespace afm::haptics

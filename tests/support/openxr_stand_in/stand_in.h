@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vulkan/vulkan.h>
+#define XR_NO_PROTOTYPES
+#define XR_USE_GRAPHICS_API_VULKAN
+#include <openxr/openxr.h>
+#include <openxr/openxr_platform.h>
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+// The stand-in runtime: what it offers, what it does when, and what it was given. All poses are those of the floor,
+// with -z ahead.
+namespace afm::stand_in {
+
+// A picture of an eye as it was submitted: the bytes of the swapchain's image.
+struct SubmittedEye {
+  XrPosef pose{};
+  XrFovf fov{};
+  std::int64_t format = 0;
+  std::uint32_t width = 0, height = 0, layer = 0;
+  std::vector<std::uint8_t> bytes;
+};
+struct SubmittedFrame {
+  std::vector<SubmittedEye> eyes;  // none where the frame had no layer
+};
+
+struct Script {
+  std::string name = "headset without lenses";
+  std::vector<std::int64_t> formats{91, 97, 43, 50, 37, 44, 126};
+  std::uint32_t images = 3;
+  std::uint32_t eye_width = 256, eye_height = 192;
+  bool two_layers = true;
+  bool local_floor = true, stage = true;
+  float local_height_m = 1.5F;  // of the frame at eye level above the floor
+  std::array<XrPosef, 2> eyes{{{{0, 0, 0, 1}, {-0.032F, 1.6F, 0.0F}}, {{0, 0, 0, 1}, {0.032F, 1.6F, 0.0F}}}};
+  std::array<XrFovf, 2> fovs{{{-0.8F, 0.7F, 0.75F, -0.85F}, {-0.7F, 0.8F, 0.75F, -0.85F}}};
+  bool tracked = true;
+  bool should_render = true;
+  bool available = true;                         // to xrCreateInstance
+  bool headset_plugged_in = true;                // to xrGetSystem
+  std::int64_t frame_ns = 0;                     // how long xrWaitFrame keeps the program at least
+  bool blocked = false;                          // xrWaitFrame keeps it until this is false
+  bool lends = true;                             // images
+  std::map<std::string, XrResult> failing;       // calls, once each
+  std::array<std::set<std::string>, 2> pressed;  // actions, by hand
+  std::array<XrPosef, 2> aims{{{{0, 0, 0, 1}, {-0.2F, 1.2F, -0.3F}}, {{0, 0, 0, 1}, {0.2F, 1.2F, -0.3F}}}};
+  XrVector2f stick{0, 0};
+  bool controllers = true;
+};
+
+// What the program did.
+struct Log {
+  std::vector<std::string> calls;   // all but xrPollEvent and xrGetActionState...
+  std::vector<std::string> faults;  // against the specification
+  std::vector<SubmittedFrame> frames;
+  int pulses = 0;
+};
+
+// Shared by the calls; a test holds the mutex while it reads or changes anything.
+struct StandIn {
+  std::mutex mutex;
+  Script script;
+  Log log;
+  bool keeps_frames = true;  // with their pictures
+
+  // The runtime's next states, one at a time as the program asks.
+  void say(XrSessionState next) { states.push_back(next); }
+  void begin_again();  // as at the start
+
+  // of the calls
+  std::deque<XrSessionState> states;
+  XrSessionState state = XR_SESSION_STATE_UNKNOWN;
+  bool running = false;
+  int waited = 0, begun = 0;  // frames
+  bool recentered = false;
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  std::uint32_t family = 0;
+};
+StandIn& stand_in();
+
+// Between the sources of the runtime.
+struct Swapchain {
+  XrSwapchainCreateInfo info{};
+  std::vector<VkImage> images;
+  std::vector<VkDeviceMemory> memory;
+  std::uint32_t next = 0;
+  int acquired = 0;  // 1: acquired, 2: waited for
+};
+Swapchain* create_images(const XrSwapchainCreateInfo& info, std::uint32_t count);
+void destroy_images(Swapchain* chain);
+SubmittedEye read_image(const Swapchain& chain, std::uint32_t layer, const XrRect2Di& rect);
+std::int64_t now_ns();
+bool enter(const char* call, XrResult& result);  // logs it; false: it fails as the script says
+void follow_script_file();
+void note(const std::string& what);  // when it happens first, in that file's neighbour ".log"
+
+XrResult find_frame_call(const char* name, PFN_xrVoidFunction* function);
+
+}  // namespace afm::stand_in
