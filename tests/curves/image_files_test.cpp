@@ -251,6 +251,7 @@ TEST(IgorImage, IsAlsoAMatrixWithTheNameOfItsWave) {
   const LoadedImage image = loaded(igor_image_file(3, 2, {}, 5e-9, "", {1, 2, 3, 4, 5, 6}));
   ASSERT_EQ(image.image.channels.size(), 1U);
   EXPECT_EQ(image.image.channels[0].name, "relief");
+  EXPECT_EQ(image.image.channels[0].unit, "") << "nobody says what it is";
   EXPECT_DOUBLE_EQ(image.image.width_m, 15e-9);
   EXPECT_EQ(values(image), (std::vector<double>{4, 5, 6, 1, 2, 3}));
 }

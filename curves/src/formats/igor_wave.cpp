@@ -126,6 +126,7 @@ IgorWave read_igor_wave(std::string_view bytes) {
   if (is_matrix(bytes)) {
     const std::string_view name = part(bytes, kName, kLabelSize);
     wave.labels = {name.substr(0, name.find('\0'))};
+    wave.is_matrix = true;
   }
   if (wave.labels.size() != (wave.layers > 0 ? wave.layers : wave.columns)) {
     throw CurveError("its columns have no labels, so that their channels are unknown");

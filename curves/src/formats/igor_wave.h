@@ -19,6 +19,7 @@ struct IgorWave {
   std::size_t rows = 0;     // of the first dimension, which runs fastest
   std::size_t columns = 0;  // of the second
   std::size_t layers = 0;   // of the third; 0: a table
+  bool is_matrix = false;   // without labels, which would say what its numbers are
   std::size_t number_size = 0;
   std::endian order = std::endian::little;
   std::array<double, 2> spacing{};  // of the first and the second dimension, in their units
