@@ -170,58 +170,78 @@ struct Image {
 
 double square(double value) { return value * value; }
 
-// The way in pixels, at most 14, by which something is least.
-int least_at(const std::function<double(int)>& value) {
+// The way in pixels, at most 16, by which something is least.
+double least_at(const std::function<double(int)>& value) {
   int best = 0;
-  for (int way = -14; way <= 14; ++way) {
+  for (int way = -16; way <= 16; ++way) {
     if (value(way) < value(best)) best = way;
   }
   return std::abs(best);
+}
+
+// From the sample, nm.
+double mean_above(const Image& image) {
+  return 1e9 * image.mean([&](auto c, auto r) { return image.height_m(0, c, r) - image.place_m(c, r, 0, 0); });
+}
+
+// The share of the pixels over which the tip flies: well above the sample, without any force for three in a row.
+double flown_share(const Image& image) {
+  constexpr double kAboveM = 1e-9, kNoForceN = 0.2e-9;
+  return image.mean([&](auto c, auto r) {
+    if (image.height_m(0, c, r) - image.place_m(c, r, 0, 0) < kAboveM) return 0.0;
+    for (const std::size_t at : {c - 1, c, c + 1}) {
+      if (std::abs(image.error_n(at, r) + image.scan.choice().setpoint_n) > kNoForceN) return 0.0;
+    }
+    return 1.0;
+  });
+}
+
+// The median of what is bent from pixel to pixel beyond the sample's own shape, nm: steps of the sample do not matter.
+double roughness(const Image& image) {
+  std::vector<double> bends_m;
+  image.mean([&](auto c, auto r) {
+    const auto beyond_m = [&](auto at) { return image.height_m(0, at, r) - image.place_m(at, r, 0, 0); };
+    bends_m.push_back(std::abs(beyond_m(c - 1) - 2.0 * beyond_m(c) + beyond_m(c + 1)));
+    return 0.0;
+  });
+  std::nth_element(bends_m.begin(), bends_m.begin() + std::ssize(bends_m) / 2, bends_m.end());
+  return 1e9 * bends_m[bends_m.size() / 2];
 }
 
 // A number for each artefact: how much of it an image has.
 double shown(const Image& image, ScanArtefact artefact) {
   const double setpoint_n = std::abs(image.scan.choice().setpoint_n);
   switch (artefact) {
-    case ScanArtefact::LostContact:  // the mean distance between image and sample, nm
-      return 1e9 *
-             image.mean([&](auto c, auto r) { return std::abs(image.height_m(0, c, r) - image.place_m(c, r, 0, 0)); });
+    case ScanArtefact::LostContact:
+    case ScanArtefact::DoubleTip:
+    case ScanArtefact::BluntTip:
+      return mean_above(image);
     case ScanArtefact::Ringing:  // from pixel to pixel of the error, in setpoints
       return std::sqrt(
                  image.mean([&](auto c, auto r) { return square(image.error_n(c, r) - image.error_n(c - 1, r)); })) /
              setpoint_n;
-    case ScanArtefact::Parachuting:  // the share of pixels without any force on the lever, above the sample
-      return image.mean([&](auto c, auto r) {
-        return image.error_n(c, r) < -0.95 * setpoint_n && image.height_m(0, c, r) > image.place_m(c, r, 0, 0) ? 1.0
-                                                                                                               : 0.0;
-      });
+    case ScanArtefact::Parachuting:
+      return flown_share(image);
     case ScanArtefact::Overload: {  // the brightest point of the error, in setpoints
       double most_n = 0;
       image.mean([&](auto c, auto r) { return most_n = std::max(most_n, image.error_n(c, r)); });
       return most_n / setpoint_n;
     }
-    case ScanArtefact::DoubleTip:  // from the sample, nm
-      return 1e9 * std::sqrt(image.mean(
-                       [&](auto c, auto r) { return square(image.height_m(0, c, r) - image.place_m(c, r, 0, 0)); }));
-    case ScanArtefact::Drift:  // by how many pixels the newest lines lie beside the sample
+    case ScanArtefact::Drift:  // by how many pixels the newest lines lie beside the sample, to the right and above
+                               // alike
       return least_at([&](int way) {
         return image.mean(
             [&](auto c, auto r) { return square(image.height_m(0, c, r) - image.place_m(c, r, way, way)); });
       });
-    case ScanArtefact::Noise:  // from pixel to pixel beyond the sample's own, nm
-      return 1e9 * std::sqrt(image.mean([&](auto c, auto r) {
-               const auto beyond_m = [&](auto at) { return image.height_m(0, at, r) - image.place_m(at, r, 0, 0); };
-               return square(beyond_m(c) - beyond_m(c - 1));
-             }));
+    case ScanArtefact::Noise:
+      return roughness(image);
     case ScanArtefact::Blur:  // by how many pixels trace and retrace lie apart
       return least_at([&](int way) {
         return image.mean([&](auto c, auto r) {
-          return square(image.height_m(0, c, r) -
-                        image.height_m(1, static_cast<std::size_t>(static_cast<int>(c) - way), r));
+          const auto there = static_cast<std::size_t>(static_cast<int>(c) - way);
+          return square(image.height_m(0, c, r) - image.height_m(1, there, r));
         });
       });
-    case ScanArtefact::BluntTip:  // by how much the image is higher than the sample, nm
-      return 1e9 * image.mean([&](auto c, auto r) { return image.height_m(0, c, r) - image.place_m(c, r, 0, 0); });
     case ScanArtefact::None:
       break;
   }
@@ -234,11 +254,11 @@ struct Bounds {
   double clean, present;
 };
 
-constexpr std::array kBounds{Bounds{ScanArtefact::LostContact, 1, 10},   Bounds{ScanArtefact::Ringing, 1, 2},
-                             Bounds{ScanArtefact::Parachuting, 0, 0.01}, Bounds{ScanArtefact::Overload, 2, 4},
-                             Bounds{ScanArtefact::DoubleTip, 1, 3},      Bounds{ScanArtefact::Drift, 1, 6},
-                             Bounds{ScanArtefact::Noise, 0.1, 0.3},      Bounds{ScanArtefact::Blur, 2, 6},
-                             Bounds{ScanArtefact::BluntTip, 0.2, 0.5}};
+constexpr std::array kBounds{Bounds{ScanArtefact::LostContact, 0.5, 10},   Bounds{ScanArtefact::Ringing, 1, 2},
+                             Bounds{ScanArtefact::Parachuting, 0.01, 0.1}, Bounds{ScanArtefact::Overload, 2.2, 4},
+                             Bounds{ScanArtefact::DoubleTip, 0.5, 1.5},    Bounds{ScanArtefact::Drift, 2, 6},
+                             Bounds{ScanArtefact::Noise, 0.1, 0.25},       Bounds{ScanArtefact::Blur, 4, 7},
+                             Bounds{ScanArtefact::BluntTip, 0.5, 0.7}};
 
 std::string words_of(ScanArtefact artefact) {
   std::string name(physics::name_of(artefact));
