@@ -18,8 +18,10 @@
 #include "app/bench/servo_work.h"
 #include "core/log.h"
 #include "core/version.h"
+#include "curves/image_file.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
+#include "exhibit/topography_model.h"
 #include "render/context.h"
 #include "render/renderer.h"
 
@@ -34,6 +36,7 @@ struct HapticsBenchOptions {
   double seconds = 10.0;
   int rounds = 20;
   bool json = false;
+  std::string sample;  // a file; empty: a surface with the most points that are felt
 };
 
 struct Figures {
@@ -73,9 +76,21 @@ core::Result<void> measure_beside_renderer(const CommandContext& context, const 
   return {};
 }
 
+core::Result<MeasuredSurface> measured_surface(const std::string& file) {
+  if (file.empty()) return largest_measured_surface();
+  constexpr double kStrokeM = 40e-9;  // of the paper's materials, about
+  auto model = exhibit::load_topography_model(file, {});
+  if (!model) return tl::unexpected(model.error());
+  const scene::TopographyScale scale = exhibit::topography_scale(*model, kStrokeM);
+  const std::string name = fmt::format("measured {} x {}", model->topography.columns, model->topography.rows);
+  return MeasuredSurface{name, std::move(model->topography), scale};
+}
+
 core::Result<Figures> measure_all(const CommandContext& context, const HapticsBenchOptions& options) {
   Figures figures;
-  auto work = measure_servo_work(options.ticks);
+  const auto surface = measured_surface(options.sample);
+  if (!surface) return tl::unexpected(surface.error());
+  auto work = measure_servo_work(options.ticks, *surface);
   if (!work) return tl::unexpected(work.error());
   figures.work = std::move(*work);
   // before the renderer, whose threads a fork would lose
@@ -190,6 +205,11 @@ void add_haptics_benchmarks(OptionList& bench, const CommandContext& context) {
   command.add_option("--rounds", options->rounds, "number of renderers to kill and to stop")
       .within(1, 1000)
       .show_default();
+  command
+      .add_option("--sample", options->sample,
+                  fmt::format("measured surface for one of the rows ({}); default: a computed one of {} x {} points",
+                              curves::kImageFiles, scene::kMaxTopographySide, scene::kMaxTopographySide))
+      .type_name("FILE");
   command.add_flag("--json", options->json, "print JSON with times in seconds instead of tables");
   command.footer("example: touchafm bench haptics --seconds 60");
   command.when_chosen([options, &context]() -> core::Result<void> {

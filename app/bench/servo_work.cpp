@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -31,24 +32,27 @@ constexpr std::size_t kWarmUpTicks = 3000;  // lift, Turn-On, and the ramp
 constexpr std::size_t kHalfCycle = 600;     // ticks
 constexpr double kTop_m = 0.060, kBottom_m = -0.015, kSideways_m = 0.03;
 
+enum class Ground { Plane, Surface, Measured };
+
 struct WorkCase {
   std::string name;
   physics::Law law;
   bool dynamic;
-  bool topography;
+  Ground ground;
   double p50_bar_us;
   double p99_bar_us;
 };
 
-// The paper's law against CHAI3D's, every other one, and a lever with mass.
-std::vector<WorkCase> work_cases() {
+// The paper's law against CHAI3D's, on a measured surface too, every other one, and a lever with mass.
+std::vector<WorkCase> work_cases(const MeasuredSurface& measured) {
   using physics::Law;
-  std::vector<WorkCase> all{{"paper on a plane", Law::Paper, false, false, 0, kFieldP99_us},
-                            {"paper on a surface", Law::Paper, false, true, kFieldP50_us, kFieldP99_us}};
+  std::vector<WorkCase> all{{"paper on a plane", Law::Paper, false, Ground::Plane, 0, kFieldP99_us},
+                            {"paper on a surface", Law::Paper, false, Ground::Surface, kFieldP50_us, kFieldP99_us},
+                            {measured.name, Law::Paper, false, Ground::Measured, 0, kDearestBar_us}};
   for (const Law law : physics::laws_with(&physics::LawTraits::computed)) {
-    if (law != Law::Paper) all.push_back({std::string(name_of(law)), law, false, true, 0, kDearestBar_us});
+    if (law != Law::Paper) all.push_back({std::string(name_of(law)), law, false, Ground::Surface, 0, kDearestBar_us});
   }
-  all.push_back({"dynamic-dmt", Law::Dmt, true, true, 0, kDearestBar_us});
+  all.push_back({"dynamic-dmt", Law::Dmt, true, Ground::Surface, 0, kDearestBar_us});
   return all;
 }
 
@@ -65,15 +69,20 @@ scene::SharedHeightField rough_surface() {
   return field;
 }
 
-scene::SharedModel model_of(const WorkCase& work) {
+scene::SharedModel model_of(const WorkCase& work, const MeasuredSurface& measured) {
   scene::SharedModel model = mica_alone();
   scene::SharedContact& mica = model.materials[0];
   mica.law = work.law;
   mica.dynamic = work.dynamic ? 1 : 0;
-  if (work.topography) {
+  if (work.ground == Ground::Surface) {
     model.height_field_count = 1;
     model.height_fields[0] = rough_surface();
     mica.height_field = 0;
+  }
+  if (work.ground == Ground::Measured) {
+    model.topography = measured.topography.size();
+    mica.height_field = scene::kTopography;
+    mica.topography = measured.scale;
   }
   return model;
 }
@@ -129,8 +138,10 @@ class Bench {
   bool down_ = false;
 };
 
-core::Result<WorkFigure> measure_case(const WorkCase& work, std::size_t ticks) {
-  auto segment = scene::SharedSegment::create(model_of(work), 0);
+core::Result<WorkFigure> measure_case(const WorkCase& work, const MeasuredSurface& measured, std::size_t ticks) {
+  const bool on_measured = work.ground == Ground::Measured;
+  auto segment = scene::SharedSegment::create(model_of(work, measured), 0,
+                                              on_measured ? measured.topography : scene::Topography{});
   if (!segment) return tl::unexpected(segment.error());
   haptics::SimulatedDevice hand;
   auto loop = haptics::ServoLoop::create(*segment, hand, {.rate_hz = 1e9 / static_cast<double>(kPeriodNs)});
@@ -166,12 +177,32 @@ scene::SharedModel mica_alone() {
   return model;
 }
 
-core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks) {
+MeasuredSurface largest_measured_surface() {
+  constexpr std::uint32_t kSide = scene::kMaxTopographySide;
+  constexpr double kWidthM = 10e-6, kReliefM = 1e-6, kNoiseM = 10e-9, kShownM = 60e-9;
+  scene::Topography topography{.columns = kSide, .rows = kSide, .spacing_m = kWidthM / kSide, .height_m = {}};
+  topography.height_m.reserve(std::size_t{kSide} * kSide);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise_m(0.0, kNoiseM);
+  for (std::uint32_t row = 0; row < kSide; ++row) {
+    for (std::uint32_t column = 0; column < kSide; ++column) {
+      const double x = (column + 0.5) / kSide - 0.5, y = (row + 0.5) / kSide - 0.5;
+      const double hills = 0.4 * std::sin(7.0 * x + 4.0 * y) * std::cos(6.0 * y), steps = 0.3 * std::round(3.0 * y + x);
+      topography.height_m.push_back(static_cast<float>(kReliefM * (hills + steps) + noise_m(random)));
+    }
+  }
+  const float origin_m = topography.height_m[(kSide / 2) * kSide + kSide / 2];
+  for (float& height_m : topography.height_m) height_m -= origin_m;
+  const double scale = kShownM / kWidthM;
+  return {fmt::format("measured {0} x {0}", kSide), std::move(topography), {.lateral = scale, .vertical = scale}};
+}
+
+core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks, const MeasuredSurface& measured) {
   std::vector<WorkFigure> figures;
-  const std::vector<WorkCase> all = work_cases();
+  const std::vector<WorkCase> all = work_cases(measured);
   for (const WorkCase& work : all) {
     core::log_line(fmt::format("measuring ticks: {} ({} of {})", work.name, figures.size() + 1, all.size()));
-    auto figure = measure_case(work, ticks);
+    auto figure = measure_case(work, measured, ticks);
     if (!figure) return tl::unexpected(figure.error());
     figures.push_back(std::move(*figure));
   }

@@ -50,20 +50,41 @@ std::string contact_method_names() {
 
 enum class FileKind { Curve, Image, Session };
 
-// What a file is as analyse_curve_file() has it, in the words of a message.
-struct FileKindText {
+// What analyse_curve_file() takes, in the words of help and messages; a file is what it begins as.
+struct FileKindRow {
   FileKind kind;
+  const char* word;
   const char* one;   // "an image"
   const char* many;  // "images"
+  const char* formats;
+  bool (*begins)(const std::string& file);
 };
 
-constexpr std::array kFileKinds{FileKindText{FileKind::Curve, "a curve", "curves"},
-                                FileKindText{FileKind::Image, "an image", "images"},
-                                FileKindText{FileKind::Session, "a session", "sessions"}};
+constexpr std::array kFileKinds{
+    FileKindRow{FileKind::Curve, "curve", "a curve", "curves", curves::kCurveFiles, curves::is_curve_file},
+    FileKindRow{FileKind::Image, "image", "an image", "images", curves::kImageFiles, curves::is_image_file},
+    FileKindRow{FileKind::Session, "session", "a session", "sessions", ".afms, for its friction loop",
+                servo::is_session_file}};
 
-FileKind kind_of(const std::string& file) {
-  if (file.ends_with(".afms")) return FileKind::Session;
-  return curves::is_image_file(file) ? FileKind::Image : FileKind::Curve;
+std::string known_files() {
+  std::string text;
+  for (const FileKindRow& row : kFileKinds)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.word, row.formats);
+  return text;
+}
+
+// An Igor file may be an image or a curve: an image is the more special.
+const FileKindRow* row_of(const std::string& file) {
+  const auto found =
+      std::find_if(kFileKinds.rbegin(), kFileKinds.rend(), [&](const FileKindRow& row) { return row.begins(file); });
+  return found != kFileKinds.rend() ? &*found : nullptr;
+}
+
+core::Result<FileKind> kind_of(const std::string& file) {
+  if (const FileKindRow* row = row_of(file)) return row->kind;
+  if (const auto readable = core::read_beginning(file, 1); !readable) return tl::unexpected(readable.error());
+  return core::failure(core::ErrorCategory::BadInputFile,
+                       fmt::format("cannot analyse {}: it is of no known kind; known are {}", file, known_files()));
 }
 
 // An option that is of use for one kind of file alone.
@@ -74,12 +95,11 @@ struct OptionOfKind {
 };
 
 core::Result<void> check_options(const std::string& file, const std::vector<OptionOfKind>& options) {
-  const FileKind kind = kind_of(file);
+  const FileKindRow* kind = row_of(file);
   for (const OptionOfKind& row : options) {
-    if (!row.option.given() || row.kind == kind) continue;
+    if (kind == nullptr || !row.option.given() || row.kind == kind->kind) continue;
     return wrong_usage(fmt::format("{} is for {}, and {} is {}; leave it out", row.name,
-                                   kFileKinds[static_cast<std::size_t>(row.kind)].many, file,
-                                   kFileKinds[static_cast<std::size_t>(kind)].one));
+                                   kFileKinds[static_cast<std::size_t>(row.kind)].many, file, kind->one));
   }
   return {};
 }
@@ -130,8 +150,9 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
   for_curves("--curve", command.add_option("--curve", reading.index, "number of the curve in an .h5 file, from 0")
                             .show_default()
                             .type_name("INDEX"));
-  for_curves("--out",
-             command.add_option("--out", options.out, "write a plot of the curve (SVG) to FILE").type_name("FILE"));
+  for_curves("--out", command.add_option("--out", options.out, "write a plot of the curve (SVG) to FILE")
+                          .writable_file()
+                          .type_name("FILE"));
   return added;
 }
 
@@ -180,9 +201,10 @@ core::Result<void> analyse_session(const AnalyseOptions& options) {
 }
 
 core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
-  const FileKind kind = kind_of(options.file);
-  if (kind == FileKind::Session) return analyse_session(options);
-  if (kind == FileKind::Image) {
+  const auto kind = kind_of(options.file);
+  if (!kind) return tl::unexpected(kind.error());
+  if (*kind == FileKind::Session) return analyse_session(options);
+  if (*kind == FileKind::Image) {
     return analyse_image_file(options.file, {{.channel = options.channel}, options.levelling}, options.json);
   }
   const auto measured = load_analysed(options.file, options.reading, options.contact_method);
@@ -209,14 +231,7 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
       "analyse", "analyse a measured or computed curve, alone or compared with another, or an image");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<AnalyseOptions>();
-  command
-      .add_option(
-          "file", options->file,
-          fmt::format("curve: TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw; "
-                      "image: {}; session: .afms, for its friction loop",
-                      curves::kImageFiles))
-      .required()
-      .type_name("FILE");
+  command.add_option("file", options->file, known_files()).required().type_name("FILE");
   std::vector<OptionOfKind> of_kind = add_curve_options(command, *options);
   const auto [channel, level] = add_channel_options(command, options->channel, options->levelling);
   of_kind.push_back({channel, "--channel", FileKind::Image});

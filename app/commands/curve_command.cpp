@@ -201,7 +201,7 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
                   "measured curve to draw over the model, with --format svg; its contact point is aligned with the "
                   "model's and its baseline with zero; stderr reports both shifts")
       .type_name("FILE");
-  command.add_option("--out", options->out, "write to FILE instead of stdout").type_name("FILE");
+  command.add_option("--out", options->out, "write to FILE instead of stdout").writable_file().type_name("FILE");
   command.footer(
       "Each parameter overrides that of the material or the probe.\n"
       "example: touchafm curve --material mica --spring-constant 0.2N/m --from 20nm --to -5nm --out mica.csv\n"

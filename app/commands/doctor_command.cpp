@@ -162,6 +162,7 @@ void add_doctor_command(OptionList& program, const CommandContext& context) {
       .add_option("--bundle", options->bundle,
                   "write the details for a fault report to FILE: versions, system, devices and findings, without the "
                   "names of people, of this computer or of home folders")
+      .writable_file()
       .type_name("FILE");
   command.footer(
       "example: touchafm doctor --seconds 10\n"

@@ -162,6 +162,7 @@ void add_replay_command(OptionList& program, const CommandContext&) {
       .add_option("--sound", options->sound,
                   "write what the whole session sounds like: the tone of the force and a signal for each event, at its "
                   "own time")
+      .writable_file()
       .type_name("FILE.wav");
   add_sound_options(command, options->sound_options);
   command.add_flag("--json", options->json, "print the comparison as JSON, with the unit in each key");

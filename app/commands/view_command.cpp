@@ -197,6 +197,7 @@ void add_servo_options(OptionList& command, ViewOptions& options) {
       .add_option("--frame-log", options.settings.frame_log,
                   "write one line of CSV per frame to FILE: times, head-tracking latency, disparity, scheduling "
                   "latency of the servo")
+      .writable_file()
       .type_name("FILE");
   command.add_flag("--dead-man", options.servo.settings.dead_man, "apply force only while Turn-On is held down");
   quantity_option(

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/whole_file.h"
+
 namespace afm::app {
 
 namespace {
@@ -151,6 +153,14 @@ Option& Option::one_of(std::initializer_list<const char*> words) {
 
 Option& Option::existing_folder() {
   option_->check(CLI::Validator(CLI::ExistingDirectory).description(""));
+  return *this;
+}
+
+Option& Option::writable_file() {
+  option_->check([](const std::string& path) {
+    const auto writable = core::check_writable(path);
+    return writable ? std::string() : writable.error().message;
+  });
   return *this;
 }
 

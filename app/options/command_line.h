@@ -40,6 +40,7 @@ class Option {
   Option& one_of(std::initializer_list<int> values);
   Option& one_of(std::initializer_list<const char*> words);
   Option& existing_folder();
+  Option& writable_file();  // refused before the work whose result it would lose
 
   // Of a list: one value each time the option is given.
   Option& one_value_each();

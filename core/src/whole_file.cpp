@@ -33,6 +33,13 @@ constexpr mode_t kPermissions = 07777;
 constexpr auto kReaderPatience = std::chrono::seconds(5);
 constexpr auto kReaderPause = std::chrono::milliseconds(20);
 
+// "a folder": what is no regular file.
+const char* kind_of(mode_t mode) {
+  if (S_ISDIR(mode)) return "a folder";
+  if (S_ISFIFO(mode)) return "a pipe";
+  return S_ISSOCK(mode) ? "a socket" : "a device";
+}
+
 // Devices, pipes and what a process already has open: written into, never replaced. 0, or errno.
 int write_into(const std::string& path, std::string_view bytes) {
   const auto end = std::chrono::steady_clock::now() + kReaderPatience;
@@ -75,20 +82,37 @@ std::optional<fs::path> follow_links(const std::string& path) {
   return target;
 }
 
-int write_file_or_errno(const std::string& path, std::string_view bytes) {
+// The kind and the permissions of what is at `path`; nothing where a file can be made. Or errno, also for a folder.
+tl::expected<std::optional<mode_t>, int> mode_of_target(const std::string& path) {
   struct stat now{};
-  const bool exists = ::stat(path.c_str(), &now) == 0;
-  if (!exists && errno != ENOENT) return errno;
-  if (exists && S_ISDIR(now.st_mode)) return EISDIR;
-  const auto target = follow_links(path);
-  if (!target || (exists && !S_ISREG(now.st_mode))) return write_into(path, bytes);
-  if (exists && ::access(path.c_str(), W_OK) != 0) return errno;  // a rename would not ask
-  return replace(*target, bytes, exists ? std::optional(now.st_mode & kPermissions) : std::nullopt);
+  if (::stat(path.c_str(), &now) == 0) {
+    if (S_ISDIR(now.st_mode)) return tl::unexpected(EISDIR);
+    return std::optional(now.st_mode);
+  }
+  if (errno != ENOENT) return tl::unexpected(errno);
+  return std::nullopt;
 }
 
-}  // namespace
+tl::unexpected<Error> unwritable(const std::string& path, int error) {
+  std::string why = system_error(error);
+  if (error == ENXIO) why = "no program reads from it";
+  const fs::path folder = follow_links(path).value_or(path).parent_path();
+  if (error == ENOENT && !folder.empty())
+    why = "there is no folder " + folder.string() + "; make it, or choose another";
+  return failure(ErrorCategory::Failed, "cannot write " + path + ": " + why);
+}
 
-Result<std::string> read_file(const std::string& path) {
+int write_file_or_errno(const std::string& path, std::string_view bytes) {
+  const auto mode = mode_of_target(path);
+  if (!mode) return mode.error();
+  const auto target = follow_links(path);
+  if (!target || (*mode && !S_ISREG(**mode))) return write_into(path, bytes);
+  if (*mode && ::access(path.c_str(), W_OK) != 0) return errno;  // a rename would not ask
+  return replace(*target, bytes, *mode ? std::optional(**mode & kPermissions) : std::nullopt);
+}
+
+// The whole file, or somewhat more than `most` bytes of it.
+Result<std::string> read_up_to(const std::string& path, std::uintmax_t most) {
   const auto bad = [&](const std::string& why) {
     return core::failure(core::ErrorCategory::BadInputFile, "cannot read " + path + ": " + why);
   };
@@ -97,7 +121,7 @@ Result<std::string> read_file(const std::string& path) {
   if (!file.is_open()) return bad(errno == ENOENT ? "there is no such file" : system_error(errno));
   struct stat now{};
   if (::fstat(file.get(), &now) != 0) return bad(system_error(errno));
-  if (!S_ISREG(now.st_mode)) return bad(S_ISDIR(now.st_mode) ? "it is a folder" : "it is not a regular file");
+  if (!S_ISREG(now.st_mode)) return bad(std::string("it is ") + kind_of(now.st_mode) + ", not a file");
   std::string bytes;
   for (;;) {
     const std::size_t before = bytes.size();
@@ -106,16 +130,48 @@ Result<std::string> read_file(const std::string& path) {
     bytes.resize(before + static_cast<std::size_t>(got > 0 ? got : 0));
     if (got == 0) return bytes;
     if (got < 0 && errno != EINTR) return bad(system_error(errno));
-    if (bytes.size() > kLargestFileBytes) return bad("it is larger than 1 GiB");
+    if (bytes.size() > most) return bytes;
   }
+}
+
+}  // namespace
+
+Result<std::string> read_file(const std::string& path) {
+  auto bytes = read_up_to(path, kLargestFileBytes);
+  if (bytes && bytes->size() > kLargestFileBytes) {
+    return failure(ErrorCategory::BadInputFile, "cannot read " + path + ": it is larger than 1 GiB");
+  }
+  return bytes;
+}
+
+Result<std::string> read_beginning(const std::string& path, std::size_t most) {
+  auto bytes = read_up_to(path, most);
+  if (bytes && bytes->size() > most) bytes->resize(most);
+  return bytes;
 }
 
 Result<void> write_file(const std::string& path, std::string_view bytes) {
   const int error = write_file_or_errno(path, bytes);
   if (error == 0) return {};
-  return core::failure(
-      core::ErrorCategory::Failed,
-      "cannot write " + path + ": " + (error == ENXIO ? "no program reads from it" : system_error(error)));
+  return unwritable(path, error);
+}
+
+Result<void> check_writable(const std::string& path) {
+  const auto mode = mode_of_target(path);
+  if (!mode) return unwritable(path, mode.error());
+  const auto target = follow_links(path);
+  // a pipe's reader may come later
+  if (!target || (*mode && !S_ISREG(**mode))) return {};
+  if (*mode && ::access(path.c_str(), W_OK) != 0) return unwritable(path, errno);
+  const fs::path folder = target->has_parent_path() ? target->parent_path() : fs::path(".");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) return unwritable(path, errno);
+  return {};
+}
+
+std::string kind_of_no_file(const std::string& path) {
+  struct stat now{};
+  if (::stat(path.c_str(), &now) != 0 || S_ISREG(now.st_mode)) return {};
+  return kind_of(now.st_mode);
 }
 
 }  // namespace afm::core

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/log.h"
+#include "core/whole_file.h"
 #include "curves/image_file.h"
 #include "exhibit/loading_notice.h"
 #include "exhibit/model_builder.h"
@@ -148,6 +149,10 @@ bool is_no_model(const std::string& path) {
   return file && (!(file >> first) || (first != '{' && first != 'g'));
 }
 
+tl::unexpected<core::Error> unusable_sample(const std::string& file, const std::string& why) {
+  return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot use the sample '{}': {}", file, why));
+}
+
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -164,15 +169,18 @@ core::Result<UserModels> load_own_models(const std::string& probe_file, const st
     if (!probe) return tl::unexpected(probe.error());
     own.probe = std::move(*probe);
   }
+  if (const std::string kind = core::kind_of_no_file(sample_file); !kind.empty()) {
+    return unusable_sample(sample_file, fmt::format("it is {}, not a file; name a glTF model or an image ({})", kind,
+                                                    curves::kImageFiles));
+  }
   if (curves::is_image_file(sample_file)) {
     auto topography = load_topography_model(sample_file, reading);
     if (!topography) return tl::unexpected(topography.error());
     own.topography = std::move(*topography);
   } else if (is_no_model(sample_file)) {
-    return core::failure(core::ErrorCategory::BadInputFile,
-                         fmt::format("cannot use the sample '{}': it is neither a glTF model nor an image that can be "
-                                     "read ({}); export it in one of these formats",
-                                     sample_file, curves::kImageFiles));
+    return unusable_sample(sample_file, fmt::format("it is neither a glTF model nor an image that can be read ({}); "
+                                                    "export it in one of these formats",
+                                                    curves::kImageFiles));
   } else if (!sample_file.empty()) {
     auto sample = load_sample(sample_file);
     if (!sample) return tl::unexpected(sample.error());

@@ -10,6 +10,7 @@
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
+#include "curves/image_file.h"
 #include "support/hertz_curve.h"
 #include "support/scratch_folder.h"
 
@@ -121,6 +122,14 @@ TEST(AnalyseCommand, RefusesWrongOptionsAndFilesAndWritesNothing) {
   options.file =
       folder.write("half.tab", curves::curve_bytes(curves::CurveFormat::Tab, mica_curve(0.1))->substr(0, 20000));
   EXPECT_THAT(error_of(options, core::ErrorCategory::BadInputFile), HasSubstr("cannot read the curve"));
+  // a folder is called one, and a file of no kind gets every format that is read
+  options.file = folder.path();
+  EXPECT_THAT(error_of(options, core::ErrorCategory::BadInputFile), HasSubstr("it is a folder, not a file"));
+  options.file = folder.write("notes.afms", "no session");
+  const std::string unknown = error_of(options, core::ErrorCategory::BadInputFile);
+  for (const char* known : {curves::kCurveFiles, curves::kImageFiles, ".afms"}) {
+    EXPECT_THAT(unknown, HasSubstr(known));
+  }
   EXPECT_FALSE(std::filesystem::exists(options.out));
 }
 

@@ -78,9 +78,13 @@ TEST(CommandLine, RefusesOptionsOfAnalyseThatAreForAnotherKindOfFile) {
     const std::string name = std::string(option).substr(0, std::string(option).find(' '));
     expect_refusal(touchafm("analyse " + image + " " + option), 2, name + " is for curves, and " + image);
   }
-  expect_refusal(touchafm("analyse x.csv --channel Height"), 2, "--channel is for images, and x.csv is a curve");
-  expect_refusal(touchafm("analyse x.csv --level none"), 2, "--level is for images");
-  expect_refusal(touchafm("analyse x.afms --curve 0"), 2, "--curve is for curves, and x.afms is a session");
+  const std::string curve = AFM_SOURCE_DIR "/tests/formats/0.1.0/curve.csv", session = folder.write("x", "AFMS");
+  expect_refusal(touchafm("analyse " + curve + " --channel Height"), 2,
+                 "--channel is for images, and " + curve + " is a curve");
+  expect_refusal(touchafm("analyse " + curve + " --level none"), 2, "--level is for images");
+  expect_refusal(touchafm("analyse " + session + " --curve 0"), 2,
+                 "--curve is for curves, and " + session + " is a session");
+  expect_refusal(touchafm("analyse " + folder.path()), 3, "it is a folder, not a file");
   EXPECT_EQ(touchafm("analyse " + image + " --level none --json").exit_code, 0);
 }
 
@@ -91,6 +95,7 @@ TEST(CommandLine, RefusesSettingsOfAScanByListingWhatIsLegal) {
   expect_refusal(touchafm("scan --material mica --json --pixels 5000"), 2, "4096");
   expect_refusal(touchafm("scan --material mica --json --tip spoon"), 2, "pyramid-3");
   expect_refusal(touchafm("scan --material mica --out x.tif"), 2, ".gwy or .gsf");
+  expect_refusal(touchafm("scan --material mica --out /nowhere/x.gwy"), 2, "there is no folder /nowhere; make it");
 }
 
 TEST(CommandLine, RefusesAWallWithCollinearCorners) {

@@ -19,10 +19,12 @@ namespace {
 const std::string kProgram = AFM_BINARY_DIR "/bin/touchafm";
 
 TEST(ServoBenchmarks, TimeATickOfEachLawWithTheForceOn) {
-  const auto figures = measure_servo_work(2000);
+  const auto figures = measure_servo_work(2000, largest_measured_surface());
   ASSERT_TRUE(figures) << figures.error().message;
-  // each computed law, the paper's twice, and a dynamic one
-  EXPECT_EQ(figures->size(), physics::laws_with(&physics::LawTraits::computed).size() + 2);
+  // each computed law, the paper's three times, and a dynamic one
+  EXPECT_EQ(figures->size(), physics::laws_with(&physics::LawTraits::computed).size() + 3);
+  EXPECT_EQ(figures->at(2).name, "measured 1024 x 1024");
+  EXPECT_EQ(figures->at(2).p99_bar_us, 20.0);
   for (const WorkFigure& figure : *figures) {
     EXPECT_GT(figure.us.p50, 0.0) << figure.name;
     EXPECT_LE(figure.us.p50, figure.us.p99) << figure.name;

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <string>
 #include <thread>
@@ -97,7 +98,7 @@ TEST_F(WholeFile, APipeWithoutAReaderIsNotWaitedForForEver) {
   const auto read = read_file(path("pipe"));
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().category, ErrorCategory::BadInputFile);
-  EXPECT_THAT(read.error().message, EndsWith("it is not a regular file"));
+  EXPECT_THAT(read.error().message, EndsWith("it is a pipe, not a file"));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
@@ -106,6 +107,31 @@ TEST_F(WholeFile, LeavesNothingPartialWhereItCannotBeWritten) {
   fs::create_directory(path("folder"));
   EXPECT_FALSE(write_file(path("folder"), "x"));
   EXPECT_EQ(files(), 1);
+}
+
+// Before the work whose result it would lose, and leaving nothing behind.
+TEST_F(WholeFile, IsRefusedInAdvanceWhereItCannotBeWritten) {
+  fs::create_directory(path("folder"));
+  EXPECT_TRUE(check_writable(path("new")));
+  EXPECT_TRUE(check_writable("/dev/null"));
+  EXPECT_TRUE(check_writable("name-in-the-working-folder"));
+  EXPECT_THAT(check_writable(path("missing/a")).error().message,
+              EndsWith("missing/a: there is no folder " + path("missing") + "; make it, or choose another"));
+  fs::create_symlink(path("missing/far"), path("link"));
+  EXPECT_THAT(check_writable(path("link")).error().message, EndsWith(path("missing") + "; make it, or choose another"));
+  EXPECT_FALSE(check_writable(path("folder")));
+  EXPECT_FALSE(check_writable("/proc/version/a"));
+  EXPECT_EQ(files(), 2);
+}
+
+TEST_F(WholeFile, NamesWhatIsNone) {
+  std::ofstream(path("file")) << "x";
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(kind_of_no_file(path("file")), "");
+  EXPECT_EQ(kind_of_no_file(path("nothing")), "");
+  EXPECT_EQ(kind_of_no_file(path("pipe")), "a pipe");
+  EXPECT_EQ(kind_of_no_file("/dev/null"), "a device");
+  EXPECT_EQ(kind_of_no_file("/"), "a folder");
 }
 
 TEST_F(WholeFile, AFullDiskIsSaid) {

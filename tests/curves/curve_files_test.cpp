@@ -187,8 +187,8 @@ TEST(CurveFiles, AGivenSpringConstantReplacesTheFilesOwn) {
 }
 
 TEST(CurveFiles, RefuseWhatIsNoForceDistanceCurve) {
-  EXPECT_THAT(error_of(""), HasSubstr("not a supported curve file"));
-  EXPECT_THAT(error_of("hello"), HasSubstr("not a supported curve file"));
+  EXPECT_THAT(error_of(""), HasSubstr("no curve of a known kind"));
+  EXPECT_THAT(error_of("hello"), HasSubstr("no curve of a known kind"));
   std::string creep = *curve_bytes(CurveFormat::Tab, adhesive_curve());
   creep.replace(creep.find("force-distance"), 14, "creep-complian");
   EXPECT_THAT(error_of(creep), HasSubstr("only force-distance curves are read"));

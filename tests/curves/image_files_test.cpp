@@ -231,6 +231,40 @@ TEST(IgorImage, IsReadExactly) {
   EXPECT_THAT(image.image.metadata, testing::Contains(testing::Pair("ScanRate", "1")));
 }
 
+// As Igor on a Macintosh with another processor wrote it.
+TEST(IgorImage, IsTheSameInEitherOrderOfItsBytes) {
+  const auto file = [](bool big) {
+    return igor_image_file(3, 2, {"PhaseTrace", "HeightTrace"}, 5e-9, "ScanRate: 1\r", layers(), big);
+  };
+  const LoadedImage little = loaded(file(false)), big = loaded(file(true));
+  EXPECT_NE(file(true), file(false));
+  EXPECT_EQ(big.format, ImageFormat::Igor);
+  EXPECT_EQ(big.image.width_m, little.image.width_m);
+  EXPECT_EQ(big.image.metadata, little.image.metadata);
+  ASSERT_EQ(big.image.channels.size(), 2U);
+  EXPECT_EQ(big.image.channels[0].values, little.image.channels[0].values);
+  EXPECT_EQ(big.image.channels[1].name, "HeightTrace");
+  EXPECT_EQ(values(big)[0], 40.0);
+}
+
+TEST(IgorImage, IsAlsoAMatrixWithTheNameOfItsWave) {
+  const LoadedImage image = loaded(igor_image_file(3, 2, {}, 5e-9, "", {1, 2, 3, 4, 5, 6}));
+  ASSERT_EQ(image.image.channels.size(), 1U);
+  EXPECT_EQ(image.image.channels[0].name, "relief");
+  EXPECT_EQ(image.image.channels[0].unit, "") << "nobody says what it is";
+  EXPECT_DOUBLE_EQ(image.image.width_m, 15e-9);
+  EXPECT_EQ(values(image), (std::vector<double>{4, 5, 6, 1, 2, 3}));
+}
+
+// Version 2 has one dimension.
+TEST(IgorImage, NamesTheVersionThatItCannotBe) {
+  std::string old(200, '\0');
+  old[0] = 2;
+  old[14] = static_cast<char>(0xfe);
+  old[15] = static_cast<char>(0xff);
+  EXPECT_THAT(error_of(old), HasSubstr("it is an Igor wave of version 2, which holds one row of numbers"));
+}
+
 TEST(IgorImage, IsRefusedWhereItIsDamaged) {
   const std::string whole = igor_image_file(3, 2, {"HeightTrace", "PhaseTrace"}, 5e-9, "a: 1\r", layers());
   EXPECT_THAT(error_of(whole.substr(0, 400)), HasSubstr("cut short"));
@@ -329,9 +363,11 @@ TEST(ImageFiles, AreReadInTheChildAsTheyAreHere) {
 
 TEST(ImageFiles, SurviveAnyChangeOfTheirBytes) {
   const std::string files[]{
-      gsf_file(kGsfLines, {0, 1, 2, 3, 4, 5}), gwy_file(two_fields()),
+      gsf_file(kGsfLines, {0, 1, 2, 3, 4, 5}),
+      gwy_file(two_fields()),
       nanoscope_file("0x09300000", {nanoscope_height(2, 4)}),
       igor_image_file(3, 2, {"HeightTrace", "PhaseTrace"}, 5e-9, "a: 1\r", layers()),
+      igor_image_file(3, 2, {}, 5e-9, "", {1, 2, 3, 4, 5, 6}, true),
       jpk_image_file(3e-6, 2e-6, {jpk_channel("height", false, 3, 2, kSlots, "nominal", 16, kRaw)})};
   std::mt19937 random(19);
   int read = 0;

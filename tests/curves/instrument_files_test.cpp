@@ -236,7 +236,8 @@ TEST(IgorFile, RefusesOtherVersionsDamageAndEveryCut) {
   for (std::size_t size = 2; size < bytes.size(); size += 31) {
     EXPECT_THAT(error_of(std::string_view(bytes).substr(0, size)), HasSubstr("cannot read the curve"));
   }
-  EXPECT_THAT(error_of(igor_cycle().put<std::int16_t>(0, 2).bytes()), HasSubstr("another version or byte order"));
+  EXPECT_THAT(error_of(igor_cycle().put<std::int16_t>(0, 2).bytes()),
+              HasSubstr("an Igor wave of version 2, which holds one row"));
   std::string damaged = bytes;
   damaged[100] = 'x';
   EXPECT_THAT(error_of(damaged), HasSubstr("the checksum of its header is wrong"));
@@ -244,7 +245,7 @@ TEST(IgorFile, RefusesOtherVersionsDamageAndEveryCut) {
   EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(12, -1).bytes()), HasSubstr("negative"));
   EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(140, 7).bytes()), HasSubstr("no table of channels"));
   EXPECT_THAT(error_of(igor_cycle().put<std::int16_t>(80, 16).bytes()), HasSubstr("neither 32-bit nor 64-bit"));
-  EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(40, 0).bytes()), HasSubstr("have no labels"));
+  EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(40, 0).bytes()), HasSubstr("no table of channels with labels"));
 }
 
 }  // namespace

@@ -3,10 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <string>
+#include <utility>
 
 #include "exhibit/user_models.h"
 #include "support/image_files.h"
@@ -112,6 +114,13 @@ TEST(OwnSample, IsRefusedWithWhatWouldBeRead) {
     EXPECT_EQ(own.error().category, core::ErrorCategory::BadInputFile);
     EXPECT_THAT(own.error().message, testing::HasSubstr("neither a glTF model nor an image")) << bytes;
     EXPECT_THAT(own.error().message, testing::HasSubstr("Nanoscope .spm or .001")) << bytes;
+  }
+  ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  for (const auto& [file, kind] : {std::pair(folder.file("pipe"), "a pipe"), std::pair(folder.path(), "a folder")}) {
+    const auto own = load_own_models("", file);
+    ASSERT_FALSE(own) << kind;
+    EXPECT_THAT(own.error().message, testing::HasSubstr(std::string("it is ") + kind + ", not a file"));
+    EXPECT_THAT(own.error().message, testing::HasSubstr("Nanoscope .spm or .001")) << kind;
   }
   std::ofstream(folder.file("sample.gltf")) << "{";
   EXPECT_THAT(load_own_models("", folder.file("sample.gltf")).error().message, testing::HasSubstr("JSON is invalid"));

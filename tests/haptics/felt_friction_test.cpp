@@ -102,21 +102,71 @@ TEST(FeltFriction, IsTheSameAtEveryRateAndSpeed) {
   }
 }
 
-TEST(FeltFriction, SlipsOnceALatticeStepUnderOneCountOfNoise) {
-  constexpr double kCountM = 5.5e-5;
-  const auto model = model_of(mica(FrictionLaw::Lattice));
-  model->use(ScaleMode::Atoms);
-  const double on_m = put_down(*model);
-  std::mt19937_64 random(5);
-  std::uniform_int_distribution<int> count(-1, 0);
-  constexpr double kWayM = 0.038;
-  int slips = 0, ticks = 0;
-  for (double x = 0.0; x < kWayM; x += 2e-5, ++ticks) {
-    const double read_m = kCountM * (std::floor(x / kCountM) + count(random));
-    slips += static_cast<int>(model->step({read_m, 0.0, on_m}).friction.events.slip_count);
+// A hand over the lattice, read by an encoder of the Omni's resolution whose last count is noise.
+class NoisyHand {
+ public:
+  explicit NoisyHand(std::uint64_t seed) : random_(seed) { model_->use(ScaleMode::Atoms); }
+
+  void put_down() { on_m_ = ::put_down(*model_); }
+
+  // The hand is at x for one tick; how often the tip slips.
+  int read_at(double x_m, bool noise) {
+    const double read_m = kCountM * (std::floor(x_m / kCountM) + (noise ? count_(random_) : 0));
+    return static_cast<int>(model_->step({read_m, 0.0, on_m_}).friction.events.slip_count);
   }
-  EXPECT_LE(slips, static_cast<int>(kWayM / haptics::Scaling::kAtomM));
-  EXPECT_GE(slips, static_cast<int>(kWayM / haptics::Scaling::kAtomM) - 3);
+
+ private:
+  static constexpr double kCountM = 5.5e-5;
+  std::unique_ptr<haptics::ContactModel> model_ = model_of(mica(FrictionLaw::Lattice));
+  std::mt19937_64 random_;
+  std::uniform_int_distribution<int> count_{-1, 0};
+  double on_m_ = 0;
+};
+
+constexpr double kStrokeM = 0.038, kTickM = 2e-5;
+
+// Where a hand without noise feels its slips.
+std::vector<double> clean_slips_m() {
+  NoisyHand hand(1);
+  hand.put_down();
+  std::vector<double> slips_m;
+  for (double x = 0.0; x < kStrokeM; x += kTickM) {
+    if (hand.read_at(x, false) > 0) slips_m.push_back(x);
+  }
+  return slips_m;
+}
+
+TEST(FeltFriction, SlipsOnceInEveryLatticeStepUnderOneCountOfNoise) {
+  const std::vector<double> clean_m = clean_slips_m();
+  ASSERT_GE(clean_m.size(), 15U);
+  for (std::size_t i = 1; i < clean_m.size(); ++i) {
+    ASSERT_NEAR(clean_m[i] - clean_m[i - 1], haptics::Scaling::kAtomM, 1.5e-4) << "a step of the lattice";
+  }
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    NoisyHand hand(seed);
+    hand.put_down();
+    // a step goes from halfway between two slips to the next such place
+    std::vector<int> slips(clean_m.size(), 0);
+    for (double x = 0.0; x < clean_m.back() + 0.4 * haptics::Scaling::kAtomM; x += kTickM) {
+      const auto steps = std::llround((x - clean_m.front()) / haptics::Scaling::kAtomM);
+      slips[static_cast<std::size_t>(std::clamp<long long>(steps, 0, std::ssize(slips) - 1))] += hand.read_at(x, true);
+    }
+    for (std::size_t step = 0; step < slips.size(); ++step) EXPECT_EQ(slips[step], 1) << seed << ", step " << step;
+  }
+}
+
+// Wherever it rests, also where one more count makes the tip slip: it does not chatter.
+TEST(FeltFriction, SlipsAtMostOnceUnderAHandAtRestWithOneCountOfNoise) {
+  const double from_m = clean_slips_m().at(4) - 0.5 * haptics::Scaling::kAtomM;
+  for (int place = 0; place <= 40; ++place) {
+    const double rest_m = from_m + haptics::Scaling::kAtomM * place / 40.0;
+    NoisyHand hand(static_cast<std::uint64_t>(place));
+    hand.put_down();
+    for (double x = 0.0; x < rest_m; x += kTickM) hand.read_at(x, false);
+    int slips = 0;
+    for (int tick = 0; tick < 2000; ++tick) slips += hand.read_at(rest_m, true);
+    EXPECT_LE(slips, 1) << place;
+  }
 }
 
 TEST(FeltFriction, GoesWithTheLoad) {

@@ -51,7 +51,8 @@ TEST_F(ImageFile, SaysWhichPathCannotBeWritten) {
   const auto written = render::write_png(gradient(), path);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().category, core::ErrorCategory::Failed);
-  EXPECT_EQ(written.error().message, "cannot write " + path + ": No such file or directory");
+  EXPECT_EQ(written.error().message, "cannot write " + path + ": there is no folder " +
+                                         (folder_ / "no-such-folder").string() + "; make it, or choose another");
 }
 
 TEST_F(ImageFile, DoesNotReplaceAFolder) {

@@ -141,11 +141,16 @@ inline std::string nanoscope_file(const std::string& version, const std::vector<
 
 // ---- Igor ----
 
+// Without labels a matrix, which has a name of its own. `big`: the order of the bytes.
 inline std::string igor_image_file(int columns, int rows, const std::vector<std::string>& labels, double spacing_m,
-                                   const std::string& note, const std::vector<float>& values) {
+                                   const std::string& note, const std::vector<float>& values, bool big = false) {
   std::string bytes(384, '\0');
-  const auto set = [&bytes](std::size_t offset, auto value) { std::memcpy(&bytes[offset], &value, sizeof(value)); };
-  const std::size_t label_bytes = 32 * (labels.size() + 1);
+  const auto set = [&bytes, big](std::size_t offset, auto value) {
+    std::string number;
+    big ? append_big(number, value) : append_little(number, value);
+    bytes.replace(offset, number.size(), number);
+  };
+  const std::size_t label_bytes = labels.empty() ? 0 : 32 * (labels.size() + 1);
   set(0, std::int16_t{5});
   set(4, static_cast<std::int32_t>(320 + values.size() * sizeof(float)));
   set(12, static_cast<std::int32_t>(note.size()));
@@ -158,16 +163,16 @@ inline std::string igor_image_file(int columns, int rows, const std::vector<std:
   set(148, spacing_m);
   set(156, spacing_m);
   bytes[216] = bytes[220] = 'm';
+  bytes.replace(92, 6, "relief");
   std::uint16_t sum = 0;
   for (std::size_t i = 0; i < bytes.size(); i += 2) {
-    std::uint16_t word = 0;
-    std::memcpy(&word, &bytes[i], sizeof(word));
-    sum = static_cast<std::uint16_t>(sum + word);
+    const auto byte = [&](std::size_t at) { return static_cast<unsigned>(static_cast<unsigned char>(bytes[at])); };
+    sum = static_cast<std::uint16_t>(sum + byte(i) * (big ? 256U : 1U) + byte(i + 1) * (big ? 1U : 256U));
   }
   set(2, static_cast<std::uint16_t>(-sum));
-  for (const float value : values) append_little(bytes, value);
+  for (const float value : values) big ? append_big(bytes, value) : append_little(bytes, value);
   bytes += note;
-  bytes.append(32, '\0');
+  if (!labels.empty()) bytes.append(32, '\0');
   for (const std::string& label : labels) {
     std::string field = label;
     field.resize(32, '\0');

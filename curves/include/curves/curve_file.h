@@ -21,6 +21,13 @@ enum class CurveFormat {
   IgorBinaryWave,  // Asylum Research's .ibw; read only
 };
 
+// All of them, as help and refusals list them.
+inline constexpr const char* kCurveFiles =
+    "TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw";
+
+// Whether the beginning of a regular file is that of a curve.
+bool is_curve_file(const std::string& path);
+
 // "tab", "h5", "afm-workshop", as command lines name the formats that write_curve() writes.
 std::optional<CurveFormat> writable_format(std::string_view name);
 

@@ -26,8 +26,9 @@ constexpr const char* kHdf5Program = "touchafm-hdf5";
 constexpr const char* kNotSurvived = "it is damaged: its reader could not survive it";
 constexpr std::uintmax_t kLargestCurveBytes = std::uintmax_t{256} << 20U;
 
-CurveFormat format_of(std::string_view bytes) {
-  constexpr std::size_t kLongestHeading = 65536;
+constexpr std::size_t kLongestHeading = 65536;
+
+std::optional<CurveFormat> known_format(std::string_view bytes) {
   const std::string_view heading = bytes.substr(0, kLongestHeading);
   if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return CurveFormat::Hdf5;
   if (bytes.starts_with("PK\x03\x04")) return CurveFormat::JpkForce;
@@ -35,9 +36,13 @@ CurveFormat format_of(std::string_view bytes) {
   if (bytes.starts_with("#") && heading.find("# BEGIN METADATA") != std::string_view::npos) return CurveFormat::Tab;
   if (heading.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos) return CurveFormat::AfmWorkshop;
   if (looks_like_igor(bytes)) return CurveFormat::IgorBinaryWave;
-  throw CurveError(
-      "it is not a supported curve file; supported are TouchAFM .csv, afmformats .tab and .h5, AFM Workshop .csv, JPK "
-      ".jpk-force and Igor .ibw");
+  return std::nullopt;
+}
+
+CurveFormat format_of(std::string_view bytes) {
+  const auto format = known_format(bytes);
+  if (!format) throw CurveError(fmt::format("it is no curve of a known kind; known are {}", kCurveFiles));
+  return *format;
 }
 
 // Forces that the file gives in newtons scale with a calibration that replaces the one they were made with.
@@ -107,6 +112,11 @@ std::optional<CurveFormat> writable_format(std::string_view name) {
   if (name == "h5") return CurveFormat::Hdf5;
   if (name == "afm-workshop") return CurveFormat::AfmWorkshop;
   return std::nullopt;
+}
+
+bool is_curve_file(const std::string& path) {
+  const auto beginning = core::read_beginning(path, kLongestHeading);
+  return beginning && known_format(*beginning).has_value();
 }
 
 core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReading& reading) {

@@ -54,7 +54,8 @@ CurveMetadata metadata_of(std::string_view note) {
 }  // namespace
 
 RecordedCurve read_igor(std::string_view bytes) {
-  if (looks_like_igor_image(bytes)) throw CurveError("its wave is no table of channels: an image or a volume");
+  if (looks_like_igor_image(bytes))
+    throw CurveError("its wave is no table of channels with labels: it is an image or a volume");
   const IgorWave wave = read_igor_wave(bytes);
   check_curve_trailer(wave.trailer);
   if (wave.rows > kMostCurvePoints) throw CurveError("it has more points than a curve may have");

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/igor_wave.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 
 #include "formats/text_table.h"
@@ -12,13 +15,28 @@ namespace {
 
 // Offsets in the file: BinHeader5 (64 bytes), WaveHeader5 (320), the data.
 constexpr std::size_t kWaveSize = 4, kFormulaSize = 8, kNoteSize = 12, kDataUnitsSize = 16, kDimUnitsSizes = 20,
-                      kDimLabelsSizes = 36, kDataType = 80, kDimensions = 132, kSpacings = 148, kOrigins = 180,
-                      kDataUnit = 212, kDimensionUnits = 216, kData = 384, kWaveHeaderSize = 320, kLabelSize = 32,
-                      kUnitSize = 4;
+                      kDimLabelsSizes = 36, kDataType = 80, kName = 92, kDimensions = 132, kSpacings = 148,
+                      kOrigins = 180, kDataUnit = 212, kDimensionUnits = 216, kData = 384, kWaveHeaderSize = 320,
+                      kLabelSize = 32, kUnitSize = 4;
+constexpr std::size_t kOldHeaders = 126;  // BinHeader2 and WaveHeader2
+
+// The order in which the version, a small number, is one.
+std::endian order_of(std::string_view bytes) {
+  return number_at<std::uint16_t>(bytes, 0) < 0x100 ? std::endian::little : std::endian::big;
+}
+
+// Zero for headers that are whole.
+std::uint16_t sum_of_words(std::string_view headers, std::endian order) {
+  std::uint16_t sum = 0;
+  for (std::size_t i = 0; i + 1 < headers.size(); i += 2) {
+    sum = static_cast<std::uint16_t>(sum + number_at<std::uint16_t>(headers, i, order));
+  }
+  return sum;
+}
 
 // A length in the file, which Igor holds as a signed number.
 std::size_t length_at(std::string_view bytes, std::size_t offset) {
-  const auto value = number_at<std::int32_t>(bytes, offset);
+  const auto value = number_at<std::int32_t>(bytes, offset, order_of(bytes));
   if (value < 0) throw CurveError("it is damaged: a length in its header is negative");
   return static_cast<std::size_t>(value);
 }
@@ -29,14 +47,20 @@ std::string_view unit_at(std::string_view bytes, std::size_t offset) {
 }
 
 void check_header(std::string_view bytes) {
-  if (const auto version = number_at<std::int16_t>(bytes, 0); version != 5) {
-    throw CurveError("it is an Igor wave of another version or byte order; only version 5, little-endian, is read");
+  const std::endian order = order_of(bytes);
+  if (const auto version = number_at<std::int16_t>(bytes, 0, order); version != 5) {
+    throw CurveError(
+        fmt::format("it is an Igor wave of version {}, which holds one row of numbers and no channels; version 5 is "
+                    "read: save it again with Igor Pro 3 or newer as a wave of two or three dimensions",
+                    version));
   }
-  std::uint16_t sum = 0;
-  for (std::size_t i = 0; i < kData; i += 2) {
-    sum = static_cast<std::uint16_t>(sum + number_at<std::uint16_t>(bytes, i));
-  }
-  if (sum != 0) throw CurveError("the checksum of its header is wrong");
+  if (sum_of_words(part(bytes, 0, kData), order) != 0) throw CurveError("the checksum of its header is wrong");
+}
+
+// A plain matrix: two dimensions, and no labels that would make the columns of the second one channels.
+bool is_matrix(std::string_view bytes) {
+  return length_at(bytes, kDimensions + 4) > 0 && length_at(bytes, kDimensions + 8) == 0 &&
+         length_at(bytes, kDimLabelsSizes + 4) == 0;
 }
 
 void read_data(std::string_view bytes, IgorWave& wave) {
@@ -44,10 +68,11 @@ void read_data(std::string_view bytes, IgorWave& wave) {
   wave.columns = length_at(bytes, kDimensions + 4);
   wave.layers = length_at(bytes, kDimensions + 8);
   if (!looks_like_igor_image(bytes)) wave.layers = 0;
+  if (is_matrix(bytes)) wave.layers = 1;
   if (wave.rows == 0 || wave.columns == 0) {
-    throw CurveError("its wave is no table of channels: an image or a volume");
+    throw CurveError("its wave is no table of channels with labels: it has one dimension");
   }
-  switch (number_at<std::int16_t>(bytes, kDataType)) {
+  switch (number_at<std::int16_t>(bytes, kDataType, wave.order)) {
     case 2:
       wave.number_size = sizeof(float);
       break;
@@ -75,10 +100,11 @@ void read_data(std::string_view bytes, IgorWave& wave) {
 IgorWave read_igor_wave(std::string_view bytes) {
   check_header(bytes);
   IgorWave wave;
+  wave.order = order_of(bytes);
   read_data(bytes, wave);
   for (std::size_t i = 0; i < 2; ++i) {
-    wave.spacing[i] = number_at<double>(bytes, kSpacings + i * sizeof(double));
-    wave.origin[i] = number_at<double>(bytes, kOrigins + i * sizeof(double));
+    wave.spacing[i] = number_at<double>(bytes, kSpacings + i * sizeof(double), wave.order);
+    wave.origin[i] = number_at<double>(bytes, kOrigins + i * sizeof(double), wave.order);
     wave.units[i] = unit_at(bytes, kDimensionUnits + i * kUnitSize);
   }
   wave.data_unit = unit_at(bytes, kDataUnit);
@@ -97,6 +123,11 @@ IgorWave read_igor_wave(std::string_view bytes) {
     const std::string_view label = labels.substr(i, kLabelSize);
     wave.labels.push_back(label.substr(0, label.find('\0')));
   }
+  if (is_matrix(bytes)) {
+    const std::string_view name = part(bytes, kName, kLabelSize);
+    wave.labels = {name.substr(0, name.find('\0'))};
+    wave.is_matrix = true;
+  }
   if (wave.labels.size() != (wave.layers > 0 ? wave.layers : wave.columns)) {
     throw CurveError("its columns have no labels, so that their channels are unknown");
   }
@@ -106,14 +137,24 @@ IgorWave read_igor_wave(std::string_view bytes) {
 
 bool looks_like_igor(std::string_view bytes) {
   if (bytes.size() < 2) return false;
-  const auto version = number_at<std::uint16_t>(bytes, 0);
-  return version == 5 || version == 2 || version == 0x0500 || version == 0x0200;
+  const auto version = number_at<std::uint16_t>(bytes, 0, order_of(bytes));
+  return version == 5 || version == 2;
 }
 
 bool looks_like_igor_image(std::string_view bytes) {
-  if (bytes.size() < kData || number_at<std::uint16_t>(bytes, 0) != 5) return false;
-  const auto layers = number_at<std::int32_t>(bytes, kDimensions + 8);
-  return layers > 1 || (layers == 1 && number_at<std::int32_t>(bytes, kDimLabelsSizes + 8) > 0);
+  if (bytes.size() < kData) return false;
+  const std::endian order = order_of(bytes);
+  if (number_at<std::uint16_t>(bytes, 0, order) != 5) return false;
+  const auto number = [&](std::size_t offset) { return number_at<std::int32_t>(bytes, offset, order); };
+  const std::int32_t columns = number(kDimensions + 4), layers = number(kDimensions + 8);
+  if (layers == 0) return columns > 0 && number(kDimLabelsSizes + 4) == 0;
+  return layers > 1 || number(kDimLabelsSizes + 8) > 0;
+}
+
+bool is_old_igor(std::string_view bytes) {
+  if (bytes.size() < kOldHeaders) return false;
+  const std::endian order = order_of(bytes);
+  return number_at<std::uint16_t>(bytes, 0, order) == 2 && sum_of_words(bytes.substr(0, kOldHeaders), order) == 0;
 }
 
 std::string_view note_value(std::string_view note, std::string_view key) {

@@ -169,6 +169,7 @@ std::string_view index_in(std::string_view name) {
 }  // namespace
 
 ImagePages read_gwy(std::string_view bytes) {
+  if (bytes.starts_with(kOldGwyMagic)) throw CurveError("it is a file of Gwyddion 1; save it again with Gwyddion 2");
   GwyReader reader(bytes.substr(kGwyMagic.size()));
   if (reader.text() != "GwyContainer") throw CurveError("it does not begin with Gwyddion's container");
   const auto size = reader.number<std::uint32_t>();

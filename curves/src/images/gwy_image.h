@@ -8,6 +8,7 @@
 namespace afm::curves {
 
 inline constexpr std::string_view kGwyMagic = "GWYP";
+inline constexpr std::string_view kOldGwyMagic = "GWYO";  // of Gwyddion 1, with another layout: recognised, not read
 
 // Gwyddion's native format (Gwyddion user guide, "Gwyddion native format"): a container of objects, of which the data
 // fields "/N/data" are the channels, with "/N/data/title" and the strings of "/N/meta". Masks, which say what a person

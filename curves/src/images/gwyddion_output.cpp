@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "core/check.h"
 #include "curves/image_output.h"
@@ -25,67 +26,83 @@ void append_raw(std::string& bytes, Number number) {
   bytes.append(raw.data(), raw.size());
 }
 
-// What has a length in the file: "LENGTH contents".
-std::string with_length(const std::string& contents) {
-  std::string bytes;
-  append_raw(bytes, static_cast<std::uint32_t>(contents.size()));
-  return bytes + contents;
-}
-
 std::string terminated(const std::string& text) {
   std::string bytes = text.substr(0, text.find('\0'));
   bytes.push_back('\0');
   return bytes;
 }
 
-// "Name NUL length components", each component "name NUL type value".
-class GwyObject {
+// A file of objects within objects: "Name NUL length components", each component "name NUL type value". It is written
+// once from front to back, as a large image would not fit in the memory several times.
+class GwyWriter {
  public:
-  explicit GwyObject(std::string type) : type_(std::move(type)) {}
+  explicit GwyWriter(std::size_t expected_size) {
+    bytes_.reserve(expected_size);
+    bytes_ = "GWYP";
+  }
 
   void integer(const std::string& name, std::size_t value) {
-    append_raw(component(name, 'i'), static_cast<std::int32_t>(value));
+    begin(name, 'i');
+    append_raw(bytes_, static_cast<std::int32_t>(value));
   }
-  void real(const std::string& name, double value) { append_raw(component(name, 'd'), value); }
-  void text(const std::string& name, const std::string& value) { component(name, 's') += terminated(value); }
-  void object(const std::string& name, const GwyObject& value) { component(name, 'o') += value.bytes(); }
+  void real(const std::string& name, double value) {
+    begin(name, 'd');
+    append_raw(bytes_, value);
+  }
+  void text(const std::string& name, const std::string& value) {
+    begin(name, 's');
+    bytes_ += terminated(value);
+  }
   void reals(const std::string& name, const std::vector<double>& values) {
-    std::string& bytes = component(name, 'D');
-    append_raw(bytes, static_cast<std::uint32_t>(values.size()));
-    for (const double value : values) append_raw(bytes, value);
+    begin(name, 'D');
+    append_raw(bytes_, static_cast<std::uint32_t>(values.size()));
+    static_assert(std::endian::native == std::endian::little);
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
+  }
+  template <class Components>
+  void object(const std::string& name, const char* type, const Components& components) {
+    begin(name, 'o');
+    contents(type, components);
   }
 
-  std::string bytes() const { return terminated(type_) + with_length(components_); }
+  // Of an object; `components` writes them.
+  template <class Components>
+  void contents(const char* type, const Components& components) {
+    bytes_ += terminated(type);
+    const std::size_t length_at = bytes_.size();
+    append_raw(bytes_, std::uint32_t{0});
+    components();
+    const auto length = static_cast<std::uint32_t>(bytes_.size() - length_at - sizeof(std::uint32_t));
+    std::memcpy(&bytes_[length_at], &length, sizeof length);
+  }
+
+  std::string take() { return std::move(bytes_); }
 
  private:
-  std::string& component(const std::string& name, char type) {
-    components_ += terminated(name);
-    components_.push_back(type);
-    return components_;
+  void begin(const std::string& name, char type) {
+    bytes_ += terminated(name);
+    bytes_.push_back(type);
   }
 
-  std::string type_;
-  std::string components_;
+  std::string bytes_;
 };
 
-GwyObject si_unit(const std::string& unit) {
-  GwyObject object("GwySIUnit");
-  object.text("unitstr", unit);
-  return object;
+void write_si_unit(GwyWriter& file, const char* name, const std::string& unit) {
+  file.object(name, "GwySIUnit", [&] { file.text("unitstr", unit); });
 }
 
-GwyObject data_field(const ScanImage& image, const ImageChannel& channel) {
-  GwyObject field("GwyDataField");
-  field.integer("xres", image.columns);
-  field.integer("yres", image.rows);
-  field.real("xreal", image.width_m);
-  field.real("yreal", image.height_m);
-  field.real("xoff", image.x_offset_m);
-  field.real("yoff", image.y_offset_m);
-  field.object("si_unit_xy", si_unit("m"));
-  field.object("si_unit_z", si_unit(channel.unit));
-  field.reals("data", channel.values);
-  return field;
+void write_data_field(GwyWriter& file, const std::string& name, const ScanImage& image, const ImageChannel& channel) {
+  file.object(name, "GwyDataField", [&] {
+    file.integer("xres", image.columns);
+    file.integer("yres", image.rows);
+    file.real("xreal", image.width_m);
+    file.real("yreal", image.height_m);
+    file.real("xoff", image.x_offset_m);
+    file.real("yoff", image.y_offset_m);
+    write_si_unit(file, "si_unit_xy", "m");
+    write_si_unit(file, "si_unit_z", channel.unit);
+    file.reals("data", channel.values);
+  });
 }
 
 void check(const ScanImage& image) {
@@ -116,16 +133,21 @@ std::optional<ImageFormat> image_format(std::string_view path) {
 
 std::string gwy_bytes(const ScanImage& image) {
   check(image);
-  GwyObject metadata("GwyContainer");
-  for (const auto& [key, value] : image.metadata) metadata.text(key, value);
-  GwyObject file("GwyContainer");
-  for (std::size_t i = 0; i < image.channels.size(); ++i) {
-    const std::string name = fmt::format("/{}/", i);
-    file.object(name + "data", data_field(image, image.channels[i]));
-    file.text(name + "data/title", image.channels[i].name);
-    if (!image.metadata.empty()) file.object(name + "meta", metadata);
-  }
-  return "GWYP" + file.bytes();
+  std::size_t words = 1000;  // and names, types and units
+  for (const auto& [key, value] : image.metadata) words += key.size() + value.size() + 3;
+  GwyWriter file(image.channels.size() * (image.columns * image.rows * sizeof(double) + words));
+  file.contents("GwyContainer", [&] {
+    for (std::size_t i = 0; i < image.channels.size(); ++i) {
+      const std::string name = fmt::format("/{}/", i);
+      write_data_field(file, name + "data", image, image.channels[i]);
+      file.text(name + "data/title", image.channels[i].name);
+      if (image.metadata.empty()) continue;
+      file.object(name + "meta", "GwyContainer", [&] {
+        for (const auto& [key, value] : image.metadata) file.text(key, value);
+      });
+    }
+  });
+  return file.take();
 }
 
 std::string gsf_bytes(const ScanImage& image, std::size_t channel) {

@@ -39,8 +39,9 @@ ImagePages read_igor_image(std::string_view bytes) {
   ImagePages found;
   for (std::size_t layer = 0; layer < wave.layers; ++layer) {
     const ScaledUnit data_unit = scaled_unit(wave.data_unit);
+    const std::string unit = wave.is_matrix ? "" : igor_unit(wave.labels[layer]);
     found.pages.push_back({.name = std::string(wave.labels[layer]),
-                           .unit = data_unit.unit.empty() ? igor_unit(wave.labels[layer]) : data_unit.unit,
+                           .unit = data_unit.unit.empty() ? unit : data_unit.unit,
                            .columns = columns,
                            .rows = rows,
                            .width_m = width_m,

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -46,10 +45,12 @@ struct FormatRow {
 constexpr std::array kFormats{
     FormatRow{ImageFormat::Gsf, "Gwyddion simple field", [](std::string_view b) { return b.starts_with(kGsfMagic); },
               read_gsf},
-    FormatRow{ImageFormat::Gwy, "Gwyddion", [](std::string_view b) { return b.starts_with(kGwyMagic); }, read_gwy},
+    FormatRow{ImageFormat::Gwy, "Gwyddion",
+              [](std::string_view b) { return b.starts_with(kGwyMagic) || b.starts_with(kOldGwyMagic); }, read_gwy},
     FormatRow{ImageFormat::Nanoscope, "Nanoscope", [](std::string_view b) { return b.starts_with(kNanoscopeMagic); },
               read_nanoscope},
-    FormatRow{ImageFormat::Igor, "Igor", looks_like_igor_image, read_igor_image},
+    FormatRow{ImageFormat::Igor, "Igor", [](std::string_view b) { return looks_like_igor_image(b) || is_old_igor(b); },
+              read_igor_image},
     FormatRow{ImageFormat::Jpk, "JPK", looks_like_tiff, read_jpk_image}};
 
 const FormatRow* row_of(std::string_view bytes) {
@@ -243,7 +244,7 @@ LoadedImage taken_over(std::string_view bytes) {
 void check_image(const LoadedImage& loaded) {
   const physics::ScanImage& image = loaded.image;
   if (loaded.chosen >= image.channels.size() || image.columns < 2 || image.rows < 2 ||
-      !(image.width_m > 0 && image.width_m <= 1.0 && image.height_m > 0 && image.height_m <= 1.0)) {
+      !(image.width_m > 0 && image.width_m <= kLongestSideM && image.height_m > 0 && image.height_m <= kLongestSideM)) {
     throw CurveError("its reader gave no image");
   }
   for (const physics::ImageChannel& channel : image.channels) {
@@ -263,13 +264,8 @@ std::optional<ImageFormat> image_format_of(std::string_view bytes) {
 }
 
 bool is_image_file(const std::string& path) {
-  std::error_code missing;
-  if (!std::filesystem::is_regular_file(path, missing)) return false;
-  std::string beginning(kLongestBeginning, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  beginning.resize(static_cast<std::size_t>(file.gcount()));
-  return image_format_of(beginning).has_value();
+  const auto beginning = core::read_beginning(path, kLongestBeginning);
+  return beginning && image_format_of(*beginning).has_value();
 }
 
 core::Result<LoadedImage> load_image(const std::string& path, const ImageReading& reading) {
@@ -288,9 +284,7 @@ core::Result<LoadedImage> parse_image(std::string_view bytes, const std::string&
     return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot read the image {}: {}", name, why));
   };
   if (!image_format_of(bytes)) {
-    return bad(
-        "it is no image of a known kind; known are Gwyddion .gwy and .gsf, Nanoscope .spm and .001, Igor .ibw and "
-        "JPK .jpk");
+    return bad(fmt::format("it is no image of a known kind; known are {}", kImageFiles).c_str());
   }
   try {
     LoadedImage loaded =

@@ -43,7 +43,12 @@ std::size_t image_side(double count) {
 
 double image_length_m(double length_m) {
   const double length = std::abs(length_m);
-  if (!(length > 0.0 && length <= 1.0)) throw CurveError(fmt::format("its side of {:g} m is no scan's", length_m));
+  if (!(length > 0.0 && length <= kLongestSideM)) {
+    throw CurveError(
+        fmt::format("its side of {:g} m is no scan's: up to {:g} m is read; set its size in the program "
+                    "that wrote it",
+                    length_m, kLongestSideM));
+  }
   return length;
 }
 

@@ -47,10 +47,13 @@ std::vector<double> grid_values(std::size_t columns, std::size_t rows, bool bott
 
 inline constexpr std::size_t kMostImageMetadata = 2000;
 
+// Of an image on the sample. No stage of a microscope or a profiler is as wide; a file without units has pixels for it.
+inline constexpr double kLongestSideM = 1.0;
+
 // Throws CurveError if no image has such a side.
 std::size_t image_side(double count);
 
-// A length on the sample: its absolute value. Throws CurveError unless it is above zero and at most 1 m.
+// A length on the sample: its absolute value. Throws CurveError unless it is above zero and at most kLongestSideM.
 double image_length_m(double length_m);
 
 // A unit with its prefix: "nm" is 1e-9 and "m"; what is not known has the factor 1 and stays as it is.

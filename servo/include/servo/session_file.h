@@ -54,6 +54,9 @@ core::Result<void> save_session(const RecordedSession& session, const std::strin
 // and numbers that are not finite are errors that name the file. One that was cut holds what came before.
 core::Result<RecordedSession> load_session(const std::string& path);
 
+// Whether a regular file begins as a session does.
+bool is_session_file(const std::string& path);
+
 // Message about a session that is not complete.
 std::string cut_text(const RecordedSession& session, const std::string& path);
 

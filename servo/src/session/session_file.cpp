@@ -215,6 +215,11 @@ core::Result<void> save_session(const RecordedSession& session, const std::strin
   return core::write_file(path, encoder.bytes());
 }
 
+bool is_session_file(const std::string& path) {
+  const auto beginning = core::read_beginning(path, kSessionMagic.size());
+  return beginning && *beginning == kSessionMagic;
+}
+
 core::Result<RecordedSession> load_session(const std::string& path) {
   const auto bad = [&](const std::string& why) {
     return core::failure(core::ErrorCategory::BadInputFile,

@@ -242,13 +242,13 @@ TEST_F(StudyFolder, WaitsForNoPipeAndFollowsNoLoop) {
   const std::string events = folder_.file("sub-AAAAAA/task-three_events.tsv");
   std::filesystem::remove(events);
   ASSERT_EQ(::mkfifo(events.c_str(), 0600), 0);
-  EXPECT_THAT(message(), HasSubstr("it is not a regular file"));
+  EXPECT_THAT(message(), HasSubstr("it is a pipe, not a file"));
   std::filesystem::remove(events);
   std::filesystem::create_symlink(events, events);
   EXPECT_THAT(message(), HasSubstr("task-three_events.tsv"));
   std::filesystem::remove(events);
   std::filesystem::create_symlink("/dev/zero", events);
-  EXPECT_THAT(message(), HasSubstr("it is not a regular file"));
+  EXPECT_THAT(message(), HasSubstr("it is a device, not a file"));
 }
 
 }  // namespace
