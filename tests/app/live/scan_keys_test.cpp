@@ -139,8 +139,8 @@ class Visitor {
 // ---- what the image shows ----
 
 struct Image {
-  explicit Image(const LiveScan& scan)
-      : scan(scan), last(*scan.newest_row()), true_m(scan.subject().traced(scan.usual().tip_radius_m)) {}
+  explicit Image(const LiveScan& shown)
+      : scan(shown), last(*shown.newest_row()), true_m(shown.subject().traced(shown.usual().tip_radius_m)) {}
 
   double pixel_m() const { return scan.subject().side_m / kPixels; }
   double place_m(std::size_t column, std::size_t row, double right_px, double up_px) const {
@@ -254,11 +254,11 @@ struct Bounds {
   double clean, present;
 };
 
-constexpr std::array kBounds{Bounds{ScanArtefact::LostContact, 0.5, 10},   Bounds{ScanArtefact::Ringing, 1, 2},
-                             Bounds{ScanArtefact::Parachuting, 0.01, 0.1}, Bounds{ScanArtefact::Overload, 2.2, 4},
-                             Bounds{ScanArtefact::DoubleTip, 0.5, 1.5},    Bounds{ScanArtefact::Drift, 2, 6},
-                             Bounds{ScanArtefact::Noise, 0.1, 0.25},       Bounds{ScanArtefact::Blur, 4, 7},
-                             Bounds{ScanArtefact::BluntTip, 0.5, 0.7}};
+constexpr std::array kBounds{Bounds{ScanArtefact::LostContact, 0.1, 10},      Bounds{ScanArtefact::Ringing, 0.3, 0.8},
+                             Bounds{ScanArtefact::Parachuting, 0.002, 0.015}, Bounds{ScanArtefact::Overload, 2.2, 4},
+                             Bounds{ScanArtefact::DoubleTip, 0.1, 0.3},       Bounds{ScanArtefact::Drift, 1, 6},
+                             Bounds{ScanArtefact::Noise, 0.1, 0.25},          Bounds{ScanArtefact::Blur, 3, 7},
+                             Bounds{ScanArtefact::BluntTip, 0.1, 0.3}};
 
 std::string words_of(ScanArtefact artefact) {
   std::string name(physics::name_of(artefact));
