@@ -196,9 +196,7 @@ void add_haptics_benchmarks(OptionList& bench, const CommandContext& context) {
       "haptics",
       "measure a servo tick with each law, the scheduling latency alongside the renderer, and the release of the hand");
   const auto options = std::make_shared<HapticsBenchOptions>();
-  command.add_option("--ticks", options->ticks, "ticks per law")
-      .within(1000, 10'000'000)
-      .show_default();
+  command.add_option("--ticks", options->ticks, "ticks per law").within(1000, 10'000'000).show_default();
   command.add_option("--seconds", options->seconds, "run time of the servo alongside the renderer, s")
       .within(0.5, 600.0)
       .show_default();
