@@ -25,10 +25,11 @@ void LiveView::follow_headset() {
   view_wand_.hold(headset.wand(now_ns));
   picture_.look_from(headset.head());
 
-  // whoever holds the controller feels that the tip has jumped
-  if (servo_.events().empty() || servo_.events().back().time_ns == pulsed_ns_) return;
-  pulsed_ns_ = servo_.events().back().time_ns;
-  headset.pulse();
+  // the hand that holds the controller feels each ring of light begin
+  const auto cue = servo_.cues().at(now_ns);
+  const double cue_age_s = cue ? cue->age_s : exhibit::kCueSeconds;
+  if (cue_age_s < cue_age_s_) headset.pulse();
+  cue_age_s_ = cue_age_s;
 }
 
 }  // namespace afm::app

@@ -25,6 +25,7 @@
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/journey.h"
+#include "exhibit/jump_cue.h"
 #include "exhibit/procedure.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_hand.h"
@@ -194,9 +195,9 @@ class LiveView {
   InstructorWindow* instructor_;
   bool hand_off_ = false;  // the instructor keeps the force away
   std::optional<std::int64_t> stop_asked_ns_;
-  std::string lesson_said_, lesson_line_;  // spoken words of the newest prompt, and the guidance behind them
-  std::int64_t pulsed_ns_ = 0;             // the jump that the headset's controller has told of
-  bool blank_ = false;                     // for who goes by ear and hand
+  std::string lesson_said_, lesson_line_;    // spoken words of the newest prompt, and the guidance behind them
+  double cue_age_s_ = exhibit::kCueSeconds;  // of the ring of light in the last frame in a headset
+  bool blank_ = false;                       // for who goes by ear and hand
   bool leaving_ = false;
 };
 
