@@ -123,7 +123,7 @@ void add_picture_options(OptionList& command, ViewOptions& options) {
       "draw the panels in white on opaque black, for people who see little");
   command
       .add_option("--text-size", options.files.text_size,
-                  "how much larger the texts of the panels are, 1 to 1.5, as far as each panel has the room")
+                  "how many times larger the texts of the panels are, as far as each panel has the room")
       .within(1.0, exhibit::kLargestText)
       .show_default()
       .type_name("TIMES");
