@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Every phrase of wall and report. A row is PHRASE(enumerator, key in the files, placeholders, limit): placeholders are
-// words in braces of the text, in the order in which the code fills them; one that ends in "?" may be left out. The
-// limit is kLine or kParagraph (exhibit/phrases.h). English is in assets/guidance/en.toml.
+// Every phrase of wall and report, each a row PHRASE(enumerator, key in the files, placeholders, limit): placeholders
+// are words in braces, in the order in which the code fills them; one that ends in "?" may be left out.
 
 // The procedure's steps, in the order of Hint; why the force is off, in the order of scene::FaultCode; the controls, in
 // the order of HandControls and Pointer; the notes, in the order of Note.
@@ -397,4 +396,5 @@
   AFM_FOR_EACH_KEY_PHRASE(PHRASE)                \
   AFM_FOR_EACH_SOUND_PHRASE(PHRASE)              \
   AFM_FOR_EACH_LESSON_PHRASE(PHRASE)             \
+  AFM_FOR_EACH_CLUSTER_PHRASE(PHRASE)            \
   AFM_FOR_EACH_REPORT_PHRASE(PHRASE)
