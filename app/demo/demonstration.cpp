@@ -129,17 +129,9 @@ core::Result<void> Demonstration::keep_patience(const std::string& title, double
                                    scene::reason(servo_.tip().fault), core::percentiles(result.frame_ms).p50));
 }
 
-void Demonstration::wait_for_renderer() {
-  const servo::FrameHeartbeat beat(servo_, clock_);
-  while (!renderer_.ready()) {
-    beat();
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-}
-
 core::Result<void> Demonstration::step(DemoResult& result) {
   const std::int64_t start_ns = clock_.now_ns();
-  wait_for_renderer();
+  renderer_.wait_until_ready(servo::FrameHeartbeat(servo_, clock_));
   const std::int64_t now_ns = clock_.now_ns();
   if (auto consumed = consume_update(now_ns); !consumed) return consumed;
 

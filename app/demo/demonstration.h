@@ -52,7 +52,6 @@ class Demonstration {
   core::Result<servo::RecordedSession> feel_variation(std::size_t material, const curves::SampleModel& variation,
                                                       DemoResult& result, const Progress& progress);
   core::Result<void> keep_patience(const std::string& title, double step_seconds, const DemoResult& result) const;
-  void wait_for_renderer();
   core::Result<void> step(DemoResult& result);
   core::Result<void> consume_update(std::int64_t now_ns);
   void forget_cycle(std::size_t material);

@@ -64,18 +64,18 @@ core::Result<std::unique_ptr<ViewHeadset>> ViewHeadset::begin(const exhibit::Sta
   auto headset = render::Headset::create(runtime, context, renderer, view->room_from_floor_, clock);
   if (!headset) return tl::unexpected(headset.error());
   view->headset_ = std::move(*headset);
-  view->log_news();
+  view->log_messages();
   return view;
 }
 
-void ViewHeadset::log_news() {
-  for (const std::string& line : headset_->take_news()) core::log_line(line);
+void ViewHeadset::log_messages() {
+  for (const std::string& line : headset_->take_messages()) core::log_line(line);
 }
 
 void ViewHeadset::follow(const std::function<void()>& while_waiting) {
   const Turn before = std::exchange(turn_, headset_->next_turn(while_waiting));
   if (!wants_picture()) note_unseen();
-  log_news();
+  log_messages();
   if (before != turn_) log_turn(before);
 }
 
@@ -83,7 +83,7 @@ void ViewHeadset::note_unseen() {
   if (!unseen_since_ns_) unseen_since_ns_ = clock_.now_ns();
 }
 
-// The states of the session are in the news; what is said here may come without another state.
+// Changes that need no new state of the session, whose states headset_ reports itself.
 void ViewHeadset::log_turn(render::Headset::Turn before) const {
   if (turn_ == Turn::Hidden && before == Turn::Frame)
     core::log_line("headset: hidden: its runtime shows something else, or nothing");

@@ -59,7 +59,7 @@ class ViewHeadset {
 
  private:
   ViewHeadset(const exhibit::Stage& stage, const render::HeadsetRuntime& runtime, const core::Clock& clock);
-  void log_news();
+  void log_messages();
   void log_turn(render::Headset::Turn before) const;
   void note_unseen();
 

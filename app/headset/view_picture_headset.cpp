@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The picture in a headset, and its left eye's in the window.
-#include <chrono>
-#include <thread>
-
 #include "app/live/view_picture.h"
 
 namespace afm::app {
@@ -18,10 +15,7 @@ void ViewPicture::show_in_headset(render::FrameState& frame, std::int64_t now_ns
                                   const std::function<void()>& while_waiting) {
   ViewHeadset& headset = *settings_.headset;
   // the eyes are located once nothing else is to be waited for
-  while (!renderer_.ready()) {
-    while_waiting();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  renderer_.wait_until_ready(while_waiting);
   const MirroredEye seen = headset.locate_eyes();
   frame.eyes = seen.eyes;
   renderer_.render(frame);

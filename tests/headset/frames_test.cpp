@@ -158,7 +158,7 @@ TEST_F(HeadsetFrames, TakeTheFloorFromTheRuntime) {
     const auto eyes = draw_next();
     ASSERT_TRUE(eyes);
     EXPECT_NEAR((*eyes)[0].pose.position_m.y, room_from_floor_.position_m.y + c.eye_m, 1e-3);
-    EXPECT_THAT(news(), HasSubstr(c.said));
+    EXPECT_THAT(messages(), HasSubstr(c.said));
     disconnect();
   }
 }

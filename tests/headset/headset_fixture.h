@@ -88,9 +88,9 @@ class HeadsetTest : public testing::Test {
     return std::nullopt;
   }
 
-  std::string news() {
+  std::string messages() {
     std::string all;
-    for (const std::string& line : headset_->take_news()) all += line + "\n";
+    for (const std::string& line : headset_->take_messages()) all += line + "\n";
     return all;
   }
 

@@ -19,7 +19,7 @@ class HeadsetLosses : public HeadsetTest {
   void expect_lost() {
     for (int i = 0; i < 5 && turn() != Headset::Turn::Off; ++i) headset_->show([] {});
     EXPECT_EQ(turn(), Headset::Turn::Off);
-    EXPECT_THAT(news(), HasSubstr("looking for it every 2 s"));
+    EXPECT_THAT(messages(), HasSubstr("looking for it every 2 s"));
   }
   void expect_found_again() {
     EXPECT_FALSE(draw_next()) << "looked for before its time";
@@ -126,11 +126,11 @@ TEST_F(HeadsetLosses, ARuntimeThatIsGoneIsSaidOnceAndFoundWhenItIsBack) {
   expect_lost();
   clock_.go_on(Headset::kLookAgainNs);
   turn();
-  EXPECT_THAT(news(), HasSubstr("XR_ERROR_RUNTIME_UNAVAILABLE"));
+  EXPECT_THAT(messages(), HasSubstr("XR_ERROR_RUNTIME_UNAVAILABLE"));
   for (int i = 0; i < 3; ++i) {
     clock_.go_on(Headset::kLookAgainNs);
     turn();
-    EXPECT_EQ(news(), "");
+    EXPECT_EQ(messages(), "");
   }
   script().available = true;
   clock_.go_on(Headset::kLookAgainNs);

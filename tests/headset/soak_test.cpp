@@ -115,9 +115,9 @@ TEST_F(HeadsetSoak, TheRuntimeDoesWhatItLikes) {
     act(static_cast<unsigned>(random()));
     go_on(static_cast<int>(random() % 4));
     undo();
-    ASSERT_TRUE(picture_comes_back()) << "after action " << i << "\n" << news();
+    ASSERT_TRUE(picture_comes_back()) << "after action " << i << "\n" << messages();
     go_on(1);
-    headset_->take_news();
+    headset_->take_messages();
     {
       const std::scoped_lock lock(stand_in::stand_in().mutex);
       log().calls.clear();

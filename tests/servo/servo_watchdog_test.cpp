@@ -18,7 +18,7 @@
 #include <string>
 #include <thread>
 
-#include "haptics/haply_service.h"
+#include "haptics/devices/haply_service.h"
 #include "live_renderer.h"
 #include "servo/servo_client.h"
 

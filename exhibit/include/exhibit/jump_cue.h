@@ -38,7 +38,7 @@ class JumpCues {
   std::optional<Shown> shown_, next_;
 };
 
-// What they show of these events, which stand in the order of their times.
+// What they show of these events, in order of time.
 std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::int64_t now_ns);
 
 // The ring of light that shows it: told apart by the way that it goes, not by its colour alone. A jump to contact

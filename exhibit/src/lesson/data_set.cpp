@@ -19,6 +19,7 @@
 #include "core/version.h"
 #include "core/whole_file.h"
 #include "core/write_all.h"
+#include "exhibit/lesson/age_band.h"
 
 namespace afm::exhibit {
 
@@ -62,7 +63,7 @@ constexpr std::array kParticipantRows{
     ColumnRow{"participant_id", "sub- and the participant's code of six letters", nullptr, nullptr},
     ColumnRow{"order", "place in the study from 0; modulo the number of orders it is the row of the Williams design",
               nullptr, nullptr},
-    ColumnRow{"age_band", "age in years, as a band", nullptr, "under-14 14-17 18-24 25-39 40-59 60-or-more"},
+    ColumnRow{"age_band", "age in years, as a band", nullptr, nullptr},  // its levels are kAgeBands
     ColumnRow{"comfort", "how the participant's newest lesson ended", nullptr, "finished stopped withdrew"}};
 
 ordered_json described(std::span<const ColumnRow> columns) {
@@ -165,6 +166,7 @@ std::size_t free_order(std::span<const Participant> participants) {
 core::Result<std::int64_t> started_day(const std::string& folder, std::optional<std::int64_t> day) {
   const std::string path = folder + "/participants.json";
   ordered_json json = described(kParticipantRows);
+  for (const AgeBandRow& band : kAgeBands) json["age_band"]["Levels"].push_back(band.word);
   std::error_code ignored;
   const bool exists = fs::exists(path, ignored);
   if (exists) {

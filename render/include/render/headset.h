@@ -114,7 +114,7 @@ class Headset {
   void pulse();
 
   // What has happened, a line each, for the log.
-  std::vector<std::string> take_news();
+  std::vector<std::string> take_messages();
 
   static constexpr std::int64_t kFrozenNs = 250'000'000;
   static constexpr std::int64_t kLookAgainNs = 2'000'000'000;

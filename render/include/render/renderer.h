@@ -80,8 +80,9 @@ class Renderer {
   // the frame looks as the last one.
   void render(const FrameState& frame);
 
-  // True if render() would return without waiting for an earlier frame. Does not wait.
-  bool ready() const;
+  // Waits until render() has no earlier frame to wait for, and calls `while_waiting` meanwhile. Ends the process when
+  // the device does not finish that frame within two minutes.
+  void wait_until_ready(const std::function<void()>& while_waiting);
 
   // The newest frame; waits for it. At least one frame has been rendered. Of an eye what is drawn: less than
   // `eye_width` with a scale below 1.

@@ -362,13 +362,29 @@ void Device::run_once(const std::function<void(const vk::raii::CommandBuffer&)>&
   wait_for(fence);
 }
 
-void Device::wait_for(const vk::raii::Fence& fence) const {
-  if (device_.waitForFences(*fence, VK_TRUE, kLongestWorkNs) != vk::Result::eSuccess) give_up();
+namespace {
+
+// `wait` takes a time limit.
+template <class Wait>
+void wait_in_turns(const Device& device, Wait&& wait, const std::function<void()>& meanwhile) {
+  for (std::uint64_t turn = 0; turn <= Device::kLongestWorkNs / Device::kTurnNs; ++turn) {
+    if (wait(Device::kTurnNs) == vk::Result::eSuccess) return;
+    meanwhile();
+  }
+  device.give_up();
 }
 
-void Device::wait_for(const vk::raii::Semaphore& timeline, std::uint64_t value) const {
+}  // namespace
+
+void Device::wait_for(const vk::raii::Semaphore& timeline, std::uint64_t value,
+                      const std::function<void()>& meanwhile) const {
   const vk::SemaphoreWaitInfo info{.semaphoreCount = 1, .pSemaphores = &*timeline, .pValues = &value};
-  if (device_.waitSemaphores(info, kLongestWorkNs) != vk::Result::eSuccess) give_up();
+  wait_in_turns(*this, [&](std::uint64_t limit_ns) { return device_.waitSemaphores(info, limit_ns); }, meanwhile);
+}
+
+void Device::wait_for(const vk::raii::Fence& fence, const std::function<void()>& meanwhile) const {
+  wait_in_turns(
+      *this, [&](std::uint64_t limit_ns) { return device_.waitForFences(*fence, VK_TRUE, limit_ns); }, meanwhile);
 }
 
 void Device::give_up() const {

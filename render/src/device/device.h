@@ -69,8 +69,11 @@ class Device {
   // Until the device has done it. Throws vk::SystemError; ends the process if it takes longer than kLongestWork: a
   // device that hangs cannot even be closed.
   static constexpr std::uint64_t kLongestWorkNs = 120'000'000'000;  // a driver of a GPU gives up after some 10 s
-  void wait_for(const vk::raii::Fence& fence) const;
-  void wait_for(const vk::raii::Semaphore& timeline, std::uint64_t value) const;
+  // `meanwhile` is called every kTurnNs.
+  static constexpr std::uint64_t kTurnNs = 5'000'000;
+  void wait_for(const vk::raii::Fence& fence, const std::function<void()>& meanwhile = [] {}) const;
+  void wait_for(
+      const vk::raii::Semaphore& timeline, std::uint64_t value, const std::function<void()>& meanwhile = [] {}) const;
   [[noreturn]] void give_up() const;
 
   // Records with `record`, submits and waits: for uploads at start and for reading back.

@@ -141,7 +141,7 @@ HeadsetController ControllerActions::read(XrSpace base, XrTime time, const scene
   check_openxr(synced, "xrSyncActions");
   if (synced == XR_SESSION_NOT_FOCUSED) return {};
 
-  // whoever presses, points; while nobody does, the hand stays
+  // the hand that presses is the one that points; until another presses, it stays so
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
     if (!pressed(Select, hand_) && (pressed(Select, hand) || pressed(Grab, hand))) hand_ = hand;
   }

@@ -11,8 +11,8 @@
 
 namespace afm::render {
 
-// The runtime's next frame, waited for by a thread of its own: the runtime may keep that thread waiting for as long as
-// it likes. Used by one other thread, which begins one wait at a time.
+// Waits for the runtime's next frame on a separate thread, which the runtime may keep waiting for as long as it likes.
+// Used by one other thread, which begins one wait at a time.
 class FrameWait {
  public:
   FrameWait(PFN_xrWaitFrame wait, XrSession session) : call_(wait), session_(session), thread_([this] { run(); }) {}

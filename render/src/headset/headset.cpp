@@ -16,7 +16,7 @@ struct Headset::Parts {
   const Renderer::Parts& renderer;
   scene::HeadPose room_from_floor;
   const core::Clock& clock;
-  std::vector<std::string> news;
+  std::vector<std::string> messages;
   std::unique_ptr<HeadsetSession> session;  // none while the headset is lost
   Turn turn = Turn::Off;
   std::int64_t looked_ns = 0;
@@ -31,7 +31,7 @@ struct Headset::Parts {
 
 core::Result<void> Headset::Parts::begin() {
   try {
-    session = std::make_unique<HeadsetSession>(runtime, device, renderer.eyes, room_from_floor, news);
+    session = std::make_unique<HeadsetSession>(runtime, device, renderer.eyes, room_from_floor, messages);
   } catch (const OpenXrFailure& failure) {
     return core::failure(core::ErrorCategory::DeviceMissing,
                          fmt::format("no headset: {} takes no picture of ours ({}): restart it, or bring it up to date",
@@ -39,7 +39,7 @@ core::Result<void> Headset::Parts::begin() {
   } catch (const vk::SystemError& error) {
     return core::failure(core::ErrorCategory::Failed, describe_error(error, device, "the headset's pictures"));
   }
-  news.push_back(fmt::format("headset: {} through {}", runtime.headset_name, runtime.runtime_name));
+  messages.push_back(fmt::format("headset: {} through {}", runtime.headset_name, runtime.runtime_name));
   return {};
 }
 
@@ -48,7 +48,7 @@ void Headset::Parts::forget() {
   runtime.close();
   looked_ns = clock.now_ns();
   said_missing.clear();
-  news.emplace_back("headset: lost; looking for it every 2 s");
+  messages.emplace_back("headset: lost; looking for it every 2 s");
 }
 
 void Headset::Parts::look_again() {
@@ -61,7 +61,7 @@ void Headset::Parts::look_again() {
   if (found) return;
   runtime.close();
   // the same again and again is said once
-  if (std::exchange(said_missing, found.error().message) != found.error().message) news.push_back(said_missing);
+  if (std::exchange(said_missing, found.error().message) != found.error().message) messages.push_back(said_missing);
 }
 
 // Whatever the runtime refuses, another session may get: none is mended.
@@ -70,7 +70,7 @@ void Headset::Parts::follow_loss(Call&& call) {
   try {
     rethrow_as_device_failure(device, "showing a picture in the headset", std::forward<Call>(call));
   } catch (const OpenXrFailure& failure) {
-    news.push_back(fmt::format("headset: {}", failure.what()));
+    messages.push_back(fmt::format("headset: {}", failure.what()));
     session->lost();
   }
 }
@@ -123,6 +123,6 @@ void Headset::pulse() {
   if (parts_->session) parts_->follow_loss([&] { parts_->session->pulse(); });
 }
 
-std::vector<std::string> Headset::take_news() { return std::exchange(parts_->news, {}); }
+std::vector<std::string> Headset::take_messages() { return std::exchange(parts_->messages, {}); }
 
 }  // namespace afm::render

@@ -21,7 +21,7 @@ constexpr double kUnusedFarM = 100.0;  // of a projection without a far plane
 struct StateRow {
   XrSessionState state;
   SessionEvent event;
-  const char* news;  // null: of no interest to people
+  const char* messages;  // null: of no interest to people
 };
 constexpr std::array<StateRow, 8> kStates{
     {{XR_SESSION_STATE_IDLE, SessionEvent::BecameIdle, "headset: not worn"},
@@ -36,12 +36,12 @@ constexpr std::array<StateRow, 8> kStates{
 }  // namespace
 
 HeadsetSession::HeadsetSession(HeadsetRuntimeParts& runtime, const Device& device, const EyeTargets& eyes,
-                               const scene::HeadPose& room_from_floor, std::vector<std::string>& news)
+                               const scene::HeadPose& room_from_floor, std::vector<std::string>& messages)
     : calls_(runtime.calls),
       device_(device),
       eyes_(eyes),
       room_from_floor_(room_from_floor),
-      news_(news),
+      messages_(messages),
       session_(runtime, device),
       floor_(calls_, session_, runtime.has(XR_EXT_LOCAL_FLOOR_EXTENSION_NAME)),
       actions_(calls_, session_),
@@ -88,7 +88,7 @@ void HeadsetSession::take(const XrEventDataBuffer& event) {
     case XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED:
       return follow_state(reinterpret_cast<const XrEventDataSessionStateChanged&>(event).state);
     case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
-      news_.emplace_back("headset: the runtime is about to end");
+      messages_.emplace_back("headset: the runtime is about to end");
       states_.take(SessionEvent::WasLost);
       return;
     case XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING:
@@ -102,7 +102,7 @@ void HeadsetSession::take(const XrEventDataBuffer& event) {
 void HeadsetSession::follow_state(XrSessionState state) {
   for (const StateRow& row : kStates) {
     if (row.state != state) continue;
-    if (row.news != nullptr) news_.emplace_back(row.news);
+    if (row.messages != nullptr) messages_.emplace_back(row.messages);
     const SessionDuty duty = states_.take(row.event);
     if (duty == SessionDuty::Begin) begin_session();
     ending_ = ending_ || duty == SessionDuty::End;
@@ -171,7 +171,7 @@ void HeadsetSession::begin_frame(const FrameWait::Answer& answer) {
   located_ = false;
   const XrSpace floor = floor_.at(frame_->predictedDisplayTime);
   if (floor != XR_NULL_HANDLE && !std::exchange(said_floor_, true)) {
-    news_.push_back("headset: the floor is " + floor_.source());
+    messages_.push_back("headset: the floor is " + floor_.source());
   }
 }
 

@@ -22,7 +22,7 @@ namespace afm::render {
 class HeadsetSession {
  public:
   HeadsetSession(HeadsetRuntimeParts& runtime, const Device& device, const EyeTargets& eyes,
-                 const scene::HeadPose& room_from_floor, std::vector<std::string>& news);
+                 const scene::HeadPose& room_from_floor, std::vector<std::string>& messages);
   HeadsetSession(const HeadsetSession&) = delete;
   HeadsetSession& operator=(const HeadsetSession&) = delete;
   ~HeadsetSession();
@@ -60,7 +60,7 @@ class HeadsetSession {
   const Device& device_;
   const EyeTargets& eyes_;
   scene::HeadPose room_from_floor_;
-  std::vector<std::string>& news_;
+  std::vector<std::string>& messages_;
   SessionStates states_;
   SessionHandle session_;
   FloorSpace floor_;

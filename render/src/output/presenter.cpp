@@ -146,10 +146,7 @@ void Presenter::Parts::draw(std::span<const std::size_t> windows, const std::fun
                          *finished);
 
   // presented only once it is drawn: some drivers (lavapipe) would wait inside the call, where nobody beats
-  for (std::uint64_t turns = 0; device->waitForFences(*finished, VK_TRUE, kTurnNs) == vk::Result::eTimeout; ++turns) {
-    if (turns > Device::kLongestWorkNs / kTurnNs) device.give_up();
-    while_waiting();
-  }
+  device.wait_for(finished, while_waiting);
   device->resetFences(*finished);
   if (stopwatch) renderer.compose_ms = stopwatch->between_ms(0, 1);
 }

@@ -66,7 +66,7 @@ bool WindowSurface::follow_window(std::uint32_t layers) {
 bool WindowSurface::acquire(const std::function<void()>& while_waiting) {
   const int most_turns = std::exchange(starved_, false) ? 1 : kMostTurns;
   for (int turn = 0; !index_ && turn < most_turns; ++turn) {
-    const auto [result, index] = (*swapchain_)->acquireNextImage(kTurnNs, *acquired_);
+    const auto [result, index] = (*swapchain_)->acquireNextImage(Device::kTurnNs, *acquired_);
     if (result == vk::Result::eSuccess || result == vk::Result::eSuboptimalKHR) {
       index_ = index;
     } else {

@@ -11,8 +11,6 @@
 
 namespace afm::render {
 
-inline constexpr std::uint64_t kTurnNs = 5'000'000;  // from one call of while_waiting to the next
-
 // Stage that waits until an acquired image may be filled.
 inline constexpr auto kFilling = vk::PipelineStageFlagBits2::eColorAttachmentOutput | vk::PipelineStageFlagBits2::eCopy;
 

@@ -312,8 +312,11 @@ std::array<Image, 2> Renderer::read_pair(const Composition& composition, const R
   return {std::move(pictures[0]), std::move(pictures[1])};
 }
 
-bool Renderer::ready() const {
-  return parts_->timeline.getCounterValue() >= parts_->slots[parts_->frames % kFramesInFlight].finished_at;
+void Renderer::wait_until_ready(const std::function<void()>& while_waiting) {
+  rethrow_as_device_failure(parts_->device, "drawing a frame", [&] {
+    const std::uint64_t earlier = parts_->slots[parts_->frames % kFramesInFlight].finished_at;
+    parts_->device.wait_for(parts_->timeline, earlier, while_waiting);
+  });
 }
 
 core::Result<void> Renderer::resize(std::uint32_t eye_width, std::uint32_t eye_height) {

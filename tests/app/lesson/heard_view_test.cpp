@@ -106,8 +106,8 @@ class HeardView : public ::testing::Test {
     return false;
   }
 
-  // A press that comes while the last one still counts as held is none: nobody presses so fast, and who gets no answer
-  // presses again.
+  // A press while the previous one still counts as held is ignored. Nobody presses that fast, and a person who gets no
+  // answer presses again.
   bool turn_on_until(support::LiveProgram& view, const std::string& text) const {
     for (int press = 0; press < 6; ++press) {
       std::this_thread::sleep_for(milliseconds(300));

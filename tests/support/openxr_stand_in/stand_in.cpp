@@ -35,8 +35,11 @@ bool enter(const char* call, XrResult& result) {
   return false;
 }
 
+namespace {
+std::set<std::string> noted;  // since the script said something new
+}
+
 void note(const std::string& what) {
-  static std::set<std::string> noted;
   const char* path = std::getenv("AFM_STAND_IN");
   if (path == nullptr || !noted.insert(what).second) return;
   std::ofstream(std::string(path) + ".log", std::ios::app) << what << ' ' << now_ns() << std::endl;
@@ -55,6 +58,7 @@ void follow_script_file() {
   for (std::size_t i = 0; std::getline(file, line); ++i) {
     if (i < done) continue;
     done = i + 1;
+    noted.clear();
     std::istringstream words(line);
     std::string verb, name;
     int number = 0;
