@@ -32,7 +32,7 @@ std::string names_of(const char* word, const std::set<CLI::Option*>& options) {
 // "PIXELS from 64 to 8192", "{csv,json}"; of a flag empty.
 std::string value_of(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return "";
-  const std::string value = option.get_type_name();  // the type, then a colon before what each check says of itself
+  std::string value = option.get_type_name();  // the type, then a colon before what each check says of itself
   const std::size_t colon = value.find(':');
   if (colon == std::string::npos) return value;
   std::string type = value.substr(0, colon);
