@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/headset/picture_age.h"
 #include "core/clock.h"
 #include "exhibit/exhibit_setup.h"
 #include "input/wand.h"
@@ -41,9 +42,9 @@ class ViewHeadset {
   MirroredEye locate_eyes();
   void show(const std::function<void()>& while_waiting);
 
-  // Nobody sees the picture: the hand must be free. At once where the headset is off, lost or frozen; where its runtime
-  // hides the picture, has lost the eyes or lends no image, once it has done so for as long as a picture may hang. A
-  // slow picture is seen.
+  // Nobody sees the picture, or it stands still: the hand must be free. At once where the headset is off, lost or
+  // frozen; where its runtime hides the picture, has lost the eyes or lends no image, or the graphics device hangs, once
+  // that has lasted for as long as a picture may stand still. A slow picture is seen.
   bool blind(std::int64_t now_ns) const;
 
   // Of this turn, for the frame log: shown, hidden, frozen, off.
@@ -71,6 +72,7 @@ class ViewHeadset {
   std::unique_ptr<render::Headset> headset_;
   render::Headset::Turn turn_ = render::Headset::Turn::Off;
   std::optional<std::int64_t> unseen_since_ns_ = 0;  // when the last picture was drawn for nobody; none: it is seen
+  PictureAge picture_age_;
 };
 
 }  // namespace afm::app

@@ -213,15 +213,15 @@ bool HeadsetSession::show(const std::function<void()>& while_waiting) {
     end_frame(Picture::None);
     return false;
   }
-  submit_copies();
+  submit_copies(while_waiting);
   pictures_.give_back();
   end_frame(Picture::Eyes);
   return true;
 }
 
-void HeadsetSession::submit_copies() {
+void HeadsetSession::submit_copies(const std::function<void()>& while_waiting) {
   const Copying& copying = copying_[copied_++ % copying_.size()];
-  device_.wait_for(copying.done);
+  device_.wait_for(copying.done, while_waiting);
   device_->resetFences(*copying.done);
   copying.commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   pictures_.record(copying.commands, eyes_);

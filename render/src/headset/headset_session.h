@@ -54,7 +54,7 @@ class HeadsetSession {
   void end_frame(Picture picture);
   void begin_session();
   void end_session();
-  void submit_copies();
+  void submit_copies(const std::function<void()>& while_waiting);
 
   const OpenXrInstance& calls_;
   const Device& device_;
