@@ -108,6 +108,12 @@ const char* ViewHeadset::turn_word() const {
   return "";
 }
 
+std::optional<double> ViewHeadset::pose_age_s() const {
+  const auto age_ns = headset_->pose_age_ns();
+  if (!wants_picture() || unseen_since_ns_ || !age_ns) return std::nullopt;
+  return 1e-9 * static_cast<double>(*age_ns);
+}
+
 MirroredEye ViewHeadset::locate_eyes() {
   if (!wants_picture()) return resting_;
   const auto eyes = headset_->locate_eyes();

@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/gtx/quaternion.hpp>
+#include <random>
 #include <set>
 #include <string>
 #include <thread>
@@ -183,6 +186,45 @@ TEST_F(ViewInAHeadset, LetsTheHandGoInTimeWhenTheGraphicsDeviceHangs) {
   EXPECT_TRUE(loses_the_picture(view, hang, [] {})) << view.said();
   expect_good_end(view);
   expect_free_in_time(sessions, {"hung"});
+}
+
+// AFM_HEADSET_VIEW_SECONDS: for how long.
+TEST_F(ViewInAHeadset, LosesNoSampleAndReplaysWhateverTheRuntimeDoes) {
+  struct Whim {
+    const char* take;
+    const char* give_back;
+  };
+  static constexpr std::array kWhims{Whim{"state 4\nstate 3\nstate 6", "state 2"},
+                                     Whim{"fail xrEndFrame -13", ""},
+                                     Whim{"fail xrWaitFrame -17", ""},
+                                     Whim{"block", "unblock"},
+                                     Whim{"keep", "lend"},
+                                     Whim{"hide", "unhide"},
+                                     Whim{"gone\nfail xrEndFrame -13", "back"}};
+  const char* asked = std::getenv("AFM_HEADSET_VIEW_SECONDS");
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(asked == nullptr ? 15 : std::atoi(asked));
+  const std::string sessions = folder_.file("sessions");
+  support::LiveProgram view(command({"--record", sessions}), display_.name());
+  ASSERT_TRUE(view.says("headset: has the controllers")) << view.said();
+  choose(1);
+  ASSERT_TRUE(view.says("force on")) << view.said();
+  std::mt19937 random(22);
+  while (std::chrono::steady_clock::now() < end) {
+    const Whim& whim = kWhims[random() % kWhims.size()];
+    tell(whim.take);
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 800));
+    tell(whim.give_back);
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 2500));
+  }
+  view.skip_what_it_said();
+  EXPECT_TRUE(view.says("jump to contact")) << view.said();
+  expect_good_end(view);
+  EXPECT_THAT(view.said(), HasSubstr("; 0 samples lost on the way to the wall"));
+  for (const auto& file : std::filesystem::directory_iterator(sessions)) {
+    const auto session = servo::load_session(file.path());
+    ASSERT_TRUE(session) << session.error().message;
+    EXPECT_TRUE(servo::replay(*session)->identical()) << file.path();
+  }
 }
 
 TEST_F(ViewInAHeadset, SaysInOneLineWhatIsMissing) {
