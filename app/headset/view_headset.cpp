@@ -74,7 +74,10 @@ void ViewHeadset::log_messages() {
 
 void ViewHeadset::follow(const std::function<void()>& while_waiting) {
   const Turn before = std::exchange(turn_, headset_->next_turn(while_waiting));
-  if (!wants_picture()) note_unseen();
+  if (!wants_picture()) {
+    note_unseen();
+    picture_age_.unseen();
+  }
   log_messages();
   if (before != turn_) log_turn(before);
 }
@@ -105,6 +108,12 @@ const char* ViewHeadset::turn_word() const {
   return "";
 }
 
+std::optional<double> ViewHeadset::pose_age_s() const {
+  const auto age_ns = headset_->pose_age_ns();
+  if (!wants_picture() || unseen_since_ns_ || !age_ns) return std::nullopt;
+  return 1e-9 * static_cast<double>(*age_ns);
+}
+
 MirroredEye ViewHeadset::locate_eyes() {
   if (!wants_picture()) return resting_;
   const auto eyes = headset_->locate_eyes();
@@ -117,12 +126,15 @@ MirroredEye ViewHeadset::locate_eyes() {
 
 void ViewHeadset::show(const std::function<void()>& while_waiting) {
   note_unseen();  // until it is shown: the runtime may lend no image
-  if (headset_->show(while_waiting)) unseen_since_ns_.reset();
+  if (!headset_->show(while_waiting)) return picture_age_.unseen();
+  unseen_since_ns_.reset();
+  picture_age_.shown(clock_.now_ns());
 }
 
 bool ViewHeadset::blind(std::int64_t now_ns) const {
   if (turn_ == Turn::Off || turn_ == Turn::Frozen) return true;
-  return unseen_since_ns_ && now_ns - *unseen_since_ns_ >= render::Headset::kFrozenNs;
+  const bool unseen = unseen_since_ns_ && now_ns - *unseen_since_ns_ >= render::Headset::kFrozenNs;
+  return unseen || picture_age_.stands_still(now_ns);
 }
 
 std::optional<input::WandState> ViewHeadset::wand(std::int64_t now_ns) const {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/headset/picture_age.h"
 #include "core/clock.h"
 #include "exhibit/exhibit_setup.h"
 #include "input/wand.h"
@@ -39,15 +40,18 @@ class ViewHeadset {
   bool wants_picture() const { return turn_ == render::Headset::Turn::Frame; }
   // The eyes of that frame; where they are lost, or none is wanted, both eyes of somebody at the sweet spot.
   MirroredEye locate_eyes();
+  // As FrameState::panels_apart, of that frame.
+  std::size_t panels_apart() const { return wants_picture() ? headset_->most_panels() : 0; }
   void show(const std::function<void()>& while_waiting);
 
-  // Nobody sees the picture: the hand must be free. At once where the headset is off, lost or frozen; where its runtime
-  // hides the picture, has lost the eyes or lends no image, once it has done so for as long as a picture may hang. A
-  // slow picture is seen.
+  // Nobody sees the picture, or it stands still: the hand must be free. At once where the headset is off, lost or
+  // frozen; where its runtime hides the picture, has lost the eyes or lends no image, or the graphics device hangs,
+  // once that has lasted for as long as a picture may stand still. A slow picture is seen.
   bool blind(std::int64_t now_ns) const;
 
-  // Of this turn, for the frame log: shown, hidden, frozen, off.
+  // Of this turn, for the frame log: shown, hidden, frozen, off; and of what is shown, Headset::pose_age_ns().
   const char* turn_word() const;
+  std::optional<double> pose_age_s() const;
 
   // The controller, as every other wand; none while the headset has none.
   std::optional<input::WandState> wand(std::int64_t now_ns) const;
@@ -71,6 +75,7 @@ class ViewHeadset {
   std::unique_ptr<render::Headset> headset_;
   render::Headset::Turn turn_ = render::Headset::Turn::Off;
   std::optional<std::int64_t> unseen_since_ns_ = 0;  // when the last picture was drawn for nobody; none: it is seen
+  PictureAge picture_age_;
 };
 
 }  // namespace afm::app

@@ -18,6 +18,7 @@ void ViewPicture::show_in_headset(render::FrameState& frame, std::int64_t now_ns
   renderer_.wait_until_ready(while_waiting);
   const MirroredEye seen = headset.locate_eyes();
   frame.eyes = seen.eyes;
+  frame.panels_apart = headset.panels_apart();
   renderer_.render(frame);
   headset.show(while_waiting);
   if (headset.wants_picture()) {
@@ -28,9 +29,16 @@ void ViewPicture::show_in_headset(render::FrameState& frame, std::int64_t now_ns
   Share& share = shares_.front();
   share.eyes = seen.eyes;
   share.screen = seen.screen;
+  const bool mirrors = now_ns - mirrored_ns_ >= kMirrorNs;
+  if ((mirrors || to_save_ > 0) && frame.panels_apart > 0) {
+    // window and screenshots show the eyes' pictures, which need all panels for it
+    frame.panels_apart = 0;
+    renderer_.wait_until_ready(while_waiting);
+    renderer_.render(frame);
+  }
   save_newest();
   while_waiting();
-  if (now_ns - mirrored_ns_ < kMirrorNs) return;
+  if (!mirrors) return;
   mirrored_ns_ = now_ns;
   mirror(while_waiting);
 }

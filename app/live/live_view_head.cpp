@@ -42,6 +42,7 @@ void LiveView::log_frame(std::int64_t begun_ns, std::int64_t presented_ns, std::
                    .ipd_m = picture_.viewing().ipd_m,
                    .servo_late_us = servo_lateness_.since_last(timing),
                    .servo_missed = timing.missed,
+                   .pose_age_s = settings_.headset == nullptr ? std::nullopt : settings_.headset->pose_age_s(),
                    .headset = settings_.headset == nullptr ? "" : settings_.headset->turn_word()});
 }
 

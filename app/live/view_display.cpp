@@ -68,7 +68,8 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
   display->context_ = std::move(*context);
   render::RendererOptions drawing =
       runtime != nullptr ? drawing_in_headset(stage, runtime->eye_px()) : display->drawing(stage, options);
-  drawing.panel_contrast = options.contrast;
+  const bool mixes_light = runtime != nullptr && options.contrast == render::PanelContrast::Normal;
+  drawing.panel_contrast = mixes_light ? render::PanelContrast::Opaque : options.contrast;
   auto renderer = render::Renderer::create(*display->context_, stage.wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   display->renderer_ = std::move(*renderer);

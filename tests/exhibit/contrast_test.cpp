@@ -47,6 +47,14 @@ TEST(Contrast, OfEveryTextOfThePanelsIsEnoughBeforeTheBrightestScene) {  // WCAG
     EXPECT_GE(contrast(glm::dvec3(text.srgb), glm::dvec3(plate_before_white(PanelContrast::Normal))), 4.5);
 }
 
+TEST(Contrast, InAHeadsetIsThatOfTheSamePlateWithNothingBehindIt) {
+  EXPECT_EQ(plate_before_white(PanelContrast::Opaque), palette::kPlate.srgb);
+  for (const Color& text : kTexts) {
+    EXPECT_EQ(shown(text, PanelContrast::Opaque).srgb, text.srgb);
+    EXPECT_GE(contrast(glm::dvec3(text.srgb), glm::dvec3(palette::kPlate.srgb)), 4.5);
+  }
+}
+
 TEST(Contrast, WhereItIsHighIsEnhanced) {  // WCAG 1.4.6
   EXPECT_EQ(plate_before_white(PanelContrast::High), glm::vec3(0.0F));
   for (const Color& text : kTexts) {

@@ -31,7 +31,7 @@
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 #include "exhibit/servo_rows.h"
-#include "panels/panel_painting.h"
+#include "panel_painter.h"
 #include "places.h"
 #include "scene/shared/shared_blocks.h"
 #include "support/phrases.h"
@@ -40,97 +40,15 @@
 namespace afm::exhibit {
 namespace {
 
-constexpr std::uint32_t kLargestImage = 16384;
+using test::kLargestImage;
+using test::Painted;
+using test::Painter;
+
 constexpr float kLeastLetterPx = 9.0F;   // em square of the state's word, in pixels of an eye
 constexpr double kLeastBannerPx = 15.0;  // of its height: below it nothing can be read
 constexpr std::array kWidthsPx{400U, 1280U, 2110U, 3840U, 7680U};
 constexpr std::array kPresets{"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2", "blended",
                               "curved",    "cave",           "floor", "wide",          "phone"};
-
-struct ContextEnd {
-  void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
-};
-
-// What one panel is made of, in texels of a picture with two for each pixel.
-struct Painted {
-  ImVec2 low{1e9F, 1e9F}, high{-1e9F, -1e9F};
-  glm::vec2 size{0.0F};
-  bool cut = false;              // there is an ellipsis
-  float state_height_px = 0.0F;  // of the plate around the state's word
-  float letter_px = 0.0F;        // height of its letters, on average
-
-  bool inside(float slack = 1.0F) const {
-    return low.x >= -slack && low.y >= -slack && high.x <= size.x + slack && high.y <= size.y + slack;
-  }
-};
-
-class Painter {
- public:
-  Painter(double texels_per_m, double millimetre_m)
-      : fonts_(render::load_panel_fonts(texels_per_m, millimetre_m, kLargestImage).value()),
-        millimetre_m_(millimetre_m),
-        imgui_(ImGui::CreateContext(fonts_.atlas.get())) {
-    unsigned char* pixels = nullptr;
-    int width = 0, height = 0;
-    fonts_.atlas->GetTexDataAsAlpha8(&pixels, &width, &height);
-    ImGui::GetIO().IniFilename = nullptr;
-    ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-  }
-
-  template <class Content>
-  Painted paint(const Content& content, const render::PanelPlacement& placement, const glm::vec3& state_color = {}) {
-    Painted painted;
-    const glm::vec2 size_mm(glm::length(placement.right_m) / millimetre_m_,
-                            glm::length(placement.up_m) / millimetre_m_);
-    painted.size = size_mm * fonts_.texels_per_mm;
-    ImGui::GetIO().DisplaySize = {painted.size.x, painted.size.y};
-    ImGui::NewFrame();
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    render::Canvas canvas(list, fonts_, memory_, size_mm);
-    render::paint(canvas, content);
-    float top = 1e9F, bottom = -1e9F;
-    for (const ImDrawVert& vertex : list.VtxBuffer) {
-      painted.low = {std::min(painted.low.x, vertex.pos.x), std::min(painted.low.y, vertex.pos.y)};
-      painted.high = {std::max(painted.high.x, vertex.pos.x), std::max(painted.high.y, vertex.pos.y)};
-      painted.cut = painted.cut || is_ellipsis(vertex.uv);
-      const ImVec4 color = ImGui::ColorConvertU32ToFloat4(vertex.col);
-      if (glm::distance(glm::vec3(color.x, color.y, color.z), state_color) > 0.01F) continue;
-      top = std::min(top, vertex.pos.y);
-      bottom = std::max(bottom, vertex.pos.y);
-    }
-    painted.state_height_px = 0.5F * (bottom - top);
-    painted.letter_px = 0.5F * mean_letter(list);
-    ImGui::Render();
-    return painted;
-  }
-
- private:
-  // Letters are the rectangles that take both directions of the atlas.
-  static float mean_letter(const ImDrawList& list) {
-    float sum = 0.0F;
-    int letters = 0;
-    for (int i = 0; i + 3 < list.VtxBuffer.Size; ++i) {
-      const ImDrawVert &a = list.VtxBuffer[i], &b = list.VtxBuffer[i + 1], &c = list.VtxBuffer[i + 2];
-      if (a.uv.y != b.uv.y || a.uv.x == b.uv.x || b.uv.x != c.uv.x || b.uv.y == c.uv.y) continue;
-      sum += c.pos.y - a.pos.y;
-      ++letters;
-    }
-    return letters > 0 ? sum / static_cast<float>(letters) : 0.0F;
-  }
-
-  bool is_ellipsis(const ImVec2& uv) const {
-    constexpr ImWchar kEllipsis = 0x2026;
-    return std::any_of(fonts_.fonts.begin(), fonts_.fonts.end(), [&](ImFont* font) {
-      const ImFontGlyph* const glyph = font->FindGlyphNoFallback(kEllipsis);
-      return glyph != nullptr && uv.x == glyph->U0 && uv.y == glyph->V0;
-    });
-  }
-
-  render::PanelFonts fonts_;
-  double millimetre_m_;
-  std::unique_ptr<ImGuiContext, ContextEnd> imgui_;
-  render::CanvasMemory memory_;
-};
 
 // The longest that the banner has to show in the live window.
 render::Banner full_banner(const Phrases& phrases, render::Banner banner) {

@@ -106,7 +106,9 @@ TEST_F(HeadsetFrames, AreCalledForInTheOrderOfTheSpecification) {
   std::erase(log().calls, "xrLocateSpace");
   EXPECT_THAT(log().calls,
               ElementsAre("xrWaitFrame", "xrBeginFrame", "xrSyncActions", "xrLocateViews", "xrAcquireSwapchainImage",
-                          "xrWaitSwapchainImage", "xrReleaseSwapchainImage", "xrEndFrame"));
+                          "xrWaitSwapchainImage", "xrAcquireSwapchainImage", "xrWaitSwapchainImage",
+                          "xrReleaseSwapchainImage", "xrReleaseSwapchainImage", "xrEndFrame"))
+      << "colours and depth; nothing is waited for between the place of the eyes and their picture";
 }
 
 TEST_F(HeadsetFrames, HaveNoLayerWhereNobodySeesThem) {

@@ -48,10 +48,13 @@ class HeadsetTest : public testing::Test {
 
   void connect() {
     runtime_ = must(render::HeadsetRuntime::connect(AFM_OPENXR_STAND_IN_JSON));
-    context_.emplace(must(render::Context::open(render::Validation::On, render::Presentation::None, runtime_.get())));
+    context_.emplace(must(render::Context::open(validation_, render::Presentation::None, runtime_.get())));
     const glm::uvec2 eye_px = runtime_->eye_px();
-    renderer_.emplace(must(render::Renderer::create(
-        *context_, scene_.scene, {.eye_width = eye_px.x, .eye_height = eye_px.y, .panel_texels_per_m = 320.0})));
+    renderer_.emplace(must(render::Renderer::create(*context_, scene_.scene,
+                                                    {.eye_width = eye_px.x,
+                                                     .eye_height = eye_px.y,
+                                                     .panel_texels_per_m = kTexelsPerM,
+                                                     .panel_contrast = kContrast})));
     headset_ = must(render::Headset::create(*runtime_, *context_, *renderer_, room_from_floor_, clock_));
   }
 
@@ -80,6 +83,7 @@ class HeadsetTest : public testing::Test {
       const auto eyes = headset_->locate_eyes();
       if (eyes) {
         frame_.eyes = {(*eyes)[0].view, (*eyes)[1].view};
+        frame_.panels_apart = headset_->most_panels();
         renderer_->render(frame_);
       }
       shown_ = headset_->show([this] { ++beats_; });
@@ -97,6 +101,9 @@ class HeadsetTest : public testing::Test {
   stand_in::Script& script() { return stand_in::stand_in().script; }
   stand_in::Log& log() { return stand_in::stand_in().log; }
 
+  static constexpr double kTexelsPerM = 320.0;
+  static constexpr auto kContrast = render::PanelContrast::Opaque;
+  render::Validation validation_ = render::Validation::On;
   HandClock clock_;
   int beats_ = 0;
   bool shown_ = false;  // what draw_next() drew last

@@ -149,6 +149,12 @@ TEST_F(HeadsetLosses, AFrozenRuntimeIsWaitedForWithBeatsFor250MsAndThenWithout) 
   beats_ = 0;
   for (int i = 0; i < 3; ++i) EXPECT_EQ(turn(), Headset::Turn::Frozen);
   EXPECT_EQ(beats_, 0);
+  EXPECT_THAT(messages(), Not(HasSubstr("restart it")));
+  clock_.go_on(10'000'000'000);
+  EXPECT_EQ(turn(), Headset::Turn::Frozen);
+  EXPECT_THAT(messages(), HasSubstr("restart it"));
+  EXPECT_EQ(turn(), Headset::Turn::Frozen);
+  EXPECT_EQ(messages(), "") << "said once";
   {
     const std::scoped_lock lock(stand_in::stand_in().mutex);
     script().blocked = false;

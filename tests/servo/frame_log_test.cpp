@@ -43,16 +43,17 @@ TEST(FrameLog, HasALineForEachFrameWithWhatWasMeasured) {
                  .ipd_m = 0.0415,
                  .servo_late_us = 87,
                  .servo_missed = 3,
-                 .headset = "hidden"});
+                 .pose_age_s = 0.00123,
+                 .headset = "shown"});
     ASSERT_TRUE((*log)->finish());
   }
   const std::string text = core::read_file(path).value();
   EXPECT_THAT(text, StartsWith("# TouchAFM "));
-  EXPECT_THAT(
-      lines_without_comments(text),
-      ElementsAre("frame,time_s,drawn_ms,interval_ms,head_latency_ms,nearest_deg,farthest_deg,ipd_mm,"
-                  "servo_late_us,servo_missed,headset",
-                  "0,0.500000,10.000,,,,,63.0,,0,", "1,0.516000,14.000,20.000,21.400,1.000,-0.500,41.5,87,3,hidden"));
+  EXPECT_THAT(lines_without_comments(text),
+              ElementsAre("frame,time_s,drawn_ms,interval_ms,head_latency_ms,nearest_deg,farthest_deg,ipd_mm,"
+                          "servo_late_us,servo_missed,pose_age_ms,headset",
+                          "0,0.500000,10.000,,,,,63.0,,0,,",
+                          "1,0.516000,14.000,20.000,21.400,1.000,-0.500,41.5,87,3,1.230,shown"));
 }
 
 TEST(FrameLog, ReplacesAFileAndRefusesAFolder) {

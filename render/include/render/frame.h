@@ -290,6 +290,7 @@ struct FrameState {
   std::vector<Label> labels;
   CalibrationPanel calibration;
   PanelPlacement calibration_placement = kNoPlacement;
+  std::size_t panels_apart = 0;  // at most so many panels are left out of the pictures of the eyes (Headset::show())
 };
 
 // An image in host memory: 8-bit sRGB RGBA, rows from top to bottom.

@@ -103,9 +103,17 @@ class Headset {
   // Empty while the runtime has lost them; the frame is then shown without a picture.
   std::optional<std::array<HeadsetEye, 2>> locate_eyes();
 
-  // Shows the renderer's newest frame, drawn for the eyes that were located last. False: nobody sees it, because the
-  // runtime has lost the eyes, lends no image, or is gone.
+  // How many panels the runtime can show itself, sharper than they are in the eyes' pictures: FrameState::panels_apart
+  // of the frame that is shown. 0 where it has too few layers for them, or none that takes their bytes.
+  std::size_t most_panels() const;
+
+  // Shows the renderer's newest frame, drawn for the eyes that were located last, with its panels apart. False: nobody
+  // sees it, because the runtime has lost the eyes, lends no image, or is gone.
   bool show(const std::function<void()>& while_waiting);
+
+  // Of the newest frame that was shown: how old the eyes' place was when the runtime got the frame. None before the
+  // first.
+  std::optional<std::int64_t> pose_age_ns() const;
 
   // As of this turn; none where it brought no frame.
   const HeadsetController& controller() const;

@@ -24,8 +24,9 @@ enum class PassMode { Automatic, Multiview, TwoPasses };
 // with identical results: to measure, and to check the former.
 enum class Redraw { Changes, Everything };
 
-// Light ink on a dark plate that lets the scene shine through a little; or white on an opaque black one.
-enum class PanelContrast { Normal, High };
+// Light ink on a dark plate that lets the scene shine through a little; the same on an opaque one, where light is mixed
+// as light and bright things would shine through more; or white on an opaque black one.
+enum class PanelContrast { Normal, Opaque, High };
 
 struct RendererOptions {
   std::uint32_t eye_width = 960;

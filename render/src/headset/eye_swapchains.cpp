@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "device/barriers.h"
 
@@ -14,12 +15,7 @@ constexpr std::array kHeadsetFormats{HeadsetFormat{vk::Format::eB8G8R8A8Srgb, "B
                                      HeadsetFormat{vk::Format::eR8G8B8A8Srgb, "R8G8B8A8 sRGB", true}};
 
 constexpr XrDuration kTurnOfWaitNs = 5'000'000;
-constexpr int kMostTurnsOfWait = 50;  // for as long as a hand may be held without a picture
 
-// What the runtime does with an image between two of our frames is its own; it gets and gives it as an attachment.
-constexpr ImageUse kRuntimes{vk::PipelineStageFlagBits2::eAllCommands,
-                             vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
-                             vk::ImageLayout::eColorAttachmentOptimal};
 constexpr ImageUse kEyeShown{vk::PipelineStageFlagBits2::eAllCommands, vk::AccessFlagBits2::eNone,
                              vk::ImageLayout::eShaderReadOnlyOptimal};
 constexpr ImageUse kReorderedFrom{vk::PipelineStageFlagBits2::eBlit, vk::AccessFlagBits2::eTransferRead,
@@ -45,7 +41,10 @@ PictureChain::PictureChain(const OpenXrInstance& calls, XrSession session, vk::F
       .type = XR_TYPE_SWAPCHAIN_CREATE_INFO,
       .next = nullptr,
       .createFlags = 0,
-      .usageFlags = XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT,
+      .usageFlags =
+          XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT |
+          static_cast<XrSwapchainUsageFlags>(format == kDepthFormat ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                                                    : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT),
       .format = static_cast<std::int64_t>(format),
       .sampleCount = 1,
       .width = extent.width,
@@ -63,7 +62,7 @@ PictureChain::PictureChain(const OpenXrInstance& calls, XrSession session, vk::F
   for (const XrSwapchainImageVulkan2KHR& image : images) images_.emplace_back(image.image);
 }
 
-bool PictureChain::take(const std::function<void()>& while_waiting) {
+bool PictureChain::take(const std::function<void()>& while_waiting, int most_turns) {
   if (!acquired_) {
     const XrSwapchainImageAcquireInfo info{.type = XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO, .next = nullptr};
     check_openxr(calls_.AcquireSwapchainImage(chain_, &info, &index_), "xrAcquireSwapchainImage");
@@ -73,7 +72,7 @@ bool PictureChain::take(const std::function<void()>& while_waiting) {
   }
   const XrSwapchainImageWaitInfo wait{
       .type = XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, .next = nullptr, .timeout = kTurnOfWaitNs};
-  for (int turn = 0; !taken_ && turn < kMostTurnsOfWait; ++turn) {
+  for (int turn = 0; !taken_ && turn < most_turns; ++turn) {
     const XrResult waited = calls_.WaitSwapchainImage(chain_, &wait);
     check_openxr(waited, "xrWaitSwapchainImage");
     taken_ = waited != XR_TIMEOUT_EXPIRED;
@@ -89,13 +88,14 @@ void PictureChain::give_back() {
 }
 
 EyeSwapchains::EyeSwapchains(const OpenXrInstance& calls, XrSession session, const Device& device, HeadsetFormat format,
-                             vk::Extent2D extent)
-    : format_(format) {
-  try {
-    chains_.emplace_back(calls, session, format.format, extent, 2U);
-  } catch (const OpenXrFailure& failure) {
-    if (failure.result == XR_ERROR_SESSION_LOST || failure.result == XR_ERROR_INSTANCE_LOST) throw;
-    for (int eye = 0; eye < 2; ++eye) chains_.emplace_back(calls, session, format.format, extent, 1U);
+                             vk::Extent2D extent, Depth depth)
+    : format_(format), color_(create(calls, session, format.format, extent)) {
+  if (depth == Depth::Shown) {
+    try {
+      depth_ = create(calls, session, kDepthFormat, extent);
+    } catch (const OpenXrFailure& failure) {
+      if (is_loss(failure)) throw;
+    }
   }
   if (format.other_order) {
     reordered_ = create_image(device, "headset's byte order",
@@ -105,31 +105,72 @@ EyeSwapchains::EyeSwapchains(const OpenXrInstance& calls, XrSession session, con
   }
 }
 
+EyeSwapchains::Chains EyeSwapchains::create(const OpenXrInstance& calls, XrSession session, vk::Format format,
+                                            vk::Extent2D extent) {
+  Chains made;
+  try {
+    made.chains.emplace_back(calls, session, format, extent, 2U);
+  } catch (const OpenXrFailure& failure) {
+    if (is_loss(failure)) throw;
+    for (int eye = 0; eye < 2; ++eye) made.chains.emplace_back(calls, session, format, extent, 1U);
+  }
+  return made;
+}
+
 bool EyeSwapchains::take(const std::function<void()>& while_waiting) {
-  return std::all_of(chains_.begin(), chains_.end(), [&](PictureChain& chain) { return chain.take(while_waiting); });
+  const auto take_all = [&](Chains& of, int most_turns) {
+    return std::all_of(of.chains.begin(), of.chains.end(),
+                       [&](PictureChain& chain) { return chain.take(while_waiting, most_turns); });
+  };
+  if (!take_all(color_, PictureChain::kMostTurnsOfWait)) return false;
+  has_depth_ = !depth_.chains.empty() && take_all(depth_, 1);
+  return true;
 }
 
 void EyeSwapchains::give_back() {
-  for (PictureChain& chain : chains_) chain.give_back();
+  for (PictureChain& chain : color_.chains) chain.give_back();
+  if (!has_depth_) return;
+  for (PictureChain& chain : depth_.chains) chain.give_back();
 }
 
-EyeSwapchains::Place EyeSwapchains::place(scene::Eye eye) const {
+EyeSwapchains::Place EyeSwapchains::Chains::place(scene::Eye eye) const {
   const std::uint32_t index = eye == scene::Eye::Left ? 0 : 1;
-  return layered() ? Place{.image = chains_[0].image(), .layer = index}
-                   : Place{.image = chains_[index].image(), .layer = 0};
+  return chains.size() == 1 ? Place{.image = chains[0].image(), .layer = index}
+                            : Place{.image = chains[index].image(), .layer = 0};
 }
 
-XrSwapchainSubImage EyeSwapchains::sub_image(scene::Eye eye, vk::Extent2D drawn) const {
-  const std::size_t chain = layered() || eye == scene::Eye::Left ? 0 : 1;
-  return {.swapchain = chains_[chain].handle(),
+XrSwapchainSubImage EyeSwapchains::Chains::sub_image(scene::Eye eye, vk::Extent2D drawn) const {
+  const std::size_t chain = chains.size() == 1 || eye == scene::Eye::Left ? 0 : 1;
+  return {.swapchain = chains[chain].handle(),
           .imageRect = {.offset = {0, 0},
                         .extent = {static_cast<std::int32_t>(drawn.width), static_cast<std::int32_t>(drawn.height)}},
           .imageArrayIndex = place(eye).layer};
 }
 
+std::optional<XrCompositionLayerDepthInfoKHR> EyeSwapchains::depth(scene::Eye eye, vk::Extent2D drawn) const {
+  if (!has_depth_) return std::nullopt;
+  return XrCompositionLayerDepthInfoKHR{.type = XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR,
+                                        .next = nullptr,
+                                        .subImage = depth_.sub_image(eye, drawn),
+                                        .minDepth = 0.0F,
+                                        .maxDepth = 1.0F,
+                                        .nearZ = std::numeric_limits<float>::infinity(),
+                                        .farZ = static_cast<float>(scene::kNearM)};
+}
+
+void EyeSwapchains::record_depth(const vk::raii::CommandBuffer& command, const EyeTargets& eyes) const {
+  for (const scene::Eye eye : scene::kEyes) {
+    const Place to = depth_.place(eye);
+    const LayerRange layer{to.layer, 1};
+    record_barriers(command, {image_barrier(to.image, kDepthAspect, kRuntimesDepth.discarded(), kCopiedTo, layer)});
+    eyes.copy_depth(command, eye, to.image, to.layer);
+    record_barriers(command, {image_barrier(to.image, kDepthAspect, kCopiedTo, kRuntimesDepth, layer)});
+  }
+}
+
 void EyeSwapchains::record(const vk::raii::CommandBuffer& command, const EyeTargets& eyes) const {
   for (const scene::Eye eye : scene::kEyes) {
-    const Place to = place(eye);
+    const Place to = color_.place(eye);
     record_barriers(command, {image_barrier(to.image, kColorAspect, kRuntimes.discarded(), kCopiedTo, {to.layer, 1})});
   }
   if (format_.other_order) {
@@ -137,15 +178,16 @@ void EyeSwapchains::record(const vk::raii::CommandBuffer& command, const EyeTarg
   } else {
     eyes.begin_copies(command);
     for (const scene::Eye eye : scene::kEyes) {
-      const Place to = place(eye);
+      const Place to = color_.place(eye);
       eyes.copy(command, eye, PixelBox::whole(eyes.drawing().extent), to.image, to.layer, {0, 0});
     }
     eyes.end_copies(command);
   }
   for (const scene::Eye eye : scene::kEyes) {
-    const Place to = place(eye);
+    const Place to = color_.place(eye);
     record_barriers(command, {image_barrier(to.image, kColorAspect, kCopiedTo, kRuntimes, {to.layer, 1})});
   }
+  if (has_depth_) record_depth(command, eyes);
 }
 
 // Blitting changes the order of the bytes between formats without sRGB and copying keeps them: together the runtime's
@@ -156,7 +198,7 @@ void EyeSwapchains::record_reordered(const vk::raii::CommandBuffer& command, con
       {{0, 0, 0}, {static_cast<std::int32_t>(extent.width), static_cast<std::int32_t>(extent.height), 1}}};
   for (const scene::Eye eye : scene::kEyes) {
     const EyeTargets::EyeImage from = eyes.eye(eye);
-    const Place to = place(eye);
+    const Place to = color_.place(eye);
     const vk::ImageSubresourceLayers first{.aspectMask = kColorAspect, .baseArrayLayer = 0, .layerCount = 1};
     const vk::ImageSubresourceLayers source{.aspectMask = kColorAspect, .baseArrayLayer = from.layer, .layerCount = 1};
     const vk::ImageSubresourceLayers target{.aspectMask = kColorAspect, .baseArrayLayer = to.layer, .layerCount = 1};

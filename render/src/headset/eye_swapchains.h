@@ -21,6 +21,13 @@ struct HeadsetFormat {
 // The first of the formats that we can fill which the runtime offers; nothing if it offers none of them.
 std::optional<HeadsetFormat> choose_headset_format(const std::vector<std::int64_t>& offered);
 
+// What the runtime does with an image between two of our frames is its own; it gets and gives it as an attachment.
+inline constexpr ImageUse kRuntimes{vk::PipelineStageFlagBits2::eAllCommands,
+                                    vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
+                                    vk::ImageLayout::eColorAttachmentOptimal};
+inline constexpr ImageUse kRuntimesDepth{kRuntimes.stages, kRuntimes.access,
+                                         vk::ImageLayout::eDepthStencilAttachmentOptimal};
+
 // Images of the runtime of which one at a time is filled.
 class PictureChain {
  public:
@@ -28,12 +35,15 @@ class PictureChain {
   PictureChain(const OpenXrInstance& calls, XrSession session, vk::Format format, vk::Extent2D extent,
                std::uint32_t layers);
 
-  // Takes the image that is filled next, unless one is already taken; false if the runtime lends none for a while.
-  bool take(const std::function<void()>& while_waiting);
+  // Takes the image that is filled next, unless one is already taken; false if the runtime lends none for so many turns
+  // of 5 ms. At first for as long as a hand may be held without a picture.
+  static constexpr int kMostTurnsOfWait = 50;
+  bool take(const std::function<void()>& while_waiting, int most_turns = kMostTurnsOfWait);
   void give_back();
 
   XrSwapchain handle() const { return chain_; }
   vk::Image image() const { return images_[index_]; }
+  bool taken() const { return taken_; }
 
  private:
   const OpenXrInstance& calls_;
@@ -44,31 +54,44 @@ class PictureChain {
 };
 
 // The pictures of both eyes for the runtime: one chain of images with two layers, or, where it refuses that, one for
-// each eye. The eyes are drawn and resolved as for a wall, then copied.
+// each eye. The eyes are drawn and resolved as for a wall, then copied; likewise their depth, where the runtime takes
+// it.
 class EyeSwapchains {
  public:
+  enum class Depth { None, Shown };
   EyeSwapchains(const OpenXrInstance& calls, XrSession session, const Device& device, HeadsetFormat format,
-                vk::Extent2D extent);
+                vk::Extent2D extent, Depth depth);
 
+  // False if the runtime lends no image for the colours; where it lends none for the depth, the frame goes without.
   bool take(const std::function<void()>& while_waiting);
   // Copies the newest eyes into the taken images.
   void record(const vk::raii::CommandBuffer& command, const EyeTargets& eyes) const;
   void give_back();
 
-  XrSwapchainSubImage sub_image(scene::Eye eye, vk::Extent2D drawn) const;
-  bool layered() const { return chains_.size() == 1; }
+  XrSwapchainSubImage sub_image(scene::Eye eye, vk::Extent2D drawn) const { return color_.sub_image(eye, drawn); }
+
+  // Of the frame that was given back last; reversed infinite: 1 at scene::kNearM, 0 infinitely far away.
+  std::optional<XrCompositionLayerDepthInfoKHR> depth(scene::Eye eye, vk::Extent2D drawn) const;
 
  private:
   struct Place {
     vk::Image image;
     std::uint32_t layer = 0;
   };
-  Place place(scene::Eye eye) const;
+  // Of two layers, or two.
+  struct Chains {
+    std::vector<PictureChain> chains;
+    Place place(scene::Eye eye) const;
+    XrSwapchainSubImage sub_image(scene::Eye eye, vk::Extent2D drawn) const;
+  };
+  static Chains create(const OpenXrInstance& calls, XrSession session, vk::Format format, vk::Extent2D extent);
+  void record_depth(const vk::raii::CommandBuffer& command, const EyeTargets& eyes) const;
   void record_reordered(const vk::raii::CommandBuffer& command, const EyeTargets& eyes) const;
 
   HeadsetFormat format_;
-  std::vector<PictureChain> chains_;
-  DeviceImage reordered_;  // with the runtime's order of the bytes, where that differs
+  Chains color_, depth_;    // the latter empty where none is shown
+  bool has_depth_ = false;  // this frame
+  DeviceImage reordered_;   // with the runtime's order of the bytes, where that differs
 };
 
 }  // namespace afm::render

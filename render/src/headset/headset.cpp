@@ -7,6 +7,7 @@
 
 #include "device/device_error.h"
 #include "headset/headset_session.h"
+#include "passes/renderer_parts.h"
 
 namespace afm::render {
 
@@ -21,6 +22,8 @@ struct Headset::Parts {
   Turn turn = Turn::Off;
   std::int64_t looked_ns = 0;
   std::string said_missing;
+  std::int64_t located_ns = 0;
+  std::optional<std::int64_t> pose_age_ns{};
 
   core::Result<void> begin();
   void look_again();
@@ -31,7 +34,8 @@ struct Headset::Parts {
 
 core::Result<void> Headset::Parts::begin() {
   try {
-    session = std::make_unique<HeadsetSession>(runtime, device, renderer.eyes, room_from_floor, messages);
+    session =
+        std::make_unique<HeadsetSession>(runtime, device, renderer.eyes, renderer.panels, room_from_floor, messages);
   } catch (const OpenXrFailure& failure) {
     return core::failure(core::ErrorCategory::DeviceMissing,
                          fmt::format("no headset: {} takes no picture of ours ({}): restart it, or bring it up to date",
@@ -102,15 +106,21 @@ Headset::Turn Headset::next_turn(const std::function<void()>& while_waiting) {
 
 std::optional<std::array<HeadsetEye, 2>> Headset::locate_eyes() {
   std::optional<std::array<HeadsetEye, 2>> eyes;
+  parts_->located_ns = parts_->clock.now_ns();
   if (parts_->session) parts_->follow_loss([&] { eyes = parts_->session->locate_eyes(); });
   return eyes;
 }
 
+std::size_t Headset::most_panels() const { return parts_->session ? parts_->session->most_panels() : 0; }
+
 bool Headset::show(const std::function<void()>& while_waiting) {
   bool shown = false;
   if (parts_->session) parts_->follow_loss([&] { shown = parts_->session->show(while_waiting); });
+  if (shown) parts_->pose_age_ns = parts_->clock.now_ns() - parts_->located_ns;
   return shown;
 }
+
+std::optional<std::int64_t> Headset::pose_age_ns() const { return parts_->pose_age_ns; }
 
 const HeadsetController& Headset::controller() const {
   static const HeadsetController kNone;

@@ -43,6 +43,7 @@ std::string words_of(const char (&said)[kSize]) {
 const std::vector<HeadsetExtension>& headset_extensions() {
   static const std::vector<HeadsetExtension> rows{
       {XR_EXT_LOCAL_FLOOR_EXTENSION_NAME, "the floor is that of the play area"},
+      {XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, "a late picture is moved as if all of it were equally far away"},
       {XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME, "the refresh rate is known only while frames are shown"}};
   return rows;
 }
@@ -78,6 +79,7 @@ core::Result<void> HeadsetRuntimeParts::find_headset() {
     auto found = openxr_struct<XrSystemProperties>(XR_TYPE_SYSTEM_PROPERTIES);
     check_openxr(calls.GetSystemProperties(calls.handle(), system, &found), "xrGetSystemProperties");
     headset_name = words_of(found.systemName);
+    most_layers = found.graphicsProperties.maxLayerCount;
     auto required = openxr_struct<XrGraphicsRequirementsVulkan2KHR>(XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN2_KHR);
     check_openxr(calls.GetVulkanGraphicsRequirements2KHR(calls.handle(), system, &required),
                  "xrGetVulkanGraphicsRequirements2KHR");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kTurnOfFrameWait{5};
 constexpr std::chrono::seconds kLastWait{2};  // for a runtime that keeps a frame at the end of the program
+constexpr std::int64_t kLongFrozenNs = 10'000'000'000;
 constexpr int kMostEventsATurn = 100;
 constexpr double kUnusedFarM = 100.0;  // of a projection without a far plane
 
@@ -36,16 +38,19 @@ constexpr std::array<StateRow, 8> kStates{
 }  // namespace
 
 HeadsetSession::HeadsetSession(HeadsetRuntimeParts& runtime, const Device& device, const EyeTargets& eyes,
-                               const scene::HeadPose& room_from_floor, std::vector<std::string>& messages)
+                               const Panels& panels, const scene::HeadPose& room_from_floor,
+                               std::vector<std::string>& messages)
     : calls_(runtime.calls),
       device_(device),
       eyes_(eyes),
+      panels_(panels),
       room_from_floor_(room_from_floor),
       messages_(messages),
       session_(runtime, device),
       floor_(calls_, session_, runtime.has(XR_EXT_LOCAL_FLOOR_EXTENSION_NAME)),
       actions_(calls_, session_),
-      pictures_(calls_, session_, device, choose_format(), eyes.extent()),
+      pictures_(calls_, session_, device, choose_format(), eyes.extent(), takes_depth(runtime)),
+      quads_(calls_, session_, session_.formats(), runtime.most_layers),
       pool_(*device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                .queueFamilyIndex = device.queue_family()}) {
   for (Copying& copying : copying_) {
@@ -71,6 +76,13 @@ HeadsetFormat HeadsetSession::choose_format() const {
   const auto format = choose_headset_format(session_.formats());
   if (!format) throw OpenXrFailure(XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED, "xrEnumerateSwapchainFormats");
   return *format;
+}
+
+EyeSwapchains::Depth HeadsetSession::takes_depth(const HeadsetRuntimeParts& runtime) const {
+  const auto formats = session_.formats();
+  const bool fits = std::find(formats.begin(), formats.end(), static_cast<std::int64_t>(kDepthFormat)) != formats.end();
+  return fits && runtime.has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) ? EyeSwapchains::Depth::Shown
+                                                                            : EyeSwapchains::Depth::None;
 }
 
 void HeadsetSession::follow_events() {
@@ -148,7 +160,11 @@ Headset::Turn HeadsetSession::next_turn(const core::Clock& clock, const std::fun
     wait_began_ns_ = clock.now_ns();
   }
   const auto answer = wait_for_frame(clock, while_waiting);
-  if (!answer) return Headset::Turn::Frozen;
+  if (!answer) {
+    say_frozen(clock.now_ns() - wait_began_ns_);
+    return Headset::Turn::Frozen;
+  }
+  said_frozen_ = false;
   if (gone()) return Headset::Turn::Off;
   begin_frame(*answer);
   const bool seen = states_.visible() && answer->frame.shouldRender == XR_TRUE;
@@ -161,6 +177,12 @@ Headset::Turn HeadsetSession::next_turn(const core::Clock& clock, const std::fun
     return Headset::Turn::Off;
   }
   return seen ? Headset::Turn::Frame : Headset::Turn::Hidden;
+}
+
+// A session can be ended, and another headset looked for, only once the runtime has answered.
+void HeadsetSession::say_frozen(std::int64_t since_ns) {
+  if (since_ns < kLongFrozenNs || std::exchange(said_frozen_, true)) return;
+  messages_.emplace_back("headset: frozen for 10 s, and no other is looked for before its runtime answers: restart it");
 }
 
 void HeadsetSession::begin_frame(const FrameWait::Answer& answer) {
@@ -213,18 +235,21 @@ bool HeadsetSession::show(const std::function<void()>& while_waiting) {
     end_frame(Picture::None);
     return false;
   }
-  submit_copies();
+  quads_.take(panels_.apart(), while_waiting);
+  submit_copies(while_waiting);
   pictures_.give_back();
+  quads_.give_back();
   end_frame(Picture::Eyes);
   return true;
 }
 
-void HeadsetSession::submit_copies() {
+void HeadsetSession::submit_copies(const std::function<void()>& while_waiting) {
   const Copying& copying = copying_[copied_++ % copying_.size()];
-  device_.wait_for(copying.done);
+  device_.wait_for(copying.done, while_waiting);
   device_->resetFences(*copying.done);
   copying.commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   pictures_.record(copying.commands, eyes_);
+  quads_.record(copying.commands);
   copying.commands.end();
   const vk::CommandBufferSubmitInfo submit{.commandBuffer = *copying.commands};
   device_.queue().submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submit}, *copying.done);
@@ -232,27 +257,36 @@ void HeadsetSession::submit_copies() {
 
 void HeadsetSession::end_frame(Picture picture) {
   std::array<XrCompositionLayerProjectionView, 2> views{};
+  std::array<std::optional<XrCompositionLayerDepthInfoKHR>, 2> depths;
   for (const scene::Eye eye : scene::kEyes) {
     const std::size_t i = eye == scene::Eye::Left ? 0 : 1;
     if (picture == Picture::None) break;
+    depths[i] = pictures_.depth(eye, eyes_.drawing().extent);
     views[i] = {.type = XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW,
-                .next = nullptr,
+                .next = depths[i] ? &*depths[i] : nullptr,
                 .pose = views_[i].pose,
                 .fov = views_[i].fov,
                 .subImage = pictures_.sub_image(eye, eyes_.drawing().extent)};
   }
+  const XrSpace floor = floor_.at(frame_->predictedDisplayTime);
   const XrCompositionLayerProjection eyes{.type = XR_TYPE_COMPOSITION_LAYER_PROJECTION,
                                           .next = nullptr,
                                           .layerFlags = 0,
-                                          .space = floor_.at(frame_->predictedDisplayTime),
+                                          .space = floor,
                                           .viewCount = static_cast<std::uint32_t>(views.size()),
                                           .views = views.data()};
-  const std::array layers{reinterpret_cast<const XrCompositionLayerBaseHeader*>(&eyes)};
+  std::vector<const XrCompositionLayerBaseHeader*> layers;
+  if (picture == Picture::Eyes) {
+    layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&eyes));
+    for (const XrCompositionLayerQuad& quad : quads_.layers(floor, room_from_floor_)) {
+      layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&quad));
+    }
+  }
   const XrFrameEndInfo info{.type = XR_TYPE_FRAME_END_INFO,
                             .next = nullptr,
                             .displayTime = frame_->predictedDisplayTime,
                             .environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE,
-                            .layerCount = picture == Picture::Eyes ? 1U : 0U,
+                            .layerCount = static_cast<std::uint32_t>(layers.size()),
                             .layers = layers.data()};
   frame_.reset();
   check_openxr(calls_.EndFrame(session_, &info), "xrEndFrame");

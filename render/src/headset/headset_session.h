@@ -11,9 +11,9 @@
 #include "headset/eye_swapchains.h"
 #include "headset/floor_space.h"
 #include "headset/frame_wait.h"
+#include "headset/panel_quads.h"
 #include "headset/session_handle.h"
 #include "headset/session_states.h"
-#include "passes/renderer_parts.h"
 
 namespace afm::render {
 
@@ -21,7 +21,7 @@ namespace afm::render {
 // runtime are gone, after which it can only be destroyed.
 class HeadsetSession {
  public:
-  HeadsetSession(HeadsetRuntimeParts& runtime, const Device& device, const EyeTargets& eyes,
+  HeadsetSession(HeadsetRuntimeParts& runtime, const Device& device, const EyeTargets& eyes, const Panels& panels,
                  const scene::HeadPose& room_from_floor, std::vector<std::string>& messages);
   HeadsetSession(const HeadsetSession&) = delete;
   HeadsetSession& operator=(const HeadsetSession&) = delete;
@@ -30,6 +30,7 @@ class HeadsetSession {
   Headset::Turn next_turn(const core::Clock& clock, const std::function<void()>& while_waiting);
   std::optional<std::array<HeadsetEye, 2>> locate_eyes();
   bool show(const std::function<void()>& while_waiting);
+  std::size_t most_panels() const { return quads_.most(); }
 
   // Over, and nothing of it is under way: it can be destroyed without waiting.
   bool over() const { return states_.phase() == SessionPhase::Over && !wait_->under_way(); }
@@ -45,20 +46,23 @@ class HeadsetSession {
   };
 
   HeadsetFormat choose_format() const;
+  EyeSwapchains::Depth takes_depth(const HeadsetRuntimeParts& runtime) const;
   void follow_events();
   void take(const XrEventDataBuffer& event);
   void follow_state(XrSessionState state);
   std::optional<FrameWait::Answer> wait_for_frame(const core::Clock& clock, const std::function<void()>& while_waiting);
+  void say_frozen(std::int64_t since_ns);
   void begin_frame(const FrameWait::Answer& answer);
   enum class Picture { None, Eyes };
   void end_frame(Picture picture);
   void begin_session();
   void end_session();
-  void submit_copies();
+  void submit_copies(const std::function<void()>& while_waiting);
 
   const OpenXrInstance& calls_;
   const Device& device_;
   const EyeTargets& eyes_;
+  const Panels& panels_;
   scene::HeadPose room_from_floor_;
   std::vector<std::string>& messages_;
   SessionStates states_;
@@ -66,6 +70,7 @@ class HeadsetSession {
   FloorSpace floor_;
   ControllerActions actions_;
   EyeSwapchains pictures_;
+  PanelQuads quads_;
   vk::raii::CommandPool pool_;
   std::array<Copying, 2> copying_;
   std::size_t copied_ = 0;         // frames
@@ -75,7 +80,7 @@ class HeadsetSession {
   std::array<XrView, 2> views_{};      // as they were located last
   bool located_ = false;
   bool ending_ = false;  // the runtime wants the session's end, once its last frame is
-  bool said_floor_ = false;
+  bool said_floor_ = false, said_frozen_ = false;
   HeadsetController controller_;
 };
 

@@ -39,6 +39,10 @@ bool offers(const std::vector<XrExtensionProperties>& offered, const char* name)
 OpenXrFailure::OpenXrFailure(XrResult the_result, const char* call)
     : std::runtime_error(fmt::format("{}: {}", call, name_of(the_result))), result(the_result) {}
 
+bool is_loss(const OpenXrFailure& failure) {
+  return failure.result == XR_ERROR_SESSION_LOST || failure.result == XR_ERROR_INSTANCE_LOST;
+}
+
 void check_openxr(XrResult result, const char* call) {
   if (XR_FAILED(result)) throw OpenXrFailure(result, call);
 }

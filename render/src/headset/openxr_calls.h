@@ -29,6 +29,7 @@ namespace afm::render {
   CALL(DestroyInstance)                   \
   CALL(DestroySession)                    \
   CALL(DestroySpace)                      \
+  CALL(DestroySwapchain)                  \
   CALL(EndFrame)                          \
   CALL(EndSession)                        \
   CALL(EnumerateReferenceSpaces)          \
@@ -59,6 +60,9 @@ class OpenXrFailure : public std::runtime_error {
   OpenXrFailure(XrResult the_result, const char* call);
   XrResult result;
 };
+
+// Session or runtime are gone.
+bool is_loss(const OpenXrFailure& failure);
 
 // Throws OpenXrFailure for an error.
 void check_openxr(XrResult result, const char* call);

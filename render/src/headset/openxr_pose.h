@@ -37,4 +37,12 @@ inline scene::HeadPose in_room(const scene::HeadPose& room_from_frame, const sce
           .room_from_head = room_from_frame.room_from_head * pose.room_from_head};
 }
 
+// The reverse: what `pose` of the room is in that frame.
+inline XrPosef from_room(const scene::HeadPose& room_from_frame, const scene::HeadPose& pose) {
+  const glm::dquat frame_from_room = glm::conjugate(room_from_frame.room_from_head);
+  const glm::vec3 place(frame_from_room * (pose.position_m - room_from_frame.position_m));
+  const glm::quat turn(glm::normalize(frame_from_room * pose.room_from_head));
+  return {.orientation = {turn.x, turn.y, turn.z, turn.w}, .position = {place.x, place.y, place.z}};
+}
+
 }  // namespace afm::render

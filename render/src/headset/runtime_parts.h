@@ -32,6 +32,7 @@ struct HeadsetRuntimeParts : DeviceSource {
   std::vector<const char*> extensions;  // optional ones that the runtime has
   std::string runtime_name, headset_name;
   glm::uvec2 eye_px{0};
+  std::uint32_t most_layers = 0;  // of one frame
   PFN_vkGetInstanceProcAddr vulkan = nullptr;
 
  private:

@@ -26,7 +26,9 @@ bool in_subscript(char c) {
 Color shown(Color color, PanelContrast contrast) {
   constexpr float kStronger = 2.5F;  // of what is drawn faintly
   if (contrast == PanelContrast::Normal) return color;
-  if (color.srgb == palette::kPlate.srgb) return {glm::vec3(0.0F), 1.0F};
+  const bool plate = color.srgb == palette::kPlate.srgb;
+  if (contrast == PanelContrast::Opaque) return {color.srgb, plate ? 1.0F : color.alpha};
+  if (plate) return {glm::vec3(0.0F), 1.0F};
   const auto neutral = {palette::kInk, palette::kMuted, palette::kEdge, palette::kAxis};
   const bool is_neutral =
       std::any_of(neutral.begin(), neutral.end(), [&](const Color& each) { return each.srgb == color.srgb; });

@@ -20,7 +20,6 @@
 namespace afm::render {
 namespace {
 
-constexpr vk::Format kTextureFormat = vk::Format::eR8G8B8A8Unorm;
 constexpr std::uint32_t kLargestTexture = 8192;  // each way, or what the device can
 
 const Label kNoLabel{.text = {}, .highlighted = false, .placement = kNoPlacement};
@@ -47,7 +46,7 @@ vk::raii::Pipeline create_canvas_pipeline(const Device& device, vk::PipelineLayo
                                   .layout = layout,
                                   .bindings = kPanelBindings,
                                   .attributes = kPanelAttributes,
-                                  .color_format = kTextureFormat,
+                                  .color_format = kPanelFormat,
                                   .blending = Blending::Premultiplied});
 }
 
@@ -186,9 +185,10 @@ vk::raii::DescriptorSet Panels::create_set(const vk::raii::DescriptorPool& pool,
 Panels::Texture Panels::create_texture(vk::Extent2D extent) const {
   Texture texture;
   texture.image = create_image(device_, "panel",
-                               {.format = kTextureFormat,
+                               {.format = kPanelFormat,
                                 .extent = extent,
-                                .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
+                                .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled |
+                                         vk::ImageUsageFlagBits::eTransferSrc});
   texture.view = create_view(device_, texture.image, kColorAspect, 0, 1);
   texture.pool = create_pool();
   texture.set = create_set(texture.pool, *texture.view);
@@ -295,16 +295,6 @@ bool Panels::update(const FrameState& frame, std::size_t slot) {
   return !paintings_.empty();
 }
 
-void Panels::list(std::vector<PanelState>& states) const {
-  states.clear();
-  const auto add = [&](const Panel& panel) {
-    states.push_back(panel.shown ? PanelState{true, panel.placement, panel.painting, panel.part} : PanelState{});
-  };
-  for (const Panel* panel : {&force_, &image_, &loop_, &data_, &banner_, &control_, &calibration_}) add(*panel);
-  std::for_each(eye_marks_.begin(), eye_marks_.end(), add);
-  std::for_each(labels_.begin(), labels_.end(), add);
-}
-
 void Panels::record_textures(const vk::raii::CommandBuffer& command, std::size_t slot) {
   Geometry& geometry = geometry_[slot];
   const std::size_t vertex_bytes = vertices_.size() * sizeof(ImDrawVert);
@@ -322,8 +312,7 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
                              const Painting& painting) const {
   const Panel& panel = *painting.panel;
   const vk::Extent2D extent = panel.texture.image.extent;
-  const ImageUse sampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
-                         vk::ImageLayout::eShaderReadOnlyOptimal};
+  const ImageUse& sampled = kPanelShown;
   const PixelBox part =
       painting.whole ? PixelBox::whole(extent) : texels_of(panel.part, extent).within(PixelBox::whole(extent));
   if (part.empty()) return;
@@ -364,7 +353,7 @@ void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const Eye
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, rectangle_pipeline_.get(drawing.pass, drawing.samples));
   command.setCullMode(vk::CullModeFlagBits::eNone);
   const auto show = [&](const Panel& panel) {
-    if (!panel.shown) {
+    if (!panel.shown || panel.apart) {
       return;
     }
     const std::array sets{frame_set, *panel.texture.set};

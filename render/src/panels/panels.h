@@ -16,12 +16,18 @@
 #include "panels/panel_painting.h"
 #include "panels/panel_part.h"
 #include "passes/eye_targets.h"
+#include "passes/panel_sight.h"
 #include "render/frame.h"
 #include "render/renderer.h"
 
 namespace afm::render {
 
 inline constexpr std::size_t kFramesInFlight = 2;
+
+// Of the panels' textures, which hold premultiplied sRGB values; and their use whenever they are not painted.
+inline constexpr vk::Format kPanelFormat = vk::Format::eR8G8B8A8Unorm;
+inline constexpr ImageUse kPanelShown{vk::PipelineStageFlagBits2::eFragmentShader,
+                                      vk::AccessFlagBits2::eShaderSampledRead, vk::ImageLayout::eShaderReadOnlyOptimal};
 
 // What one panel adds to the pictures of the eyes.
 struct PanelState {
@@ -31,6 +37,15 @@ struct PanelState {
   PanelPart part{};            // in which that differs from the one before it
 
   bool operator==(const PanelState&) const = default;
+};
+
+// A panel that is left out of the eyes' pictures.
+struct ApartPanel {
+  std::size_t place = 0;  // of this panel in every frame
+  PanelPlacement placement;
+  vk::Image texture;  // until the next frame
+  vk::Extent2D extent;
+  std::uint64_t painting = 0;  // as PanelState::painting
 };
 
 // The panels of a frame: each is painted into its texture, and again only when its content or size has changed, and
@@ -47,16 +62,21 @@ class Panels {
   // previous use is over.
   bool update(const FrameState& frame, std::size_t slot);
 
+  // After update(): leaves up to so many panels out of the eyes' pictures, those that nothing hides.
+  void set_apart(std::size_t most, const PanelSight& sight);
+  // These, in the order in which they cover each other. Their textures are painted in the frame's commands.
+  std::vector<ApartPanel> apart() const;
+
   // Paints what has changed; outside any rendering.
   void record_textures(const vk::raii::CommandBuffer& command, std::size_t slot);
 
-  // Shows all panels, blended over what is there; inside an eye pass. What it records stays right until revision()
-  // changes.
+  // Shows all panels but those apart, blended over what is there; inside an eye pass. What it records stays right until
+  // revision() changes.
   void record_rectangles(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
                          vk::DescriptorSet frame_set);
   std::uint64_t revision() const { return revision_; }
 
-  // All panels as they are shown now, each always at the same place; `states` keeps its memory.
+  // All panels as the eyes' pictures show them now, each always at the same place; `states` keeps its memory.
   void list(std::vector<PanelState>& states) const;
 
  private:
@@ -80,6 +100,8 @@ class Panels {
     std::uint64_t painting = 0;     // how many times it has been painted
     PanelPart part;                 // as PanelState::part
     bool shown = false;
+    bool apart = false;                  // from the eyes' pictures
+    bool has_place = false;              // there are enough places to show it apart
     std::optional<scene::Eye> only_eye;  // whose picture alone shows it
   };
   // Vertices and indices of everything painted in one frame.
@@ -137,6 +159,7 @@ class Panels {
   Panel calibration_;
   std::array<Panel, 2> eye_marks_;
   std::uint64_t revision_ = 0;
+  std::vector<Panel*> order_, drawn_;  // of set_apart(); kept to reuse their memory
 
   // what the frames before the slot's may still show: freed when the slot comes round again
   std::array<std::vector<Texture>, kFramesInFlight> retired_;

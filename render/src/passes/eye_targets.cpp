@@ -194,6 +194,19 @@ void EyeTargets::end_copies(const vk::raii::CommandBuffer& command) const {
   record_barriers(command, {image_barrier(*color_.image.image, kColorAspect, kCopiedFrom, kEyesRead)});
 }
 
+void EyeTargets::copy_depth(const vk::raii::CommandBuffer& command, scene::Eye eye, vk::Image to,
+                            std::uint32_t to_layer) const {
+  const LayerRange from{layer(eye), 1};
+  const vk::ImageCopy region{
+      .srcSubresource = {.aspectMask = kDepthAspect, .baseArrayLayer = from.first, .layerCount = 1},
+      .dstSubresource = {.aspectMask = kDepthAspect, .baseArrayLayer = to_layer, .layerCount = 1},
+      .extent = {drawing_.extent.width, drawing_.extent.height, 1}};
+  const vk::Image image = *depth_.image.image;
+  record_barriers(command, {image_barrier(image, kDepthAspect, kEyesRead, kCopiedFrom, from)});
+  command.copyImage(image, kCopiedFrom.layout, to, kCopiedTo.layout, region);
+  record_barriers(command, {image_barrier(image, kDepthAspect, kCopiedFrom, kEyesRead, from)});
+}
+
 EyeTargets::EyeImage EyeTargets::eye(scene::Eye eye) const {
   return {.image = *color_.image.image, .layer = layer(eye)};
 }

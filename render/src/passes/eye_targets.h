@@ -73,6 +73,9 @@ class EyeTargets {
             std::uint32_t layer, vk::Offset2D place) const;
   void end_copies(const vk::raii::CommandBuffer& command) const;
 
+  // Copies an eye's depth, as depth() has it, into an image that lies in eTransferDstOptimal.
+  void copy_depth(const vk::raii::CommandBuffer& command, scene::Eye eye, vk::Image to, std::uint32_t layer) const;
+
   // Of the colour in both layers, the left eye's first: as it is stored, and in kEyeLinearFormat. Where both eyes see
   // the same, only the first is drawn.
   vk::ImageView both_eyes() const { return *color_.both; }

@@ -214,6 +214,7 @@ void Renderer::Parts::render(const FrameState& frame) {
   lister.list(frame, geometry, eyes.guard_band(), quality.scale * eyes.extent().height, slot.draws);
   eyes.begin_frame(choose_drawing(frame, slot.draws));
   slot.painted = panels.update(frame, slot_index);
+  panels.set_apart(frame.panels_apart, PanelSight(frame, geometry, slot.draws));
   now.take(frame, geometry, slot.draws, eyes.drawing(), eyes.guard_band(), panels, drawn);
   if (options.redraw == Redraw::Everything) drawn.forget();
   slot.area = damage.between(drawn, now, geometry);

@@ -23,7 +23,8 @@ struct FrameRecord {
   double ipd_m = 0;                                     // that the eyes were drawn for
   std::optional<std::uint32_t> servo_late_us{};         // of the latest tick that the servo has reported since
   std::uint64_t servo_missed = 0;                       // ticks, since the servo's start
-  const char* headset = "";                             // shown, hidden, frozen, off; empty without one
+  std::optional<double> pose_age_s{};  // of a headset: from locating the eyes to its runtime's getting the picture
+  const char* headset = "";            // shown, hidden, frozen, off; empty without one
 };
 
 // The latest of the ticks that the servo has counted between two frames; empty: it has reported none.

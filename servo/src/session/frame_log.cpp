@@ -29,9 +29,10 @@ constexpr const char* kColumns =
     "# nearest_deg, farthest_deg: disparity of the nearest and farthest point, measured four times a second\n"
     "# ipd_mm: eye distance of the picture; servo_late_us: scheduling latency of the latest tick; servo_missed: ticks "
     "missed in total\n"
+    "# pose_age_ms: age of the pose of a headset's eyes when its runtime got the picture that was drawn for it\n"
     "# headset: the picture in it is shown or hidden, its runtime is frozen, or it is off; empty without a headset\n"
     "frame,time_s,drawn_ms,interval_ms,head_latency_ms,nearest_deg,farthest_deg,ipd_mm,servo_late_us,servo_missed,"
-    "headset\n";
+    "pose_age_ms,headset\n";
 
 core::Result<void> cannot_log(const std::string& path, int error) {
   return core::failure(core::ErrorCategory::Failed,
@@ -77,12 +78,13 @@ void FrameLog::add(const FrameRecord& frame) {
   const auto ms = [](std::int64_t ns) { return 1e-6 * static_cast<double>(ns); };
   const std::int64_t before_ns = std::exchange(presented_before_ns_, frame.presented_ns);
   const std::lock_guard lock(changing_);
-  fmt::format_to(std::back_inserter(waiting_), "{},{:.6f},{:.3f},{},{},{},{},{:.1f},{},{},{}\n", frames_++,
+  fmt::format_to(std::back_inserter(waiting_), "{},{:.6f},{:.3f},{},{},{},{},{:.1f},{},{},{},{}\n", frames_++,
                  1e-9 * static_cast<double>(frame.begun_ns - start_ns_), ms(frame.presented_ns - frame.begun_ns),
                  before_ns == 0 ? "" : fmt::format("{:.3f}", ms(frame.presented_ns - before_ns)),
                  text_of(frame.head_latency_s, 1e3), text_of(frame.nearest_rad, kDegreesPerRad),
                  text_of(frame.farthest_rad, kDegreesPerRad), 1e3 * frame.ipd_m,
-                 frame.servo_late_us ? std::to_string(*frame.servo_late_us) : "", frame.servo_missed, frame.headset);
+                 frame.servo_late_us ? std::to_string(*frame.servo_late_us) : "", frame.servo_missed,
+                 text_of(frame.pose_age_s, 1e3), frame.headset);
 }
 
 void FrameLog::write_all_that_comes() {

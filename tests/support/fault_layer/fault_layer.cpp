@@ -3,6 +3,7 @@
 // says how:
 //   lost:N    the Nth submission, and everything that waits from then on, returns VK_ERROR_DEVICE_LOST
 //   hung:N    from the Nth submission on nothing is ever finished: what waits for it has waited long enough at once
+//   stuck:F   nothing is finished while the file F exists: what waits for it does so for as long as it may
 //   memory:N  from the Nth allocation on there is no device memory
 //   surface:N from the Nth picture of a window on its surface is lost, and no other can be had
 //   one-view  there is no multiview
@@ -12,16 +13,21 @@
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
+#include <unistd.h>
+
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <thread>
 
 namespace {
 
 struct Fault {
   std::string kind;
   int after = 0;
+  std::string file;
 };
 
 Fault read_fault() {
@@ -29,7 +35,8 @@ Fault read_fault() {
   if (text == nullptr) return {};
   const std::string all = text;
   const auto colon = all.find(':');
-  return {all.substr(0, colon), colon == std::string::npos ? 1 : std::atoi(all.c_str() + colon + 1)};
+  if (colon == std::string::npos) return {all, 1, {}};
+  return {all.substr(0, colon), std::atoi(all.c_str() + colon + 1), all.substr(colon + 1)};
 }
 
 // One instance and one device at a time, as the program has them.
@@ -52,6 +59,15 @@ bool failing(const char* kind, std::atomic<int>& count, int add) {
 }
 bool lost(int add) { return failing("lost", submissions, add); }
 
+// Whether a wait ends without what it waits for, once it has taken its time.
+bool waits_in_vain(std::uint64_t timeout_ns) {
+  if (the_fault.kind != "stuck" || ::access(the_fault.file.c_str(), F_OK) != 0) {
+    return failing("hung", submissions, 0);
+  }
+  std::this_thread::sleep_for(std::chrono::nanoseconds(timeout_ns));
+  return true;
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL queue_submit2(VkQueue queue, std::uint32_t count, const VkSubmitInfo2* submits,
                                              VkFence fence) {
   if (lost(1)) {
@@ -65,13 +81,13 @@ VKAPI_ATTR VkResult VKAPI_CALL queue_submit2(VkQueue queue, std::uint32_t count,
 VKAPI_ATTR VkResult VKAPI_CALL wait_semaphores(VkDevice device, const VkSemaphoreWaitInfo* info,
                                                std::uint64_t timeout) {
   if (lost(0)) return VK_ERROR_DEVICE_LOST;
-  if (failing("hung", submissions, 0)) return VK_TIMEOUT;
+  if (waits_in_vain(timeout)) return VK_TIMEOUT;
   return next<PFN_vkWaitSemaphores>("vkWaitSemaphores")(device, info, timeout);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL wait_for_fences(VkDevice device, std::uint32_t count, const VkFence* fences,
                                                VkBool32 all, std::uint64_t timeout) {
-  if (failing("hung", submissions, 0)) return VK_TIMEOUT;
+  if (waits_in_vain(timeout)) return VK_TIMEOUT;
   return next<PFN_vkWaitForFences>("vkWaitForFences")(device, count, fences, all, timeout);
 }
 

@@ -106,6 +106,7 @@ XrResult XRAPI_CALL enumerate_extensions(const char*, std::uint32_t capacity, st
   const std::scoped_lock lock(stand_in().mutex);
   std::vector<const char*> names{XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME};
   if (stand_in().script.local_floor) names.push_back("XR_EXT_local_floor");
+  if (stand_in().script.depth) names.push_back(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
   *count = static_cast<std::uint32_t>(names.size());
   for (std::size_t i = 0; i < names.size() && i < capacity; ++i) {
     std::strncpy(list[i].extensionName, names[i], XR_MAX_EXTENSION_NAME_SIZE - 1);
@@ -146,6 +147,7 @@ XrResult XRAPI_CALL get_system(XrInstance, const XrSystemGetInfo*, XrSystemId* s
 XrResult XRAPI_CALL system_properties(XrInstance, XrSystemId, XrSystemProperties* properties) {
   AFM_ENTER("xrGetSystemProperties");
   s.script.name.copy(properties->systemName, XR_MAX_SYSTEM_NAME_SIZE);
+  properties->graphicsProperties.maxLayerCount = s.script.most_layers;
   return XR_SUCCESS;
 }
 

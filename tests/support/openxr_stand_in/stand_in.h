@@ -20,16 +20,26 @@
 // with -z ahead.
 namespace afm::stand_in {
 
-// A picture of an eye as it was submitted: the bytes of the swapchain's image.
-struct SubmittedEye {
-  XrPosef pose{};
-  XrFovf fov{};
+// What a swapchain's image held when it was submitted: four bytes a pixel.
+struct SubmittedImage {
   std::int64_t format = 0;
   std::uint32_t width = 0, height = 0, layer = 0;
   std::vector<std::uint8_t> bytes;
 };
+struct SubmittedEye : SubmittedImage {
+  XrPosef pose{};
+  XrFovf fov{};
+  float near_m = 0, far_m = 0;  // of the depths 0 and 1
+  std::vector<float> depths;    // by pixel; empty where none came
+};
+struct SubmittedQuad : SubmittedImage {
+  XrPosef pose{};
+  XrExtent2Df size{};
+  XrCompositionLayerFlags flags = 0;
+};
 struct SubmittedFrame {
-  std::vector<SubmittedEye> eyes;  // none where the frame had no layer
+  std::vector<SubmittedEye> eyes;    // none where the frame had no layer
+  std::vector<SubmittedQuad> quads;  // in their order, over the eyes
 };
 
 struct Script {
@@ -38,6 +48,8 @@ struct Script {
   std::uint32_t images = 3;
   std::uint32_t eye_width = 256, eye_height = 192;
   bool two_layers = true;
+  bool depth = true;  // offers XR_KHR_composition_layer_depth
+  std::uint32_t most_layers = 16;
   bool local_floor = true, stage = true;
   float local_height_m = 1.5F;  // of the frame at eye level above the floor
   std::array<XrPosef, 2> eyes{{{{0, 0, 0, 1}, {-0.032F, 1.6F, 0.0F}}, {{0, 0, 0, 1}, {0.032F, 1.6F, 0.0F}}}};
@@ -96,10 +108,13 @@ struct Swapchain {
   std::vector<VkDeviceMemory> memory;
   std::uint32_t next = 0;
   int acquired = 0;  // 1: acquired, 2: waited for
+  bool filled = false;
+
+  bool has_depth() const { return info.format == VK_FORMAT_D32_SFLOAT; }
 };
 Swapchain* create_images(const XrSwapchainCreateInfo& info, std::uint32_t count);
 void destroy_images(Swapchain* chain);
-SubmittedEye read_image(const Swapchain& chain, std::uint32_t layer, const XrRect2Di& rect);
+SubmittedImage read_image(const Swapchain& chain, std::uint32_t layer, const XrRect2Di& rect);
 std::int64_t now_ns();
 bool enter(const char* call, XrResult& result);  // logs it; false: it fails as the script says
 void follow_script_file();

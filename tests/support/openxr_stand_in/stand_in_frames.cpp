@@ -2,6 +2,7 @@
 // Sessions, spaces, swapchains and frames.
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <memory>
 #include <thread>
 
@@ -167,6 +168,14 @@ XrResult XRAPI_CALL create_swapchain(XrSession, const XrSwapchainCreateInfo* inf
   return XR_SUCCESS;
 }
 
+XrResult XRAPI_CALL destroy_swapchain(XrSwapchain handle) {
+  AFM_ENTER_FRAME("xrDestroySwapchain");
+  auto* chain = reinterpret_cast<Swapchain*>(handle);
+  std::erase(session()->chains, chain);
+  destroy_images(chain);  // validation tells when something still fills them
+  return XR_SUCCESS;
+}
+
 XrResult XRAPI_CALL enumerate_images(XrSwapchain handle, std::uint32_t capacity, std::uint32_t* count,
                                      XrSwapchainImageBaseHeader* list) {
   const auto& images = reinterpret_cast<const Swapchain*>(handle)->images;
@@ -202,6 +211,7 @@ XrResult XRAPI_CALL release(XrSwapchain handle, const XrSwapchainImageReleaseInf
   auto& chain = *reinterpret_cast<Swapchain*>(handle);
   if (chain.acquired != 2) return fault(XR_ERROR_CALL_ORDER_INVALID, "released an image that was not waited for");
   chain.acquired = 0;
+  chain.filled = true;
   chain.next = (chain.next + 1) % static_cast<std::uint32_t>(chain.images.size());
   return XR_SUCCESS;
 }
@@ -250,21 +260,55 @@ XrResult XRAPI_CALL locate_views(XrSession, const XrViewLocateInfo* info, XrView
   return XR_SUCCESS;
 }
 
+SubmittedImage read(const XrSwapchainSubImage& of) {
+  const auto& chain = *reinterpret_cast<const Swapchain*>(of.swapchain);
+  if (!chain.filled) fault(XR_ERROR_LAYER_INVALID, "submitted an image that was never filled");
+  return read_image(chain, of.imageArrayIndex, of.imageRect);
+}
+
+SubmittedEye read(const XrCompositionLayerProjectionView& shown) {
+  SubmittedEye eye;
+  static_cast<SubmittedImage&>(eye) = read(shown.subImage);
+  eye.pose = shown.pose;
+  eye.fov = shown.fov;
+  if (shown.next == nullptr) return eye;
+  const auto& depth = *static_cast<const XrCompositionLayerDepthInfoKHR*>(shown.next);
+  const bool right = depth.type == XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR && depth.minDepth == 0.0F &&
+                     depth.maxDepth == 1.0F && depth.nearZ > 0.0F && depth.farZ > 0.0F && depth.nearZ != depth.farZ;
+  if (!right) fault(XR_ERROR_VALIDATION_FAILURE, "depth that means nothing");
+  const SubmittedImage read_depth = read(depth.subImage);
+  if (read_depth.format != VK_FORMAT_D32_SFLOAT) fault(XR_ERROR_VALIDATION_FAILURE, "depth in a format of colour");
+  eye.near_m = depth.nearZ;
+  eye.far_m = depth.farZ;
+  eye.depths.resize(read_depth.bytes.size() / sizeof(float));
+  std::memcpy(eye.depths.data(), read_depth.bytes.data(), read_depth.bytes.size());
+  return eye;
+}
+
+SubmittedQuad read(const XrCompositionLayerQuad& shown) {
+  SubmittedQuad quad;
+  static_cast<SubmittedImage&>(quad) = read(shown.subImage);
+  quad.pose = shown.pose;
+  quad.pose.position.y += reinterpret_cast<const Space*>(shown.space)->height_m();
+  quad.size = shown.size;
+  quad.flags = shown.layerFlags;
+  return quad;
+}
+
 XrResult XRAPI_CALL end_frame(XrSession, const XrFrameEndInfo* info) {
   AFM_ENTER_FRAME("xrEndFrame");
   if (s.begun != s.waited) return fault(XR_ERROR_CALL_ORDER_INVALID, "ended a frame that was not begun");
+  if (info->layerCount > s.script.most_layers) return fault(XR_ERROR_LAYER_LIMIT_EXCEEDED, "too many layers");
   if (!s.keeps_frames) return XR_SUCCESS;
   SubmittedFrame frame;
   for (std::uint32_t i = 0; i < info->layerCount; ++i) {
+    if (info->layers[i]->type == XR_TYPE_COMPOSITION_LAYER_QUAD) {
+      if (frame.eyes.empty()) fault(XR_SUCCESS, "a quad below the eyes");
+      frame.quads.push_back(read(*reinterpret_cast<const XrCompositionLayerQuad*>(info->layers[i])));
+    }
     if (info->layers[i]->type != XR_TYPE_COMPOSITION_LAYER_PROJECTION) continue;
     const auto* layer = reinterpret_cast<const XrCompositionLayerProjection*>(info->layers[i]);
-    for (std::uint32_t view = 0; view < layer->viewCount; ++view) {
-      const XrCompositionLayerProjectionView& shown = layer->views[view];
-      const auto& chain = *reinterpret_cast<const Swapchain*>(shown.subImage.swapchain);
-      frame.eyes.push_back(read_image(chain, shown.subImage.imageArrayIndex, shown.subImage.imageRect));
-      frame.eyes.back().pose = shown.pose;
-      frame.eyes.back().fov = shown.fov;
-    }
+    for (std::uint32_t view = 0; view < layer->viewCount; ++view) frame.eyes.push_back(read(layer->views[view]));
   }
   s.log.frames.push_back(std::move(frame));
   return XR_SUCCESS;
@@ -291,6 +335,7 @@ XrResult find_frame_call(const char* name, PFN_xrVoidFunction* function) {
       {"xrLocateSpace", plain_call(locate_space)},
       {"xrEnumerateSwapchainFormats", plain_call(enumerate_formats)},
       {"xrCreateSwapchain", plain_call(create_swapchain)},
+      {"xrDestroySwapchain", plain_call(destroy_swapchain)},
       {"xrEnumerateSwapchainImages", plain_call(enumerate_images)},
       {"xrAcquireSwapchainImage", plain_call(acquire)},
       {"xrWaitSwapchainImage", plain_call(wait_image)},

@@ -54,8 +54,17 @@ void run(Record&& record) {
   vkDestroyCommandPool(s.device, pool, nullptr);
 }
 
-// From and to the layout in which the specification lends images.
-void change(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
+VkImageAspectFlags aspect_of(const Swapchain& chain) {
+  return chain.has_depth() ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+// In which the specification lends images.
+VkImageLayout lent_layout(const Swapchain& chain) {
+  return chain.has_depth() ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL
+                           : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+}
+
+void change(VkCommandBuffer commands, const Swapchain& chain, VkImage image, VkImageLayout from, VkImageLayout to) {
   VkImageMemoryBarrier barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
   barrier.srcAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
@@ -64,7 +73,7 @@ void change(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImage
   barrier.newLayout = to;
   barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = image;
-  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS};
+  barrier.subresourceRange = {aspect_of(chain), 0, 1, 0, VK_REMAINING_ARRAY_LAYERS};
   vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr,
                        0, nullptr, 1, &barrier);
 }
@@ -83,8 +92,9 @@ Swapchain* create_images(const XrSwapchainCreateInfo& info, std::uint32_t count)
     create.mipLevels = 1;
     create.arrayLayers = info.arraySize;
     create.samples = VK_SAMPLE_COUNT_1_BIT;
-    create.usage =
-        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    create.usage = VkImageUsageFlags{VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT} |
+                   VkImageUsageFlags{chain->has_depth() ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                                        : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT};
     VkImage image = VK_NULL_HANDLE;
     vkCreateImage(stand_in().device, &create, nullptr, &image);
     VkMemoryRequirements needed;
@@ -93,7 +103,7 @@ Swapchain* create_images(const XrSwapchainCreateInfo& info, std::uint32_t count)
     chain->memory.push_back(allocate(needed, 0));
     vkBindImageMemory(stand_in().device, image, chain->memory.back(), 0);
     run([&](VkCommandBuffer commands) {
-      change(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+      change(commands, *chain, image, VK_IMAGE_LAYOUT_UNDEFINED, lent_layout(*chain));
     });
   }
   return chain;
@@ -107,17 +117,17 @@ void destroy_images(Swapchain* chain) {
   delete chain;
 }
 
-SubmittedEye read_image(const Swapchain& chain, std::uint32_t layer, const XrRect2Di& rect) {
+SubmittedImage read_image(const Swapchain& chain, std::uint32_t layer, const XrRect2Di& rect) {
   StandIn& s = stand_in();
-  SubmittedEye eye;
-  eye.format = chain.info.format;
-  eye.width = static_cast<std::uint32_t>(rect.extent.width);
-  eye.height = static_cast<std::uint32_t>(rect.extent.height);
-  eye.layer = layer;
-  eye.bytes.resize(std::size_t{4} * eye.width * eye.height);
+  SubmittedImage read;
+  read.format = chain.info.format;
+  read.width = static_cast<std::uint32_t>(rect.extent.width);
+  read.height = static_cast<std::uint32_t>(rect.extent.height);
+  read.layer = layer;
+  read.bytes.resize(std::size_t{4} * read.width * read.height);
   VkBufferCreateInfo create{};
   create.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
-  create.size = eye.bytes.size();
+  create.size = read.bytes.size();
   create.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   VkBuffer buffer = VK_NULL_HANDLE;
   vkCreateBuffer(s.device, &create, nullptr, &buffer);
@@ -130,20 +140,20 @@ SubmittedEye read_image(const Swapchain& chain, std::uint32_t layer, const XrRec
   const auto count = static_cast<std::uint32_t>(chain.images.size());
   VkImage image = chain.images[(chain.next + count - 1) % count];
   run([&](VkCommandBuffer commands) {
-    change(commands, image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    change(commands, chain, image, lent_layout(chain), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     VkBufferImageCopy copy{};
-    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, layer, 1};
+    copy.imageSubresource = {aspect_of(chain), 0, layer, 1};
     copy.imageOffset = {rect.offset.x, rect.offset.y, 0};
-    copy.imageExtent = {eye.width, eye.height, 1};
+    copy.imageExtent = {read.width, read.height, 1};
     vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1, &copy);
-    change(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    change(commands, chain, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, lent_layout(chain));
   });
   void* mapped = nullptr;
   vkMapMemory(s.device, memory, 0, VK_WHOLE_SIZE, 0, &mapped);
-  std::memcpy(eye.bytes.data(), mapped, eye.bytes.size());
+  std::memcpy(read.bytes.data(), mapped, read.bytes.size());
   vkDestroyBuffer(s.device, buffer, nullptr);
   vkFreeMemory(s.device, memory, nullptr);
-  return eye;
+  return read;
 }
 
 }  // namespace afm::stand_in

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// How large the letters of every panel are for somebody at the sweet spot, on a wall or in a headset, where a panel's
+// texture is as sharp as they are.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <string>
+
+#include "app/bench/render_subjects.h"
+#include "app/live/view_keys.h"
+#include "exhibit/exhibit_setup.h"
+#include "panel_painter.h"
+#include "places.h"
+
+namespace afm::exhibit {
+namespace {
+
+constexpr double kCapShare = 0.727;  // of Inter's em square
+constexpr double kLeastMinutes = 20.0;
+constexpr double kLeastOfKeys = 18.0;  // of the long list of keys, which is looked up, not read
+
+// Subscripts are smaller than the letters that they belong to.
+render::ForcePanel without_subscripts(render::ForcePanel panel) {
+  for (render::PlotMarker& marker : panel.markers) std::erase(marker.label, '_');
+  return panel;
+}
+render::DataPanel without_subscripts(render::DataPanel panel) {
+  for (render::DataRow& row : panel.rows) {
+    for (std::string* text : {&row.name, &row.value, &row.source}) std::erase(*text, '_');
+  }
+  return panel;
+}
+
+class LettersOfThePanels : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWall) {
+  ExhibitFiles files;
+  files.assets_dir = AFM_SOURCE_DIR "/assets";
+  files.language = GetParam();
+  const auto stage = load_exhibit(files);
+  ASSERT_TRUE(stage) << stage.error().message;
+  const render::FrameState frame = app::wall_subject(*stage, 64, app::WallMotion::Tip).value().frames.back();
+  const double millimetre_m = stage->wall_scene.panel_millimetre_m();
+  test::Painter painter(640.0, millimetre_m);
+  const glm::dvec3 viewer = stage->wall.viewers.front().sweet_spot.position_m;
+  const auto expect_large = [&](const auto& panel, const render::PanelPlacement& place, const std::string& name,
+                                double least = kLeastMinutes) {
+    const glm::dvec3 middle = place.lower_left_m + 0.5 * (place.right_m + place.up_m);
+    const double cap_m = kCapShare * static_cast<double>(painter.paint(panel, place).least_em_m);
+    const double minutes = std::atan(cap_m / glm::distance(viewer, middle)) * 60.0 * 180.0 / std::numbers::pi;
+    EXPECT_GE(minutes, least) << name;
+    RecordProperty(fmt::format("minutes of {}", name), fmt::format("{:.1f}", minutes));
+  };
+  expect_large(without_subscripts(frame.force_panel), frame.force_placement, "the plot");
+  expect_large(without_subscripts(frame.data_panel), frame.data_placement, "the data");
+  expect_large(frame.banner, frame.banner_placement, "the banner");
+  expect_large(app::key_list(app::HandSource::Mouse, false, stage->phrases()), stage->wall_scene.parameter_placement(),
+               "the list of keys", kLeastOfKeys);
+  for (const render::Label& label : frame.labels) expect_large(label, label.placement, label.text);
+}
+
+INSTANTIATE_TEST_SUITE_P(Languages, LettersOfThePanels, ::testing::Values("en", "de"));
+
+}  // namespace
+}  // namespace afm::exhibit
