@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// What goes wrong with the machines of a wall, on one machine: processes and threads that stop, other builds, noise.
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <sys/ptrace.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <optional>
+#include <random>
+#include <span>
+
+#include "app/cluster_wall.h"
+#include "cluster/master_link.h"
+#include "core/clock.h"
+#include "core/whole_file.h"
+#include "exhibit/cluster/wall_model.h"
+
+namespace afm::app {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class ClusterFailures : public ClusterWall {
+ protected:
+  std::unique_ptr<support::LiveProgram> node(const std::string& name) const {
+    return start(node_command(name, "127.0.0.1"));
+  }
+  // With a force on the hand.
+  std::unique_ptr<support::LiveProgram> felt_wall() const {
+    std::vector<std::string> command = master_command();
+    command.insert(command.end(), {"--haptics", "sim"});
+    auto hand = start(command);
+    expect_both_shown(*hand);
+    press_at_master("1");
+    EXPECT_TRUE(hand->says("force on")) << hand->said();
+    return hand;
+  }
+  // A renderer that is silent for 250 ms would have ended the force.
+  static void expect_force_never_ended(support::LiveProgram& hand) {
+    EXPECT_THAT(hand.said(), Not(HasSubstr("the renderer gave no frame")));
+  }
+  void expect_orderly_end(support::LiveProgram& hand) const {
+    press_at_master("Escape");
+    EXPECT_EQ(hand.ends(), 0) << hand.said();
+    EXPECT_THAT(hand.said(), Not(HasSubstr("built frame")));
+  }
+};
+
+TEST_F(ClusterFailures, ANodeThatStopsForFiveSecondsIsLeftOutAndReturns) {
+  const auto left = node("left"), right = node("right");
+  const auto hand = felt_wall();
+  left->signal(SIGSTOP);
+  ASSERT_TRUE(hand->says("node left is missing")) << hand->said();
+  std::this_thread::sleep_for(seconds(5));
+  left->signal(SIGCONT);
+  ASSERT_TRUE(hand->says("node left shows the wall")) << hand->said();
+  expect_force_never_ended(*hand);
+  expect_orderly_end(*hand);
+}
+
+// A thread of another process that does nothing as long as this lives, as if it waited in a system call.
+class StoppedThread {
+ public:
+  StoppedThread(pid_t process, const std::string& name) {
+    for (const auto& task : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+      if (core::read_file((task.path() / "comm").string()).value_or("") == name + "\n") {
+        thread_ = std::stoi(task.path().filename().string());
+      }
+    }
+    stopped_ = thread_ > 0 && ::ptrace(PTRACE_SEIZE, thread_, nullptr, nullptr) == 0 &&
+               ::ptrace(PTRACE_INTERRUPT, thread_, nullptr, nullptr) == 0 && ::waitpid(thread_, nullptr, __WALL) > 0;
+  }
+  StoppedThread(const StoppedThread&) = delete;
+  StoppedThread& operator=(const StoppedThread&) = delete;
+  ~StoppedThread() {
+    if (stopped_) ::ptrace(PTRACE_DETACH, thread_, nullptr, nullptr);
+  }
+  bool stopped() const { return stopped_; }
+
+ private:
+  pid_t thread_ = 0;
+  bool stopped_ = false;
+};
+
+TEST_F(ClusterFailures, ANetworkThatBlocksForFiveSecondsIsNotNoticedByTheHand) {
+  const auto left = node("left"), right = node("right");
+  const auto hand = felt_wall();
+  {
+    const StoppedThread network(hand->pid(), "wall network");
+    ASSERT_TRUE(network.stopped());
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_NE(hand->says_one_of({"node left is missing", "node right is missing"}), "") << hand->said();
+    }
+    std::this_thread::sleep_for(seconds(5));
+  }
+  expect_both_shown(*hand);
+  expect_force_never_ended(*hand);
+  expect_orderly_end(*hand);
+}
+
+TEST_F(ClusterFailures, NodesOutliveTheirMasterAndFollowTheNext) {
+  const auto left = node("left"), right = node("right");
+  auto hand = start(master_command());
+  expect_both_shown(*hand);
+  hand->signal(SIGKILL);
+  EXPECT_EQ(hand->ends(), 128 + SIGKILL);
+  hand = start(master_command());
+  expect_both_shown(*hand);
+  xdotool("mousemove 5 " + std::to_string(kHeight + kMargin - 1));
+  EXPECT_TRUE(all_same()) << hand->said();
+  expect_orderly_end(*hand);
+  for (const auto& one : {left.get(), right.get()}) {
+    one->signal(SIGTERM);
+    EXPECT_EQ(one->ends(), 0) << one->said();
+  }
+}
+
+TEST_F(ClusterFailures, ANodeOfAnotherBuildOrWithOtherModelsIsRefusedAndBothAreNamed) {
+  const auto own = exhibit::build_digest(AFM_PROGRAM);
+  ASSERT_TRUE(own);
+  for (const bool other_build : {true, false}) {
+    const exhibit::WallModel model{.build = other_build ? 0x1111222233334444U : *own,
+                                   .scene = 0x5555666677778888U,
+                                   .wall = core::read_file(folder_.file("wall.toml")).value(),
+                                   .guidance = {},
+                                   .materials = {},
+                                   .meshes = {},
+                                   .files = {},
+                                   .picture = {}};
+    const core::MonotonicClock clock;
+    const auto master = cluster::MasterLink::open({.interface_address = "127.0.0.1",
+                                                   .peers = {"127.0.0.1"},
+                                                   .domain = static_cast<std::uint32_t>(std::stoi(domain()))},
+                                                  exhibit::document_of(model), 0, clock);
+    ASSERT_TRUE(master) << master.error().message;
+    const auto left = node("left");
+    EXPECT_EQ(left->ends(), 3) << left->said();
+    EXPECT_THAT(left->said(), HasSubstr(other_build ? "1111222233334444" : "5555666677778888"));
+    std::optional<cluster::NodeState> heard;
+    while (const auto answer = (*master)->answer()) heard = answer->ready.state;
+    EXPECT_EQ(heard, other_build ? cluster::NodeState::OtherBuild : cluster::NodeState::OtherScene);
+  }
+}
+
+// Datagrams of the wall, as anyone on its network could see them.
+std::vector<std::string> overheard(std::uint32_t first_port) {
+  std::vector<std::string> datagrams;
+  const int listener = ::socket(AF_PACKET, SOCK_DGRAM, htons(0x0800));
+  EXPECT_GE(listener, 0) << "listening to a network needs root";
+  const timeval patience{.tv_sec = 5, .tv_usec = 0};
+  ::setsockopt(listener, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+  std::array<char, 2048> packet{};
+  ssize_t size = 0;
+  while (datagrams.size() < 200 && (size = ::recv(listener, packet.data(), packet.size(), 0)) > 0) {
+    constexpr std::size_t kIpHeader = 20, kUdpHeader = 8;
+    if (static_cast<std::size_t>(size) <= kIpHeader + kUdpHeader || packet[9] != IPPROTO_UDP) continue;
+    const auto port = static_cast<std::uint32_t>(static_cast<unsigned char>(packet[kIpHeader + 2]) << 8 |
+                                                 static_cast<unsigned char>(packet[kIpHeader + 3]));
+    if (port < first_port || port >= first_port + cluster::kPortsOfDomain) continue;
+    datagrams.emplace_back(packet.data() + kIpHeader + kUdpHeader, packet.data() + size);
+  }
+  ::close(listener);
+  return datagrams;
+}
+
+TEST_F(ClusterFailures, AHundredThousandBrokenDatagramsEndNoProgram) {
+  const auto left = node("left"), right = node("right");
+  const auto hand = felt_wall();
+  const std::uint32_t first = cluster::first_port(static_cast<std::uint32_t>(std::stoi(domain())));
+  const std::vector<std::string> seen = overheard(first);
+  ASSERT_EQ(seen.size(), 200U);
+  const int sender = ::socket(AF_INET, SOCK_DGRAM, 0);
+  std::mt19937 random(18);
+  const auto below = [&](std::size_t most) { return std::uniform_int_distribution<std::size_t>(0, most - 1)(random); };
+  for (int i = 0; i < 100'000; ++i) {
+    std::string datagram = seen[below(seen.size())];
+    if (i % 4 == 0) datagram.resize(1 + below(datagram.size()));
+    for (std::size_t byte = 0, count = 1 + below(4); byte < count; ++byte) {
+      datagram[below(datagram.size())] = static_cast<char>(random());
+    }
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    // unicast discovery and data of the first three participants
+    to.sin_port = htons(static_cast<std::uint16_t>(first + 10 + below(6)));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    ::sendto(sender, datagram.data(), datagram.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof(to));
+    if (i % 100 == 0) std::this_thread::sleep_for(milliseconds(1));
+  }
+  ::close(sender);
+  expect_force_never_ended(*hand);
+  hand->skip_what_it_said();
+  press_at_master("Escape");
+  EXPECT_EQ(hand->ends(), 0) << hand->said();
+  for (const auto& one : {left.get(), right.get()}) {
+    one->signal(SIGTERM);
+    EXPECT_EQ(one->ends(), 0) << one->said();
+  }
+}
+
+}  // namespace
+}  // namespace afm::app
