@@ -48,6 +48,7 @@ core::Result<exhibit::WallModel> wall_model(const exhibit::ExhibitFiles& files, 
   }
   model.friction = choice.friction;
   model.picture = choice.picture;
+  model.contrast = choice.contrast;
   return model;
 }
 
@@ -62,11 +63,13 @@ void add_domain_option(OptionList& command, std::uint32_t& domain) {
       .type_name("N");
 }
 
-void add_cluster_options(OptionList& command, ClusterOptions& options) {
-  command.add_flag("--cluster", options.wanted,
-                   "show the wall on the machines of its file too, each of which runs touchafm node; the hand stays on "
-                   "this one");
+Option add_cluster_options(OptionList& command, ClusterOptions& options) {
+  const Option cluster =
+      command.add_flag("--cluster", options.wanted,
+                       "show the wall on the machines of its file too, each of which runs touchafm node; the hand "
+                       "stays on this one");
   add_network_options(command, options);
+  return cluster;
 }
 
 void add_network_options(OptionList& command, ClusterOptions& options) {

@@ -21,8 +21,8 @@ struct ClusterOptions {
   std::uint32_t domain = cluster::ClusterNetwork::kUsualDomain;
 };
 
-// --cluster of the machine with the hand; its --interface and --domain; --domain alone.
-void add_cluster_options(OptionList& command, ClusterOptions& options);
+// --cluster of the machine with the hand, which it returns; its --interface and --domain; --domain alone.
+Option add_cluster_options(OptionList& command, ClusterOptions& options);
 void add_network_options(OptionList& command, ClusterOptions& options);
 void add_domain_option(OptionList& command, std::uint32_t& domain);
 
@@ -36,6 +36,7 @@ core::Result<void> check_one_machine(const scene::Wall& wall, const WindowOption
 struct WallChoice {
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   exhibit::PictureOptions picture;
+  render::PanelContrast contrast = render::PanelContrast::Normal;
 };
 
 // The network, opened as that of the machine with the hand. WrongUsage: the wall has no nodes, or another machine

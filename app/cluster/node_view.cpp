@@ -198,8 +198,8 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   if ((message.moment.flags & cluster::ShownMoment::kBlank) != 0) exhibit::blank(frame);
   add_warning(missing_text(message.missing, stage_.wall, stage_.phrases()), frame.banner);
   if (master_gone) add_warning(stage_.phrases()[exhibit::Phrase::MasterMissing], frame.banner);
-  const std::uint64_t digest = exhibit::digest_of(frame);
   picture_.follow(message.view);
+  const std::uint64_t digest = exhibit::digest_of(frame, picture_.told());
   picture_.show(frame, exhibit::Relief::NarrowEyes, clock_.now_ns(), [] {}, [&] { drawn(digest); });
   shown_ns_ = clock_.now_ns();
 }

@@ -128,6 +128,7 @@ core::Result<std::optional<cluster::NodeLink::Document>> show_wall(const NodeOpt
   if (!materials) return tl::unexpected(materials.error());
   DisplayOptions display_options = options.display;
   display_options.picture = model->picture;
+  display_options.contrast = model->contrast;
   auto display = ViewDisplay::open(*stage, display_options, nullptr, clock);
   if (!display) return tl::unexpected(display.error());
   core::log_line(

@@ -223,7 +223,6 @@ void add_exhibition_options(OptionList& command, ViewOptions& options) {
       .type_name("SECONDS");
   add_scale_option(command, options.settings.scale);
   add_friction_option(command, options.friction);
-  add_cluster_options(command, options.cluster);
 }
 
 }  // namespace
@@ -284,8 +283,8 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
 
   std::unique_ptr<ClusterMaster> cluster;
   if (options.cluster.wanted) {
-    auto started = start_cluster(options.cluster, options.files, {options.friction, options.display.picture}, program,
-                                 *stage, clock);
+    auto started = start_cluster(options.cluster, options.files, {options.friction, options.display.picture, options.display.contrast},
+                                 program, *stage, clock);
     if (!started) return tl::unexpected(started.error());
     cluster = std::move(*started);
   } else if (auto alone = check_one_machine(stage->wall, options.display.window); !alone) {
@@ -346,11 +345,12 @@ void add_view_command(OptionList& program, const CommandContext& context) {
       .one_value_each()
       .type_name("MATERIAL");
   add_window_options(command, *options);
-  command.add_flag(
-      "--headset", options->headset,
-      "show the picture in a headset through OpenXR, at true scale; its controller is a wand, and the window "
-      "mirrors the left eye");
+  Option headset =
+      command.add_flag("--headset", options->headset,
+                       "show the picture in a headset through OpenXR, at true scale; its controller is a wand, and the "
+                       "window mirrors the left eye");
   add_exhibition_options(command, *options);
+  headset.excludes(add_cluster_options(command, options->cluster));
   command.when_chosen([options, &context]() -> core::Result<void> {
     if (!options->kiosk) return run_view(*options, context.program_path);
     const core::CodeOfInterruption released(core::ExitCode::Done);

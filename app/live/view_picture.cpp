@@ -115,15 +115,16 @@ void ViewPicture::follow(const cluster::ShownView& view) {
   follows_ = true;
   settings_.ipd_m = view.ipd_m;
   drawn_ipd_m_ = view.drawn_ipd_m;
-  calibrating_ = (view.flags & Shown::kCalibration) != 0;
   head_ = exhibit::head_of(view);
   auto mode = view.mode < 0 ? std::nullopt : std::optional(static_cast<scene::StereoMode>(view.mode));
   if (mode && !can_show(*mode)) mode.reset();  // its own, rather than none
   const bool swapped = (view.flags & Shown::kSwapped) != 0;
   const auto order = swapped ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight;
-  const bool other = mode != other_mode_ || order != other_order_;
+  const bool calibrating = (view.flags & Shown::kCalibration) != 0;
+  const bool other = mode != other_mode_ || order != other_order_ || calibrating != calibrating_;
   other_mode_ = mode;
   other_order_ = order;
+  calibrating_ = calibrating;
   if (other) {
     share_out();
   } else {

@@ -71,6 +71,7 @@ struct MasterLink::Parts {
 
 void MasterLink::Parts::run(std::stop_token stop) {
   ::pthread_setname_np(::pthread_self(), kThreadName);
+  transport->belong_to_this_thread();
   write_model();
   while (!stop.stop_requested()) {
     for_thread.wait(kIdleMs);

@@ -64,6 +64,7 @@ struct NodeLink::Parts {
 
 void NodeLink::Parts::run(std::stop_token stop) {
   ::pthread_setname_np(::pthread_self(), kThreadName);
+  transport->belong_to_this_thread();
   while (!stop.stop_requested()) {
     for_thread.wait(kPauseMs);
     if (const auto newest = answer.try_load_newer(seen_answer)) {

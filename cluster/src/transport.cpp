@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bound_receivers.h"
+#include "core/check.h"
 #include "core/system_error.h"
 #include "wire.h"
 
@@ -132,6 +133,7 @@ Transport::~Transport() {
 }
 
 bool Transport::write(Topic topic, std::uint32_t key, std::span<const std::byte> datagram) {
+  AFM_CHECK(owner_ == std::this_thread::get_id());
   afm_wire_Datagram sample{};
   sample.key = key;
   // DDS copies the bytes and frees nothing
@@ -152,6 +154,7 @@ std::uint64_t Transport::resent_bytes() const {
 }
 
 void Transport::take(Topic topic, const std::function<void(std::span<const std::byte>)>& each) {
+  AFM_CHECK(owner_ == std::this_thread::get_id());
   constexpr std::size_t kAtOnce = 64;
   const dds_entity_t reader = readers_[static_cast<std::size_t>(topic)];
   for (;;) {

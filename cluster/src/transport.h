@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <thread>
 
 #include "cluster/network.h"
 #include "core/file_descriptor.h"
@@ -47,6 +48,9 @@ class Transport {
   Transport& operator=(const Transport&) = delete;
   ~Transport();
 
+  // From now on the calling thread is the only one that may write and take; another one aborts the program.
+  void belong_to_this_thread() { owner_ = std::this_thread::get_id(); }
+
   // Of a topic that the role writes: the master all but Ready, a node that alone. False: DDS took too long.
   bool write(Topic topic, std::uint32_t key, std::span<const std::byte> datagram);
 
@@ -60,6 +64,7 @@ class Transport {
   Transport() = default;
   core::Result<void> create(const ClusterNetwork& network, ClusterRole role, const Doorbell& doorbell);
 
+  std::thread::id owner_ = std::this_thread::get_id();
   std::int32_t domain_ = 0, participant_ = 0;  // what DDS counts its entities by; 0: none
   std::array<std::int32_t, kTopics> writers_{};
   std::array<std::int32_t, kTopics> readers_{};

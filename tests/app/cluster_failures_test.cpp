@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
 #include <span>
@@ -23,6 +24,7 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -52,14 +54,20 @@ class ClusterFailures : public ClusterWall {
   }
 };
 
-TEST_F(ClusterFailures, ANodeThatStopsForFiveSecondsIsLeftOutAndReturns) {
-  const auto left = node("left"), right = node("right");
+TEST_F(ClusterFailures, ANodeThatStopsForFiveSecondsAndOneThatIsKilledAreLeftOutAndReturn) {
+  const auto left = node("left");
+  auto right = node("right");
   const auto hand = felt_wall();
   left->signal(SIGSTOP);
   ASSERT_TRUE(hand->says("node left is missing")) << hand->said();
+  right->signal(SIGKILL);
+  EXPECT_EQ(right->ends(), 128 + SIGKILL);
+  ASSERT_TRUE(hand->says("node right is missing")) << hand->said();
   std::this_thread::sleep_for(seconds(5));
   left->signal(SIGCONT);
   ASSERT_TRUE(hand->says("node left shows the wall")) << hand->said();
+  right = node("right");
+  ASSERT_TRUE(hand->says("node right shows the wall")) << hand->said();
   expect_force_never_ended(*hand);
   expect_orderly_end(*hand);
 }
@@ -146,6 +154,31 @@ TEST_F(ClusterFailures, ANodeOfAnotherBuildOrWithOtherModelsIsRefusedAndBothAreN
     while (const auto answer = (*master)->answer()) heard = answer->ready.state;
     EXPECT_EQ(heard, other_build ? cluster::NodeState::OtherBuild : cluster::NodeState::OtherScene);
   }
+}
+
+TEST_F(ClusterFailures, TheDoctorNamesTheNodeThatDoesNotAnswerAndHowToStartIt) {
+  const std::string doctor = std::string(AFM_PROGRAM) + " doctor --cluster " + folder_.file("wall.toml") +
+                             " --domain " + domain() + " --interface 127.0.0.1 --patience ";
+  const auto left = node("left");
+  const support::ProgramResult one = support::run_program(doctor + "6");
+  EXPECT_EQ(one.exit_code, 1);
+  EXPECT_THAT(one.out, ContainsRegex("node left +good +draws in"));
+  EXPECT_THAT(one.out, ContainsRegex("node right +missing +does not answer"));
+  EXPECT_THAT(one.out, HasSubstr("start touchafm node right --interface ADDRESS --domain " + domain()));
+  const auto right = node("right");
+  const support::ProgramResult both = support::run_program(doctor + "40");
+  EXPECT_EQ(both.exit_code, 0) << both.out << both.err;
+  EXPECT_THAT(both.out, ContainsRegex("node right +good +draws in"));
+}
+
+TEST_F(ClusterFailures, TheBenchmarkStartsNodesOfItsOwn) {
+  const support::ProgramResult measured = support::run_program(
+      std::string(AFM_PROGRAM) + " bench cluster --nodes 2 --frames 60 --json --domain " + domain());
+  ASSERT_EQ(measured.exit_code, 0) << measured.err;
+  const auto result = nlohmann::json::parse(measured.out);
+  EXPECT_EQ(result.at("frames"), 60);
+  EXPECT_EQ(result.at("lost_samples"), nlohmann::json({0, 0}));
+  EXPECT_GT(result.at("skew_s").at("max").get<double>(), 0.0);
 }
 
 // Datagrams of the wall, as anyone on its network could see them.

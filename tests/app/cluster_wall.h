@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
@@ -27,7 +28,13 @@ namespace afm::app {
 constexpr std::uint32_t kWidth = 160, kHeight = 120;  // of a window
 constexpr std::uint32_t kMargin = 20;                 // below them, for the pointer
 
-inline std::string wall_of_three(const std::string& left_host, const std::string& right_host) {
+struct OutputPlace {
+  std::uint32_t x = 0, width = kWidth, height = kHeight;
+};
+constexpr std::array<OutputPlace, 3> kBeside{{{0}, {kWidth}, {2 * kWidth}}};  // on one desktop
+
+inline std::string wall_of_three(const std::string& left_host, const std::string& right_host,
+                                 const std::array<OutputPlace, 3>& places = kBeside) {
   std::string wall = R"(
 [[screen]]
 name = "powerwall"
@@ -50,8 +57,8 @@ sweet_spot = [0.0, 1.65, 2.5]
   const char* const nodes[] = {"", "node = \"left\"\n", "node = \"right\"\n"};
   for (std::uint32_t i = 0; i < 3; ++i) {
     wall += "[[output]]\nname = \"output " + std::to_string(i) + "\"\nscreen = \"powerwall\"\n" + nodes[i] +
-            "mode = \"anaglyph-red-cyan\"\nrect = [" + std::to_string(i * kWidth) + ", 0, " + std::to_string(kWidth) +
-            ", " + std::to_string(kHeight) + "]\n";
+            "mode = \"anaglyph-red-cyan\"\nrect = [" + std::to_string(places[i].x) + ", 0, " +
+            std::to_string(places[i].width) + ", " + std::to_string(places[i].height) + "]\n";
   }
   return wall;
 }

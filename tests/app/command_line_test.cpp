@@ -149,7 +149,9 @@ TEST(CommandLine, StartsAWallOfSeveralMachinesOrSaysWhatItLacks) {
   expect_refusal(touchafm("view --cluster --wall " + alone), 2, "[[node]]");
   expect_refusal(touchafm("view --wall " + wall), 2, "--cluster");
   expect_refusal(touchafm("view --cluster --interface 203.0.113.7 --wall " + wall), 2, "127.0.0.1 (lo)");
+  expect_refusal(touchafm("view --headset --cluster --wall " + wall), 2, "--headset");
   expect_refusal(touchafm("node left"), 2, "--interface");
+  expect_refusal(touchafm("node left --interface lo --haptics sim"), 2, "--haptics");
   expect_refusal(touchafm("node left --interface 203.0.113.7"), 2, "127.0.0.1 (lo)");
   expect_refusal(touchafm("node left --interface lo --master nowhere.invalid"), 4, "nowhere.invalid");
   expect_refusal(touchafm("doctor --cluster " + alone), 2, "[[node]]");

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <net/if.h>
+#include <stdlib.h>
 #include <sys/socket.h>
 
 #include <atomic>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,6 +18,7 @@
 #include "cluster/network.h"
 #include "cluster/node_link.h"
 #include "core/clock.h"
+#include "support/scratch_folder.h"
 
 namespace {
 
@@ -152,6 +155,19 @@ TEST_F(ClusterLinkTest, ReceivesOnTheNamedInterfaceAlone) {
     EXPECT_EQ(*interface, "lo");
   }
   EXPECT_GE(receivers, 2);  // discovery and data
+}
+
+// What a person has configured for other programs that use Cyclone does not reach a wall: here a log of everything.
+TEST_F(ClusterLinkTest, IgnoresTheEnvironment) {
+  const support::ScratchFolder folder;
+  const std::string log = folder.file("dds.log");
+  const std::string uri = "<CycloneDDS><Domain Id=\"any\"><Tracing><Verbosity>finest</Verbosity><OutputFile>" + log +
+                          "</OutputFile></Tracing></Domain></CycloneDDS>";
+  ASSERT_EQ(::setenv("CYCLONEDDS_URI", uri.c_str(), 1), 0);
+  const auto master = MasterLink::open(network(204), model(), 0, clock_);
+  ::unsetenv("CYCLONEDDS_URI");
+  ASSERT_TRUE(master) << master.error().message;
+  EXPECT_FALSE(std::filesystem::exists(log));
 }
 
 TEST(ClusterNetworkTest, NamesTheInterfacesThereAre) {

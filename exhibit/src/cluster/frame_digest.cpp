@@ -72,13 +72,20 @@ class FrameHash {
   void add(const render::ControlPanel& panel) {
     add_all(panel.title, panel.buttons, panel.rows, panel.notes, panel.status, panel.pointed, panel.marked);
   }
-  void add(const std::array<std::uint8_t, 4>& color) { add_all(color[0], color[1], color[2], color[3]); }
+  template <class Value, std::size_t kCount>
+  void add(const std::array<Value, kCount>& values) {
+    for (const Value& value : values) add(value);
+  }
   void add(const render::ImageMap& map) { add_all(map.title, map.grid.columns, map.grid.rows, map.grid.colors); }
   void add(const render::ProfilePlot::Line& line) { add_all(line.label, line.color, line.dashed, line.points); }
   void add(const render::ImagePanel& panel) {
     add_all(panel.title, panel.subtitle, panel.heights[0], panel.heights[1], panel.smaller, panel.profile.title,
             panel.profile.low, panel.profile.high, panel.profile.lines, panel.side_unit, panel.side, panel.scale_bar,
             panel.line, panel.bar_low_nm, panel.bar_high_nm, panel.bar, panel.decimal_mark);
+  }
+  void add(const cluster::ShownPose& pose) { add_all(pose.position_m, pose.orientation); }
+  void add(const cluster::ShownView& view) {
+    for_each_field([this](const char* /*name*/, const auto& value) { add(value); }, view);
   }
   void add(const render::PlacedLight& light) { add_all(light.position_m, light.direction); }
 
@@ -95,7 +102,7 @@ class FrameHash {
 
 }  // namespace
 
-std::uint64_t digest_of(const render::FrameState& frame) {
+std::uint64_t digest_of(const render::FrameState& frame, const cluster::ShownView& view) {
   FrameHash hash;
   hash.add_all(frame.room_from_node, frame.visible, frame.highlighted, frame.bends, frame.key_light.direction_to_light,
                frame.key_light.radiance, frame.key_light.shadow_center_m, frame.key_light.shadow_radius_m,
@@ -105,6 +112,7 @@ std::uint64_t digest_of(const render::FrameState& frame) {
   hash.add_all(frame.force_panel, frame.force_placement, frame.image_panel, frame.image_placement, frame.loop_panel,
                frame.loop_placement, frame.data_panel, frame.data_placement, frame.banner, frame.banner_placement,
                frame.control_panel, frame.control_placement, frame.labels);
+  hash.add(view);
   return hash.value();
 }
 

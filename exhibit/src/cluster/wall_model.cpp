@@ -59,6 +59,7 @@ WallModel model_of(const json& root) {
   root.at("sample_channel").get_to(model.files.sample_channel);
   model.files.sample_levelling = enumerator_of<physics::Levelling>(root.at("sample_levelling"));
   root.at("shown").get_to(model.files.shown);
+  root.at("text_size").get_to(model.files.text_size);
   model.friction = enumerator_of<physics::FrictionLaw>(root.at("friction"));
   const auto mode = root.at("stereo").get<std::string>();
   if (!mode.empty()) {
@@ -67,10 +68,12 @@ WallModel model_of(const json& root) {
     model.picture.mode = *parsed;
   }
   if (root.at("eyes_swapped").get<bool>()) model.picture.order = scene::EyeOrder::Swapped;
+  if (root.at("high_contrast").get<bool>()) model.contrast = render::PanelContrast::High;
   const bool known = std::any_of(kLanguages.begin(), kLanguages.end(),
                                  [&](const LanguageRow& row) { return row.word == model.files.language; });
-  if (!known || model.files.shown.size() > kMostNames || model.wall.empty()) {
-    throw std::invalid_argument("its language, its samples or its wall are invalid");
+  const bool readable = model.files.text_size >= 1.0 && model.files.text_size <= kLargestText;
+  if (!known || !readable || model.files.shown.size() > kMostNames || model.wall.empty()) {
+    throw std::invalid_argument("its language, its text size, its samples or its wall are invalid");
   }
   return model;
 }
@@ -109,9 +112,11 @@ std::vector<std::byte> document_of(const WallModel& model) {
                   {"sample_channel", model.files.sample_channel},
                   {"sample_levelling", static_cast<std::uint32_t>(model.files.sample_levelling)},
                   {"shown", model.files.shown},
+                  {"text_size", model.files.text_size},
                   {"friction", static_cast<std::uint32_t>(model.friction)},
                   {"stereo", model.picture.mode ? std::string(scene::name_of(*model.picture.mode)) : std::string()},
-                  {"eyes_swapped", model.picture.order == scene::EyeOrder::Swapped}};
+                  {"eyes_swapped", model.picture.order == scene::EyeOrder::Swapped},
+                  {"high_contrast", model.contrast == render::PanelContrast::High}};
   const std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
   const auto bytes = std::as_bytes(std::span(text));
   return {bytes.begin(), bytes.end()};

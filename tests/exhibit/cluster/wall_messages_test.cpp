@@ -170,6 +170,8 @@ TEST(WallModelTest, ComesBackAndRefusesWhatIsNotValid) {
   model.files.shown = {"mica", "gold"};
   model.picture.mode = scene::StereoMode::SideBySide;
   model.picture.order = scene::EyeOrder::Swapped;
+  model.files.text_size = 1.25;
+  model.contrast = render::PanelContrast::High;
   const auto document = document_of(model);
   const auto came = read_wall_model(document);
   ASSERT_TRUE(came) << came.error().message;
@@ -177,6 +179,8 @@ TEST(WallModelTest, ComesBackAndRefusesWhatIsNotValid) {
   EXPECT_EQ(came->files.shown, model.files.shown);
   EXPECT_EQ(came->picture.mode, model.picture.mode);
   EXPECT_EQ(came->picture.order, model.picture.order);
+  EXPECT_EQ(came->files.text_size, 1.25);
+  EXPECT_EQ(came->contrast, render::PanelContrast::High);
   for (std::size_t length = 0; length < document.size(); ++length) {
     EXPECT_FALSE(read_wall_model(std::span(document).first(length))) << length;
   }
@@ -191,6 +195,9 @@ TEST(WallModelTest, ComesBackAndRefusesWhatIsNotValid) {
     EXPECT_FALSE(read_wall_model(document_of(model))) << elsewhere;
   }
   model.meshes.clear();
+  model.files.text_size = 100.0;
+  EXPECT_FALSE(read_wall_model(document_of(model)));
+  model.files.text_size = 1.0;
   model.files.language = "xx";
   EXPECT_FALSE(read_wall_model(document_of(model)));
 }

@@ -12,6 +12,7 @@
 #include "core/result.h"
 #include "exhibit/exhibit_setup.h"
 #include "physics/friction/friction.h"
+#include "render/renderer.h"
 
 namespace afm::exhibit {
 
@@ -26,6 +27,7 @@ struct WallModel {
   ExhibitFiles files;                         // without those three, and without the assets
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   PictureOptions picture;  // mode and order of the eyes
+  render::PanelContrast contrast = render::PanelContrast::Normal;
 };
 
 std::vector<std::byte> document_of(const WallModel& model);
