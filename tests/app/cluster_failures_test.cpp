@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What goes wrong with the machines of a wall, on one machine: processes and threads that stop, other builds, noise.
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <sys/ptrace.h>
-#include <sys/socket.h>
 
-#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <random>
-#include <span>
 
+#include "app/cluster_noise.h"
 #include "app/cluster_wall.h"
 #include "cluster/master_link.h"
 #include "core/clock.h"
@@ -22,7 +18,6 @@
 namespace afm::app {
 namespace {
 
-using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
@@ -181,51 +176,10 @@ TEST_F(ClusterFailures, TheBenchmarkStartsNodesOfItsOwn) {
   EXPECT_GT(result.at("skew_s").at("max").get<double>(), 0.0);
 }
 
-// Datagrams of the wall, as anyone on its network could see them.
-std::vector<std::string> overheard(std::uint32_t first_port) {
-  std::vector<std::string> datagrams;
-  const int listener = ::socket(AF_PACKET, SOCK_DGRAM, htons(0x0800));
-  EXPECT_GE(listener, 0) << "listening to a network needs root";
-  const timeval patience{.tv_sec = 5, .tv_usec = 0};
-  ::setsockopt(listener, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-  std::array<char, 2048> packet{};
-  ssize_t size = 0;
-  while (datagrams.size() < 200 && (size = ::recv(listener, packet.data(), packet.size(), 0)) > 0) {
-    constexpr std::size_t kIpHeader = 20, kUdpHeader = 8;
-    if (static_cast<std::size_t>(size) <= kIpHeader + kUdpHeader || packet[9] != IPPROTO_UDP) continue;
-    const auto port = static_cast<std::uint32_t>(static_cast<unsigned char>(packet[kIpHeader + 2]) << 8 |
-                                                 static_cast<unsigned char>(packet[kIpHeader + 3]));
-    if (port < first_port || port >= first_port + cluster::kPortsOfDomain) continue;
-    datagrams.emplace_back(packet.data() + kIpHeader + kUdpHeader, packet.data() + size);
-  }
-  ::close(listener);
-  return datagrams;
-}
-
 TEST_F(ClusterFailures, AHundredThousandBrokenDatagramsEndNoProgram) {
   const auto left = node("left"), right = node("right");
   const auto hand = felt_wall();
-  const std::uint32_t first = cluster::first_port(static_cast<std::uint32_t>(std::stoi(domain())));
-  const std::vector<std::string> seen = overheard(first);
-  ASSERT_EQ(seen.size(), 200U);
-  const int sender = ::socket(AF_INET, SOCK_DGRAM, 0);
-  std::mt19937 random(18);
-  const auto below = [&](std::size_t most) { return std::uniform_int_distribution<std::size_t>(0, most - 1)(random); };
-  for (int i = 0; i < 100'000; ++i) {
-    std::string datagram = seen[below(seen.size())];
-    if (i % 4 == 0) datagram.resize(1 + below(datagram.size()));
-    for (std::size_t byte = 0, count = 1 + below(4); byte < count; ++byte) {
-      datagram[below(datagram.size())] = static_cast<char>(random());
-    }
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    // unicast discovery and data of the first three participants
-    to.sin_port = htons(static_cast<std::uint16_t>(first + 10 + below(6)));
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    ::sendto(sender, datagram.data(), datagram.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof(to));
-    if (i % 100 == 0) std::this_thread::sleep_for(milliseconds(1));
-  }
-  ::close(sender);
+  send_broken_datagrams(cluster::first_port(static_cast<std::uint32_t>(std::stoi(domain()))), 100'000);
   expect_force_never_ended(*hand);
   hand->skip_what_it_said();
   press_at_master("Escape");

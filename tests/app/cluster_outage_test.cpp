@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outages that last longer than DDS remembers a machine, and a node that is started again and again.
+// What takes long: outages beyond the time that DDS remembers a machine, a node that is started again and again, ten
+// minutes of a wall, a million broken datagrams.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "app/cluster_cable.h"
+#include "app/cluster_noise.h"
+#include "core/whole_file.h"
 
 namespace afm::app {
 namespace {
@@ -14,6 +24,11 @@ namespace {
 using std::chrono::seconds;
 using ::testing::HasSubstr;
 using ::testing::Not;
+
+constexpr seconds kSteady{600};
+constexpr long kMostGrowthKb = 4096;  // what an allocator may keep of the one or other peak
+// As the system lists them: ours, and Cyclone's for receiving, timed events, delivery and its own tidying.
+constexpr std::array kNetworkThreads{"wall network", "recv", "tev", "dq.", "gc"};
 
 class ClusterOutage : public ClusterCable {
  protected:
@@ -72,6 +87,79 @@ TEST_F(ClusterOutage, TwentyRestartsOfANodeEachShowTheWallAgain) {
     ASSERT_TRUE(hand->says("node left is missing")) << i << hand->said();
     left = node("left", 1);
     ASSERT_TRUE(hand->says("node left shows the wall")) << i << hand->said();
+  }
+  press_at_master("Escape");
+  EXPECT_EQ(hand->ends(), 0);
+  EXPECT_THAT(hand->said(), Not(HasSubstr("built frame")));
+}
+
+TEST_F(ClusterOutage, AMinuteOfFramesLosesNone) {
+  const support::ProgramResult measured = support::run_program(
+      std::string(AFM_PROGRAM) + " bench cluster --nodes 3 --frames 3600 --json --domain " + domain());
+  ASSERT_EQ(measured.exit_code, 0) << measured.err;
+  std::printf("%s", measured.out.c_str());
+  const auto result = nlohmann::json::parse(measured.out);
+  EXPECT_EQ(result.at("lost_samples"), nlohmann::json({0, 0, 0}));
+  EXPECT_EQ(result.at("frames"), 3600);
+}
+
+TEST_F(ClusterOutage, AMillionBrokenDatagramsEndNoProgram) {
+  folder_.write("wall.toml", wall_of_three("127.0.0.1", "127.0.0.1"));
+  const auto left = start(node_command("left", "127.0.0.1")), right = start(node_command("right", "127.0.0.1"));
+  const auto hand = start(master_command());
+  expect_both_shown(*hand);
+  send_broken_datagrams(cluster::first_port(static_cast<std::uint32_t>(std::stoi(domain()))), 1'000'000);
+  for (const auto& one : {left.get(), right.get(), hand.get()}) {
+    one->signal(SIGTERM);
+    EXPECT_EQ(one->ends(), 0) << one->said();
+  }
+}
+
+// Memory of a program, and the processor time that its threads for the network have used.
+struct Consumption {
+  long resident_kb = 0;
+  double network_s = 0;
+};
+Consumption consumption_of(pid_t process) {
+  const std::string folder = "/proc/" + std::to_string(process);
+  Consumption now;
+  long pages = 0;
+  std::ifstream(folder + "/statm") >> pages >> pages;
+  now.resident_kb = pages * (::sysconf(_SC_PAGESIZE) / 1024);
+  for (const auto& task : std::filesystem::directory_iterator(folder + "/task")) {
+    const std::string name = core::read_file((task.path() / "comm").string()).value_or("");
+    const bool ours = std::any_of(kNetworkThreads.begin(), kNetworkThreads.end(),
+                                  [&](const char* begin) { return name.starts_with(begin); });
+    if (!ours) continue;
+    const std::string stat = core::read_file((task.path() / "stat").string()).value_or(")");
+    std::istringstream fields(stat.substr(stat.rfind(')') + 1));
+    std::string skipped;
+    for (int i = 0; i < 11; ++i) fields >> skipped;
+    double user = 0, system = 0;
+    fields >> user >> system;
+    now.network_s += (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+  }
+  return now;
+}
+
+TEST_F(ClusterOutage, TenMinutesOfAWallTakeNoMemory) {
+  const auto left = node("left", 1);
+  const auto right = node("right", 2);
+  const auto hand = begin();
+  press_at_master("1");
+  ASSERT_TRUE(hand->says("force on")) << hand->said();
+  // until every panel has been drawn and every buffer has grown
+  std::this_thread::sleep_for(seconds(60));
+  const std::array programs{hand.get(), left.get(), right.get()};
+  std::array<Consumption, 3> before;
+  for (std::size_t i = 0; i < programs.size(); ++i) before[i] = consumption_of(programs[i]->pid());
+  std::this_thread::sleep_for(kSteady);
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    const Consumption now = consumption_of(programs[i]->pid());
+    std::printf("program %zu: %ld kB more of %ld kB; %.2f %% of a processor for the network\n", i,
+                now.resident_kb - before[i].resident_kb, now.resident_kb,
+                100.0 * (now.network_s - before[i].network_s) / static_cast<double>(kSteady.count()));
+    EXPECT_LT(now.resident_kb - before[i].resident_kb, kMostGrowthKb) << i;
   }
   press_at_master("Escape");
   EXPECT_EQ(hand->ends(), 0);
