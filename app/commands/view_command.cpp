@@ -283,8 +283,9 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
 
   std::unique_ptr<ClusterMaster> cluster;
   if (options.cluster.wanted) {
-    auto started = start_cluster(options.cluster, options.files, {options.friction, options.display.picture, options.display.contrast},
-                                 program, *stage, clock);
+    auto started =
+        start_cluster(options.cluster, options.files,
+                      {options.friction, options.display.picture, options.display.contrast}, program, *stage, clock);
     if (!started) return tl::unexpected(started.error());
     cluster = std::move(*started);
   } else if (auto alone = check_one_machine(stage->wall, options.display.window); !alone) {

@@ -96,7 +96,7 @@ TEST_F(ClusterFailures, ANetworkThatBlocksForFiveSecondsIsNotNoticedByTheHand) {
   const auto hand = felt_wall();
   {
     const StoppedThread network(hand->pid(), "wall network");
-    ASSERT_TRUE(network.stopped());
+    ASSERT_TRUE(network.stopped()) << "stopping a thread of another program needs the right to trace it";
     for (int i = 0; i < 2; ++i) {
       ASSERT_NE(hand->says_one_of({"node left is missing", "node right is missing"}), "") << hand->said();
     }

@@ -87,14 +87,19 @@ TEST_F(ClusterPixels, SixOutputsOnThreeNodesAreThoseOfOneMachineInEveryMode) {
     const render::Image seen = display.screenshot();
     const std::size_t half = seen.rgba.size() / 2;
     // a wall that shows nothing would agree too
-    const bool drawn = std::count_if(seen.rgba.begin(), seen.rgba.end(), [](int byte) { return byte > 150 && byte < 255; }) > 500;
+    const bool drawn =
+        std::count_if(seen.rgba.begin(), seen.rgba.end(), [](int byte) { return byte > 150 && byte < 255; }) > 500;
     return !drawn || !std::equal(seen.rgba.begin(), seen.rgba.begin() + static_cast<std::ptrdiff_t>(half),
-                       seen.rgba.begin() + static_cast<std::ptrdiff_t>(half));
+                                 seen.rgba.begin() + static_cast<std::ptrdiff_t>(half));
   };
   // one after the other on the moving wall, with each stereo mode that windows can show
-  const std::vector<std::string> keys{"1",  "v",  "v bracketright", "v s",  "v F2",  "v Left", "v Up",
-                                      "v g", "v g", "v p",           "v p", "v i",   "v",      "v j",
-                                      "v j", "v a", "v a",           "v F1", "v F1", "v 2"};
+  const std::vector<std::string> keys{"1",    "v",    "v bracketright",
+                                      "v s",  "v F2", "v Left",
+                                      "v Up", "v g",  "v g",
+                                      "v p",  "v p",  "v i",
+                                      "v",    "v j",  "v j",
+                                      "v a",  "v a",  "v F1",
+                                      "v F1", "v 2"};
   ASSERT_EQ(keys.size(), 20U);
   for (const std::string& pressed : keys) {
     press(pressed);
@@ -110,8 +115,9 @@ TEST_F(ClusterPixels, SixOutputsOnThreeNodesAreThoseOfOneMachineInEveryMode) {
     EXPECT_THAT(hand.said(), HasSubstr("node " + std::string(name) + ": "));
   }
   EXPECT_THAT(hand.said(), HasSubstr(" 0 built otherwise"));
+  // those two need other screens
   for (const scene::StereoModeTraits& mode : scene::kStereoModes) {
-    if (mode.mode == scene::StereoMode::Dual || mode.mode == scene::StereoMode::QuadBuffer) continue;  // need other screens
+    if (mode.mode == scene::StereoMode::Dual || mode.mode == scene::StereoMode::QuadBuffer) continue;
     EXPECT_THAT(hand.said(), HasSubstr("stereo: " + std::string(mode.name) + "\n"));
   }
 }
@@ -219,7 +225,8 @@ TEST_F(ClusterPixels, EveryScreenShowsTheSameFramesInTheSameOrder) {
   press_at_master("1");
   ASSERT_TRUE(hand->says("force on")) << hand->said();
 
-  const MappedScreen screens[kMachines] = {MappedScreen(display_.framebuffer()), MappedScreen(left_display.framebuffer()),
+  const MappedScreen screens[kMachines] = {MappedScreen(display_.framebuffer()),
+                                           MappedScreen(left_display.framebuffer()),
                                            MappedScreen(right_display.framebuffer())};
   StatesOfScreens states;
   const auto end = std::chrono::steady_clock::now() + seconds(8);
@@ -244,7 +251,8 @@ TEST_F(ClusterPixels, ScreensOfOtherSizesBecomeBlankWithTheOthers) {
   const auto hand = start(master_command());
   expect_both_shown(*hand);
 
-  const MappedScreen screens[kMachines] = {MappedScreen(display_.framebuffer()), MappedScreen(left_display.framebuffer()),
+  const MappedScreen screens[kMachines] = {MappedScreen(display_.framebuffer()),
+                                           MappedScreen(left_display.framebuffer()),
                                            MappedScreen(right_display.framebuffer())};
   std::vector<double> skews_ms;
   bool blank = false;
@@ -253,8 +261,11 @@ TEST_F(ClusterPixels, ScreensOfOtherSizesBecomeBlankWithTheOthers) {
     blank = !blank;
     std::array<std::optional<std::chrono::steady_clock::time_point>, kMachines> changed;
     const auto end = std::chrono::steady_clock::now() + seconds(20);
-    const auto all_changed = [&] { return std::all_of(changed.begin(), changed.end(), [](auto& at) { return at.has_value(); }); };
-    for (auto now = std::chrono::steady_clock::now(); now < end && !all_changed(); now = std::chrono::steady_clock::now()) {
+    const auto all_changed = [&] {
+      return std::all_of(changed.begin(), changed.end(), [](auto& at) { return at.has_value(); });
+    };
+    for (auto now = std::chrono::steady_clock::now(); now < end && !all_changed();
+         now = std::chrono::steady_clock::now()) {
       for (std::size_t screen = 0; screen < kMachines; ++screen) {
         // the depth at the bottom stays
         const bool is_blank = screens[screen].is_blank(kPlaces[screen].width, kPlaces[screen].height / 2);

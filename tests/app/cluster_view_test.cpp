@@ -53,7 +53,7 @@ TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   EXPECT_EQ(children_of(left->pid()), "");
   EXPECT_EQ(open_devices_of(left->pid()), "");
 
-  // sample, eyes, parameters, eye distance, stereo mode, head; and once the servo has the sample, friction loop and scan
+  // sample, eyes, parameters, eye distance, stereo mode, head; once the servo has the sample, friction loop and scan
   press_at_master("2 s F2 bracketright v Left");
   ASSERT_TRUE(hand->says("chosen: Gold")) << hand->said();
   ASSERT_TRUE(hand->says("eyes swapped")) << hand->said();

@@ -136,7 +136,7 @@ inline constexpr std::size_t kLongestNodeName = 31;
 struct Wall {
   std::vector<Screen> screens;
   std::vector<WallNode> nodes{};  // may be empty
-  std::vector<Output> outputs;  // may be empty
+  std::vector<Output> outputs;    // may be empty
   std::vector<Viewer> viewers;
 };
 
