@@ -19,6 +19,7 @@ core::Result<ViewWindows> ViewWindows::open(const std::vector<ViewOutput>& outpu
       return core::failure(window.error().category, who + window.error().message);
     }
     windows.windows_.push_back(std::make_unique<render::Window>(std::move(*window)));
+    windows.names_.push_back(output.name);
     windows.rects_.push_back(output.window.rect);
   }
   windows.cursors_.resize(outputs.size());
@@ -42,15 +43,12 @@ ViewInput ViewWindows::poll() {
 }
 
 void ViewWindows::log_monitor_change(std::size_t window, const render::WindowInput& input) const {
-  std::string which = input.monitor;
-  if (const auto& rect = rects_[window]) {
-    which = fmt::format("under the {} x {} pixels at {}, {}", rect->size_px.x, rect->size_px.y, rect->offset_px.x,
-                        rect->offset_px.y);
-  }
+  const std::string what =
+      rects_[window] ? fmt::format("output \"{}\": its monitor", names_[window]) : "monitor " + input.monitor;
   const bool lost = input.monitor_change == render::WindowInput::MonitorChange::Lost;
-  core::log_line(fmt::format("monitor {} is {}", which,
-                             lost ? "lost; its window continues at a small size until the monitor returns"
-                                  : "back; its window fills it again"));
+  core::log_line(fmt::format("{} is {}", what,
+                             lost ? "lost; the window continues at a small size until the monitor returns"
+                                  : "back; the window fills its place again"));
 }
 
 std::vector<render::Window*> ViewWindows::all() const {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/live/view_outputs.h"
@@ -48,6 +49,7 @@ class ViewWindows {
   void log_monitor_change(std::size_t window, const render::WindowInput& input) const;
 
   std::vector<std::unique_ptr<render::Window>> windows_;
+  std::vector<std::string> names_;                      // of the outputs in the wall file
   std::vector<std::optional<scene::PixelRect>> rects_;  // of those that have their place by one
   std::vector<glm::dvec2> cursors_;                     // in each of them
   std::vector<glm::dvec2> origins_;                     // on the desktop

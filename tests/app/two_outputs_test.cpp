@@ -150,12 +150,12 @@ TEST_F(TwoOutputsTest, AMonitorUnderARectangleThatIsSwitchedOffAndOnAgainIsFille
   const auto place = [&] { return on_display("xdotool search --name 'right projector' getwindowgeometry").out; };
   EXPECT_THAT(place(), AllOf(HasSubstr("Position: 320,0"), HasSubstr("Geometry: 320x240")));
   monitors_.xrandr("--output DUMMY1 --off");
-  ASSERT_TRUE(program.says("monitor under the 320 x 240 pixels at 320, 0 is lost")) << program.said();
+  ASSERT_TRUE(program.says("output \"right projector\": its monitor is lost")) << program.said();
   EXPECT_THAT(place(), AllOf(HasSubstr("Position: 40,30"), HasSubstr("Geometry: 240x180")));
   ASSERT_EQ(on_display("xdotool key 1").exit_code, 0);
   ASSERT_TRUE(program.says("chosen: Mica")) << program.said();
   monitors_.xrandr("--output DUMMY1 --mode small --pos 320x0");
-  ASSERT_TRUE(program.says("monitor under the 320 x 240 pixels at 320, 0 is back")) << program.said();
+  ASSERT_TRUE(program.says("output \"right projector\": its monitor is back")) << program.said();
   EXPECT_THAT(place(), AllOf(HasSubstr("Position: 320,0"), HasSubstr("Geometry: 320x240")));
   program.signal(SIGTERM);
   EXPECT_EQ(program.ends(), 0) << program.said();
