@@ -30,7 +30,7 @@ constexpr std::size_t kBatchesAtOnce = 64;
 struct MasterLink::Parts {
   explicit Parts(const core::Clock& of_program) : clock(of_program) {}
 
-  void run(std::stop_token stop);
+  void run(const std::stop_token& stop);
   void write_model();
   void write_journal();
   void write_history();
@@ -69,7 +69,7 @@ struct MasterLink::Parts {
   std::jthread thread;  // last: it ends before what it uses
 };
 
-void MasterLink::Parts::run(std::stop_token stop) {
+void MasterLink::Parts::run(const std::stop_token& stop) {
   ::pthread_setname_np(::pthread_self(), kThreadName);
   transport->belong_to_this_thread();
   write_model();
@@ -170,7 +170,7 @@ core::Result<std::unique_ptr<MasterLink>> MasterLink::open(const ClusterNetwork&
         "one of the two another --domain");
   }
   Parts& running = *parts;
-  parts->thread = std::jthread([&running](std::stop_token stop) { running.run(std::move(stop)); });
+  parts->thread = std::jthread([&running](const std::stop_token& stop) { running.run(stop); });
   return std::unique_ptr<MasterLink>(new MasterLink(std::move(parts)));
 }
 

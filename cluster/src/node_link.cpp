@@ -23,7 +23,7 @@ constexpr int kPauseMs = 100;  // the thread looks whether it is to end
 struct NodeLink::Parts {
   explicit Parts(const core::Clock& of_program) : clock(of_program) {}
 
-  void run(std::stop_token stop);
+  void run(const std::stop_token& stop);
   void take();
 
   template <class Message>
@@ -62,7 +62,7 @@ struct NodeLink::Parts {
   std::jthread thread;  // last: it ends before what it uses
 };
 
-void NodeLink::Parts::run(std::stop_token stop) {
+void NodeLink::Parts::run(const std::stop_token& stop) {
   ::pthread_setname_np(::pthread_self(), kThreadName);
   transport->belong_to_this_thread();
   while (!stop.stop_requested()) {
@@ -123,7 +123,7 @@ core::Result<std::unique_ptr<NodeLink>> NodeLink::open(const ClusterNetwork& net
   if (!transport) return tl::unexpected(transport.error());
   parts->transport = std::move(*transport);
   Parts& running = *parts;
-  parts->thread = std::jthread([&running](std::stop_token stop) { running.run(std::move(stop)); });
+  parts->thread = std::jthread([&running](const std::stop_token& stop) { running.run(stop); });
   return std::unique_ptr<NodeLink>(new NodeLink(std::move(parts)));
 }
 

@@ -81,6 +81,11 @@ TEST_F(ClusterOutage, TwentyRestartsOfANodeEachShowTheWallAgain) {
   auto left = node("left", 1);
   const auto right = node("right", 2);
   const auto hand = begin();
+  press_at_master("1");
+  ASSERT_TRUE(hand->says("force on")) << hand->said();
+  // what the tip has scanned until then is computed anew each time
+  press_at_master("i");
+  ASSERT_TRUE(hand->says("scan: ")) << hand->said();
   for (int i = 0; i < 20; ++i) {
     left->signal(SIGKILL);
     left->ends();
