@@ -102,8 +102,10 @@ TEST_F(ClusterPixels, SixOutputsOnThreeNodesAreThoseOfOneMachineInEveryMode) {
                                       "v F1", "v 2"};
   ASSERT_EQ(keys.size(), 20U);
   for (const std::string& pressed : keys) {
-    press(pressed);
     hand.skip_what_it_said();
+    press(pressed);
+    const bool next_mode = pressed.starts_with("v");
+    ASSERT_TRUE(hand.says(next_mode ? "stereo: " : "chosen: ")) << pressed << hand.said();
     const auto end = std::chrono::steady_clock::now() + seconds(20);
     bool same = false;
     while (!same && std::chrono::steady_clock::now() < end) same = !rows_differ();
