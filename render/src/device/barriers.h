@@ -20,9 +20,11 @@ struct ImageUse {
 };
 
 // The uses that several passes have.
-inline constexpr ImageUse kColorWritten{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-                                        vk::AccessFlagBits2::eColorAttachmentWrite,
-                                        vk::ImageLayout::eColorAttachmentOptimal};
+inline constexpr ImageUse kColorDrawn{
+    vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+    // it is read where a pass loads what another has drawn
+    vk::AccessFlagBits2::eColorAttachmentRead | vk::AccessFlagBits2::eColorAttachmentWrite,
+    vk::ImageLayout::eColorAttachmentOptimal};
 inline constexpr ImageUse kDepthTested{
     vk::PipelineStageFlagBits2::eEarlyFragmentTests | vk::PipelineStageFlagBits2::eLateFragmentTests,
     vk::AccessFlagBits2::eDepthStencilAttachmentRead | vk::AccessFlagBits2::eDepthStencilAttachmentWrite,

@@ -286,7 +286,7 @@ void Composer::draw_parts(const vk::raii::CommandBuffer& command, ComposePipelin
   const auto pass = [&](std::uint32_t layer, const vk::Rect2D& filled, const vk::Rect2D& part) {
     const vk::RenderingAttachmentInfo color{
         .imageView = into.layers[layer],
-        .imageLayout = kColorWritten.layout,
+        .imageLayout = kColorDrawn.layout,
         .loadOp = filled == part ? vk::AttachmentLoadOp::eDontCare : vk::AttachmentLoadOp::eClear,
         .storeOp = vk::AttachmentStoreOp::eStore,
         .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
@@ -342,7 +342,7 @@ void Composer::record(const vk::raii::CommandBuffer& command, ComposePipeline& p
     }
   } else {
     const bool copied = into.takes_copies && shows_eyes_alone(eyes_, composition, place);
-    const ImageUse& used = copied ? kCopiedTo : kColorWritten;
+    const ImageUse& used = copied ? kCopiedTo : kColorDrawn;
     const ImageUse from = changed.everything() ? found.discarded() : found;
     record_barriers(command, {image_barrier(into.image, kColorAspect, from, used)});
     if (copied) {

@@ -322,16 +322,13 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
                              const Painting& painting) const {
   const Panel& panel = *painting.panel;
   const vk::Extent2D extent = panel.texture.image.extent;
-  const ImageUse drawn{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-                       vk::AccessFlagBits2::eColorAttachmentRead | vk::AccessFlagBits2::eColorAttachmentWrite,
-                       vk::ImageLayout::eColorAttachmentOptimal};
   const ImageUse sampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
                          vk::ImageLayout::eShaderReadOnlyOptimal};
   const PixelBox part =
       painting.whole ? PixelBox::whole(extent) : texels_of(panel.part, extent).within(PixelBox::whole(extent));
   if (part.empty()) return;
   record_barriers(command, {image_barrier(*panel.texture.image.image, kColorAspect,
-                                          painting.whole ? sampled.discarded() : sampled, drawn)});
+                                          painting.whole ? sampled.discarded() : sampled, kColorDrawn)});
   const vk::RenderingAttachmentInfo color{.imageView = *panel.texture.view,
                                           .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
                                           .loadOp = vk::AttachmentLoadOp::eClear,
@@ -359,7 +356,7 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
                         static_cast<std::int32_t>(painting.first_vertex + draw.VtxOffset), 0);
   }
   command.endRendering();
-  record_barriers(command, {image_barrier(*panel.texture.image.image, kColorAspect, drawn, sampled)});
+  record_barriers(command, {image_barrier(*panel.texture.image.image, kColorAspect, kColorDrawn, sampled)});
 }
 
 void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,

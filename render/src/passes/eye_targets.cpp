@@ -119,13 +119,12 @@ void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass,
                                     .loadOp = box ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear,
                                     .storeOp = vk::AttachmentStoreOp::eStore,
                                     .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};
-  record_barriers(command,
-                  {image_barrier(*to.color.image.image, kColorAspect, held(kEyesRead), kColorWritten, to.layers),
-                   image_barrier(*to.depth.image.image, kDepthAspect, held(kEyesRead),
-                                 resolves() ? kDepthResolved : kDepthTested, to.layers)});
+  record_barriers(command, {image_barrier(*to.color.image.image, kColorAspect, held(kEyesRead), kColorDrawn, to.layers),
+                            image_barrier(*to.depth.image.image, kDepthAspect, held(kEyesRead),
+                                          resolves() ? kDepthResolved : kDepthTested, to.layers)});
   if (resolves()) {
     const Multisampled& drawn = multisampled(pass);
-    record_barriers(command, {image_barrier(*drawn.color.image, kColorAspect, held(kColorWritten), kColorWritten),
+    record_barriers(command, {image_barrier(*drawn.color.image, kColorAspect, held(kColorDrawn), kColorDrawn),
                               image_barrier(*drawn.depth.image, kDepthAspect, held(kDepthTested), kDepthTested)});
     resolve(color, *drawn.color_view, vk::ResolveModeFlagBits::eAverage);
     resolve(depth, *drawn.depth_view, vk::ResolveModeFlagBits::eSampleZero);
@@ -145,7 +144,7 @@ void EyeTargets::end(const vk::raii::CommandBuffer& command, std::size_t pass,
                      const std::optional<PixelBox>& box) const {
   const Filled to = filled(pass);
   command.endRendering();
-  record_barriers(command, {image_barrier(*to.color.image.image, kColorAspect, kColorWritten, kEyesRead, to.layers),
+  record_barriers(command, {image_barrier(*to.color.image.image, kColorAspect, kColorDrawn, kEyesRead, to.layers),
                             image_barrier(*to.depth.image.image, kDepthAspect,
                                           resolves() ? kDepthResolved : kDepthTested, kEyesRead, to.layers)});
   if (copies(pass)) {
