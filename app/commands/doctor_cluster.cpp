@@ -161,7 +161,7 @@ core::Result<void> examine_cluster(const CommandContext& context, const ClusterC
   const bool whole = std::none_of(findings.begin(), findings.end(),
                                   [](const Finding& finding) { return finding.verdict == Verdict::Missing; });
   if (whole) return {};
-  return core::failure(core::ErrorCategory::Failed, "the wall is not whole; the fixes are above");
+  return core::failure(core::ErrorCategory::Failed, "the wall is incomplete; the fixes are above");
 }
 
 }  // namespace afm::app
