@@ -23,6 +23,7 @@ struct CommandContext {
 #define AFM_FOR_EACH_COMMAND(COMMAND) \
   COMMAND(demo)                       \
   COMMAND(view)                       \
+  COMMAND(node)                       \
   COMMAND(lesson)                     \
   COMMAND(curve)                      \
   COMMAND(scan)                       \

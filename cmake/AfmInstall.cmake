@@ -59,6 +59,7 @@ install(DIRECTORY ${assets}/guidance ${assets}/lessons ${assets}/models ${assets
         PATTERN *.rules EXCLUDE)
 install(FILES ${assets}/materials.toml ${assets}/probes.toml DESTINATION share/touchafm)
 install(FILES ${assets}/wands/70-touchafm-wands.rules DESTINATION lib/udev/rules.d)
+install(FILES ${assets}/cluster/touchafm-node@.service DESTINATION lib/systemd/user)
 install(FILES ${assets}/desktop/touchafm.desktop DESTINATION share/applications)
 install(FILES ${assets}/desktop/touchafm.svg DESTINATION share/icons/hicolor/scalable/apps)
 install(FILES ${reference}/touchafm.1.gz DESTINATION share/man/man1)

@@ -21,10 +21,10 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADER = "tests/mutants/mutant.h"
-FOLDERS = ["core", "physics", "scene", "haptics", "input", "render", "servo", "curves", "exhibit", "app"]
+FOLDERS = ["core", "physics", "scene", "haptics", "input", "render", "servo", "curves", "cluster", "exhibit", "app"]
 COUNTED_TWICE = ("haptics", "servo")
 MARKS = DRAWN = 4096  # as in mutant.h
-LEFT_OUT = {"long", "architecture", "soak", "fuzz", "guest"}  # labels
+LEFT_OUT = {"long", "architecture", "soak", "fuzz", "guest", "cluster"}  # labels
 
 
 COMPARISONS = {"<": ("<=", "Less"), "<=": ("<", "LessEqual"), ">": (">=", "Greater"), ">=": (">", "GreaterEqual"),

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "app/bench/cluster_benchmarks.h"
 #include "app/bench/haptics_benchmarks.h"
 #include "app/bench/render_benchmarks.h"
 #include "app/command.h"
@@ -32,7 +33,7 @@ core::Result<void> become_benchmarks(const std::string& program, bool as_json) {
 
 void add_bench_command(OptionList& program, const CommandContext& context) {
   OptionList bench =
-      program.add_command("bench", "measure the performance of physics, servo and renderer on this machine");
+      program.add_command("bench", "measure the performance of physics, servo, renderer and cluster on this machine");
   bench.footer(
       "A missed target does not change the exit code.\n"
       "example: touchafm bench physics");
@@ -45,6 +46,7 @@ void add_bench_command(OptionList& program, const CommandContext& context) {
   physics.when_chosen([as_json, &context] { return become_benchmarks(context.program_path, *as_json); });
   add_haptics_benchmarks(bench, context);
   add_render_benchmarks(bench, context);
+  add_cluster_benchmarks(bench, context);
 }
 
 }  // namespace afm::app

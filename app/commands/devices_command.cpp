@@ -10,6 +10,7 @@
 
 #include "app/command.h"
 #include "app/headset/headset_runtime.h"
+#include "cluster/network.h"
 #include "core/clock.h"
 #include "core/printable.h"
 #include "input/dtrack_source.h"
@@ -81,6 +82,15 @@ void look_for_monitors(std::vector<Row>& rows) {
   if (monitors->empty()) rows.push_back({"monitor", "any", false, "no monitor of this display is switched on"});
 }
 
+// Those that can connect the machines of a wall.
+void look_for_interfaces(std::vector<Row>& rows) {
+  for (const cluster::NetworkInterface& one : cluster::network_interfaces()) {
+    rows.push_back({"network", one.name, one.up,
+                    fmt::format("{}, {}{}", one.address, one.multicast ? "multicast" : "no multicast",
+                                one.up ? "" : ", no cable or switched off")});
+  }
+}
+
 // Where wands and trackers are looked for.
 struct WandPlaces {
   std::vector<input::HidMapping> mappings;
@@ -121,6 +131,7 @@ std::vector<Row> look_for_devices(const WandPlaces& places) {
   look_for_hid_wands(places.mappings, rows);
   rows.push_back(listen_for_tracker(places.tracker));
   rows.push_back({"wand", "simulated wand", true, "needs no device"});
+  look_for_interfaces(rows);
   return rows;
 }
 
@@ -152,8 +163,8 @@ core::Result<void> list(const std::string& assets_dir, const std::string& wand_f
 
 void add_devices_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command("devices",
-                                           "list the Vulkan devices, monitors, headset, haptic devices, wands and "
-                                           "trackers, and explain why any of them is unusable");
+                                           "list the Vulkan devices, monitors, headset, haptic devices, wands, "
+                                           "trackers and network interfaces, and explain why any of them is unusable");
   const auto json = std::make_shared<bool>(false);
   command.add_flag("--json", *json, "print the list as JSON");
   const auto wand_file = std::make_shared<std::string>();

@@ -12,6 +12,7 @@
 #include "app/bench/servo_latency.h"
 #include "app/command.h"
 #include "app/commands/diagnosis.h"
+#include "app/commands/doctor_cluster.h"
 #include "app/commands/fault_bundle.h"
 #include "core/log.h"
 #include "core/percentiles.h"
@@ -164,11 +165,30 @@ void add_doctor_command(OptionList& program, const CommandContext& context) {
                   "names of people, of this computer or of home folders")
       .writable_file()
       .type_name("FILE");
+  const auto cluster = std::make_shared<ClusterCheck>();
+  const Option wall = command
+                          .add_option("--cluster", cluster->wall,
+                                      "check the machines of this wall file instead, each of which runs touchafm "
+                                      "node; exit code 1 if one does not show its part")
+                          .type_name("FILE");
+  add_network_options(command, cluster->cluster);
+  command.add_option("--patience", cluster->seconds, "with --cluster, time for the machines to answer, s")
+      .within(1.0, 600.0)
+      .show_default()
+      .type_name("SECONDS");
   command.footer(
       "example: touchafm doctor --seconds 10\n"
       "         touchafm doctor --bundle fault.txt\n"
-      "Needs no special rights and changes nothing. The exit code is 0 whatever it finds, except with --lab.");
-  command.when_chosen([&context, options] { return examine(context.program_path, *options); });
+      "         touchafm doctor --cluster wall.toml\n"
+      "Needs no special rights and changes nothing. The exit code is 0 whatever it finds, except with --lab and\n"
+      "--cluster.");
+  command.when_chosen([&context, options, cluster, wall] {
+    if (!wall.given()) return examine(context.program_path, *options);
+    cluster->json = options->json;
+    cluster->files.assets_dir = context.assets_dir;
+    cluster->files.language = context.language;
+    return examine_cluster(context, *cluster);
+  });
 }
 
 }  // namespace afm::app

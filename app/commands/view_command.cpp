@@ -92,24 +92,6 @@ double expected_aspect(const DisplayOptions& display) {
   return eye.x / eye.y;
 }
 
-// The samples of the stage as the servo gets them, with the surfaces that the stage draws.
-core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction) {
-  std::vector<curves::SampleModel> materials;
-  // the paper's law has no friction: with one the window begins with the law of the adhesion map
-  curves::ModelName law;
-  law.automatic = friction != physics::FrictionLaw::None;
-  for (const scene::MaterialEntry& entry : stage.materials.materials) {
-    auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, law, friction});
-    if (!model) return tl::unexpected(model.error());
-    stage.wall_scene.lay_surface_on(model->parameters, materials.size());
-    if (stage.wall_scene.topography().columns > 0) {
-      core::log_line(exhibit::smoothing_note(*model, stage.wall_scene.topography()));
-    }
-    materials.push_back(std::move(*model));
-  }
-  return materials;
-}
-
 void add_picture_options(OptionList& command, ViewOptions& options) {
   add_stereo_options(command, options.display.picture, "the outputs of the wall file, otherwise mono");
   command.add_flag("--fullscreen", options.display.window.full_screen,
@@ -245,6 +227,23 @@ void add_exhibition_options(OptionList& command, ViewOptions& options) {
 
 }  // namespace
 
+core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction) {
+  std::vector<curves::SampleModel> materials;
+  // the paper's law has no friction: with one the window begins with the law of the adhesion map
+  curves::ModelName law;
+  law.automatic = friction != physics::FrictionLaw::None;
+  for (const scene::MaterialEntry& entry : stage.materials.materials) {
+    auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, law, friction});
+    if (!model) return tl::unexpected(model.error());
+    stage.wall_scene.lay_surface_on(model->parameters, materials.size());
+    if (stage.wall_scene.topography().columns > 0) {
+      core::log_line(exhibit::smoothing_note(*model, stage.wall_scene.topography()));
+    }
+    materials.push_back(std::move(*model));
+  }
+  return materials;
+}
+
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson) {
   const core::CodeOfInterruption released(core::ExitCode::Done);
   const core::MonotonicClock clock;
@@ -282,6 +281,17 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
                             stage->wall_scene.height_fields(), {}, stage->wall_scene.topography().size());
   if (!model) return tl::unexpected(model.error());
 
+  std::unique_ptr<ClusterMaster> cluster;
+  if (options.cluster.wanted) {
+    auto started =
+        start_cluster(options.cluster, options.files,
+                      {options.friction, options.display.picture, options.display.contrast}, program, *stage, clock);
+    if (!started) return tl::unexpected(started.error());
+    cluster = std::move(*started);
+  } else if (auto alone = check_one_machine(stage->wall, options.display.window); !alone) {
+    return alone;
+  }
+  settings.cluster = cluster.get();
   auto display = ViewDisplay::open(*stage, options.display, runtime.get(), clock);
   if (!display) return tl::unexpected(display.error());
   ViewWindows& windows = (*display)->windows();
@@ -336,11 +346,12 @@ void add_view_command(OptionList& program, const CommandContext& context) {
       .one_value_each()
       .type_name("MATERIAL");
   add_window_options(command, *options);
-  command.add_flag(
-      "--headset", options->headset,
-      "show the picture in a headset through OpenXR, at true scale; its controller is a wand, and the window "
-      "mirrors the left eye");
+  Option headset =
+      command.add_flag("--headset", options->headset,
+                       "show the picture in a headset through OpenXR, at true scale; its controller is a wand, and the "
+                       "window mirrors the left eye");
   add_exhibition_options(command, *options);
+  headset.excludes(add_cluster_options(command, options->cluster));
   command.when_chosen([options, &context]() -> core::Result<void> {
     if (!options->kiosk) return run_view(*options, context.program_path);
     const core::CodeOfInterruption released(core::ExitCode::Done);

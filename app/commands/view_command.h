@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/cluster/cluster_start.h"
 #include "app/command.h"
 #include "app/lesson/live_lesson.h"
 #include "app/live/live_view.h"
@@ -30,6 +31,7 @@ struct ViewOptions {
   servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = 10.0}};
   std::int64_t spin_us = 0;
   WandOptions wand;
+  ClusterOptions cluster;
 };
 
 // A lesson that guides through the window.
@@ -40,6 +42,9 @@ struct ViewLesson {
 
 // Opens the window and runs it to its end; `lesson` may be null. `program` is the running touchafm.
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson = nullptr);
+
+// The samples of the stage as the servo gets them, with the surfaces that the stage draws.
+core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction);
 
 // Options of the window that a lesson has too: picture, wand, device, sound and speech.
 void add_window_options(OptionList& command, ViewOptions& options);

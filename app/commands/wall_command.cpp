@@ -17,6 +17,7 @@
 #include "app/command.h"
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
+#include "cluster/network.h"
 #include "exhibit/calibration.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/stage_place.h"
@@ -33,6 +34,7 @@ struct WallOptions {
   std::optional<scene::HeadPose> head;  // instead of the viewer's sweet spot
   bool json = false;
   bool test_pattern = false;
+  bool start = false;
   std::string out;
   exhibit::PictureOptions picture;
   exhibit::ExhibitFiles files;  // its language
@@ -154,7 +156,8 @@ void explain_output(const scene::Wall& wall, const scene::Output& output) {
   const std::string where = output.monitor.empty() ? fmt::format("{} x {} pixels at {}, {}", size.x, size.y,
                                                                  output.rect.offset_px.x, output.rect.offset_px.y)
                                                    : fmt::format("all of monitor {}", output.monitor);
-  std::printf("output %s: screen %s, %s%s%s, %s%s\n", output.name.c_str(), screen.name.c_str(),
+  const std::string on_node = output.node ? fmt::format("node {}, ", wall.nodes[*output.node].name) : std::string();
+  std::printf("output %s: %sscreen %s, %s%s%s, %s%s\n", output.name.c_str(), on_node.c_str(), screen.name.c_str(),
               std::string(scene::name_of(output.mode)).c_str(),
               !output.eye                       ? ""
               : *output.eye == scene::Eye::Left ? ", left eye"
@@ -231,6 +234,22 @@ core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions&
   return drawing->write(scene, millimetre_m, build, options.out);
 }
 
+// For each node the line that starts it, and at the end the one for this machine.
+core::Result<void> print_start(const scene::Wall& wall, const std::string& file) {
+  if (wall.nodes.empty()) {
+    return core::wrong_usage(
+        fmt::format("{} names no other machine: add [[node]] to it, with a name and a host", file));
+  }
+  for (const scene::WallNode& node : wall.nodes) {
+    const auto address = cluster::address_of_host(node.host);
+    if (!address) return tl::unexpected(address.error());
+    std::printf("ssh %s DISPLAY=:0 touchafm node %s --interface %s\n", node.host.c_str(), node.name.c_str(),
+                address->c_str());
+  }
+  std::printf("touchafm view --wall %s --cluster\n", file.c_str());
+  return {};
+}
+
 core::Result<void> run_wall(const WallOptions& options) {
   if (options.test_pattern == options.out.empty()) {
     return core::failure(core::ErrorCategory::WrongUsage,
@@ -239,6 +258,7 @@ core::Result<void> run_wall(const WallOptions& options) {
   const auto wall = scene::load_wall(options.file);
   if (!wall) return tl::unexpected(wall.error());
   if (options.test_pattern) return draw_test_pattern(*wall, options);
+  if (options.start) return print_start(*wall, options.file);
   const scene::Viewer& viewer = wall->viewers.front();
   const double ipd_m = options.picture.ipd_m.value_or(viewer.ipd_m);
   const scene::HeadPose head = options.head.value_or(viewer.sweet_spot);
@@ -287,6 +307,7 @@ void add_wall_command(OptionList& program, const CommandContext& context) {
   command.add_flag("--test-pattern", options->test_pattern,
                    "draw the calibration picture: grid, cross, circle, ruler, L and R; needs --out");
   command.add_option("--out", options->out, "PNG file for the test pattern").writable_file().type_name("FILE.png");
+  command.add_flag("--start", options->start, "print the commands that start a wall of several machines, one for each");
   pixel_size_option(command, "--size", options->picture.size_px, "size of the whole test pattern in pixels");
   add_stereo_options(command, options->picture, "the outputs of the wall file, otherwise side-by-side");
   add_phrase_options(command, options->files, context);

@@ -14,7 +14,7 @@
 #include "core/interruption.h"
 #include "core/log.h"
 #include "exhibit/blank_picture.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/cluster/frame_inputs.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/servo_rows.h"
 #include "exhibit/shared_model.h"
@@ -61,15 +61,20 @@ LiveView::LiveView(const exhibit::Stage& stage, const std::vector<curves::Sample
       travel_(settings.headset == nullptr ? exhibit::JourneyTravel::Motion::Glide
                                           : exhibit::JourneyTravel::Motion::Steps),
       visitor_(static_cast<std::int64_t>(settings.idle_s * 1e9)),
+      cluster_(settings.cluster),
       lesson_(settings.lesson),
       instructor_(settings.instructor) {
   panels_.set_friction(&servo_.friction());
   if (settings_.unattended) panels_.show_visitors_keys_only();
   if (lesson_ != nullptr) panels_.use_for(WallUse::Lesson);
-  servo_.hear([this](const scene::TipSample& sample) { paint_with(sample); });
-  if (lesson_ != nullptr) {
-    servo_.hear_jumps([this](const scene::TipEvent& event) { lesson_->happened(event, servo_.link()); });
-  }
+  servo_.hear([this](const scene::TipSample& sample) {
+    paint_with(sample);
+    if (cluster_ != nullptr) cluster_->hear(sample);
+  });
+  servo_.hear_jumps([this](const scene::TipEvent& event) {
+    if (lesson_ != nullptr) lesson_->happened(event, servo_.link());
+    if (cluster_ != nullptr) cluster_->hear(event);
+  });
 }
 
 void LiveView::begin_with(servo::ServoClient& servo, std::optional<std::size_t> felt_before) {
@@ -101,6 +106,7 @@ core::Result<void> LiveView::run() {
   }
   head_.log_latency();
   view_wand_.log_losses();
+  if (cluster_ != nullptr) cluster_->log_summary();
   servo_.finish();  // releases the hand and saves the session while the last picture is still visible
   if (lost) return tl::unexpected(*lost);
   picture_.finish();
@@ -116,9 +122,10 @@ void LiveView::run_frame(std::int64_t now_ns) {
   if (std::exchange(cursor_px_, input.cursor_px) != input.cursor_px && !hand_.dragging()) cursor_moved_ns_ = now_ns;
   if (settings_.unattended) follow_visitor(input, now_ns);
   move_hand(input, now_ns);
+  share_scan();
   servo_.update(now_ns);
   follow_wand(now_ns);
-  if (windows_.hidden() && settings_.headset == nullptr) {
+  if (windows_.hidden() && settings_.headset == nullptr && cluster_ == nullptr) {
     picture_.rest();
     windows_.at(0).wait(kHiddenPauseS);
     return;
@@ -231,6 +238,7 @@ void LiveView::next_scale() {
 // Everything as after the start: also the way to go on after the servo has died.
 void LiveView::begin_again() {
   servo_.forget_cycles();
+  if (cluster_ != nullptr) cluster_->forget();
   if (lesson_ != nullptr) lesson_->forget_laid();
   end_scan();
   hand_.lift();
@@ -331,29 +339,10 @@ exhibit::Moment LiveView::moment(const Pointed& pointed, std::int64_t now_ns) {
 
 // What the servo has taken is what the wall shows.
 void LiveView::follow_edits() {
-  const auto current = servo_.material();
-  if (!current) return;
-  const exhibit::ChangeState state = panels_.edits().state(*current, servo_.link().tip());
-  const curves::SampleModel& edited = panels_.edits().of(*current).model();
-  const bool taken = state == exhibit::ChangeState::Applied || state == exhibit::ChangeState::AsLoaded;
-  if (!taken || felt_[*current].tables == edited.tables) return;
-  felt_[*current] = edited;
-  sound_.set_ear(*current, edited);
+  if (!panels_.edits().take_felt(servo_.link().tip(), felt_)) return;
+  const std::size_t current = *servo_.material();
+  sound_.set_ear(current, felt_[current]);
   core::log_line("the changed parameters are now in effect");
-}
-
-// So that the wall can be drawn again as it is now.
-void LiveView::record(const exhibit::Moment& now) {
-  if (!servo_.recording()) return;
-  servo::WallFrame shown = exhibit::wall_frame_of(now, servo_.link().tip().time_ns, stage_.materials.names());
-  shown.room_from_sample = servo_.link().room_from_sample();
-  const ViewPicture::Viewing viewing = picture_.viewing();
-  shown.head = exhibit::recorded(viewing.head);
-  shown.ipd_m = viewing.ipd_m;
-  shown.stereo = scene::name_of(viewing.mode);
-  shown.eyes_swapped = viewing.order == scene::EyeOrder::Swapped;
-  shown.panels = panels_.shown();
-  servo_.record(shown);
 }
 
 void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
@@ -363,7 +352,9 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   follow_lesson(now_ns);
   follow_scan(now_ns);
   const Pointed pointed = wand_points() ? wand_pointed_at() : pointed_at(input.window, input.cursor_px);
-  const exhibit::Moment now = moment(pointed, now_ns);
+  exhibit::Moment now = moment(pointed, now_ns);
+  cluster::FrameMessage shared;
+  if (cluster_ != nullptr) now = share(now, pointed, shared);
   render::FrameState frame = frames_.build(now);
   servo_.link().place(exhibit::shared_transforms(frame.room_from_node));
   record(now);
@@ -372,15 +363,17 @@ void LiveView::draw(const ViewInput& input, std::int64_t now_ns) {
   const std::string said = guidance(stage_.english);
   if (std::exchange(logged_guidance_, said) != said) core::log_line(said);
 
-  const auto material = travel_.orders() ? std::nullopt : servo_.material();
-  panels_.add_to(frame, pointed, material,
-                 material ? stage_.phrases().word(stage_.materials.materials[*material].title) : "",
-                 servo_.link().tip(), hand());
-  panels_.add_note(frame, now.wall.centerpiece, sound_.narrator().caption());
+  const Panelled panelled{.pointed = pointed, .hand = hand(), .tip = servo_.link().tip()};
+  // as the other machines got it, which may be the one before
+  const std::string caption = cluster_ != nullptr ? exhibit::caption_of(shared) : sound_.narrator().caption();
+  add_panels(stage_, panels_, now, panelled, caption, frame);
   add_lesson(frame);
   if (blank_) exhibit::blank(frame);
+  if (cluster_ != nullptr) share_built(shared, frame);
   const bool off_wall = std::abs(before_wall_m()) > kBesideWallM;
-  picture_.show(frame, off_wall ? exhibit::Relief::BringToWall : exhibit::Relief::NarrowEyes, now_ns, beat);
+  picture_.show(frame, off_wall ? exhibit::Relief::BringToWall : exhibit::Relief::NarrowEyes, now_ns, beat, [&] {
+    if (cluster_ != nullptr) cluster_->barrier(beat);
+  });
   show_to_instructor(now_ns, beat);
   const std::int64_t presented_ns = clock_.now_ns();
   log_frame(now_ns, presented_ns, head_.presented(presented_ns));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cluster/cluster_master.h"
 #include "app/headset/view_headset.h"
 #include "app/lesson/instructor_window.h"
 #include "app/lesson/live_lesson.h"
@@ -49,6 +50,7 @@ struct ViewSettings {
   std::string record_folder;  // for the sessions of what is felt; empty: none is kept
   LiveSoundSettings sound;
   ViewHeadset* headset = nullptr;          // that shows the picture, and must outlive it; none
+  ClusterMaster* cluster = nullptr;        // the other machines of the wall, which must outlive it; none
   LiveLesson* lesson = nullptr;            // that guides through the window, and must outlive it; none
   InstructorWindow* instructor = nullptr;  // of a lesson, the same
 };
@@ -144,6 +146,9 @@ class LiveView {
   std::string guidance(const exhibit::Phrases& phrases) const;
   std::optional<std::string> scan_guidance(const exhibit::Phrases& phrases) const;
   void record(const exhibit::Moment& now);
+  exhibit::Moment share(const exhibit::Moment& now, const Pointed& pointed, cluster::FrameMessage& message);
+  void share_scan();
+  void share_built(const cluster::FrameMessage& message, render::FrameState& frame);
   void draw(const ViewInput& input, std::int64_t now_ns);
   void log_frame(std::int64_t begun_ns, std::int64_t presented_ns, std::optional<double> head_latency_s);
   void pace(std::int64_t frame_start_ns) const;
@@ -176,6 +181,7 @@ class LiveView {
   bool analogy_ = false;
   std::optional<exhibit::LiveScan> scan_;
   std::size_t scanned_ = 0;      // the material of that scan
+  std::uint64_t scans_ = 0;      // that were begun
   std::int64_t scanned_ns_ = 0;  // until when it has been scanned
   scene::ScanHand scan_hand_ = scene::ScanHand::Apart;
   bool scan_feedback_ = true;
@@ -191,6 +197,7 @@ class LiveView {
   glm::dvec3 hand_seen_m_{0.0};  // of a device that a hand moves, at its last motion
   std::int64_t wand_seen_ns_ = 0;
   glm::dvec2 cursor_seen_px_{0.0};
+  ClusterMaster* cluster_;
   LiveLesson* lesson_;
   InstructorWindow* instructor_;
   bool hand_off_ = false;  // the instructor keeps the force away

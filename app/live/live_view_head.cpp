@@ -6,6 +6,7 @@
 
 #include "app/live/live_view.h"
 #include "core/log.h"
+#include "exhibit/recorded_wall.h"
 
 namespace afm::app {
 
@@ -27,6 +28,20 @@ void LiveView::move_head(double right_m, double up_m, double nearer_m) {
   const glm::dvec3 right = glm::normalize(screen.lower_right - screen.lower_left), normal = screen.normal();
   simulated_head_.step(right_m * right + up_m * glm::cross(normal, right) - nearer_m * normal);
   core::log_line(fmt::format("head: {:+.2f} m to the right, {:+.2f} m up, {:+.2f} m nearer", right_m, up_m, nearer_m));
+}
+
+// So that the wall can be drawn again as it is now.
+void LiveView::record(const exhibit::Moment& now) {
+  if (!servo_.recording()) return;
+  servo::WallFrame shown = exhibit::wall_frame_of(now, servo_.link().tip().time_ns, stage_.materials.names());
+  shown.room_from_sample = servo_.link().room_from_sample();
+  const ViewPicture::Viewing viewing = picture_.viewing();
+  shown.head = exhibit::recorded(viewing.head);
+  shown.ipd_m = viewing.ipd_m;
+  shown.stereo = scene::name_of(viewing.mode);
+  shown.eyes_swapped = viewing.order == scene::EyeOrder::Swapped;
+  shown.panels = panels_.shown();
+  servo_.record(shown);
 }
 
 void LiveView::log_frame(std::int64_t begun_ns, std::int64_t presented_ns, std::optional<double> head_latency_s) {

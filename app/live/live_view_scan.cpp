@@ -55,6 +55,7 @@ void LiveView::begin_scan() {
   exhibit::ScanSubject subject = exhibit::scan_subject(stage_.wall_scene, scanned_, felt_[scanned_]);
   const auto hand = hand_part(subject);
   scan_.emplace(std::move(subject), hand);
+  ++scans_;
   if (settings) scan_->choose(*settings);
   panels_.set_scan(&*scan_);
   if (scan_->is_painted() && this->hand() == HandSource::Mouse) hand_.scan(true);

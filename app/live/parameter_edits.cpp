@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live/parameter_edits.h"
 
+#include <algorithm>
+#include <array>
+
 namespace afm::app {
 
 curves::LiveParameters& ParameterEdits::parameters(std::size_t material) {
@@ -10,6 +13,39 @@ curves::LiveParameters& ParameterEdits::parameters(std::size_t material) {
 }
 
 const curves::LiveParameters& ParameterEdits::of(std::size_t material) { return parameters(material); }
+
+std::optional<cluster::EditRecord> ParameterEdits::recorded(std::size_t material) const {
+  const Edit& edit = edits_[material];
+  if (!edit.parameters) return std::nullopt;
+  const curves::LiveParameters::State state = edit.parameters->state();
+  cluster::EditRecord record{.material = static_cast<std::uint32_t>(material), .revision = edit.revision};
+  static_assert(std::tuple_size_v<decltype(record.steps)> == curves::LiveParameters::kRows);
+  std::copy(state.steps.begin(), state.steps.end(), record.steps.begin());
+  if (state.refused) record.refused_row = static_cast<std::int32_t>(*state.refused);
+  record.refused_direction = state.refused_direction;
+  return record;
+}
+
+bool ParameterEdits::follow(const cluster::EditRecord& edit) {
+  if (edit.material >= edits_.size()) return false;
+  edits_[edit.material].revision = edit.revision;
+  curves::LiveParameters::State state;
+  state.refused_direction = edit.refused_direction;
+  std::copy(edit.steps.begin(), edit.steps.end(), state.steps.begin());
+  if (edit.refused_row >= 0) state.refused = static_cast<curves::LiveParameters::Row>(edit.refused_row);
+  return parameters(edit.material).restore(state);
+}
+
+bool ParameterEdits::take_felt(const scene::TipState& tip, std::vector<curves::SampleModel>& felt) {
+  if (tip.material < 0) return false;
+  const auto material = static_cast<std::size_t>(tip.material);
+  const exhibit::ChangeState now = state(material, tip);
+  const curves::SampleModel& edited = parameters(material).model();
+  const bool taken = now == exhibit::ChangeState::Applied || now == exhibit::ChangeState::AsLoaded;
+  if (!taken || felt[material].tables == edited.tables) return false;
+  felt[material] = edited;
+  return true;
+}
 
 bool ParameterEdits::changed(std::size_t material) const {
   const Edit& edit = edits_[material];

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "cluster/messages.h"
 #include "curves/live_parameters.h"
 #include "exhibit/parameter_panel.h"
 #include "render/frame.h"
@@ -30,6 +31,14 @@ class ParameterEdits {
 
   // Of a material that has been asked for before; made from what was loaded if it has not.
   const curves::LiveParameters& of(std::size_t material);
+
+  // All that a person has set of a material, for other machines of the wall; nothing as long as it is as loaded. And
+  // the same there; false: it cannot be.
+  std::optional<cluster::EditRecord> recorded(std::size_t material) const;
+  bool follow(const cluster::EditRecord& edit);
+
+  // What the servo has taken of the material under the tip becomes what is felt. Whether anything changed.
+  bool take_felt(const scene::TipState& tip, std::vector<curves::SampleModel>& felt);
 
   bool changed(std::size_t material) const;
   exhibit::ChangeState state(std::size_t material, const scene::TipState& tip) const;

@@ -56,6 +56,44 @@ void ViewPanels::show(std::string_view panels) {
                                   : RightPanel::Data;
 }
 
+cluster::ShownPanels ViewPanels::told(const Pointed& pointed, HandSource hand) const {
+  using Shown = cluster::ShownPanels;
+  Shown shown{.right = static_cast<std::uint32_t>(right_),
+              .marked = static_cast<std::uint32_t>(std::min<std::size_t>(marked_, Shown::kMostRows - 1)),
+              .hand = static_cast<std::uint32_t>(hand)};
+  const auto flag = [&](bool set, std::uint32_t bit) { shown.flags |= set ? bit : 0U; };
+  flag(keys_shown_, Shown::kKeys);
+  flag(hidden_, Shown::kHidden);
+  flag(keys_known_, Shown::kKeysKnown);
+  flag(marking_, Shown::kMarking);
+  flag(unattended_, Shown::kUnattended);
+  flag(pointed.tab, Shown::kTab);
+  if (pointed.control) {
+    shown.flags |= Shown::kControl;
+    shown.control_kind = static_cast<std::uint32_t>(pointed.control->kind);
+    shown.control_index = static_cast<std::uint32_t>(pointed.control->index);
+  }
+  return shown;
+}
+
+ViewPanels::Told ViewPanels::follow(const cluster::ShownPanels& panels) {
+  using Shown = cluster::ShownPanels;
+  const auto flag = [&](std::uint32_t bit) { return (panels.flags & bit) != 0; };
+  keys_shown_ = flag(Shown::kKeys);
+  hidden_ = flag(Shown::kHidden);
+  keys_known_ = flag(Shown::kKeysKnown);
+  marking_ = flag(Shown::kMarking);
+  unattended_ = flag(Shown::kUnattended);
+  right_ = static_cast<RightPanel>(panels.right);
+  marked_ = panels.marked;
+  Told told{.pointed = {.control = {}, .tab = flag(Shown::kTab), .swatch = {}},
+            .hand = static_cast<HandSource>(panels.hand)};
+  if (flag(Shown::kControl)) {
+    told.pointed.control = {static_cast<render::ControlTarget::Kind>(panels.control_kind), panels.control_index};
+  }
+  return told;
+}
+
 Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m,
                                std::optional<std::size_t> material) {
   Pointed pointed{.control = {}, .tab = false, .swatch = {}, .point_m = wall_point_m};
@@ -104,8 +142,8 @@ void ViewPanels::step_marked(int steps, std::size_t material, servo::ServoClient
   const std::size_t rows = control_panel(material, "", exhibit::ChangeState::AsLoaded).rows.size();
   marked_ = std::min(marked_, rows - 1);
   right_ = RightPanel::Parameters;
-  using Kind = render::ControlTarget::Kind;
-  change({steps > 0 ? Kind::More : Kind::Less, marked_}, material, servo);
+  using Control = render::ControlTarget::Kind;
+  change({steps > 0 ? Control::More : Control::Less, marked_}, material, servo);
 }
 
 void ViewPanels::change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo) {
@@ -178,6 +216,18 @@ void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::
     frame.data_placement = wall_scene_.parameter_placement();
     frame.loop_placement = frame.control_placement = render::kNoPlacement;
   }
+}
+
+void add_panels(const exhibit::Stage& stage, ViewPanels& panels, const exhibit::Moment& moment,
+                const Panelled& panelled, const std::string& caption, render::FrameState& frame) {
+  const bool travels = moment.wall.centerpiece == exhibit::Centerpiece::Journey;
+  const auto material = travels || panelled.tip.material < 0
+                            ? std::nullopt
+                            : std::optional(static_cast<std::size_t>(panelled.tip.material));
+  panels.add_to(frame, panelled.pointed, material,
+                material ? stage.phrases().word(stage.materials.materials[*material].title) : "", panelled.tip,
+                panelled.hand);
+  panels.add_note(frame, moment.wall.centerpiece, caption);
 }
 
 }  // namespace afm::app

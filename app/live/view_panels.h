@@ -7,8 +7,11 @@
 
 #include "app/live/parameter_edits.h"
 #include "app/live/view_keys.h"
+#include "cluster/frame_message.h"
+#include "exhibit/exhibit_setup.h"
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/guidance.h"
+#include "exhibit/moment.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/wall_scene.h"
 #include "input/wand.h"
@@ -67,6 +70,14 @@ class ViewPanels {
 
   ParameterEdits& edits() { return edits_; }
 
+  // What of it the other machines of a wall have to know, and the same there. `pointed` and `hand` as in add_to().
+  cluster::ShownPanels told(const Pointed& pointed, HandSource hand) const;
+  struct Told {
+    Pointed pointed;
+    HandSource hand = HandSource::Mouse;
+  };
+  Told follow(const cluster::ShownPanels& panels);
+
   // A short note below the left panel: the caption of what is heard; without one how to leave what is shown, and, until
   // F1 was used, where the keys are listed.
   void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece, const std::string& caption) const;
@@ -104,5 +115,16 @@ class ViewPanels {
   WallUse use_ = WallUse::Free;
   RightPanel right_ = RightPanel::Data;
 };
+
+// What the panels of a frame follow from, besides the moment.
+struct Panelled {
+  Pointed pointed;
+  HandSource hand = HandSource::Mouse;
+  scene::TipState tip{};
+};
+
+// All panels, and the note with the caption, as every machine of a wall shows them.
+void add_panels(const exhibit::Stage& stage, ViewPanels& panels, const exhibit::Moment& moment,
+                const Panelled& panelled, const std::string& caption, render::FrameState& frame);
 
 }  // namespace afm::app

@@ -10,6 +10,7 @@
 
 #include "core/log.h"
 #include "exhibit/calibration.h"
+#include "exhibit/cluster/frame_inputs.h"
 
 namespace afm::app {
 
@@ -55,7 +56,7 @@ ViewPicture::ViewPicture(const exhibit::Stage& stage, const std::vector<ViewOutp
 
 void ViewPicture::fit(std::int64_t now_ns) {
   if (settings_.headset != nullptr) return;
-  drawn_ipd_m_ = comfort_.ipd_m(settings_.ipd_m, now_ns);
+  if (!follows_) drawn_ipd_m_ = comfort_.ipd_m(settings_.ipd_m, now_ns);
   look_from(head_);
   const glm::uvec2 wanted = eye_size_for_all(stage_, outputs_, other_mode_, windows_);
   if (wanted != wanted_eye_px_) {
@@ -96,6 +97,40 @@ void ViewPicture::look_from(const scene::HeadPose& head) {
   for (Share& share : shares_) {
     if (const auto eyes = exhibit::eyes_before(share.screen, head, share.flat ? 0.0 : drawn_ipd_m_)) share.eyes = *eyes;
   }
+}
+
+cluster::ShownView ViewPicture::told() const {
+  using Shown = cluster::ShownView;
+  Shown view{.ipd_m = settings_.ipd_m, .drawn_ipd_m = drawn_ipd_m_};
+  exhibit::set_head(head_, view);
+  exhibit::set_depth(depth_, view);
+  if (other_mode_) view.mode = static_cast<std::int32_t>(*other_mode_);
+  if (other_order_ == scene::EyeOrder::Swapped) view.flags |= Shown::kSwapped;
+  if (calibrating_) view.flags |= Shown::kCalibration;
+  return view;
+}
+
+void ViewPicture::follow(const cluster::ShownView& view) {
+  using Shown = cluster::ShownView;
+  follows_ = true;
+  settings_.ipd_m = view.ipd_m;
+  drawn_ipd_m_ = view.drawn_ipd_m;
+  head_ = exhibit::head_of(view);
+  auto mode = view.mode < 0 ? std::nullopt : std::optional(static_cast<scene::StereoMode>(view.mode));
+  if (mode && !can_show(*mode)) mode.reset();  // its own, rather than none
+  const bool swapped = (view.flags & Shown::kSwapped) != 0;
+  const auto order = swapped ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight;
+  const bool calibrating = (view.flags & Shown::kCalibration) != 0;
+  const bool other = mode != other_mode_ || order != other_order_ || calibrating != calibrating_;
+  other_mode_ = mode;
+  other_order_ = order;
+  calibrating_ = calibrating;
+  if (other) {
+    share_out();
+  } else {
+    look_from(head_);
+  }
+  depth_ = exhibit::depth_of(view);
 }
 
 void ViewPicture::swap_eyes() {
@@ -151,7 +186,7 @@ WallPicture ViewPicture::picture(std::size_t window) const {
 
 // What an earlier frame asked of the eyes; logs when that begins to be too much, and now and then.
 void ViewPicture::measure_depth(exhibit::Relief relief, std::int64_t now_ns) {
-  if (shares_.front().flat || calibrating_ || now_ns - depth_measured_ns_ < kMeasureNs) return;
+  if (follows_ || shares_.front().flat || calibrating_ || now_ns - depth_measured_ns_ < kMeasureNs) return;
   depth_measured_ns_ = now_ns;
   if (const auto range = depth_meter_.newest()) {
     const bool was_hard = depth_.hard;
@@ -202,13 +237,14 @@ void ViewPicture::log_update(const std::vector<render::SavedPicture>& saved) {
 }
 
 void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::int64_t now_ns,
-                       const std::function<void()>& while_waiting) {
+                       const std::function<void()>& while_waiting, const std::function<void()>& before_showing) {
   if (settings_.headset != nullptr) return show_in_headset(frame, now_ns, while_waiting);
   if (!calibrating_ && !shares_.front().flat)
     frame.labels.push_back(exhibit::depth_label(depth_, stage_.screen, stage_.phrases()));
   while_waiting();
   if (!presenter_.begin(pictures_, while_waiting)) {
     times_.hidden();
+    before_showing();
     return;
   }
   for (const Share& share : shares_) {
@@ -226,6 +262,7 @@ void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::i
     presenter_.draw(share.windows, while_waiting);
     while_waiting();
   }
+  before_showing();
   presenter_.show();
   times_.shown(now_ns);
   while_waiting();

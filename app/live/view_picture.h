@@ -14,6 +14,7 @@
 #include "app/live/view_outputs.h"
 #include "app/live/view_windows.h"
 #include "app/options/dynamic_resolution.h"
+#include "cluster/frame_message.h"
 #include "exhibit/comfort_clamp.h"
 #include "exhibit/depth_report.h"
 #include "exhibit/exhibit_setup.h"
@@ -83,6 +84,10 @@ class ViewPicture {
   };
   Viewing viewing() const { return {head_, drawn_ipd_m_, mode(), other_order_}; }
 
+  // The same for the other machines of a wall, and there: from then on the depth is the one that was told.
+  cluster::ShownView told() const;
+  void follow(const cluster::ShownView& view);
+
   // As measured last; without text before the first measurement, and where both eyes see the same.
   const exhibit::DepthReport& depth() const { return depth_; }
 
@@ -90,9 +95,10 @@ class ViewPicture {
   std::optional<render::DataRow> quality_row() const;
 
   // Draws and shows a frame in all windows, with the depth meter in it, which advises `relief`; calls `while_waiting`
-  // often.
-  void show(render::FrameState& frame, exhibit::Relief relief, std::int64_t now_ns,
-            const std::function<void()>& while_waiting);
+  // often, and `before_showing` once all is drawn: it may wait until other machines have drawn it too.
+  void show(
+      render::FrameState& frame, exhibit::Relief relief, std::int64_t now_ns,
+      const std::function<void()>& while_waiting, const std::function<void()>& before_showing = [] {});
 
  private:
   // A picture that is drawn once and shown in one or more windows: a screen for two eyes or for the midpoint between
@@ -140,6 +146,7 @@ class ViewPicture {
   std::int64_t depth_logged_ns_ = 0;
   std::int64_t mirrored_ns_ = 0;
   bool calibrating_ = false;
+  bool follows_ = false;  // another machine decides how it is drawn
 };
 
 // The eye images that the windows have room for, as large as the largest of them needs, in another mode than the

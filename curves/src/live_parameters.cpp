@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -23,6 +24,7 @@ using physics::Law;
 constexpr double kOctavesOfStep = 0.25;
 constexpr physics::Pressure kStiffestModulus{1e12};  // where a step down from "rigid" begins
 constexpr int kDigits = 3;
+constexpr int kMostSteps = 200;  // far beyond any law
 constexpr double kPointsOfCycle = 400.0;
 
 // In the order in which the panel goes through them; none means the choice of the adhesion map.
@@ -89,6 +91,29 @@ bool LiveParameters::take(const Steps& steps) {
 }
 
 bool LiveParameters::step(Row row, int direction) {
+  const bool changed = try_step(row, direction);
+  const bool refused = !changed && !refusal_.empty();
+  refused_ = refused ? std::optional(row) : std::nullopt;
+  refused_direction_ = refused ? direction : 0;
+  return changed;
+}
+
+bool LiveParameters::restore(const State& state) {
+  const auto laws = static_cast<int>(choices_of_law().size());
+  for (std::size_t row = 0; row < kRows; ++row) {
+    const int steps = state.steps[row];
+    const bool known = static_cast<Row>(row) == Row::Law ? steps >= 0 && steps < laws : std::abs(steps) <= kMostSteps;
+    if (!known) return false;
+  }
+  if (state.steps != steps_ && !take(state.steps)) return false;
+  refusal_.clear();
+  refused_.reset();
+  refused_direction_ = 0;
+  if (state.refused) step(*state.refused, state.refused_direction > 0 ? 1 : -1);
+  return true;
+}
+
+bool LiveParameters::try_step(Row row, int direction) {
   Steps next = steps_;
   int& steps = next[index(row)];
   if (row != Row::Law) {
@@ -105,7 +130,12 @@ bool LiveParameters::step(Row row, int direction) {
   return false;
 }
 
-bool LiveParameters::reset() { return changed() && take({}); }
+bool LiveParameters::reset() {
+  if (!changed() || !take({})) return false;
+  refused_.reset();
+  refused_direction_ = 0;
+  return true;
+}
 
 std::string typographic(std::string text) {
   if (text.ends_with("m2")) text.replace(text.size() - 1, 1, "\u00b2");

@@ -16,6 +16,12 @@ constexpr double kKeptM = 0.00005;
 
 }  // namespace
 
+bool CycleHistory::sound() const {
+  const auto is_sound = [](const CycleCurve& curve) { return curve.sound(); };
+  return std::all_of(curves_.begin(), curves_.end(), is_sound) && next_.sound() && material_ >= -1 &&
+         material_ < static_cast<std::int32_t>(curves_.size()) && cycles_ >= 0;
+}
+
 void CycleHistory::begin(const scene::TipSample& sample) {
   material_ = sample.material;
   edit_revision_ = sample.edit_revision;

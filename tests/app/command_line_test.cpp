@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "core/whole_file.h"
 #include "haptics/device_registry.h"
 #include "places.h"
 #include "scene/shared/scale_modes.h"
@@ -39,7 +40,7 @@ void expect_refusal(const ProgramResult& result, int exit_code, const std::strin
 TEST(CommandLine, EveryCommandExplainsItself) {
   const ProgramResult all = touchafm("--help");
   EXPECT_EQ(all.exit_code, 0);
-  std::vector<std::string> commands{"bench haptics", "bench physics", "bench render"};
+  std::vector<std::string> commands{"bench cluster", "bench haptics", "bench physics", "bench render"};
   for (const Command& command : kCommands) {
     EXPECT_THAT(all.out, HasSubstr("\n  " + std::string(command.name) + " "));
     commands.emplace_back(command.name);
@@ -129,6 +130,31 @@ TEST(CommandLine, PrintsBothEyesOfAWallAsJson) {
   EXPECT_NEAR(frusta[1]["projection"][0].get<double>(), 2.0 * 2.5 / 3.048, 1e-12);
   EXPECT_LT(frusta[1]["projection"][5].get<double>(), 0.0);
   EXPECT_NEAR(frusta[1]["projection"][11].get<double>(), 0.1, 1e-12);
+}
+
+TEST(CommandLine, StartsAWallOfSeveralMachinesOrSaysWhatItLacks) {
+  const support::ScratchFolder folder;
+  std::string text = core::read_file(AFM_SOURCE_DIR "/assets/walls/powerwall.toml").value();
+  const std::string alone = folder.write("alone.toml", text);
+  text +=
+      "\n[[node]]\nname = \"left\"\nhost = \"127.0.0.1\"\n[[output]]\nname = \"far\"\nnode = \"left\"\nscreen = "
+      "\"powerwall\"\nmode = \"mono\"\nmonitor = \"DP-1\"\n";
+  const std::string wall = folder.write("wall.toml", text);
+  const ProgramResult lines = touchafm("wall " + wall + " --start");
+  EXPECT_EQ(lines.exit_code, 0) << lines.err;
+  EXPECT_EQ(lines.out, "ssh 127.0.0.1 DISPLAY=:0 touchafm node left --interface 127.0.0.1\ntouchafm view --wall " +
+                           wall + " --cluster\n");
+  EXPECT_THAT(touchafm("wall " + wall).out, HasSubstr("output far: node left, screen powerwall"));
+  expect_refusal(touchafm("wall " + alone + " --start"), 2, "[[node]]");
+  expect_refusal(touchafm("view --cluster --wall " + alone), 2, "[[node]]");
+  expect_refusal(touchafm("view --wall " + wall), 2, "--cluster");
+  expect_refusal(touchafm("view --cluster --interface 203.0.113.7 --wall " + wall), 2, "127.0.0.1 (lo)");
+  expect_refusal(touchafm("view --headset --cluster --wall " + wall), 2, "--headset");
+  expect_refusal(touchafm("node left"), 2, "--interface");
+  expect_refusal(touchafm("node left --interface lo --haptics sim"), 2, "--haptics");
+  expect_refusal(touchafm("node left --interface 203.0.113.7"), 2, "127.0.0.1 (lo)");
+  expect_refusal(touchafm("node left --interface lo --master nowhere.invalid"), 4, "nowhere.invalid");
+  expect_refusal(touchafm("doctor --cluster " + alone), 2, "[[node]]");
 }
 
 TEST(CommandLine, NamesEveryHapticDevice) {

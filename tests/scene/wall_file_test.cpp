@@ -123,6 +123,54 @@ TEST(WallFile, ReadsOutputs) {
   EXPECT_NEAR(corner.y / corner.z, 0.0, 1e-12);
 }
 
+constexpr const char* kNodes = R"(
+[[node]]
+name = "left"
+host = "10.0.0.2"
+
+[[node]]
+name = "right"
+host = "right-machine"
+)";
+
+std::string with_nodes(const std::string& from, const std::string& to) {
+  std::string text = kGood + std::string(kOutputs) + kNodes;
+  text.replace(text.find("right projector\"\n"), 17, "right projector\"\nnode = \"right\"\n");
+  text.replace(text.find("rect = [1400, 0, 1400, 1050]"), 28, "rect = [0, 0, 1400, 1050]");
+  text.replace(text.find(from), from.size(), to);
+  return text;
+}
+
+TEST(WallFile, GivesOutputsToNodesWhoseDesktopsMayHaveTheSamePlaces) {
+  const support::ScratchFolder folder;
+  auto wall = load_wall(folder.write("nodes.toml", with_nodes("left", "left")));
+  ASSERT_TRUE(wall.has_value()) << wall.error().message;
+  ASSERT_EQ(wall->nodes.size(), 2U);
+  EXPECT_EQ(wall->nodes[1].name, "right");
+  EXPECT_EQ(wall->nodes[1].host, "right-machine");
+  EXPECT_FALSE(wall->outputs[0].node);
+  EXPECT_EQ(wall->outputs[1].node, 1U);
+  Wall of_node = *wall;
+  keep_outputs_of(1, of_node);
+  ASSERT_EQ(of_node.outputs.size(), 1U);
+  EXPECT_EQ(of_node.outputs[0].name, "right projector");
+  keep_outputs_of(std::nullopt, *wall);
+  ASSERT_EQ(wall->outputs.size(), 1U);
+  EXPECT_EQ(wall->outputs[0].name, "left projector");
+}
+
+TEST(WallFile, NamesLineAndKeyOfEveryMistakeInANode) {
+  const auto both = [](const char* a, const char* b) { return AllOf(HasSubstr(a), HasSubstr(b)); };
+  EXPECT_THAT(error_of(with_nodes("name = \"left\"", "name = \"right\"")), both("node.name", "twice"));
+  EXPECT_THAT(error_of(with_nodes("node = \"right\"", "node = \"top\"")), both("output.node", "\"top\""));
+  EXPECT_THAT(error_of(with_nodes("host = \"10.0.0.2\"\n", "")), both("node.host", "missing"));
+  EXPECT_THAT(error_of(with_nodes("\"10.0.0.2\"", "\"-l; reboot\"")), both("node.host", "letters"));
+  EXPECT_THAT(error_of(with_nodes("name = \"left\"", "name = \"" + std::string(32, 'x') + "\"")),
+              both("node.name", "longer"));
+  EXPECT_THAT(error_of(with_nodes("host = \"10.0.0.2\"", "host = \"10.0.0.2\"\nuser = \"me\"")),
+              both("node.user", "unknown key"));
+}
+
 TEST(WallFile, NamesLineAndKeyOfEveryMistakeInAnOutput) {
   const auto both = [](const char* a, const char* b) { return AllOf(HasSubstr(a), HasSubstr(b)); };
   EXPECT_THAT(error_of(with_outputs("screen = \"wall\"\nmode = \"dual\"", "screen = \"well\"\nmode = \"dual\"")),

@@ -51,9 +51,11 @@ class VirtualDisplay {
 
   const std::string& name() const { return name_; }
 
-  // The whole screen, from the X window dump that Xvfb keeps it in.
+  // The X window dump that Xvfb keeps the whole screen in.
+  std::string framebuffer() const { return folder_.file("Xvfb_screen0"); }
+
   render::Image screenshot() const {
-    const std::string dump = core::read_file(folder_.file("Xvfb_screen0")).value();
+    const std::string dump = core::read_file(framebuffer()).value();
     const auto word = [&](std::size_t i) {
       std::uint32_t value = 0;
       for (std::size_t byte = 0; byte < 4; ++byte)

@@ -35,6 +35,18 @@ class LiveParameters {
   // Back to what was loaded. Whether anything changed.
   bool reset();
 
+  // All that it is, beyond what was loaded: so that another machine has the same.
+  struct State {
+    std::array<int, kRows> steps{};
+    std::optional<Row> refused;  // the row whose step changed nothing last
+    int refused_direction = 0;
+
+    bool operator==(const State&) const = default;
+  };
+  State state() const { return {steps_, refused_, refused_direction_}; }
+  // False, and nothing changes: there are no such parameters.
+  bool restore(const State& state);
+
   // As it would be felt now; its parameters are what the servo is to get.
   const SampleModel& model() const { return now_; }
 
@@ -53,12 +65,15 @@ class LiveParameters {
   static std::size_t index(Row row) { return static_cast<std::size_t>(row); }
   std::optional<physics::Law> law_after(int steps) const;  // none: the adhesion map's
   bool take(const Steps& steps);
+  bool try_step(Row row, int direction);
 
   SampleModel loaded_;
   SampleModel now_;
   Steps steps_{};
   physics::ForceCurve curve_;
   std::string refusal_;
+  std::optional<Row> refused_;
+  int refused_direction_ = 0;
 };
 
 }  // namespace afm::curves

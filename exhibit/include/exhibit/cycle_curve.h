@@ -26,6 +26,14 @@ class CycleCurve {
 
   render::PlotCurve plot(std::string label, const glm::vec3& color) const;
 
+  // All that it is made of, for exhibit/cluster/wall_history.h.
+  template <class Curve, class Visit>
+  static void visit_state(Curve& curve, Visit&& visit) {
+    visit(curve.points_);
+    visit(curve.deepest_);
+  }
+  bool sound() const { return deepest_ == 0 || deepest_ < points_.size(); }
+
  private:
   void add_point(const render::PlotPoint& point);
 

@@ -26,6 +26,23 @@ class CycleHistory {
   bool pressed() const { return pressed_; }      // below Z = 0 since the tip touched
   int cycles() const { return cycles_; }         // of the material under the tip, since it was laid there
 
+  // All that it is made of, for exhibit/cluster/wall_history.h.
+  template <class History, class Visit>
+  static void visit_state(History& history, Visit&& visit) {
+    for (auto& curve : history.curves_) CycleCurve::visit_state(curve, visit);
+    CycleCurve::visit_state(history.next_, visit);
+    visit(history.material_);
+    visit(history.edit_revision_);
+    visit(history.attached_);
+    visit(history.released_);
+    visit(history.pressed_);
+    visit(history.ascending_);
+    visit(history.cycles_);
+    visit(history.turn_height_m_);
+    visit(history.drawn_height_m_);
+  }
+  bool sound() const;
+
  private:
   void begin(const scene::TipSample& sample);
 

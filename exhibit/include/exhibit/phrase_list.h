@@ -200,8 +200,7 @@
   PHRASE(FrictionOffset, "friction-offset", "", kLine)        \
   PHRASE(FrictionSlope, "friction-slope", "", kLine)
 
-// The images of a scan and its settings; what is wrong with them, in the order of
-// physics::ScanArtefact, whose names the keys end in.
+// The images of a scan and its settings; their faults, in the order of physics::ScanArtefact, whose names end the keys.
 #define AFM_FOR_EACH_SCAN_PHRASE(PHRASE)                               \
   PHRASE(ScanTitle, "scan-title", "sample", kLine)                     \
   PHRASE(ScanSubtitle, "scan-subtitle", "side rate line lines", kLine) \
@@ -391,6 +390,7 @@
   PHRASE(DecimalMark, "decimal-mark", "", kLine) \
   AFM_FOR_EACH_GUIDANCE_PHRASE(PHRASE)           \
   AFM_FOR_EACH_BANNER_PHRASE(PHRASE)             \
+  AFM_FOR_EACH_CLUSTER_PHRASE(PHRASE)            \
   AFM_FOR_EACH_PANEL_PHRASE(PHRASE)              \
   AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)           \
   AFM_FOR_EACH_SCAN_PHRASE(PHRASE)               \

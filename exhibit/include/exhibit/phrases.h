@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/result.h"
+#include "exhibit/cluster/cluster_phrase_list.h"
 #include "exhibit/lesson/lesson_phrase_list.h"
 #include "exhibit/phrase_list.h"
 

@@ -225,13 +225,30 @@ void LiveScan::advance(double seconds) {
       owed_s_ -= scanner_->time().si - before_s;
       continue;
     }
-    ++progress_.frame;
-    // what came before the frame that is now below the tip is no longer seen
-    auto& changes = progress_.changes;
-    while (changes.size() > 1 && precedes(changes[1], progress_.frame - 1, 0)) changes.erase(changes.begin());
-    begin_frame();
+    end_frame();
   }
   find_truth();
+}
+
+void LiveScan::end_frame() {
+  ++progress_.frame;
+  // what came before the frame that is now below the tip is no longer seen
+  auto& changes = progress_.changes;
+  while (changes.size() > 1 && precedes(changes[1], progress_.frame - 1, 0)) changes.erase(changes.begin());
+  begin_frame();
+}
+
+bool LiveScan::follow(std::uint32_t frame, std::uint32_t pixel) {
+  if (is_painted()) return true;
+  const bool behind = frame < progress_.frame || (frame == progress_.frame && pixel < progress_.pixel);
+  if (behind || frame > progress_.frame + 1 || pixel > kPixelsOfFrame) return false;
+  while (progress_.frame < frame) {
+    take_until(kPixelsOfFrame);
+    end_frame();
+  }
+  take_until(pixel);
+  find_truth();
+  return true;
 }
 
 void LiveScan::show_truth(bool shown) {

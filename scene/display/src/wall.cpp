@@ -113,6 +113,10 @@ glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m, const glm::
   return head.position_m + head.room_from_head * (eye_from_tracker_m + glm::dvec3(side * ipd_m, 0.0, 0.0));
 }
 
+void keep_outputs_of(std::optional<std::size_t> node, Wall& wall) {
+  std::erase_if(wall.outputs, [&](const Output& output) { return output.node != node; });
+}
+
 double floor_height_m(const Wall& wall) {
   constexpr double kSitting = 1.0;  // a seated head is higher above its floor
   double floor = std::min(0.0, wall.viewers.front().sweet_spot.position_m.y - kSitting);

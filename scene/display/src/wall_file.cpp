@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -13,119 +14,23 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "physics/quantity_text.h"
 #include "scene/config/toml_file.h"
 #include "scene/display/wall.h"
 #include "screen_blends.h"
 #include "wall_pvx.h"
+#include "wall_table.h"
 
 namespace afm::scene {
 
 namespace {
 
-constexpr int kLargestPixel = 65536;
 constexpr double kLargestEyeFromHeadM = 0.5;
 constexpr double kWidestBlendM = 20.0;
 constexpr double kSmallestGamma = 1.0, kLargestGamma = 4.0;
 constexpr double kLargestBlack = 0.05;  // a projector with a contrast of 20:1
-
-class TableReader {
- public:
-  TableReader(const toml::table& table, std::string section) : table_(table), section_(std::move(section)) {}
-
-  void allow_only(std::initializer_list<std::string_view> keys) const {
-    for (const auto& [key, node] : table_) {
-      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
-        throw Fault{node.source(), name(key.str()), fmt::format("unknown key; known are {}", fmt::join(keys, ", "))};
-      }
-    }
-  }
-
-  std::string text(std::string_view key) const {
-    const auto value = required(key).value_exact<std::string>();
-    if (!value || value->empty()) throw Fault{required(key).source(), name(key), "must be text and not empty"};
-    return *value;
-  }
-
-  template <std::size_t Count>
-  std::array<double, Count> numbers(std::string_view key, const char* meaning) const {
-    const toml::node& node = required(key);
-    const toml::array* array = node.as_array();
-    std::array<double, Count> values{};
-    if (array == nullptr || array->size() != Count) {
-      throw Fault{node.source(), name(key), fmt::format("must be {}", meaning)};
-    }
-    for (std::size_t i = 0; i < Count; ++i) {
-      const auto value = (*array)[i].value<double>();
-      if (!value || !std::isfinite(*value)) throw Fault{node.source(), name(key), fmt::format("must be {}", meaning)};
-      values[i] = *value;
-    }
-    return values;
-  }
-
-  glm::dvec3 point(std::string_view key) const {
-    const auto v = numbers<3>(key, "three numbers [x, y, z] in metres");
-    return {v[0], v[1], v[2]};
-  }
-
-  double length_m(std::string_view key, double smallest, double largest) const {
-    const auto parsed = physics::parse_quantity(text(key), physics::kLengthUnits);
-    if (!parsed.value) throw Fault{required(key).source(), name(key), parsed.error};
-    const double value = parsed.value->si;
-    if (value < smallest || value > largest) {
-      throw Fault{required(key).source(), name(key),
-                  fmt::format("is {:g} mm; it must lie between {:g} mm and {:g} mm", value * 1e3, smallest * 1e3,
-                              largest * 1e3)};
-    }
-    return value;
-  }
-
-  std::optional<double> number(std::string_view key, double smallest, double largest, const char* meaning) const {
-    if (!has(key)) return std::nullopt;
-    const auto value = required(key).value<double>();
-    if (!value || !(*value >= smallest && *value <= largest)) {
-      fail(key, fmt::format("must be a number from {:g} to {:g}, {}", smallest, largest, meaning));
-    }
-    return value;
-  }
-
-  bool has(std::string_view key) const { return table_.contains(key); }
-
-  bool flag(std::string_view key) const {
-    const auto value = required(key).value_exact<bool>();
-    if (!value) throw Fault{required(key).source(), name(key), "must be true or false"};
-    return *value;
-  }
-
-  // Of pixels: [x, y, width, height].
-  PixelRect rect(std::string_view key) const {
-    const auto v = numbers<4>(key, "four whole numbers [x, y, width, height] in pixels");
-    for (const double value : v) {
-      if (value != std::floor(value) || std::abs(value) > kLargestPixel) {
-        fail(key, fmt::format("must be four whole numbers [x, y, width, height] in pixels, up to {}", kLargestPixel));
-      }
-    }
-    if (v[2] < 1 || v[3] < 1) fail(key, fmt::format("is {:g} x {:g} pixels; it must be at least 1 x 1", v[2], v[3]));
-    return {glm::ivec2(v[0], v[1]), glm::uvec2(v[2], v[3])};
-  }
-
-  [[noreturn]] void fail(std::string_view key, std::string what) const {
-    throw Fault{has(key) ? table_.get(key)->source() : table_.source(), name(key), std::move(what)};
-  }
-
- private:
-  std::string name(std::string_view key) const { return section_ + "." + std::string(key); }
-
-  const toml::node& required(std::string_view key) const {
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) throw Fault{table_.source(), name(key), "is missing"};
-    return *node;
-  }
-
-  const toml::table& table_;
-  std::string section_;
-};
 
 constexpr std::array<std::string_view, kScreenEdgeNames.size()> kBlendKeys{"blend_left", "blend_top", "blend_right",
                                                                            "blend_bottom"};
@@ -185,17 +90,44 @@ glm::dmat3 read_keystone(const TableReader& reader, std::string_view key) {
   return glm::inverse(output_from_picture);
 }
 
-Output read_output(const toml::table& table, const std::vector<Screen>& screens, const std::string& path,
-                   ProjectorLight& light) {
+WallNode read_node(const toml::table& table, const std::vector<WallNode>& earlier) {
+  const TableReader reader(table, "node");
+  reader.allow_only({"name", "host"});
+  WallNode node{.name = reader.text("name"), .host = reader.text("host")};
+  // they are typed into shells, and name units of systemd
+  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.'; };
+  for (const auto& [key, text] : {std::pair("name", &node.name), std::pair("host", &node.host)}) {
+    if (!std::all_of(text->begin(), text->end(), is_plain) || text->front() == '-') {
+      reader.fail(key, "must consist of letters, digits, \"-\", \"_\" and \".\"");
+    }
+  }
+  if (node.name.size() > kLongestNodeName) {
+    reader.fail("name", fmt::format("is longer than {} characters", kLongestNodeName));
+  }
+  for (const WallNode& other : earlier) {
+    if (other.name == node.name) reader.fail("name", fmt::format("\"{}\" is used twice", node.name));
+  }
+  if (earlier.size() == kMostNodes) reader.fail("name", fmt::format("is one of more than {} nodes", kMostNodes));
+  return node;
+}
+
+// Index of the table that a key names.
+template <typename Named>
+std::size_t read_name_of(const std::vector<Named>& tables, const TableReader& reader, std::string_view key) {
+  const std::string name = reader.text(key);
+  const auto found = std::find_if(tables.begin(), tables.end(), [&](const Named& named) { return named.name == name; });
+  if (found == tables.end()) reader.fail(key, fmt::format("there is no [[{}]] with the name \"{}\"", key, name));
+  return static_cast<std::size_t>(found - tables.begin());
+}
+
+Output read_output(const toml::table& table, const Wall& wall, const std::string& path, ProjectorLight& light) {
   const TableReader reader(table, "output");
-  reader.allow_only(
-      {"name", "screen", "mode", "eye", "swap", "monitor", "rect", "homography", "warp_mesh", "gamma", "black_level"});
+  reader.allow_only({"name", "screen", "node", "mode", "eye", "swap", "monitor", "rect", "homography", "warp_mesh",
+                     "gamma", "black_level"});
   Output output;
   output.name = reader.text("name");
-  const std::string screen = reader.text("screen");
-  const auto found = std::find_if(screens.begin(), screens.end(), [&](const Screen& s) { return s.name == screen; });
-  if (found == screens.end()) reader.fail("screen", fmt::format("there is no [[screen]] with the name \"{}\"", screen));
-  output.screen = static_cast<std::size_t>(found - screens.begin());
+  output.screen = read_name_of(wall.screens, reader, "screen");
+  if (reader.has("node")) output.node = read_name_of(wall.nodes, reader, "node");
   const auto mode = parse_stereo_mode(reader.text("mode"));
   if (!mode) reader.fail("mode", mode.error().message);
   output.mode = *mode;
@@ -221,7 +153,10 @@ Output read_output(const toml::table& table, const std::vector<Screen>& screens,
     reader.fail("rect", fmt::format("mode \"{}\" needs exactly {} x {} pixels", name_of(output.mode), size.x, size.y));
   }
   if (reader.has("homography")) output.picture_from_output = read_keystone(reader, "homography");
-  if (reader.has("warp_mesh")) output.warp = read_warp_mesh(reader, output, path);
+  if (reader.has("warp_mesh")) {
+    output.warp = read_warp_mesh(reader, output, path);
+    output.warp_file = reader.text("warp_mesh");
+  }
   light.gamma = reader.number("gamma", kSmallestGamma, kLargestGamma, "the power of the projector's light");
   light.black = reader.number("black_level", 0.0, kLargestBlack, "the light of the projector's black, of its white's");
   return output;
@@ -237,10 +172,11 @@ void check_together(const Output& output, const std::vector<Output>& earlier, co
   const TableReader reader(table, "output");
   for (const Output& other : earlier) {
     if (other.name == output.name) reader.fail("name", fmt::format("\"{}\" is used twice", output.name));
-    if (!output.monitor.empty() && output.monitor == other.monitor) {
+    const bool one_desktop = output.node == other.node;
+    if (one_desktop && !output.monitor.empty() && output.monitor == other.monitor) {
       reader.fail("monitor", fmt::format("\"{}\" already shows output \"{}\"", output.monitor, other.name));
     }
-    if (output.monitor.empty() && other.monitor.empty() && overlap(output.rect, other.rect)) {
+    if (one_desktop && output.monitor.empty() && other.monitor.empty() && overlap(output.rect, other.rect)) {
       reader.fail("rect", fmt::format("overlaps that of output \"{}\"", other.name));
     }
     if (output.eye && other.eye == output.eye && other.screen == output.screen) {
@@ -326,7 +262,7 @@ void blend(Wall& wall, const toml::table& root, const std::vector<EdgeWidths>& w
 }
 
 Wall read_wall(const toml::table& root, const std::string& path) {
-  TableReader(root, "wall").allow_only({"screen", "output", "viewer"});
+  TableReader(root, "wall").allow_only({"screen", "node", "output", "viewer"});
   Wall wall;
   std::vector<EdgeWidths> widths_m;
   std::vector<ProjectorLight> lights;
@@ -337,9 +273,12 @@ Wall read_wall(const toml::table& root, const std::string& path) {
       throw Fault{table.source(), "screen.name", fmt::format("\"{}\" is used twice", wall.screens.back().name)};
     }
   });
+  if (root.contains("node")) {
+    read_tables(root, "node", [&](const toml::table& table) { wall.nodes.push_back(read_node(table, wall.nodes)); });
+  }
   if (root.contains("output")) {
     read_tables(root, "output", [&](const toml::table& table) {
-      wall.outputs.push_back(read_output(table, wall.screens, path, lights.emplace_back()));
+      wall.outputs.push_back(read_output(table, wall, path, lights.emplace_back()));
       check_together(wall.outputs.back(), {wall.outputs.begin(), wall.outputs.end() - 1}, table);
     });
     check_pairs(wall.outputs, *root.get("output")->as_array());

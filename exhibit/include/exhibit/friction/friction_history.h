@@ -24,6 +24,17 @@ class FrictionHistory {
   std::span<const physics::SidewaysPoint> earlier() const { return earlier_; }
   bool attached() const { return attached_; }
 
+  // All that it is made of, for exhibit/cluster/wall_history.h.
+  template <class History, class Visit>
+  static void visit_state(History& history, Visit&& visit) {
+    visit(history.contact_);
+    visit(history.earlier_);
+    visit(history.material_);
+    visit(history.edit_revision_);
+    visit(history.attached_);
+  }
+  bool sound() const { return contact_.size() <= kMostPoints && earlier_.size() <= kMostPoints; }
+
  private:
   std::vector<physics::SidewaysPoint> contact_, earlier_;
   std::int32_t material_ = -1;

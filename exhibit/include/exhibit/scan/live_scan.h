@@ -113,6 +113,10 @@ class LiveScan {
   // Scans on for so long; what is more than kMostCatchUpS is left out. Nothing where a hand paints.
   void advance(double seconds);
 
+  // Scans on until this pixel, as another machine of the wall has done; nothing where a hand paints. False: it is more
+  // than a frame away.
+  bool follow(std::uint32_t frame, std::uint32_t pixel);
+
   // A tick of the servo, in their order. Nothing where no hand paints.
   void follow_hand(const scene::TipSample& sample);
 
@@ -147,6 +151,7 @@ class LiveScan {
 
  private:
   void begin_frame();
+  void end_frame();
   void take_until(std::uint32_t pixel);
   void apply(const ScanChoice& choice);
   void change_to(const ScanChoice& choice);

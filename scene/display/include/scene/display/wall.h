@@ -109,7 +109,8 @@ struct PixelRect {
 // Output that shows a screen's picture.
 struct Output {
   std::string name;
-  std::size_t screen = 0;  // of Wall::screens
+  std::size_t screen = 0;           // of Wall::screens
+  std::optional<std::size_t> node;  // of Wall::nodes; none: the machine with the hand
   StereoMode mode = StereoMode::Mono;
   std::optional<Eye> eye;  // of mode dual, and there alone: whose picture this is
   EyeOrder order = EyeOrder::Straight;
@@ -119,12 +120,23 @@ struct Output {
 
   // Shared with the windows and with pictures that are still being drawn; null: none.
   std::shared_ptr<const WarpMesh> warp{};
+  std::string warp_file{};  // as the wall file names it, beside itself
   std::shared_ptr<const Blend> blend{};
 };
 
+// Another machine that shows outputs of the wall.
+struct WallNode {
+  std::string name;
+  std::string host;  // name or address, as the machine with the hand reaches it
+};
+
+inline constexpr std::size_t kMostNodes = 32;
+inline constexpr std::size_t kLongestNodeName = 31;
+
 struct Wall {
   std::vector<Screen> screens;
-  std::vector<Output> outputs;  // may be empty
+  std::vector<WallNode> nodes{};  // may be empty
+  std::vector<Output> outputs;    // may be empty
   std::vector<Viewer> viewers;
 };
 
@@ -134,6 +146,9 @@ std::shared_ptr<const Blend> usual_blend(const Wall& wall, std::size_t screen);
 // Height of the room's floor: at y = 0, or as low as a screen reaches, or a metre below the sweet spot where the room's
 // origin lies higher.
 double floor_height_m(const Wall& wall);
+
+// Leaves the outputs of a node alone, or those of the machine with the hand.
+void keep_outputs_of(std::optional<std::size_t> node, Wall& wall);
 
 // Reason why no head can be at this position in front of the wall, such as "0.85 m below the floor"; empty if it can.
 std::string doubt_of_head(const Wall& wall, const glm::dvec3& head_m);

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cluster/cluster_master.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/log.h"
+#include "exhibit/cluster/wall_history.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::int64_t kHistoryPauseNs = 500'000'000;  // between two answers to nodes that lack what was felt
+constexpr int kBeatMs = 2;                             // between two signs of life while the barrier waits
+
+std::vector<std::string> names_of(const std::vector<scene::WallNode>& nodes) {
+  std::vector<std::string> names;
+  names.reserve(nodes.size());
+  for (const scene::WallNode& node : nodes) names.push_back(node.name);
+  return names;
+}
+
+}  // namespace
+
+ClusterMaster::ClusterMaster(std::unique_ptr<cluster::MasterLink> link, const scene::Wall& wall, std::size_t materials,
+                             const core::Clock& clock)
+    : link_(std::move(link)), membership_(names_of(wall.nodes)), clock_(clock), edits_(materials) {}
+
+void ClusterMaster::record_edits(ParameterEdits& edits) {
+  for (std::size_t i = 0; i < edits_.size(); ++i) {
+    const auto now = edits.recorded(i);
+    if (!now || now == edits_[i]) continue;
+    edits_[i] = now;
+    link_->record(cluster::JournalRecord(*now));
+  }
+}
+
+void ClusterMaster::follow_scan(const exhibit::LiveScan* scan, std::size_t material, std::uint64_t begun) {
+  using Kind = cluster::JournalKind;
+  const auto record = [&](Kind kind, const cluster::ScanRecord& entry) {
+    link_->record(cluster::JournalRecord(kind, entry));
+  };
+  if (scan == nullptr) {
+    if (!scan_.empty()) record(Kind::ScanEnd, {});
+    return scan_.clear();
+  }
+  const exhibit::ScanProgress& progress = scan->progress();
+  const cluster::ScanRecord newest = exhibit::record_of(progress.changes.back(), material, progress.hand);
+  if (scan_.empty() || std::exchange(scan_begun_, begun) != begun) {
+    scan_begun_ = begun;
+    scan_.assign(1, newest);
+    record(Kind::ScanBegin, newest);
+  } else if (scan_.back() != newest) {
+    exhibit::add_change(newest, scan_);
+    record(Kind::ScanChange, newest);
+  }
+}
+
+void ClusterMaster::send(cluster::FrameMessage& frame, ParameterEdits& edits, const exhibit::CycleHistory& cycles,
+                         const exhibit::FrictionHistory& friction) {
+  record_edits(edits);
+  frame.missing = membership_.missing();
+  const std::int64_t now_ns = clock_.now_ns();
+  if (history_wanted_ && !link_->sending_history() && now_ns - history_sent_ns_ >= kHistoryPauseNs) {
+    history_wanted_ = false;
+    history_sent_ns_ = now_ns;
+    std::vector<cluster::EditRecord> newest;
+    for (const auto& edit : edits_) {
+      if (edit) newest.push_back(*edit);
+    }
+    const auto history = exhibit::save_history(link_->recorded(), cycles, friction, newest, scan_);
+    if (history.size() <= cluster::kMostDocumentBytes) link_->send_history(history);
+  }
+  link_->send(++number_, frame);
+}
+
+void ClusterMaster::built(std::uint64_t digest) { membership_.begin(number_, digest, clock_.now_ns()); }
+
+void ClusterMaster::take_answers() {
+  while (const auto answer = link_->answer()) {
+    membership_.answer(answer->ready, answer->came_ns);
+    history_wanted_ = history_wanted_ || answer->ready.wants_history != 0;
+  }
+}
+
+void ClusterMaster::barrier(const std::function<void()>& while_waiting) {
+  const std::int64_t since_ns = clock_.now_ns();
+  membership_.drawn(since_ns);
+  take_answers();
+  while (!membership_.complete(clock_.now_ns())) {
+    while_waiting();
+    link_->wait(kBeatMs);
+    take_answers();
+  }
+  const std::int64_t waited_ns = clock_.now_ns() - since_ns;
+  longest_wait_ns_ = std::max(longest_wait_ns_, waited_ns);
+  ++waited_frames_;
+  link_->swap(number_);
+  for (const std::string& line : membership_.end()) core::log_line(line);
+}
+
+void ClusterMaster::log_summary() const {
+  for (const cluster::Membership::Node& node : membership_.nodes()) {
+    core::log_line(
+        fmt::format("cluster: node {}: {} frames late, {} built otherwise, {} samples repaired, {} shown "
+                    "without a word, {:.1f} ms to draw the last one",
+                    node.name, node.timeouts, node.other_frames, node.newest.lost_records, node.newest.late_swaps,
+                    1e-3 * node.newest.draw_us));
+  }
+  core::log_line(fmt::format("cluster: {} frames; longest wait {:.1f} ms; {} datagrams refused, {} lost on the way",
+                             waited_frames_, 1e-6 * static_cast<double>(longest_wait_ns_), link_->refused(),
+                             link_->lost()));
+}
+
+std::string missing_text(std::uint64_t missing, const scene::Wall& wall, const exhibit::Phrases& phrases) {
+  std::string names;
+  for (std::size_t i = 0; i < wall.nodes.size(); ++i) {
+    if ((missing >> i & 1U) != 0) names += (names.empty() ? "" : ", ") + wall.nodes[i].name;
+  }
+  return names.empty() ? "" : phrases.filled(exhibit::Phrase::NodeMissing, std::span(&names, 1));
+}
+
+void add_warning(const std::string& text, render::Banner& banner) {
+  if (!text.empty()) banner.warning += (banner.warning.empty() ? "" : ", ") + text;
+}
+
+}  // namespace afm::app

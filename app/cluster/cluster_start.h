@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "app/cluster/cluster_master.h"
+#include "app/live/view_outputs.h"
+#include "app/options/command_line.h"
+#include "cluster/network.h"
+#include "core/clock.h"
+#include "core/result.h"
+#include "exhibit/cluster/wall_model.h"
+
+namespace afm::app {
+
+struct ClusterOptions {
+  bool wanted = false;
+  std::string interface_address;  // empty: the one that leads to the first node
+  std::uint32_t domain = cluster::ClusterNetwork::kUsualDomain;
+};
+
+// --cluster of the machine with the hand, which it returns; its --interface and --domain; --domain alone.
+Option add_cluster_options(OptionList& command, ClusterOptions& options);
+void add_network_options(OptionList& command, ClusterOptions& options);
+void add_domain_option(OptionList& command, std::uint32_t& domain);
+
+// The network of the machine with the hand. Fails as interface_towards and address_of_host do.
+core::Result<cluster::ClusterNetwork> master_network(const ClusterOptions& options, const scene::Wall& wall);
+
+// WrongUsage: the wall has outputs on other machines, which one window would not show.
+core::Result<void> check_one_machine(const scene::Wall& wall, const WindowOptions& window);
+
+// What of the wall no file says.
+struct WallChoice {
+  physics::FrictionLaw friction = physics::FrictionLaw::None;
+  exhibit::PictureOptions picture;
+  render::PanelContrast contrast = render::PanelContrast::Normal;
+};
+
+// The network, opened as that of the machine with the hand. WrongUsage: the wall has no nodes, or another machine
+// drives it.
+struct OpenedMaster {
+  cluster::ClusterNetwork network;
+  std::unique_ptr<cluster::MasterLink> link;
+};
+core::Result<OpenedMaster> open_master(const ClusterOptions& options, const exhibit::ExhibitFiles& files,
+                                       const WallChoice& choice, const std::string& program,
+                                       const exhibit::Stage& stage, const core::Clock& clock);
+
+// Opens the network and leaves the outputs of this machine in the wall of the stage, which must outlive the master.
+core::Result<std::unique_ptr<ClusterMaster>> start_cluster(const ClusterOptions& options,
+                                                           const exhibit::ExhibitFiles& files, const WallChoice& choice,
+                                                           const std::string& program, exhibit::Stage& stage,
+                                                           const core::Clock& clock);
+
+}  // namespace afm::app

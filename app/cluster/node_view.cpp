@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cluster/node_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/cluster/cluster_master.h"
+#include "core/interruption.h"
+#include "core/log.h"
+#include "exhibit/blank_picture.h"
+#include "exhibit/cluster/frame_digest.h"
+#include "exhibit/cluster/frame_inputs.h"
+#include "exhibit/scan/scan_panels.h"
+#include "exhibit/scan/scan_subject.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::int64_t kCatchUpNs = 40'000'000;        // that a frame waits for the samples before it
+constexpr std::int64_t kSwapNs = 400'000'000;          // that it waits to be shown: longer than the master may wait
+constexpr std::int64_t kMasterGoneNs = 2'000'000'000;  // without a frame
+constexpr std::size_t kMostRecords = 60'000;           // of a minute of the servo
+constexpr int kPauseMs = 10;                           // between two looks at the windows
+
+}  // namespace
+
+NodeView::NodeView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewDisplay& display,
+                   cluster::NodeLink& link, Place place, const core::Clock& clock)
+    : stage_(stage),
+      windows_(display.windows()),
+      picture_(display.picture()),
+      link_(link),
+      place_(std::move(place)),
+      clock_(clock),
+      felt_(materials),
+      frames_(stage.wall_scene, felt_, stage.eyes),
+      panels_(stage.wall_scene, materials),
+      history_(materials.size()) {
+  panels_.set_friction(&history_.friction);
+}
+
+// The keys of staff that concern this machine alone.
+bool NodeView::leaves() {
+  const ViewInput input = windows_.poll();
+  bool leaves = input.close_requested;
+  for (const ViewEvent& event : input.events) {
+    if (event.event.kind != render::WindowEvent::Kind::KeyDown) continue;
+    leaves = leaves || event.event.key == render::Key::Escape;
+    if (event.event.key == render::Key::F11) windows_.toggle_full_screen();
+    if (event.event.key == render::Key::F12) picture_.save();
+  }
+  return leaves;
+}
+
+void NodeView::forget() {
+  knows_history_ = false;
+  records_.clear();
+}
+
+void NodeView::restore(std::span<const std::byte> document) {
+  auto history = exhibit::load_history(document, felt_.size());
+  if (!history) return core::log_line("the master sent a history that is not valid; asking again");
+  history_ = std::move(*history);
+  knows_history_ = true;
+  scan_.reset();
+  while (!records_.empty() && records_.front().number <= history_.journal) records_.pop_front();
+  for (const cluster::EditRecord& edit : history_.edits) panels_.edits().follow(edit);
+}
+
+// One that cannot be applied leaves a hole, which the next history fills.
+void NodeView::take_records() {
+  while (const auto record = link_.record()) {
+    if (record->session != place_.session || !exhibit::is_applicable(record->record)) continue;
+    if (records_.size() == kMostRecords) records_.pop_front();
+    records_.push_back(*record);
+  }
+}
+
+// Everything that has come; another wall, if it is one.
+std::optional<cluster::NodeLink::Document> NodeView::take() {
+  if (auto model = link_.model()) {
+    if (model->bytes != place_.model) return model;
+    place_.session = model->header.session;
+    forget();
+  }
+  take_records();
+  if (const auto history = link_.history(); history && history->header.session == place_.session) {
+    if (!knows_history_) restore(history->bytes);
+  }
+  if (auto frame = link_.frame()) next_ = frame;
+  return std::nullopt;
+}
+
+void NodeView::apply_until(std::uint64_t journal) {
+  while (!records_.empty() && records_.front().number <= journal) {
+    const cluster::NodeLink::Numbered next = records_.front();
+    records_.pop_front();
+    if (next.number <= history_.journal) continue;
+    if (next.number != history_.journal + 1) {
+      lost_records_ += next.number - history_.journal - 1;
+      knows_history_ = false;
+      records_.push_front(next);
+      return;
+    }
+    history_.apply(next.record);
+    apply_to_scan(next.record);
+    if (next.record.kind() == cluster::JournalKind::Edit) panels_.edits().follow(next.record.edit());
+  }
+}
+
+// A scan that a hand paints needs every sample; any other follows from its changes.
+void NodeView::apply_to_scan(const cluster::JournalRecord& record) {
+  using Kind = cluster::JournalKind;
+  if (record.kind() == Kind::Sample && scan_) scan_->follow_hand(record.sample());
+  if (record.kind() == Kind::ScanEnd) scan_.reset();
+  if (record.kind() == Kind::ScanBegin && record.scan().material < felt_.size()) {
+    const cluster::ScanRecord begin = record.scan();
+    scan_.emplace(exhibit::scan_subject(stage_.wall_scene, begin.material, felt_[begin.material]),
+                  exhibit::hand_of(begin));
+    scan_->choose(exhibit::change_of(begin).choice);
+  }
+  if (record.kind() == Kind::ScanChange && scan_) {
+    const exhibit::ScanChange change = exhibit::change_of(record.scan());
+    if (!scan_->follow(change.frame, change.pixel)) return scan_.reset();
+    scan_->choose(change.choice);
+  }
+}
+
+// One that began before this node came, or is far ahead, is computed anew.
+void NodeView::follow_scan(const cluster::ShownMoment& shown) {
+  if ((shown.flags & cluster::ShownMoment::kScan) == 0 || history_.scan.empty()) return scan_.reset();
+  const bool truth = (shown.flags & cluster::ShownMoment::kTruth) != 0;
+  if (!scan_ || !scan_->follow(shown.scan_frame, shown.scan_pixel)) {
+    const cluster::ScanRecord& begin = history_.scan.front();
+    exhibit::ScanProgress progress{.frame = shown.scan_frame,
+                                   .pixel = shown.scan_pixel,
+                                   .truth = truth,
+                                   .changes = {},
+                                   .hand = exhibit::hand_of(begin)};
+    for (const cluster::ScanRecord& change : history_.scan) progress.changes.push_back(exhibit::change_of(change));
+    if (begin.material >= felt_.size() || !exhibit::LiveScan::valid(progress)) return scan_.reset();
+    scan_.emplace(exhibit::scan_subject(stage_.wall_scene, begin.material, felt_[begin.material]), progress);
+  }
+  if (scan_->progress().truth != truth) scan_->show_truth(truth);
+}
+
+// False: it lacks what was felt before this frame.
+bool NodeView::catch_up(std::uint64_t journal) {
+  const std::int64_t until_ns = clock_.now_ns() + kCatchUpNs;
+  for (;;) {
+    if (knows_history_) apply_until(journal);
+    if (!knows_history_ || history_.journal > journal) return false;
+    if (history_.journal == journal) return true;
+    if (clock_.now_ns() >= until_ns) {
+      // the end is missing: a new history brings it
+      knows_history_ = false;
+      return false;
+    }
+    link_.wait(2);
+    take_records();
+  }
+}
+
+// Materials that this wall has.
+bool NodeView::fits(const cluster::FrameMessage& message) const {
+  const auto count = static_cast<std::int32_t>(felt_.size());
+  return message.tip.material < count && message.moment.hovered < count;
+}
+
+cluster::ReadyMessage NodeView::answer_to(const cluster::FrameMessage& message, std::int64_t came_ns) const {
+  cluster::ReadyMessage ready{.header = message.header};
+  ready.header.node = place_.node;
+  ready.wants_history = knows_history_ ? 0 : 1;
+  ready.frame_sent_ns = message.sent_ns;
+  ready.frame_came_ns = came_ns;
+  ready.swapped_ns = swapped_ns_;
+  ready.lost_records = lost_records_;
+  ready.late_swaps = late_swaps_;
+  return ready;
+}
+
+void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
+                    const std::function<void(std::uint64_t)>& drawn) {
+  const scene::TipState tip = exhibit::tip_of(message);
+  panels_.edits().take_felt(tip, felt_);
+  exhibit::Moment now = exhibit::moment_of(message);
+  now.curves = history_.cycles.curves();
+  follow_scan(message.moment);
+  if (scan_) exhibit::show_scan(*scan_, now);
+  panels_.set_scan(scan_ ? &*scan_ : nullptr);
+  render::FrameState frame = frames_.build(now);
+  const ViewPanels::Told told = panels_.follow(message.panels);
+  add_panels(stage_, panels_, now, {.pointed = told.pointed, .hand = told.hand, .tip = tip},
+             exhibit::caption_of(message), frame);
+  if ((message.moment.flags & cluster::ShownMoment::kBlank) != 0) exhibit::blank(frame);
+  add_warning(missing_text(message.missing, stage_.wall, stage_.phrases()), frame.banner);
+  if (master_gone) add_warning(stage_.phrases()[exhibit::Phrase::MasterMissing], frame.banner);
+  picture_.follow(message.view);
+  const std::uint64_t digest = exhibit::digest_of(frame, picture_.told());
+  picture_.show(frame, exhibit::Relief::NarrowEyes, clock_.now_ns(), [] {}, [&] { drawn(digest); });
+  shown_ns_ = clock_.now_ns();
+}
+
+// Not longer than until the master must have given up waiting, or has gone on.
+void NodeView::wait_for_swap(const cluster::FrameMessage& message) {
+  const std::int64_t until_ns = clock_.now_ns() + kSwapNs;
+  for (;;) {
+    const auto [session, number] = link_.swapped();
+    if (session == message.header.session && number >= message.header.number) return;
+    if (auto frame = link_.frame()) next_ = frame;
+    const bool left_behind = next_ && next_->frame.header.number > message.header.number;
+    if (left_behind || clock_.now_ns() >= until_ns) break;
+    link_.wait(2);
+  }
+  ++late_swaps_;
+}
+
+void NodeView::draw(const cluster::NodeLink::Came& came) {
+  const cluster::FrameMessage& message = came.frame;
+  if (message.header.session != place_.session || !fits(message)) return;
+  if (!catch_up(message.journal)) return link_.answer(answer_to(message, came.came_ns));
+  show(message, false, [&](std::uint64_t digest) {
+    cluster::ReadyMessage ready = answer_to(message, came.came_ns);
+    ready.state = cluster::NodeState::Drawing;
+    ready.digest = digest;
+    ready.draw_us = static_cast<std::uint32_t>((clock_.now_ns() - came.came_ns) / 1000);
+    link_.answer(ready);
+    wait_for_swap(message);
+    swapped_ns_ = clock_.now_ns();
+  });
+  shown_ = message;
+}
+
+std::optional<cluster::NodeLink::Document> NodeView::run() {
+  while (!core::interrupted() && !leaves()) {
+    if (auto other = take()) return other;
+    picture_.fit(clock_.now_ns());
+    if (next_) {
+      draw(*std::exchange(next_, std::nullopt));
+    } else {
+      if (shown_ && clock_.now_ns() - shown_ns_ > kMasterGoneNs) show(*shown_, true, [](std::uint64_t) {});
+      link_.wait(kPauseMs);
+    }
+  }
+  picture_.finish();
+  return std::nullopt;
+}
+
+}  // namespace afm::app

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "cluster/messages.h"
+#include "scene/display/wall.h"
+
+// The inputs of a frame, from which every machine of a wall builds the same frame.
+namespace afm::cluster {
+
+struct ShownPose {
+  std::array<double, 3> position_m{};
+  std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // w x y z: room from body
+};
+
+template <class Visit, std::same_as<ShownPose>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... pose) {
+  visit("position_m", pose.position_m...);
+  visit("orientation", pose.orientation...);
+}
+static_assert(scene::all_fields_described<ShownPose>());
+
+// The part of scene::TipState that the wall shows.
+struct ShownTip {
+  std::int64_t time_ns = 0;
+  scene::Tip tip{};
+  scene::SurfacePoint surface{};
+  double release_z_m = 0;
+  double slow_motion = 1;
+  std::uint32_t edit_revision = 0;
+  std::uint32_t refused_edit = 0;
+  std::int32_t material = -1;
+  physics::Phase phase = physics::Phase::WaitForLift;
+  scene::ServoState servo_state = scene::ServoState::Disarmed;
+  std::uint32_t realtime = 0;
+};
+
+template <class Visit, std::same_as<ShownTip>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... tip) {
+  visit("time_ns", tip.time_ns...);
+  visit("tip", tip.tip...);
+  visit("surface", tip.surface...);
+  visit("release_z_m", tip.release_z_m...);
+  visit("slow_motion", tip.slow_motion...);
+  visit("edit_revision", tip.edit_revision...);
+  visit("refused_edit", tip.refused_edit...);
+  visit("material", tip.material...);
+  visit("phase", tip.phase...);
+  visit("servo_state", tip.servo_state...);
+  visit("realtime", tip.realtime...);
+}
+static_assert(scene::all_fields_described<ShownTip>());
+
+// Which panels of the live window are shown, and what is pointed at on them.
+struct ShownPanels {
+  static constexpr std::uint32_t kKeys = 1, kHidden = 2, kKeysKnown = 4, kMarking = 8, kUnattended = 16, kTab = 32,
+                                 kControl = 64, kAllFlags = 127;
+  static constexpr std::uint32_t kMostRows = 64;
+
+  std::uint32_t flags = 0;
+  std::uint32_t right = 0;   // the panel in the place of the sample's data, below kMostRight
+  std::uint32_t marked = 0;  // row
+  std::uint32_t hand = 0;    // whose keys are listed, below kMostHands
+  std::uint32_t control_kind = 0;
+  std::uint32_t control_index = 0;
+
+  static constexpr std::uint32_t kMostRight = 3, kMostHands = 3, kMostControls = 3;
+};
+
+template <class Visit, std::same_as<ShownPanels>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... panels) {
+  visit("flags", panels.flags...);
+  visit("right", panels.right...);
+  visit("marked", panels.marked...);
+  visit("hand", panels.hand...);
+  visit("control_kind", panels.control_kind...);
+  visit("control_index", panels.control_index...);
+}
+static_assert(scene::all_fields_described<ShownPanels>());
+
+// For whom and how the picture is drawn.
+struct ShownView {
+  static constexpr std::uint32_t kSwapped = 1, kCalibration = 2, kDepth = 4, kHardDepth = 8, kAllFlags = 15;
+
+  ShownPose head{};
+  double ipd_m = 0.063;        // the viewer's
+  double drawn_ipd_m = 0.063;  // or less, for comfort
+  std::array<double, 2> depth_range_m{};
+  std::array<double, 2> nearest{};  // scene::Disparity
+  std::array<double, 2> farthest{};
+  std::int32_t mode = -1;  // of scene::kStereoModes; -1: each output's own
+  std::uint32_t flags = 0;
+  std::uint32_t relief = 0;
+  std::uint32_t padding = 0;
+};
+
+template <class Visit, std::same_as<ShownView>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... view) {
+  visit("head", view.head...);
+  visit("ipd_m", view.ipd_m...);
+  visit("drawn_ipd_m", view.drawn_ipd_m...);
+  visit("depth_range_m", view.depth_range_m...);
+  visit("nearest", view.nearest...);
+  visit("farthest", view.farthest...);
+  visit("mode", view.mode...);
+  visit("flags", view.flags...);
+  visit("relief", view.relief...);
+  visit("padding", view.padding...);
+}
+static_assert(scene::all_fields_described<ShownView>());
+
+// The rest of an exhibit::Moment.
+struct ShownMoment {
+  static constexpr std::uint32_t kMostCenterpieces = 4, kNoCenterpiece = 1;  // the latter is a film's alone
+  static constexpr double kLongestCueS = 0.5;
+  static constexpr std::uint32_t kRetracting = 1, kWand = 2, kWandOriented = 4, kWandPlaced = 8, kWandConnected = 16,
+                                 kCue = 32, kBlank = 64, kScan = 128, kTruth = 256, kAllFlags = 511;
+
+  std::array<double, 16> navigation{};  // room from room, column by column
+  ShownPose wand{};
+  double journey_orders = 0;
+  double fade = 0;
+  double cue_age_s = 0;
+  physics::EventKind cue = physics::EventKind::JumpToContact;
+  std::uint32_t centerpiece = 0;
+  std::int32_t hovered = -1;
+  std::uint32_t wand_buttons = 0;
+  std::uint32_t flags = 0;
+  std::uint32_t scan_frame = 0;  // exhibit::ScanProgress
+  std::uint32_t scan_pixel = 0;
+  std::uint32_t padding = 0;
+};
+
+template <class Visit, std::same_as<ShownMoment>... Record>
+constexpr void for_each_field(Visit&& visit, const Record&... moment) {
+  visit("navigation", moment.navigation...);
+  visit("wand", moment.wand...);
+  visit("journey_orders", moment.journey_orders...);
+  visit("fade", moment.fade...);
+  visit("cue_age_s", moment.cue_age_s...);
+  visit("cue", moment.cue...);
+  visit("centerpiece", moment.centerpiece...);
+  visit("hovered", moment.hovered...);
+  visit("wand_buttons", moment.wand_buttons...);
+  visit("flags", moment.flags...);
+  visit("scan_frame", moment.scan_frame...);
+  visit("scan_pixel", moment.scan_pixel...);
+  visit("padding", moment.padding...);
+}
+static_assert(scene::all_fields_described<ShownMoment>());
+
+// The texts of a frame, one after the other, each ended by a zero. What has no room is cut, for every machine alike.
+struct ShownTexts {
+  static constexpr std::size_t kBytes = 736;
+  std::array<char, kBytes> bytes{};
+
+  std::vector<std::string> list() const;  // empty ones at the end are left out
+  void set(std::span<const std::string> texts);
+};
+
+struct FrameMessage {
+  ClusterHeader header{};
+  std::int64_t sent_ns = 0;   // the master's clock
+  std::uint64_t journal = 0;  // how many records precede the frame
+  std::uint64_t missing = 0;  // a bit for each node that is not there
+  ShownTip tip{};
+  ShownMoment moment{};
+  ShownView view{};
+  ShownPanels panels{};
+  ShownTexts texts{};
+};
+static_assert(std::is_trivially_copyable_v<FrameMessage> && sizeof(FrameMessage) <= kMostDatagramBytes);
+static_assert(scene::kMostNodes <= 64);
+
+}  // namespace afm::cluster

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cluster/frame_message.h"
+#include "cluster/network.h"
+#include "core/clock.h"
+#include "core/result.h"
+
+namespace afm::cluster {
+
+// A node's end. DDS lives in a thread of its own; every call here is wait-free, but wait(). Main thread only.
+class NodeLink {
+ public:
+  static core::Result<std::unique_ptr<NodeLink>> open(const ClusterNetwork& network, const core::Clock& clock);
+  NodeLink(const NodeLink&) = delete;
+  NodeLink& operator=(const NodeLink&) = delete;
+  ~NodeLink();
+
+  struct Came {
+    FrameMessage frame;
+    std::int64_t came_ns = 0;
+  };
+  // The newest frame, if it came since the last call.
+  std::optional<Came> frame();
+
+  // The newest frame that may be shown, of whatever session; its number, 0 before the first.
+  std::pair<std::uint64_t, std::uint64_t> swapped() const;
+
+  struct Numbered {
+    std::uint64_t session = 0, number = 0;
+    JournalRecord record;
+  };
+  std::optional<Numbered> record();
+
+  struct Document {
+    ClusterHeader header;
+    std::vector<std::byte> bytes;
+  };
+  std::optional<Document> model();    // a new one
+  std::optional<Document> history();  // likewise
+
+  // Sets the version and when it was sent.
+  void answer(ReadyMessage ready);
+
+  // Until something comes, at most so long.
+  void wait(int timeout_ms);
+
+  std::uint64_t refused() const;  // datagrams that were no valid message
+
+ private:
+  struct Parts;
+  explicit NodeLink(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace afm::cluster

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cluster/frame_message.h"
+#include "exhibit/depth_report.h"
+#include "exhibit/moment.h"
+#include "scene/display/wall.h"
+#include "scene/shared/shared_blocks.h"
+
+// What a frame of the wall consists of, as its machines send it, and back.
+namespace afm::exhibit {
+
+// Fills what the moment says; `blank`: nothing is shown.
+void set_moment(const Moment& moment, const scene::TipState& tip, const std::string& caption, bool blank,
+                cluster::FrameMessage& message);
+
+// The moment of a message, without curves.
+Moment moment_of(const cluster::FrameMessage& message);
+std::string caption_of(const cluster::FrameMessage& message);
+
+// As far as the wall shows it.
+scene::TipState tip_of(const cluster::FrameMessage& message);
+
+void set_head(const scene::HeadPose& head, cluster::ShownView& view);
+scene::HeadPose head_of(const cluster::ShownView& view);
+void set_depth(const DepthReport& depth, cluster::ShownView& view);
+DepthReport depth_of(const cluster::ShownView& view);
+
+}  // namespace afm::exhibit

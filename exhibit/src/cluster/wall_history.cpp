@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/cluster/wall_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+namespace afm::exhibit {
+
+namespace {
+
+class HistoryWriter {
+ public:
+  template <class Value>
+  void operator()(const Value& value) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    const auto bytes = std::as_bytes(std::span(&value, 1));
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+  void operator()(const bool& value) { (*this)(static_cast<std::uint8_t>(value ? 1 : 0)); }
+  template <class Value>
+  void operator()(const std::vector<Value>& values) {
+    (*this)(static_cast<std::uint64_t>(values.size()));
+    const auto bytes = std::as_bytes(std::span(values));
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+// Once something is not valid, all that follows stays as it was.
+class HistoryReader {
+ public:
+  explicit HistoryReader(std::span<const std::byte> bytes) : left_(bytes) {}
+
+  template <class Value>
+  void operator()(Value& value) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    read(std::as_writable_bytes(std::span(&value, 1)));
+    if constexpr (std::is_floating_point_v<Value>) valid_ = valid_ && !std::isnan(value);
+  }
+  void operator()(bool& value) {
+    std::uint8_t byte = 0;
+    (*this)(byte);
+    valid_ = valid_ && byte <= 1;
+    value = byte == 1;
+  }
+  template <class Value>
+  void operator()(std::vector<Value>& values) {
+    std::uint64_t count = 0;
+    (*this)(count);
+    valid_ = valid_ && count <= left_.size() / sizeof(Value);
+    if (!valid_) return;
+    values.resize(count);
+    read(std::as_writable_bytes(std::span(values)));
+    if constexpr (sizeof(Value) % sizeof(double) == 0 && !std::is_same_v<Value, cluster::EditRecord> &&
+                  !std::is_same_v<Value, cluster::ScanRecord>)
+      check_doubles(values);
+  }
+
+  bool whole() const { return valid_ && left_.empty(); }
+
+ private:
+  void read(std::span<std::byte> to) {
+    valid_ = valid_ && left_.size() >= to.size();
+    if (!valid_ || to.empty()) return;
+    std::memcpy(to.data(), left_.data(), to.size());
+    left_ = left_.subspan(to.size());
+  }
+
+  // The points of curves and loops consist of nothing else.
+  template <class Value>
+  void check_doubles(const std::vector<Value>& values) {
+    const auto bytes = std::as_bytes(std::span(values));
+    for (std::size_t at = 0; at < bytes.size(); at += sizeof(double)) {
+      double number = 0;
+      std::memcpy(&number, bytes.data() + at, sizeof(number));
+      valid_ = valid_ && std::isfinite(number);
+    }
+  }
+
+  std::span<const std::byte> left_;
+  bool valid_ = true;
+};
+
+}  // namespace
+
+void WallHistory::apply(const cluster::JournalRecord& record) {
+  ++journal;
+  // a record of another wall's material changes nothing
+  const auto has = [&](std::int32_t material) { return static_cast<std::size_t>(material) < cycles.curves().size(); };
+  switch (record.kind()) {
+    case cluster::JournalKind::Sample: {
+      const scene::TipSample sample = record.sample();
+      if (!has(sample.material)) return;
+      cycles.add(sample);
+      friction.add(sample);
+      return;
+    }
+    case cluster::JournalKind::Event:
+      if (has(record.event().material)) cycles.add(record.event());
+      return;
+    case cluster::JournalKind::Edit: {
+      const cluster::EditRecord edit = record.edit();
+      if (edit.material >= cycles.curves().size()) return;
+      std::erase_if(edits, [&](const cluster::EditRecord& earlier) { return earlier.material == edit.material; });
+      edits.push_back(edit);
+      return;
+    }
+    case cluster::JournalKind::ScanBegin:
+      scan.assign(1, record.scan());
+      return;
+    case cluster::JournalKind::ScanChange:
+      if (!scan.empty()) add_change(record.scan(), scan);
+      return;
+    case cluster::JournalKind::ScanEnd:
+      scan.clear();
+      return;
+    case cluster::JournalKind::Forget:
+      cycles = CycleHistory(cycles.curves().size());
+      friction = {};
+      return;
+  }
+}
+
+cluster::ScanRecord record_of(const ScanChange& change, std::size_t material, const std::optional<HandPart>& hand) {
+  const auto& [frame, pixel, c] = change;
+  cluster::ScanRecord record{.material = static_cast<std::uint32_t>(material), .frame = frame, .pixel = pixel};
+  record.choice = {c.setpoint_n, c.gain_per_s,    c.line_rate_hz,   c.tip_radius_m,
+                   c.noise_m,    c.drift_m_per_s, c.apex_distance_m};
+  if (hand) {
+    record.has_hand = 1;
+    record.paints = hand->paints ? 1 : 0;
+    record.feedback = hand->feedback ? 1 : 0;
+    record.side_m = hand->side_m;
+    record.first_tick = hand->first_tick;
+  }
+  return record;
+}
+
+ScanChange change_of(const cluster::ScanRecord& record) {
+  const auto& [setpoint, gain, rate, radius, noise, drift, apex] = record.choice;
+  return {record.frame, record.pixel, {setpoint, gain, rate, radius, noise, drift, apex}};
+}
+
+std::optional<HandPart> hand_of(const cluster::ScanRecord& record) {
+  if (record.has_hand == 0) return std::nullopt;
+  return HandPart{.paints = record.paints != 0,
+                  .feedback = record.feedback != 0,
+                  .side_m = record.side_m,
+                  .first_tick = record.first_tick};
+}
+
+bool is_applicable(const cluster::JournalRecord& record) {
+  if (record.kind() != cluster::JournalKind::ScanBegin && record.kind() != cluster::JournalKind::ScanChange)
+    return true;
+  const cluster::ScanRecord scan = record.scan();
+  return LiveScan::valid(
+      {.frame = scan.frame, .pixel = scan.pixel, .truth = false, .changes = {change_of(scan)}, .hand = hand_of(scan)});
+}
+
+void add_change(const cluster::ScanRecord& change, std::vector<cluster::ScanRecord>& scan) {
+  const auto place = [](const cluster::ScanRecord& record) { return std::pair(record.frame, record.pixel); };
+  if (place(change) <= place(scan.back())) scan.pop_back();
+  scan.push_back(change);
+  // the settings before the frame below the newest one are those of the last change before it
+  while (scan.size() > 1 && scan[1].frame + 2 < change.frame) scan.erase(scan.begin());
+}
+
+std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& cycles, const FrictionHistory& friction,
+                                    std::span<const cluster::EditRecord> edits,
+                                    std::span<const cluster::ScanRecord> scan) {
+  HistoryWriter writer;
+  writer(journal);
+  writer(static_cast<std::uint64_t>(cycles.curves().size()));
+  CycleHistory::visit_state(cycles, writer);
+  FrictionHistory::visit_state(friction, writer);
+  writer(std::vector<cluster::EditRecord>(edits.begin(), edits.end()));
+  writer(std::vector<cluster::ScanRecord>(scan.begin(), scan.end()));
+  return writer.take();
+}
+
+std::optional<WallHistory> load_history(std::span<const std::byte> document, std::size_t materials) {
+  HistoryReader reader(document);
+  WallHistory history(materials);
+  std::uint64_t count = 0;
+  reader(history.journal);
+  reader(count);
+  if (count != materials) return std::nullopt;
+  CycleHistory::visit_state(history.cycles, reader);
+  FrictionHistory::visit_state(history.friction, reader);
+  reader(history.edits);
+  reader(history.scan);
+  const auto is_edit = [&](const cluster::EditRecord& edit) {
+    return edit.material < materials && cluster::JournalRecord(edit).valid();
+  };
+  const auto is_scan = [&](const cluster::ScanRecord& scan) {
+    const cluster::JournalRecord record(cluster::JournalKind::ScanChange, scan);
+    return scan.material < materials && record.valid() && is_applicable(record);
+  };
+  const bool valid = reader.whole() && history.cycles.sound() && history.friction.sound() &&
+                     std::all_of(history.edits.begin(), history.edits.end(), is_edit) &&
+                     std::all_of(history.scan.begin(), history.scan.end(), is_scan);
+  return valid ? std::optional(std::move(history)) : std::nullopt;
+}
+
+}  // namespace afm::exhibit

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three programs on one machine: nodes come, one is killed and comes back, and the picture is one.
+#include <dirent.h>
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "app/cluster_wall.h"
+
+namespace afm::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class ClusterViewTest : public ClusterWall {
+ protected:
+  std::unique_ptr<support::LiveProgram> node(const std::string& name) const {
+    return start(node_command(name, "127.0.0.1"));
+  }
+};
+
+// Programs that a process has started, and devices that it has opened.
+std::string children_of(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/task/" + std::to_string(process) + "/children");
+  std::string all;
+  std::getline(file, all);
+  return all;
+}
+std::string open_devices_of(pid_t process) {
+  std::string found;
+  const std::string folder = "/proc/" + std::to_string(process) + "/fd";
+  const std::unique_ptr<DIR, int (*)(DIR*)> open(::opendir(folder.c_str()), ::closedir);
+  for (const dirent* entry = ::readdir(open.get()); entry != nullptr; entry = ::readdir(open.get())) {
+    char target[256]{};
+    if (::readlink((folder + "/" + entry->d_name).c_str(), target, sizeof(target) - 1) <= 0) continue;
+    const std::string name = target;
+    for (const char* device : {"/dev/hidraw", "/dev/input", "/dev/bus", "/dev/tty"}) {
+      if (name.starts_with(device)) found += name + " ";
+    }
+  }
+  return found;
+}
+
+TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
+  auto left = node("left");
+  const auto right = node("right");
+  const auto hand = start(master_command());
+  expect_both_shown(*hand);
+
+  // no servo and no haptic device but the master's
+  EXPECT_EQ(children_of(left->pid()), "");
+  EXPECT_EQ(open_devices_of(left->pid()), "");
+
+  // sample, eyes, parameters, eye distance, stereo mode, head; once the servo has the sample, friction loop and scan
+  press_at_master("2 s F2 bracketright v Left");
+  ASSERT_TRUE(hand->says("chosen: Gold")) << hand->said();
+  ASSERT_TRUE(hand->says("eyes swapped")) << hand->said();
+  ASSERT_TRUE(hand->says("Press Turn-On")) << hand->said();
+  press_at_master("f i");
+  ASSERT_TRUE(hand->says("scan: Gold")) << hand->said();
+  EXPECT_TRUE(all_same()) << hand->said();
+  press_at_master("i");  // with a sanitizer a scan takes nearly all of each frame's time
+
+  left->signal(SIGKILL);
+  EXPECT_EQ(left->ends(), 128 + SIGKILL);
+  ASSERT_TRUE(hand->says("node left is missing")) << hand->said();
+  left = node("left");
+  ASSERT_TRUE(hand->says("node left shows the wall")) << hand->said();
+  EXPECT_TRUE(all_same()) << hand->said();
+
+  press_at_master("Escape");
+  EXPECT_EQ(hand->ends(), 0) << hand->said();
+  EXPECT_THAT(hand->said(), HasSubstr(" 0 built otherwise, 0 samples repaired"));
+  EXPECT_THAT(hand->said(), Not(HasSubstr("otherwise: ")));
+  right->signal(SIGTERM);
+  EXPECT_EQ(right->ends(), 0) << right->said();
+  left->signal(SIGTERM);
+  EXPECT_EQ(left->ends(), 0) << left->said();
+}
+
+}  // namespace
+}  // namespace afm::app

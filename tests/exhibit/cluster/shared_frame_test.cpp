@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// A machine of a wall builds from a message the frame that one machine alone would show: to the last bit, as the digest
+// of all that is drawn says.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "cluster/frame_message.h"
+#include "exhibit/cluster/frame_digest.h"
+#include "exhibit/cluster/frame_inputs.h"
+#include "exhibit/cycle_history.h"
+#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame_builder.h"
+#include "places.h"
+
+namespace afm::exhibit {
+namespace {
+
+class SharedFrame : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ExhibitFiles files;
+    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    auto stage = load_exhibit(files);
+    ASSERT_TRUE(stage) << stage.error().message;
+    stage_.emplace(std::move(*stage));
+    for (const scene::MaterialEntry& entry : stage_->materials.materials) {
+      felt_.push_back(curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value());
+    }
+    cycles_.emplace(felt_.size());
+  }
+
+  // One of twenty of a session: the tip goes down and up, and everything else changes too.
+  scene::TipState tip_at(int i) const {
+    scene::TipState tip;
+    tip.time_ns = 1'000'000'000LL + 100'000'000LL * i;
+    tip.material = i < 2 ? -1 : i % static_cast<int>(felt_.size());
+    tip.tip.z_m = 20e-9 * std::cos(0.1 * std::numbers::pi * i);
+    tip.tip.force_n = 1e-9 * std::sin(0.3 * i);
+    tip.phase = i % 4 == 1 ? physics::Phase::Attached : physics::Phase::Free;
+    tip.servo_state = scene::ServoState::Running;
+    return tip;
+  }
+  Moment moment_at(int i, const scene::TipState& tip) const {
+    Moment moment = moment_of(tip, i % 4 > 1);
+    moment.guidance = i % 2 == 0 ? "Push down" : "Lift the tip";
+    moment.wall.navigation =
+        glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.01 * i, 0, 0.02)), 0.05 * i, glm::dvec3(0, 1, 0));
+    if (i % 3 == 0) moment.wall.hovered = 1;
+    if (i % 5 == 2) {
+      input::WandState& wand = moment.wall.wand.emplace();
+      wand.position_m = {0.1 * i, 1.2, 1.5};
+      wand.position_valid = wand.orientation_valid = wand.connected = true;
+    }
+    if (i % 7 == 3) moment.wall.cue = JumpCue{.kind = physics::EventKind::JumpToContact, .age_s = 0.01 * i};
+    moment.wall.centerpiece = i % 6 == 4   ? Centerpiece::Journey
+                              : i % 6 == 5 ? Centerpiece::Analogy
+                                           : Centerpiece::Instrument;
+    moment.wall.journey_orders = moment.wall.centerpiece == Centerpiece::Journey ? 0.3 * i : 0.0;
+    moment.wall.fade = 0.02 * i;
+    moment.curves = cycles_->curves();
+    moment.servo = {{"hand", "0.6 mm/nm", "scale fit"}, {"servo", std::to_string(990 + i) + " Hz", ""}};
+    return moment;
+  }
+
+  std::optional<Stage> stage_;
+  std::optional<CycleHistory> cycles_;
+  std::vector<curves::SampleModel> felt_;
+};
+
+TEST_F(SharedFrame, IsTheOneOfASingleMachineAtTwentyMoments) {
+  const FrameBuilder frames(stage_->wall_scene, felt_, stage_->eyes);
+  std::uint64_t before = 0;
+  for (int i = 0; i < 20; ++i) {
+    const scene::TipState tip = tip_at(i);
+    const Moment moment = moment_at(i, tip);
+    cluster::FrameMessage message;
+    set_moment(moment, tip, "", false, message);
+    const auto came = cluster::decode<cluster::FrameMessage>(cluster::encode(message));
+    ASSERT_TRUE(came) << i;
+    Moment shared = moment_of(*came);
+    shared.curves = moment.curves;
+    const std::uint64_t alone = digest_of(frames.build(moment), message.view);
+    EXPECT_EQ(digest_of(frames.build(shared), came->view), alone) << i;
+    EXPECT_NE(alone, before) << i;
+    before = alone;
+  }
+}
+
+}  // namespace
+}  // namespace afm::exhibit

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "core/whole_file.h"
+#include "exhibit/cluster/frame_inputs.h"
+#include "exhibit/cluster/wall_history.h"
+#include "exhibit/cluster/wall_model.h"
+#include "support/scratch_folder.h"
+
+namespace {
+
+using namespace afm;
+using namespace afm::cluster;
+using namespace afm::exhibit;
+
+FrameMessage some_frame() {
+  Moment moment;
+  moment.wall.material = 1;
+  moment.wall.hovered = 2;
+  moment.wall.journey_orders = 4.5;
+  moment.wall.fade = 0.25;
+  moment.wall.centerpiece = Centerpiece::Journey;
+  moment.wall.cue = JumpCue{.kind = physics::EventKind::JumpOffContact, .age_s = 0.125};
+  input::WandState& wand = moment.wall.wand.emplace();
+  wand.position_m = {0.1, 1.2, 2.0};
+  wand.orientation_valid = wand.connected = true;
+  wand.buttons = 5;
+  moment.retracting = true;
+  moment.guidance = "Move up until the tip lets go: \u2191";
+  moment.servo = {{"hand", "0.6 mm/nm", "scale fit"}, {"servo", "1000 Hz", ""}};
+  scene::TipState tip;
+  tip.material = 1;
+  tip.tip.z_m = -1.5e-9;
+  tip.active.release_z_m = 9e-9;
+  FrameMessage message;
+  message.header.number = 7;
+  set_moment(moment, tip, "caption", false, message);
+  return message;
+}
+
+TEST(FrameMessageTest, ComesBackAsTheMomentThatWasSent) {
+  const FrameMessage sent = some_frame();
+  const auto came = decode<FrameMessage>(encode(sent));
+  ASSERT_TRUE(came);
+  const Moment moment = moment_of(*came);
+  EXPECT_EQ(moment.wall.material, 1U);
+  EXPECT_EQ(moment.wall.hovered, 2U);
+  EXPECT_EQ(moment.wall.centerpiece, Centerpiece::Journey);
+  EXPECT_EQ(moment.wall.journey_orders, 4.5);
+  EXPECT_EQ(moment.wall.fade, 0.25);
+  ASSERT_TRUE(moment.wall.cue);
+  EXPECT_EQ(moment.wall.cue->kind, physics::EventKind::JumpOffContact);
+  EXPECT_EQ(moment.wall.cue->age_s, 0.125);
+  ASSERT_TRUE(moment.wall.wand);
+  EXPECT_EQ(moment.wall.wand->position_m, glm::dvec3(0.1, 1.2, 2.0));
+  EXPECT_TRUE(moment.wall.wand->orientation_valid);
+  EXPECT_FALSE(moment.wall.wand->position_valid);
+  EXPECT_EQ(moment.wall.wand->buttons, 5U);
+  EXPECT_TRUE(moment.retracting);
+  EXPECT_EQ(moment.guidance, "Move up until the tip lets go: \u2191");
+  ASSERT_EQ(moment.servo.size(), 2U);
+  EXPECT_EQ(moment.servo[1].value, "1000 Hz");
+  EXPECT_EQ(moment.servo[1].source, "");
+  EXPECT_EQ(moment.wall.tip.z_m, -1.5e-9);
+  EXPECT_EQ(moment.wall.release_z_m, 9e-9);
+  EXPECT_EQ(caption_of(*came), "caption");
+}
+
+TEST(FrameMessageTest, IsRefusedWithAnyNumberThatIsNotValid) {
+  const auto refused = [](auto&& spoil) {
+    FrameMessage message = some_frame();
+    spoil(message);
+    return !decode<FrameMessage>(encode(message));
+  };
+  EXPECT_FALSE(refused([](FrameMessage&) {}));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.header.version += 1; }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.moment.navigation[5] = std::nan(""); }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.tip.tip.force_n = std::numeric_limits<double>::infinity(); }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.tip.phase = static_cast<physics::Phase>(99); }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.tip.material = static_cast<std::int32_t>(scene::kMaxMaterials); }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.tip.slow_motion = 0; }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.moment.hovered = -2; }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.moment.centerpiece = 4; }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.moment.flags = 1U << 31U; }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.moment.fade = 1.5; }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.view.mode = 1000; }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.view.ipd_m = 1.0; }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.view.head.orientation = {0, 0, 0, 0}; }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.panels.right = ShownPanels::kMostRight; }));
+  EXPECT_TRUE(refused([](FrameMessage& m) { m.texts.bytes.back() = 'x'; }));
+}
+
+TEST(WallHistoryTest, IsTheSameForANodeThatComesLate) {
+  WallHistory here(3);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> noise(-1e-9, 1e-9);
+  const auto sample_at = [&](int i) {
+    scene::TipSample sample;
+    sample.tick = static_cast<std::uint64_t>(i);
+    sample.material = i / 400 % 3;
+    sample.servo_state = scene::ServoState::Running;
+    sample.phase = i % 200 < 100 ? physics::Phase::Attached : physics::Phase::Free;
+    sample.hand_height_m = 0.02 * std::sin(0.05 * i);
+    sample.tip.z_m = 1e-8 * std::sin(0.05 * i) + noise(random);
+    sample.tip.force_n = noise(random);
+    sample.surface.xy_m = {1e-9 * i, 0.0};
+    return sample;
+  };
+  here.apply(JournalRecord(EditRecord{.material = 1, .revision = 4}));
+  for (int i = 0; i < 900; ++i) here.apply(JournalRecord(sample_at(i)));
+  const auto document = save_history(here.journal, here.cycles, here.friction, here.edits, here.scan);
+  auto there = load_history(document, 3);
+  ASSERT_TRUE(there);
+  EXPECT_EQ(there->journal, 901U);
+  for (int i = 900; i < 1500; ++i) {
+    const JournalRecord record(sample_at(i));
+    here.apply(record);
+    there->apply(record);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_FALSE(here.cycles.curves()[i].empty());
+    EXPECT_EQ(here.cycles.curves()[i].points(), there->cycles.curves()[i].points());
+  }
+  EXPECT_EQ(here.friction.contact().size(), there->friction.contact().size());
+  EXPECT_EQ(there->edits, here.edits);
+  EXPECT_EQ(save_history(here.journal, here.cycles, here.friction, here.edits, here.scan),
+            save_history(there->journal, there->cycles, there->friction, there->edits, there->scan));
+}
+
+TEST(WallHistoryTest, OfAnotherWallOrCutAnywhereIsRefused) {
+  WallHistory history(2);
+  scene::TipSample sample;
+  sample.material = 0;
+  sample.servo_state = scene::ServoState::Running;
+  sample.phase = physics::Phase::Attached;
+  history.apply(JournalRecord(sample));
+  const auto document = save_history(history.journal, history.cycles, history.friction, history.edits, history.scan);
+  EXPECT_TRUE(load_history(document, 2));
+  EXPECT_FALSE(load_history(document, 3));
+  for (std::size_t length = 0; length < document.size(); ++length) {
+    EXPECT_FALSE(load_history(std::span(document).first(length), 2)) << length;
+  }
+}
+
+TEST(WallHistoryTest, IgnoresMaterialsThatTheWallLacks) {
+  WallHistory history(1);
+  scene::TipSample sample;
+  sample.material = 1;
+  history.apply(JournalRecord(sample));
+  scene::TipEvent event;
+  event.material = 5;
+  history.apply(JournalRecord(event));
+  history.apply(JournalRecord(EditRecord{.material = 1}));
+  EXPECT_EQ(history.journal, 3U);
+  EXPECT_TRUE(history.edits.empty());
+  EXPECT_TRUE(history.cycles.curves()[0].empty());
+}
+
+TEST(WallModelTest, ComesBackAndRefusesWhatIsNotValid) {
+  WallModel model;
+  model.build = 0xFEDCBA9876543210ULL;
+  model.scene = 12;
+  model.wall = "[[screen]]";
+  model.meshes = {{"meshes/left.csv", "0,0"}};
+  model.files.language = "de";
+  model.files.shown = {"mica", "gold"};
+  model.picture.mode = scene::StereoMode::SideBySide;
+  model.picture.order = scene::EyeOrder::Swapped;
+  model.files.text_size = 1.25;
+  model.contrast = render::PanelContrast::High;
+  const auto document = document_of(model);
+  const auto came = read_wall_model(document);
+  ASSERT_TRUE(came) << came.error().message;
+  EXPECT_EQ(came->build, model.build);
+  EXPECT_EQ(came->files.shown, model.files.shown);
+  EXPECT_EQ(came->picture.mode, model.picture.mode);
+  EXPECT_EQ(came->picture.order, model.picture.order);
+  EXPECT_EQ(came->files.text_size, 1.25);
+  EXPECT_EQ(came->contrast, render::PanelContrast::High);
+  for (std::size_t length = 0; length < document.size(); ++length) {
+    EXPECT_FALSE(read_wall_model(std::span(document).first(length))) << length;
+  }
+  EXPECT_EQ(came->meshes, model.meshes);
+  const support::ScratchFolder folder;
+  const auto files = unpack(*came, "assets", folder.path());
+  ASSERT_TRUE(files) << files.error().message;
+  EXPECT_EQ(core::read_file(files->wall), model.wall);
+  EXPECT_EQ(core::read_file(folder.file("wall/meshes/left.csv")), "0,0");
+  for (const char* const elsewhere : {"/etc/passwd", "../left.csv", "meshes/../../left.csv", "meshes/", ""}) {
+    model.meshes = {{elsewhere, "0,0"}};
+    EXPECT_FALSE(read_wall_model(document_of(model))) << elsewhere;
+  }
+  model.meshes.clear();
+  model.files.text_size = 100.0;
+  EXPECT_FALSE(read_wall_model(document_of(model)));
+  model.files.text_size = 1.0;
+  model.files.language = "xx";
+  EXPECT_FALSE(read_wall_model(document_of(model)));
+}
+
+}  // namespace
