@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -14,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/file_descriptor.h"
 #include "core/whole_file.h"
 #include "exhibit/sound/synthesizer.h"
 #include "render/frame.h"
@@ -281,10 +283,18 @@ TEST_F(HeardView, GoesOnWithoutASoundCardAndWhenItIsLost) {
     xdotool("key Escape");
     EXPECT_EQ(live->ends(), 0) << live->said();
   }
-  // a card that takes nothing, in a study
-  const Variable driver("SDL_AUDIODRIVER", "disk"), file("SDL_DISKAUDIOFILE", "/dev/full");
+  // a card that is pulled out in a study: a pipe that nobody reads any more
+  const std::string card = folder_.file("card");
+  ASSERT_EQ(::mkfifo(card.c_str(), 0600), 0);
+  core::FileDescriptor plugged(::open(card.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  ASSERT_TRUE(plugged.is_open());
+  const auto end_of_a_write = ::signal(SIGPIPE, SIG_IGN);  // an error, as of a card, for what is started too
+  const Variable driver("SDL_AUDIODRIVER", "disk"), file("SDL_DISKAUDIOFILE", card);
   const std::string lesson = folder_.write("lesson.toml", kLesson), out = folder_.file("study");
   const auto live = this->live({"lesson", lesson}, {"--sound", "--participant", "QXWERT", "--out", out});
+  ::signal(SIGPIPE, end_of_a_write);
+  ASSERT_TRUE(live->says("sound: disk")) << live->said();
+  plugged.close();
   ASSERT_TRUE(live->says("no sound: the sound card is gone")) << live->said();
   xdotool("key 1");
   ASSERT_TRUE(live->says("the results say that there is no sound")) << live->said();
