@@ -53,6 +53,7 @@ class LocalNodes {
                                          "--domain",
                                          std::to_string(options.domain)};
       std::vector<char*> raw;
+      raw.reserve(arguments.size() + 1);
       for (std::string& argument : arguments) raw.push_back(argument.data());
       raw.push_back(nullptr);
       pid_t child = -1;

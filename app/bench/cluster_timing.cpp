@@ -125,6 +125,7 @@ class TimedMaster {
  private:
   static std::vector<std::string> names(std::uint32_t count) {
     std::vector<std::string> names;
+    names.reserve(count);
     for (std::uint32_t i = 0; i < count; ++i) names.push_back(std::to_string(i));
     return names;
   }
