@@ -225,6 +225,25 @@ void add_exhibition_options(OptionList& command, ViewOptions& options) {
   add_friction_option(command, options.friction);
 }
 
+core::Result<void> set_speech(bool wanted, const exhibit::Stage& stage, ViewSettings& settings) {
+  if (!wanted) return {};
+  auto program = choose_speech_program(stage.phrases()[exhibit::Phrase::Language]);
+  if (!program) return tl::unexpected(program.error());
+  settings.sound.speech = std::move(*program);
+  return {};
+}
+
+// Those of the wall; none where this machine shows it alone.
+core::Result<std::unique_ptr<ClusterMaster>> other_machines(const ViewOptions& options, const std::string& program,
+                                                            exhibit::Stage& stage, const core::Clock& clock) {
+  if (options.cluster.wanted) {
+    return start_cluster(options.cluster, options.files,
+                         {options.friction, options.display.picture, options.display.contrast}, program, stage, clock);
+  }
+  if (auto alone = check_one_machine(stage.wall, options.display.window); !alone) return tl::unexpected(alone.error());
+  return nullptr;
+}
+
 }  // namespace
 
 core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction) {
@@ -269,11 +288,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   if (!wand_choice) return tl::unexpected(wand_choice.error());
   settings.head_script = wand_choice->head_script;
   if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
-  if (options.speech) {
-    auto program_that_speaks = choose_speech_program(stage->phrases()[exhibit::Phrase::Language]);
-    if (!program_that_speaks) return tl::unexpected(program_that_speaks.error());
-    settings.sound.speech = std::move(*program_that_speaks);
-  }
+  if (auto set = set_speech(options.speech, *stage, settings); !set) return set;
   auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
   if (!wand) return tl::unexpected(wand.error());
   const auto model =
@@ -281,17 +296,9 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
                             stage->wall_scene.height_fields(), {}, stage->wall_scene.topography().size());
   if (!model) return tl::unexpected(model.error());
 
-  std::unique_ptr<ClusterMaster> cluster;
-  if (options.cluster.wanted) {
-    auto started =
-        start_cluster(options.cluster, options.files,
-                      {options.friction, options.display.picture, options.display.contrast}, program, *stage, clock);
-    if (!started) return tl::unexpected(started.error());
-    cluster = std::move(*started);
-  } else if (auto alone = check_one_machine(stage->wall, options.display.window); !alone) {
-    return alone;
-  }
-  settings.cluster = cluster.get();
+  const auto cluster = other_machines(options, program, *stage, clock);
+  if (!cluster) return tl::unexpected(cluster.error());
+  settings.cluster = cluster->get();
   auto display = ViewDisplay::open(*stage, options.display, runtime.get(), clock);
   if (!display) return tl::unexpected(display.error());
   ViewWindows& windows = (*display)->windows();
