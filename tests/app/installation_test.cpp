@@ -193,7 +193,7 @@ TEST_F(Completion, OffersCommands) {
   std::vector<std::string> all;
   for (const Command& command : kCommands) all.emplace_back(command.name);
   EXPECT_THAT(offered({"touchafm", ""}), ::testing::ElementsAreArray(all));
-  EXPECT_THAT(offered({"touchafm", "bench", ""}), ElementsAre("physics", "haptics", "render"));
+  EXPECT_THAT(offered({"touchafm", "bench", ""}), ElementsAre("physics", "haptics", "render", "cluster"));
 }
 
 TEST_F(Completion, OffersEveryOptionOfACommandAndNoOther) {
