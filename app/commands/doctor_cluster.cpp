@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/commands/diagnosis.h"
+#include "app/commands/findings_json.h"
 #include "cluster/master_link.h"
 #include "core/interruption.h"
 #include "core/percentiles.h"
@@ -119,11 +120,7 @@ Finding judge(const scene::WallNode& node, const NodeAnswers& answers, const clu
 
 void print_findings(const std::vector<Finding>& findings, bool as_json) {
   if (as_json) {
-    nlohmann::json checks = nlohmann::json::array();
-    for (const Finding& f : findings) {
-      checks.push_back({{"check", f.check}, {"verdict", word(f.verdict)}, {"found", f.found}, {"mend", f.fix}});
-    }
-    std::fputs((nlohmann::json{{"checks", checks}}.dump() + "\n").c_str(), stdout);
+    std::fputs((nlohmann::json{{"checks", to_json(findings)}}.dump() + "\n").c_str(), stdout);
     return;
   }
   std::string text;

@@ -14,6 +14,7 @@
 #include "app/commands/diagnosis.h"
 #include "app/commands/doctor_cluster.h"
 #include "app/commands/fault_bundle.h"
+#include "app/commands/findings_json.h"
 #include "core/log.h"
 #include "core/percentiles.h"
 #include "core/printable.h"
@@ -73,14 +74,10 @@ std::string plain(const MachineFacts& facts, const std::vector<Finding>& finding
 }
 
 std::string json(const MachineFacts& facts, const std::vector<Finding>& findings) {
-  nlohmann::json checks = nlohmann::json::array();
-  for (const Finding& f : findings) {
-    checks.push_back({{"check", f.check}, {"verdict", word(f.verdict)}, {"found", f.found}, {"mend", f.fix}});
-  }
   const SchedulingLatency& jitter = facts.jitter;
   const core::Percentiles late = core::percentiles(jitter.late_us, jitter.max_us);
   const nlohmann::json root{
-      {"checks", checks},
+      {"checks", to_json(findings)},
       {"wake",
        {{"rate_hz", servo::kServoRateHz},
         {"policy", jitter.grant.priority > 0 ? "SCHED_FIFO" : "SCHED_OTHER"},

@@ -8,7 +8,7 @@
 
 namespace afm::app {
 
-// Tells a picture of a headset that stands still from a slow one. It may stand still for 250 ms; where one of the last
+// Distinguishes a headset's frozen picture from a slow one. It may stand still for 250 ms; where one of the last
 // pictures took longer than half of that, for twice as long as that one, up to 2 s.
 class PictureAge {
  public:

@@ -116,7 +116,7 @@ class ViewPanels {
   RightPanel right_ = RightPanel::Data;
 };
 
-// What the panels of a frame follow from, besides the moment.
+// The inputs that a frame's panels need in addition to its Moment.
 struct Panelled {
   Pointed pointed;
   HandSource hand = HandSource::Mouse;

@@ -33,9 +33,9 @@ class Doorbell {
 
 enum class ClusterRole { Master, Node, Observer };
 
-// The topics of a wall in DDS: all that touches Cyclone. A write may take seconds when a cable is out, whatever its
-// limits say, so that this belongs to a thread of its own, which neither draws nor keeps the servo's heartbeat. That
-// thread only; `doorbell` is rung by DDS's threads when something has come, and must outlive it.
+// A wall's topics in DDS; nothing else calls Cyclone. A write may block for seconds when a cable is out, whatever its
+// limits say, so only one dedicated thread may call this, one that neither draws nor sends the servo's heartbeat. DDS's
+// threads ring `doorbell` when data has arrived; it must outlive this.
 class Transport {
  public:
   enum class Topic : std::uint32_t { Model, Frame, Journal, History, Ready, Swap };

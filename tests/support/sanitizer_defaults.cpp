@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Linked into programs that use Vulkan or DDS when they are built with a sanitizer. DDS, the driver, the validation
-// layer and what SDL loads are not ours to mend: their leaks are suppressed by the library's name, and ThreadSanitizer
+// layer and what SDL loads are not ours to fix: their leaks are suppressed by the library's name, and ThreadSanitizer
 // looks at instrumented code only (a race in our own is still reported; `race:` suppressions leave reports with the
 // validation layer).
 

@@ -14,8 +14,8 @@
 
 namespace afm::cluster {
 
-// The master's end of a wall of several machines. DDS lives in a thread of its own; every call here is wait-free, but
-// wait(). Frame loop only.
+// The master's end of a wall of several machines. DDS runs in a separate thread; every call but
+// wait() is wait-free. Frame loop only.
 class MasterLink {
  public:
   // Listens for `listen_ms` first. WrongUsage: another master drives the wall. `model` is a document for every node

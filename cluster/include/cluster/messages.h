@@ -137,7 +137,7 @@ constexpr void for_each_field(Visit&& visit, const Record&... scan) {
 }
 static_assert(scene::all_fields_described<ScanRecord>());
 
-// What every node has to know in its order, besides the frames: each sample and jump of the tip, each edit, each change
+// Records that every node must receive completely and in order: each sample and jump of the tip, each edit, each change
 // of a scan.
 enum class JournalKind : std::uint32_t {
   Sample = 0,

@@ -15,7 +15,7 @@
 
 namespace afm::cluster {
 
-// A node's end. DDS lives in a thread of its own; every call here is wait-free, but wait(). Main thread only.
+// A node's end. DDS runs in a separate thread; every call but wait() is wait-free. Main thread only.
 class NodeLink {
  public:
   static core::Result<std::unique_ptr<NodeLink>> open(const ClusterNetwork& network, const core::Clock& clock);

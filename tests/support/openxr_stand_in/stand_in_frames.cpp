@@ -172,7 +172,7 @@ XrResult XRAPI_CALL destroy_swapchain(XrSwapchain handle) {
   AFM_ENTER_FRAME("xrDestroySwapchain");
   auto* chain = reinterpret_cast<Swapchain*>(handle);
   std::erase(session()->chains, chain);
-  destroy_images(chain);  // validation tells when something still fills them
+  destroy_images(chain);  // validation reports any command that still writes to them
   return XR_SUCCESS;
 }
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "app/cluster_wall.h"
+#include "app/cluster/cluster_wall.h"
 #include "core/file_descriptor.h"
 #include "core/fnv1a.h"
 #include "core/percentiles.h"

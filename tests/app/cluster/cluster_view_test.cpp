@@ -6,7 +6,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "app/cluster_wall.h"
+#include "app/cluster/cluster_wall.h"
 
 namespace afm::app {
 namespace {

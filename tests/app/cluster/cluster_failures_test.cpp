@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/cluster_noise.h"
-#include "app/cluster_wall.h"
+#include "app/cluster/cluster_noise.h"
+#include "app/cluster/cluster_wall.h"
 #include "cluster/master_link.h"
 #include "core/clock.h"
 #include "core/whole_file.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/cluster_wall.h"
+#include "app/cluster/cluster_wall.h"
 #include "support/lossy_network.h"
 
 namespace afm::app {

@@ -14,8 +14,8 @@
 #include <sstream>
 #include <thread>
 
-#include "app/cluster_cable.h"
-#include "app/cluster_noise.h"
+#include "app/cluster/cluster_cable.h"
+#include "app/cluster/cluster_noise.h"
 #include "core/whole_file.h"
 
 namespace afm::app {

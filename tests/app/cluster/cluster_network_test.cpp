@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "app/cluster_cable.h"
+#include "app/cluster/cluster_cable.h"
 #include "core/whole_file.h"
 
 namespace afm::app {

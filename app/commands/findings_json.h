@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "app/commands/diagnosis.h"
+
+namespace afm::app {
+
+// The array "checks" of touchafm doctor --json, whatever was checked.
+nlohmann::json to_json(const std::vector<Finding>& findings);
+
+}  // namespace afm::app
