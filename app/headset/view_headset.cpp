@@ -114,9 +114,10 @@ std::optional<double> ViewHeadset::pose_age_s() const {
   return 1e-9 * static_cast<double>(*age_ns);
 }
 
-MirroredEye ViewHeadset::locate_eyes() {
+MirroredEye ViewHeadset::locate_eyes(const std::function<void()>& while_waiting) {
   if (!wants_picture()) return resting_;
-  const auto eyes = headset_->locate_eyes();
+  note_unseen();  // until it is shown: the runtime may lend no image
+  const auto eyes = headset_->locate_eyes(while_waiting);
   if (!eyes) return resting_;
   const auto& [left, right] = *eyes;
   head_ = {.position_m = 0.5 * (left.pose.position_m + right.pose.position_m),
@@ -124,9 +125,8 @@ MirroredEye ViewHeadset::locate_eyes() {
   return mirrored(left.pose, left.fov, {left.view, right.view}, wall_m_);
 }
 
-void ViewHeadset::show(const std::function<void()>& while_waiting) {
-  note_unseen();  // until it is shown: the runtime may lend no image
-  if (!headset_->show(while_waiting)) return picture_age_.unseen();
+void ViewHeadset::show() {
+  if (!headset_->show()) return picture_age_.unseen();
   unseen_since_ns_.reset();
   picture_age_.shown(clock_.now_ns());
 }

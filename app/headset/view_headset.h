@@ -39,10 +39,10 @@ class ViewHeadset {
   // The runtime has asked for a frame in this turn, which is drawn for locate_eyes() and then shown.
   bool wants_picture() const { return turn_ == render::Headset::Turn::Frame; }
   // The eyes of that frame; where they are lost, or none is wanted, both eyes of somebody at the sweet spot.
-  MirroredEye locate_eyes();
+  MirroredEye locate_eyes(const std::function<void()>& while_waiting);
   // As FrameState::panels_apart, of that frame.
   std::size_t panels_apart() const { return wants_picture() ? headset_->most_panels() : 0; }
-  void show(const std::function<void()>& while_waiting);
+  void show();
 
   // Nobody sees the picture, or it stands still: the hand must be free. At once where the headset is off, lost or
   // frozen; where its runtime hides the picture, has lost the eyes or lends no image, or the graphics device hangs,

@@ -16,11 +16,11 @@ void ViewPicture::show_in_headset(render::FrameState& frame, std::int64_t now_ns
   ViewHeadset& headset = *settings_.headset;
   // the eyes are located once nothing else is to be waited for
   renderer_.wait_until_ready(while_waiting);
-  const MirroredEye seen = headset.locate_eyes();
+  const MirroredEye seen = headset.locate_eyes(while_waiting);
   frame.eyes = seen.eyes;
   frame.panels_apart = headset.panels_apart();
   renderer_.render(frame);
-  headset.show(while_waiting);
+  headset.show();
   if (headset.wants_picture()) {
     times_.shown(now_ns);
   } else {

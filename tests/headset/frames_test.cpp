@@ -105,10 +105,22 @@ TEST_F(HeadsetFrames, AreCalledForInTheOrderOfTheSpecification) {
   ASSERT_TRUE(draw_next());
   std::erase(log().calls, "xrLocateSpace");
   EXPECT_THAT(log().calls,
-              ElementsAre("xrWaitFrame", "xrBeginFrame", "xrSyncActions", "xrLocateViews", "xrAcquireSwapchainImage",
-                          "xrWaitSwapchainImage", "xrAcquireSwapchainImage", "xrWaitSwapchainImage",
+              ElementsAre("xrWaitFrame", "xrBeginFrame", "xrSyncActions", "xrAcquireSwapchainImage",
+                          "xrWaitSwapchainImage", "xrAcquireSwapchainImage", "xrWaitSwapchainImage", "xrLocateViews",
                           "xrReleaseSwapchainImage", "xrReleaseSwapchainImage", "xrEndFrame"))
       << "colours and depth; nothing is waited for between the place of the eyes and their picture";
+}
+
+// A place of the eyes that is as old as a wait is another picture than the one before them.
+TEST_F(HeadsetFrames, AreDrawnForThePlaceOfTheEyesAfterEveryWait) {
+  connect();
+  script().lends = false;
+  beats_ = 0;
+  lends_after_beats_ = 20;
+  ASSERT_TRUE(draw_next());
+  EXPECT_TRUE(shown_);
+  EXPECT_GE(beats_, 20);
+  EXPECT_EQ(headset_->pose_age_ns(), 0) << "on a clock that only a wait moves";
 }
 
 TEST_F(HeadsetFrames, HaveNoLayerWhereNobodySeesThem) {

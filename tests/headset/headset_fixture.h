@@ -70,26 +70,29 @@ class HeadsetTest : public testing::Test {
 
   // A turn in which the clock goes on as long as anything is waited for.
   render::Headset::Turn turn() {
-    return headset_->next_turn([this] {
-      ++beats_;
-      clock_.go_on(5'000'000);
-    });
+    return headset_->next_turn([this] { wait_on(); });
   }
 
   // Draws the next frame that the runtime asks for; nothing if it asks for none in 20 turns.
   std::optional<std::array<render::HeadsetEye, 2>> draw_next() {
     for (int i = 0; i < 20; ++i) {
       if (turn() != render::Headset::Turn::Frame) continue;
-      const auto eyes = headset_->locate_eyes();
+      const auto eyes = headset_->locate_eyes([this] { wait_on(); });
       if (eyes) {
         frame_.eyes = {(*eyes)[0].view, (*eyes)[1].view};
         frame_.panels_apart = headset_->most_panels();
         renderer_->render(frame_);
       }
-      shown_ = headset_->show([this] { ++beats_; });
+      shown_ = headset_->show();
       return eyes;
     }
     return std::nullopt;
+  }
+
+  void wait_on() {
+    ++beats_;
+    clock_.go_on(5'000'000);
+    if (beats_ == lends_after_beats_) script().lends = true;
   }
 
   std::string messages() {
@@ -106,7 +109,8 @@ class HeadsetTest : public testing::Test {
   render::Validation validation_ = render::Validation::On;
   HandClock clock_;
   int beats_ = 0;
-  bool shown_ = false;  // what draw_next() drew last
+  int lends_after_beats_ = 0;  // 0: never
+  bool shown_ = false;         // what draw_next() drew last
   TestScene scene_ = make_test_scene();
   render::FrameState frame_ = full_frame(scene_);
   scene::HeadPose room_from_floor_{.position_m = {0.0, -1.6, 2.5}};  // the test scene's wall is before its origin

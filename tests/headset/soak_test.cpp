@@ -82,12 +82,12 @@ class HeadsetSoak : public HeadsetTest {
   void go_on(int turns) {
     for (int i = 0; i < turns; ++i) {
       if (turn() != Headset::Turn::Frame) continue;
-      if (const auto eyes = headset_->locate_eyes()) {
+      if (const auto eyes = headset_->locate_eyes([] {})) {
         frame_.eyes = {(*eyes)[0].view, (*eyes)[1].view};
         frame_.panels_apart = headset_->most_panels();
         renderer_->render(frame_);
       }
-      headset_->show([] {});
+      headset_->show();
     }
   }
 

@@ -99,17 +99,18 @@ class Headset {
   // kFrozenNs after the wait began.
   Turn next_turn(const std::function<void()>& while_waiting);
 
-  // The eyes when the frame of this turn is seen, as the runtime knows them now: called last, just before drawing.
-  // Empty while the runtime has lost them; the frame is then shown without a picture.
-  std::optional<std::array<HeadsetEye, 2>> locate_eyes();
+  // The eyes when the frame of this turn is seen, as the runtime knows them after all that showing a picture waits for,
+  // calling `while_waiting` every few milliseconds: called last, just before drawing. Empty while the runtime has lost
+  // them or lends no image; the frame is then shown without a picture.
+  std::optional<std::array<HeadsetEye, 2>> locate_eyes(const std::function<void()>& while_waiting);
 
   // How many panels the runtime can show itself, sharper than they are in the eyes' pictures: FrameState::panels_apart
   // of the frame that is shown. 0 where it has too few layers for them, or none that takes their bytes.
   std::size_t most_panels() const;
 
-  // Shows the renderer's newest frame, drawn for the eyes that were located last, with its panels apart. False: nobody
-  // sees it, because the runtime has lost the eyes, lends no image, or is gone.
-  bool show(const std::function<void()>& while_waiting);
+  // Shows the renderer's newest frame, drawn for the eyes that were located last, with its panels apart; waits for
+  // nothing. False: nobody sees it, because there were no eyes, or the runtime is gone.
+  bool show();
 
   // Of the newest frame that was shown: how old the eyes' place was when the runtime got the frame. None before the
   // first.

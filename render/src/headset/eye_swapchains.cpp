@@ -15,6 +15,7 @@ constexpr std::array kHeadsetFormats{HeadsetFormat{vk::Format::eB8G8R8A8Srgb, "B
                                      HeadsetFormat{vk::Format::eR8G8B8A8Srgb, "R8G8B8A8 sRGB", true}};
 
 constexpr XrDuration kTurnOfWaitNs = 5'000'000;
+constexpr int kMostTurnsOfWait = 50;
 
 constexpr ImageUse kEyeShown{vk::PipelineStageFlagBits2::eAllCommands, vk::AccessFlagBits2::eNone,
                              vk::ImageLayout::eShaderReadOnlyOptimal};
@@ -62,7 +63,14 @@ PictureChain::PictureChain(const OpenXrInstance& calls, XrSession session, vk::F
   for (const XrSwapchainImageVulkan2KHR& image : images) images_.emplace_back(image.image);
 }
 
-bool PictureChain::take(const std::function<void()>& while_waiting, int most_turns) {
+bool PictureChain::take(const std::function<void()>& while_waiting) {
+  for (int turn = 0; !taken_ && turn < kMostTurnsOfWait; ++turn) {
+    if (!wait_once(kTurnOfWaitNs)) while_waiting();
+  }
+  return taken_;
+}
+
+bool PictureChain::wait_once(XrDuration most_ns) {
   if (!acquired_) {
     const XrSwapchainImageAcquireInfo info{.type = XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO, .next = nullptr};
     check_openxr(calls_.AcquireSwapchainImage(chain_, &info, &index_), "xrAcquireSwapchainImage");
@@ -70,14 +78,10 @@ bool PictureChain::take(const std::function<void()>& while_waiting, int most_tur
     if (index_ >= images_.size()) throw OpenXrFailure(XR_ERROR_RUNTIME_FAILURE, "xrAcquireSwapchainImage");
     acquired_ = true;
   }
-  const XrSwapchainImageWaitInfo wait{
-      .type = XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, .next = nullptr, .timeout = kTurnOfWaitNs};
-  for (int turn = 0; !taken_ && turn < most_turns; ++turn) {
-    const XrResult waited = calls_.WaitSwapchainImage(chain_, &wait);
-    check_openxr(waited, "xrWaitSwapchainImage");
-    taken_ = waited != XR_TIMEOUT_EXPIRED;
-    if (!taken_) while_waiting();
-  }
+  const XrSwapchainImageWaitInfo wait{.type = XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, .next = nullptr, .timeout = most_ns};
+  const XrResult waited = calls_.WaitSwapchainImage(chain_, &wait);
+  check_openxr(waited, "xrWaitSwapchainImage");
+  taken_ = waited != XR_TIMEOUT_EXPIRED;
   return taken_;
 }
 
@@ -118,12 +122,11 @@ EyeSwapchains::Chains EyeSwapchains::create(const OpenXrInstance& calls, XrSessi
 }
 
 bool EyeSwapchains::take(const std::function<void()>& while_waiting) {
-  const auto take_all = [&](Chains& of, int most_turns) {
-    return std::all_of(of.chains.begin(), of.chains.end(),
-                       [&](PictureChain& chain) { return chain.take(while_waiting, most_turns); });
+  const auto take_all = [](Chains& of, const auto& take) {
+    return std::all_of(of.chains.begin(), of.chains.end(), take);
   };
-  if (!take_all(color_, PictureChain::kMostTurnsOfWait)) return false;
-  has_depth_ = !depth_.chains.empty() && take_all(depth_, 1);
+  if (!take_all(color_, [&](PictureChain& chain) { return chain.take(while_waiting); })) return false;
+  has_depth_ = !depth_.chains.empty() && take_all(depth_, [](PictureChain& chain) { return chain.take_if_lent(); });
   return true;
 }
 

@@ -35,10 +35,10 @@ class PictureChain {
   PictureChain(const OpenXrInstance& calls, XrSession session, vk::Format format, vk::Extent2D extent,
                std::uint32_t layers);
 
-  // Takes the image that is filled next, unless one is already taken; false if the runtime lends none for so many turns
-  // of 5 ms. At first for as long as a hand may be held without a picture.
-  static constexpr int kMostTurnsOfWait = 50;
-  bool take(const std::function<void()>& while_waiting, int most_turns = kMostTurnsOfWait);
+  // Takes the image that is filled next, unless one is already taken; false if the runtime lends none for as long as a
+  // hand may be held without a picture, or, where it only may, lends none now.
+  bool take(const std::function<void()>& while_waiting);
+  bool take_if_lent() { return taken_ || wait_once(0); }
   void give_back();
 
   XrSwapchain handle() const { return chain_; }
@@ -46,6 +46,8 @@ class PictureChain {
   bool taken() const { return taken_; }
 
  private:
+  bool wait_once(XrDuration most_ns);
+
   const OpenXrInstance& calls_;
   XrSwapchain chain_ = XR_NULL_HANDLE;
   std::vector<vk::Image> images_;

@@ -104,18 +104,18 @@ Headset::Turn Headset::next_turn(const std::function<void()>& while_waiting) {
   return parts.turn;
 }
 
-std::optional<std::array<HeadsetEye, 2>> Headset::locate_eyes() {
+std::optional<std::array<HeadsetEye, 2>> Headset::locate_eyes(const std::function<void()>& while_waiting) {
   std::optional<std::array<HeadsetEye, 2>> eyes;
+  if (parts_->session) parts_->follow_loss([&] { eyes = parts_->session->locate_eyes(while_waiting); });
   parts_->located_ns = parts_->clock.now_ns();
-  if (parts_->session) parts_->follow_loss([&] { eyes = parts_->session->locate_eyes(); });
   return eyes;
 }
 
 std::size_t Headset::most_panels() const { return parts_->session ? parts_->session->most_panels() : 0; }
 
-bool Headset::show(const std::function<void()>& while_waiting) {
+bool Headset::show() {
   bool shown = false;
-  if (parts_->session) parts_->follow_loss([&] { shown = parts_->session->show(while_waiting); });
+  if (parts_->session) parts_->follow_loss([&] { shown = parts_->session->show(); });
   if (shown) parts_->pose_age_ns = parts_->clock.now_ns() - parts_->located_ns;
   return shown;
 }

@@ -197,9 +197,9 @@ void HeadsetSession::begin_frame(const FrameWait::Answer& answer) {
   }
 }
 
-std::optional<std::array<HeadsetEye, 2>> HeadsetSession::locate_eyes() {
+std::optional<std::array<HeadsetEye, 2>> HeadsetSession::locate_eyes(const std::function<void()>& while_waiting) {
   located_ = false;
-  if (!frame_) return std::nullopt;
+  if (!frame_ || !get_ready_to_copy(while_waiting)) return std::nullopt;
   const XrViewLocateInfo info{.type = XR_TYPE_VIEW_LOCATE_INFO,
                               .next = nullptr,
                               .viewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO,
@@ -229,23 +229,29 @@ std::optional<std::array<HeadsetEye, 2>> HeadsetSession::locate_eyes() {
   return eyes;
 }
 
-bool HeadsetSession::show(const std::function<void()>& while_waiting) {
+// Whatever showing a picture may wait for; false if the runtime lends no image for it.
+bool HeadsetSession::get_ready_to_copy(const std::function<void()>& while_waiting) {
+  if (!pictures_.take(while_waiting)) return false;
+  device_.wait_for(copying_[copied_ % copying_.size()].done, while_waiting);
+  return true;
+}
+
+bool HeadsetSession::show() {
   if (!frame_) return false;
-  if (!located_ || !pictures_.take(while_waiting)) {
+  if (!located_) {
     end_frame(Picture::None);
     return false;
   }
-  quads_.take(panels_.apart(), while_waiting);
-  submit_copies(while_waiting);
+  quads_.take(panels_.apart());
+  submit_copies();
   pictures_.give_back();
   quads_.give_back();
   end_frame(Picture::Eyes);
   return true;
 }
 
-void HeadsetSession::submit_copies(const std::function<void()>& while_waiting) {
+void HeadsetSession::submit_copies() {
   const Copying& copying = copying_[copied_++ % copying_.size()];
-  device_.wait_for(copying.done, while_waiting);
   device_->resetFences(*copying.done);
   copying.commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   pictures_.record(copying.commands, eyes_);

@@ -28,8 +28,8 @@ class HeadsetSession {
   ~HeadsetSession();
 
   Headset::Turn next_turn(const core::Clock& clock, const std::function<void()>& while_waiting);
-  std::optional<std::array<HeadsetEye, 2>> locate_eyes();
-  bool show(const std::function<void()>& while_waiting);
+  std::optional<std::array<HeadsetEye, 2>> locate_eyes(const std::function<void()>& while_waiting);
+  bool show();
   std::size_t most_panels() const { return quads_.most(); }
 
   // Over, and nothing of it is under way: it can be destroyed without waiting.
@@ -57,7 +57,8 @@ class HeadsetSession {
   void end_frame(Picture picture);
   void begin_session();
   void end_session();
-  void submit_copies(const std::function<void()>& while_waiting);
+  bool get_ready_to_copy(const std::function<void()>& while_waiting);
+  void submit_copies();
 
   const OpenXrInstance& calls_;
   const Device& device_;

@@ -13,7 +13,6 @@ namespace afm::render {
 namespace {
 
 constexpr auto kQuadFormat = static_cast<std::int64_t>(vk::Format::eR8G8B8A8Srgb);  // has the bytes of kPanelFormat
-constexpr int kTurnsOfWait = 1;             // an old picture of a panel is better than a late frame
 constexpr std::uint64_t kFramesInCopy = 3;  // after which the device has copied what a frame copies
 
 }  // namespace
@@ -38,7 +37,7 @@ void PanelQuads::prepare(const ApartPanel& panel, Shown& shown) {
   shown.extent = panel.extent;
 }
 
-void PanelQuads::take(std::vector<ApartPanel> panels, const std::function<void()>& while_waiting) {
+void PanelQuads::take(std::vector<ApartPanel> panels) {
   ++frame_;
   std::erase_if(retired_, [&](const auto& each) {
     if (frame_ - each.second < kFramesInCopy) return false;
@@ -51,7 +50,7 @@ void PanelQuads::take(std::vector<ApartPanel> panels, const std::function<void()
     for (const ApartPanel& panel : panels_) {
       Shown& shown = shown_[panel.place];
       prepare(panel, shown);
-      if (shown.painting != panel.painting) shown.chain->take(while_waiting, kTurnsOfWait);
+      if (shown.painting != panel.painting) shown.chain->take_if_lent();
     }
   } catch (const OpenXrFailure& failure) {
     if (is_loss(failure)) throw;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,8 +24,8 @@ class PanelQuads {
   std::size_t most() const { return refused_ ? 0 : most_; }
 
   // A frame: takes an image for each panel that was painted again; copies the textures; gives the images back. A panel
-  // for which the runtime lends none keeps its old picture.
-  void take(std::vector<ApartPanel> panels, const std::function<void()>& while_waiting);
+  // for which the runtime lends none at once keeps its old picture, which is better than a late frame.
+  void take(std::vector<ApartPanel> panels);
   void record(const vk::raii::CommandBuffer& command) const;
   void give_back();
 
