@@ -12,6 +12,9 @@
 #include "app/bench/render_subjects.h"
 #include "app/live/view_keys.h"
 #include "exhibit/exhibit_setup.h"
+#include "exhibit/lesson/lesson_panel.h"
+#include "exhibit/scan/scan_panels.h"
+#include "full_panels.h"
 #include "panel_painter.h"
 #include "places.h"
 
@@ -20,19 +23,6 @@ namespace {
 
 constexpr double kCapShare = 0.727;  // of Inter's em square
 constexpr double kLeastMinutes = 20.0;
-constexpr double kLeastOfKeys = 18.0;  // of the long list of keys, which is looked up, not read
-
-// Subscripts are smaller than the letters that they belong to.
-render::ForcePanel without_subscripts(render::ForcePanel panel) {
-  for (render::PlotMarker& marker : panel.markers) std::erase(marker.label, '_');
-  return panel;
-}
-render::DataPanel without_subscripts(render::DataPanel panel) {
-  for (render::DataRow& row : panel.rows) {
-    for (std::string* text : {&row.name, &row.value, &row.source}) std::erase(*text, '_');
-  }
-  return panel;
-}
 
 class LettersOfThePanels : public ::testing::TestWithParam<const char*> {};
 
@@ -46,19 +36,33 @@ TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWal
   const double millimetre_m = stage->wall_scene.panel_millimetre_m();
   test::Painter painter(640.0, millimetre_m);
   const glm::dvec3 viewer = stage->wall.viewers.front().sweet_spot.position_m;
-  const auto expect_large = [&](const auto& panel, const render::PanelPlacement& place, const std::string& name,
-                                double least = kLeastMinutes) {
+  const auto expect_large = [&](const auto& panel, const render::PanelPlacement& place, const std::string& name) {
     const glm::dvec3 middle = place.lower_left_m + 0.5 * (place.right_m + place.up_m);
     const double cap_m = kCapShare * static_cast<double>(painter.paint(panel, place).least_em_m);
     const double minutes = std::atan(cap_m / glm::distance(viewer, middle)) * 60.0 * 180.0 / std::numbers::pi;
-    EXPECT_GE(minutes, least) << name;
+    EXPECT_GE(minutes, kLeastMinutes) << name;
     RecordProperty(fmt::format("minutes of {}", name), fmt::format("{:.1f}", minutes));
   };
-  expect_large(without_subscripts(frame.force_panel), frame.force_placement, "the plot");
-  expect_large(without_subscripts(frame.data_panel), frame.data_placement, "the data");
-  expect_large(frame.banner, frame.banner_placement, "the banner");
-  expect_large(app::key_list(app::HandSource::Mouse, false, stage->phrases()), stage->wall_scene.parameter_placement(),
-               "the list of keys", kLeastOfKeys);
+  const Phrases& phrases = stage->phrases();
+  const render::PanelPlacement right = stage->wall_scene.parameter_placement();
+  expect_large(frame.force_panel, frame.force_placement, "the plot");
+  expect_large(frame.data_panel, frame.data_placement, "the data");
+  expect_large(full_banner(phrases, frame.banner), frame.banner_placement, "the banner");
+  expect_large(app::key_list(app::HandSource::Mouse, false, phrases), right, "the list of keys");
+  expect_large(full_parameters(*stage), right, "the parameters");
+  const LiveScan scan = full_scan(*stage);
+  expect_large(scan_panel(scan, phrases.word("Silicon nitride"), phrases), right, "the settings of a scan");
+  expect_large(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.force_placement, "the images");
+  expect_large(full_friction_loop(physics::FrictionLaw::Lattice, phrases), right, "the friction loop");
+  for (const LessonPrompt& prompt : full_prompts(phrases)) {
+    const auto targets = lesson_targets(prompt, std::nullopt, phrases);
+    const LessonPlaces places = lesson_places(right, targets.size());
+    expect_large(lesson_panel(prompt, phrases), places.words, "the words of a lesson");
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      expect_large(render::Label{.text = targets[i].text, .highlighted = false, .placement = places.targets[i]},
+                   places.targets[i], targets[i].text);
+    }
+  }
   for (const render::Label& label : frame.labels) expect_large(label, label.placement, label.text);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kEllipsis = "\u2026";
 constexpr float kPlateRounding = 22.0F;
-constexpr float kSubscriptScale = 0.70F;
+constexpr float kSubscriptScale = 0.75F;
 constexpr float kSubscriptDrop = 0.34F;  // of the line's height
 
 bool in_subscript(char c) {

@@ -145,11 +145,22 @@ void paint_words(Canvas& canvas, std::string_view words, float top, float pitch)
               std::min(by_height, by_width));
 }
 
+// The height of a row with the name and the value, and with a source below them.
+float row_block_mm(const DataRow& row) { return row.source.empty() ? 46.0F : 78.0F; }
+
+// A header is as much smaller as the rows below it, where there are so many that they have to be.
+float table_scale(const Canvas& canvas, const DataPanel& panel) {
+  float tallest = 0.0F;
+  for (const DataRow& row : panel.rows) tallest = std::max(tallest, row_block_mm(row));
+  const float whole = kHeader + tallest * static_cast<float>(panel.rows.size());
+  return std::min(1.0F, (canvas.size_mm().y - kBelowRows) / whole);
+}
+
 // Name and value on one line, the source below; smaller where the rows stand close or the line is long.
 void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
   constexpr float kNameGap = 20.0F;
   const float right = canvas.size_mm().x - kMargin;
-  const float block = row.source.empty() ? 46.0F : 78.0F;
+  const float block = row_block_mm(row);
   const float width =
       canvas.text_width_mm(TextStyle::Body, row.name) + canvas.text_width_mm(TextStyle::Strong, row.value) + kNameGap;
   const float by_height = std::min(1.0F, pitch / block);
@@ -169,7 +180,7 @@ void paint(Canvas& canvas, const DataPanel& panel) {
   canvas.panel_background();
   const float width = canvas.size_mm().x - 2.0F * kMargin;
   const bool text = !panel.rows.empty() && std::all_of(panel.rows.begin(), panel.rows.end(), is_words);
-  const float scale = text ? text_scale(canvas, panel) : 1.0F;
+  const float scale = text ? text_scale(canvas, panel) : table_scale(canvas, panel);
   shrunk_text(canvas, {kMargin, scale * 24.0F}, {TextStyle::Title, palette::kInk}, panel.title, width, scale);
   shrunk_text(canvas, {kMargin, scale * 92.0F}, {TextStyle::Body, palette::kYellow}, panel.subtitle, width, scale);
   const float top = scale * kHeader;
@@ -177,7 +188,7 @@ void paint(Canvas& canvas, const DataPanel& panel) {
   if (panel.rows.empty()) {
     return;
   }
-  const float room = canvas.size_mm().y - top - scale * kBelowRows;
+  const float room = canvas.size_mm().y - top - (text ? scale : 1.0F) * kBelowRows;
   if (text) return paint_text(canvas, panel, top, room, scale);
   const float pitch = std::min(kMostPitch, room / static_cast<float>(panel.rows.size()));
   for (std::size_t i = 0; i < panel.rows.size(); ++i) {

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "full_panels.h"
+
+#include <fmt/format.h>
+
+#include "core/enumerators.h"
+#include "exhibit/friction/friction_panel.h"
+#include "exhibit/guidance.h"
+#include "exhibit/lesson/questionnaire.h"
+#include "exhibit/parameter_panel.h"
+#include "exhibit/scan/scan_subject.h"
+#include "exhibit/servo_rows.h"
+#include "scene/shared/shared_blocks.h"
+
+namespace afm::exhibit {
+
+render::Banner full_banner(const Phrases& phrases, render::Banner banner) {
+  const Controls mouse{.hand = HandControls::Mouse, .pointer = Pointer::Mouse};
+  for (const Hint hint : core::kEnumerators<Hint>) {
+    const std::string text = step_text(phrases, hint, mouse);
+    if (text.size() > banner.guidance.size()) banner.guidance = text;
+  }
+  banner.state_word = phrases[Phrase::StateReleasing];
+  banner.state_color = {0.70F, 0.74F, 0.81F};
+  banner.warning = phrases[Phrase::NotRealTime];
+  scene::TipState tip;
+  tip.active.scale.hand_m_per_m = 7e5;
+  tip.active.scale.hand_n_per_n = 1.5e8;
+  tip.safety.force_cap_n = 2.0;
+  tip.safety.slew_limit_n_per_s = 20.0;
+  scene::ServoTiming timing;
+  timing.rate_hz = 1000.0;
+  timing.ticks = 61222;
+  timing.missed = 12;
+  timing.wake_us[999] = 61222;
+  timing.wake_max_us = 1000;
+  scene::SharedDevice device;
+  device.name = scene::to_name("simulated hand");
+  banner.scale += "\n";
+  for (const render::DataRow& row : servo_rows(tip, timing, device, phrases)) {
+    banner.scale += fmt::format("{}: {} ({})     ", row.name, row.value, row.source);
+  }
+  return banner;
+}
+
+render::ControlPanel full_parameters(const Stage& stage) {
+  const curves::LiveParameters gold(
+      curves::make_sample_model(curves::ContactSetup{stage.materials.materials[1], {}, {}}).value());
+  return parameter_panel(gold, stage.phrases().word("Silicon nitride"), ChangeState::Waiting, stage.phrases());
+}
+
+LiveScan full_scan(const Stage& stage) {
+  const auto gold = curves::make_sample_model(curves::ContactSetup{stage.materials.materials[1], {}, {}});
+  LiveScan scan(scan_subject(stage.wall_scene, 1, gold.value()));
+  scan.step(ScanRow::Rate, 3);
+  while (scan.row() < LiveScan::kPixels / 2) scan.advance(LiveScan::kMostCatchUpS);
+  return scan;
+}
+
+render::ForcePanel full_friction_loop(physics::FrictionLaw law, const Phrases& phrases) {
+  FrictionHistory history;
+  scene::TipSample sample;
+  sample.phase = physics::Phase::Attached;
+  for (int i = 0; i < 1300; ++i) {
+    const int phase = i % 400;
+    sample.surface.xy_m = {1e-9 * (phase < 200 ? phase : 400 - phase), 0.0};
+    sample.lateral_force_n = {phase < 200 ? -123.4e-9 : 123.4e-9, 0.0};
+    history.add(sample);
+  }
+  return friction_panel(history, law, phrases);
+}
+
+std::vector<LessonPrompt> full_prompts(const Phrases& phrases) {
+  LessonPrompt consent;
+  consent.wants = LessonPrompt::Wants::Answer;
+  consent.title = phrases[Phrase::AllKeys];
+  consent.words = phrases[Phrase::LessonConsent];
+  consent.progress =
+      phrases.text<Phrase::LessonStep>("12", "12") + " \u00b7 " + phrases.text<Phrase::LessonPractice>("12", "12");
+  consent.answers = {phrases[Phrase::LessonConsentYes], phrases[Phrase::LessonConsentNo]};
+  LessonPrompt draw = consent;
+  draw.words = phrases[Phrase::LessonBreak];
+  draw.hint = phrases[Phrase::DrawPart1];
+  draw.answers.clear();
+  for (std::size_t i = 0; i < 5; ++i) draw.answers.push_back(phrases[after(Phrase::DrawShape1, i)]);
+  LessonPrompt scale = consent;
+  scale.answers = answers_of(Questionnaire::Tlx, phrases);
+  return {consent, draw, scale};
+}
+
+}  // namespace afm::exhibit
