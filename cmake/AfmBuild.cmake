@@ -30,6 +30,11 @@ if(AFM_HAS_CONTROL_FLOW_PROTECTION)
 endif()
 # every symbol is bound at the start: the servo must not look one up in a tick
 add_link_options(-Wl,-z,relro,-z,now)
+if(NOT AFM_SANITIZE)
+  # drivers and vendors' libraries call their own instances of the standard library's templates, not ours, which are
+  # compiled with other checks; a sanitizer's runtime must be found by them
+  add_link_options(-Wl,--exclude-libs,ALL)
+endif()
 
 add_library(afm_build_flags INTERFACE)
 target_compile_options(afm_build_flags INTERFACE

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "app/commands/standard_output.h"
+#include "core/exit_code.h"
+#include "core/run_main.h"
+#include "core/version.h"
+#include "exhibit/exhibit_setup.h"
+
+namespace afm::app {
+
+namespace {
+
+using core::fail;
+
+// share/touchafm below the folder above bin (a build) or above libexec/touchafm (an installation, wherever it was
+// moved).
+std::string find_assets(const std::filesystem::path& program) {
+  const std::filesystem::path folder = program.parent_path();
+  const std::filesystem::path built = folder.parent_path() / "share" / "touchafm";
+  std::error_code ignored;
+  if (std::filesystem::is_directory(built, ignored)) return built.string();
+  return (folder.parent_path().parent_path() / "share" / "touchafm").string();
+}
+
+std::string language_of_environment() {
+  std::vector<std::string> values;
+  for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
+    const char* value = ::secure_getenv(name);
+    values.emplace_back(value == nullptr ? "" : value);
+  }
+  return exhibit::language_of_locale(values);
+}
+
+// The command line would only say that a command is missing.
+bool names_unknown_command(int count, char** arguments) {
+  if (count < 2 || arguments[1][0] == '-') return false;
+  const std::string_view name = arguments[1];
+  return std::none_of(kCommands.begin(), kCommands.end(),
+                      [name](const Command& command) { return command.name == name; });
+}
+
+}  // namespace
+
+int run_program(int count, char** arguments, const char* commit) {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const CommandContext context{.assets_dir = find_assets(program),
+                               .program_path = program.string(),
+                               .arguments = {arguments + 1, arguments + count},
+                               .language = language_of_environment()};
+
+  CommandLine command_line("touchafm", fmt::format("{} ({})", core::kVersion, commit), kProgramHelp);
+  add_commands(command_line, context);
+
+  if (names_unknown_command(count, arguments)) {
+    return fail(core::ExitCode::WrongUsage,
+                "unknown command \"" + std::string(arguments[1]) + "\"; see touchafm --help");
+  }
+  const auto answer = command_line.parse(count, arguments);
+  if (!answer) return fail(core::ExitCode::WrongUsage, answer.error().message + "; see touchafm --help");
+  if (!answer->empty()) {
+    std::fputs(answer->c_str(), stdout);
+  } else if (const auto done = command_line.run(); !done) {
+    return fail(core::exit_code(done.error().category), done.error().message);
+  }
+  if (const auto written = flush_stdout(); !written)
+    return fail(core::exit_code(written.error().category), written.error().message);
+  return static_cast<int>(core::ExitCode::Done);
+}
+
+}  // namespace afm::app
