@@ -129,6 +129,7 @@ core::Result<std::optional<cluster::NodeLink::Document>> show_wall(const NodeOpt
   DisplayOptions display_options = options.display;
   display_options.picture = model->picture;
   display_options.contrast = model->contrast;
+  display_options.swap = render::Swap::WithOthers;
   auto display = ViewDisplay::open(*stage, display_options, nullptr, clock);
   if (!display) return tl::unexpected(display.error());
   core::log_line(

@@ -299,7 +299,9 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   const auto cluster = other_machines(options, program, *stage, clock);
   if (!cluster) return tl::unexpected(cluster.error());
   settings.cluster = cluster->get();
-  auto display = ViewDisplay::open(*stage, options.display, runtime.get(), clock);
+  DisplayOptions display_options = options.display;
+  if (*cluster) display_options.swap = render::Swap::WithOthers;
+  auto display = ViewDisplay::open(*stage, display_options, runtime.get(), clock);
   if (!display) return tl::unexpected(display.error());
   ViewWindows& windows = (*display)->windows();
   settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : windows.at(0).refresh_hz();

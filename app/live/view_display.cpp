@@ -73,9 +73,15 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
   auto renderer = render::Renderer::create(*display->context_, stage.wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   display->renderer_ = std::move(*renderer);
-  auto presenter = render::Presenter::create(*display->context_, *display->renderer_, display->windows_->all());
+  auto presenter =
+      render::Presenter::create(*display->context_, *display->renderer_, display->windows_->all(), options.swap);
   if (!presenter) return tl::unexpected(presenter.error());
   display->presenter_ = std::move(*presenter);
+  if (options.swap == render::Swap::WithOthers) {
+    core::log_line(display->presenter_->swaps_with_others()
+                       ? "cluster: pictures change together with the other machines' (VK_NV_present_barrier)"
+                       : "cluster: pictures change once all machines have drawn theirs; without VK_NV_present_barrier");
+  }
   for (const ViewOutput& output : display->outputs_) {
     if (auto shown = display->presenter_->check_mode(output.mode); !shown) return tl::unexpected(shown.error());
   }

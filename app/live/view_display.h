@@ -26,6 +26,7 @@ struct DisplayOptions {
   std::string saved_folder = ".";  // for the pictures that are saved
   bool validate = false;           // every Vulkan call
   render::PanelContrast contrast = render::PanelContrast::Normal;
+  render::Swap swap = render::Swap::Alone;  // with the other machines of a wall
   std::string instructor;  // where the instructor's window is, as open_window() takes it; empty: there is none
 };
 

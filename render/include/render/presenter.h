@@ -28,6 +28,10 @@ struct WindowPicture {
   PictureFit fit = PictureFit::Proportions;
 };
 
+// When windows change their picture: in their display's own time, or, where the surface offers VK_NV_present_barrier,
+// in the same refresh as those of other machines with displays in step.
+enum class Swap { Alone, WithOthers };
+
 inline constexpr std::size_t kMostWindows = 16;
 
 // Shows a renderer's frames in windows that are presented together, in step with their display: begin(), then for the
@@ -37,7 +41,8 @@ class Presenter {
  public:
   // DeviceMissing: the device and the display have no way to show pictures in common. All must outlive the presenter;
   // `context` was opened with Presentation::Window. One window at least, kMostWindows at most.
-  static core::Result<Presenter> create(Context& context, Renderer& renderer, std::span<Window* const> windows);
+  static core::Result<Presenter> create(Context& context, Renderer& renderer, std::span<Window* const> windows,
+                                        Swap swap = Swap::Alone);
 
   Presenter(Presenter&&) noexcept;
   Presenter& operator=(Presenter&&) noexcept;
@@ -45,6 +50,9 @@ class Presenter {
 
   // DeviceMissing, saying what is missing: quad-buffer needs a display with a picture for each eye.
   core::Result<void> check_mode(scene::StereoMode mode) const;
+
+  // All windows change their picture with other machines'.
+  bool swaps_with_others() const;
 
   // Takes the images that the windows show next; `pictures` has one entry a window, in modes that check_mode() allows.
   // Calls `while_waiting` every few milliseconds, from this thread. False: no window can show anything now, since all

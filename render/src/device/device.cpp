@@ -13,6 +13,7 @@
 
 #include "core/check.h"
 #include "core/interruption.h"
+#include "device/extensions.h"
 #include "output/window_handle.h"
 
 namespace afm::render {
@@ -85,12 +86,8 @@ std::string missing_ability(const vk::raii::PhysicalDevice& physical) {
 }
 
 bool shows_windows(const vk::raii::Instance& instance, const vk::raii::PhysicalDevice& physical) {
-  const auto extensions = physical.enumerateDeviceExtensionProperties();
-  const bool has_swapchain =
-      std::any_of(extensions.begin(), extensions.end(), [](const vk::ExtensionProperties& extension) {
-        return std::string_view(extension.extensionName) == VK_KHR_SWAPCHAIN_EXTENSION_NAME;
-      });
-  return has_swapchain && can_present(instance, physical, *graphics_family(physical));
+  return has_extension(physical.enumerateDeviceExtensionProperties(), VK_KHR_SWAPCHAIN_EXTENSION_NAME) &&
+         can_present(instance, physical, *graphics_family(physical));
 }
 
 int preference(vk::PhysicalDeviceType type) {
@@ -182,6 +179,8 @@ core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader
   std::vector<const char*> extensions;
   if (presentation == Presentation::Window) {
     extensions = surface_extensions();
+    if (has_extension(loader.enumerateInstanceExtensionProperties(), kAsksSurfaces))
+      extensions.push_back(kAsksSurfaces);
   }
   if (validate) {
     extensions.insert(extensions.end(), {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME});
@@ -223,9 +222,7 @@ DeviceDescription describe(const vk::raii::PhysicalDevice& physical) {
 
 core::Result<void> Device::choose_physical(Presentation presentation, DeviceSource* source) {
   auto candidates = physical_devices(instance_);
-  if (!candidates) {
-    return tl::unexpected(candidates.error());
-  }
+  if (!candidates) return tl::unexpected(candidates.error());
   if (source != nullptr) {
     candidates->clear();
     candidates->push_back(source->choose_device(instance_));
@@ -255,13 +252,19 @@ core::Result<void> Device::choose_physical(Presentation presentation, DeviceSour
 }
 
 void Device::create_device(Presentation presentation, DeviceSource* source) {
-  const std::array extensions{VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+  std::vector<const char*> extensions;
+  if (presentation == Presentation::Window) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  present_barrier_ = presentation == Presentation::Window && has_present_barrier(*loader_, physical_);
+  if (present_barrier_) extensions.push_back(VK_NV_PRESENT_BARRIER_EXTENSION_NAME);
   const float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue_info{
       .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
+  vk::PhysicalDevicePresentBarrierFeaturesNV barrier{.presentBarrier = VK_TRUE};
   // maintenance4: SPIR-V 1.6 gives a compute shader's size as the feature allows
-  vk::PhysicalDeviceVulkan13Features features13{
-      .synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE, .maintenance4 = VK_TRUE};
+  vk::PhysicalDeviceVulkan13Features features13{.pNext = present_barrier_ ? &barrier : nullptr,
+                                                .synchronization2 = VK_TRUE,
+                                                .dynamicRendering = VK_TRUE,
+                                                .maintenance4 = VK_TRUE};
   vk::PhysicalDeviceVulkan12Features features12{.pNext = &features13, .timelineSemaphore = VK_TRUE};
   multiview_ = physical_.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features>()
                    .get<vk::PhysicalDeviceVulkan11Features>()
@@ -271,7 +274,7 @@ void Device::create_device(Presentation presentation, DeviceSource* source) {
   const vk::DeviceCreateInfo info{.pNext = &features11,
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue_info,
-                                  .enabledExtensionCount = presentation == Presentation::Window ? 1U : 0U,
+                                  .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                   .ppEnabledExtensionNames = extensions.data()};
   device_ = source != nullptr ? source->create_device(physical_, info) : vk::raii::Device(physical_, info);
   queue_ = device_.getQueue(queue_family_, 0);

@@ -57,6 +57,9 @@ class Device {
   // True if both eyes can be drawn in one pass.
   bool multiview() const { return multiview_; }
 
+  // True if surfaces may offer to change their pictures together with other machines': VK_NV_present_barrier.
+  bool present_barrier() const { return present_barrier_; }
+
   // Mesa 22.3's lavapipe draws a triangle that is clipped into the first view of a multiview pass alone.
   bool clips_first_view_only() const { return clips_first_view_only_; }
 
@@ -104,6 +107,7 @@ class Device {
   std::uint32_t queue_family_ = 0;
   bool naming_ = false;
   bool multiview_ = false;
+  bool present_barrier_ = false;
   bool clips_first_view_only_ = false;
   vk::raii::Device device_{nullptr};
   vk::raii::Queue queue_{nullptr};

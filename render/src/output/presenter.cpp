@@ -62,7 +62,7 @@ struct Presenter::Parts {
     bool drawn = false;
   };
 
-  core::Result<void> add(Window& window);
+  core::Result<void> add(Window& window, Swap swap);
   template <class Work>
   bool follow_surfaces(Work&& work);
   void draw(std::span<const std::size_t> windows, const std::function<void()>& while_waiting);
@@ -78,8 +78,8 @@ struct Presenter::Parts {
   int surfaces_lost = 0;  // since a picture was shown
 };
 
-core::Result<void> Presenter::Parts::add(Window& window) {
-  panes.push_back({.surface = std::make_unique<WindowSurface>(device, window, renderer.composer), .picture = {}});
+core::Result<void> Presenter::Parts::add(Window& window, Swap swap) {
+  panes.push_back({.surface = std::make_unique<WindowSurface>(device, window, renderer.composer, swap), .picture = {}});
   return panes.back().surface->choose_format();
 }
 
@@ -188,15 +188,21 @@ Presenter::Presenter(Presenter&&) noexcept = default;
 Presenter& Presenter::operator=(Presenter&&) noexcept = default;
 Presenter::~Presenter() = default;
 
-core::Result<Presenter> Presenter::create(Context& context, Renderer& renderer, std::span<Window* const> windows) {
+core::Result<Presenter> Presenter::create(Context& context, Renderer& renderer, std::span<Window* const> windows,
+                                          Swap swap) {
   AFM_CHECK(!windows.empty() && windows.size() <= kMostWindows);
   auto parts = std::make_unique<Parts>(context.device(), *renderer.parts_);
   for (Window* const window : windows) {
-    if (auto added = parts->add(*window); !added) {
+    if (auto added = parts->add(*window, swap); !added) {
       return tl::unexpected(added.error());
     }
   }
   return Presenter(std::move(parts));
+}
+
+bool Presenter::swaps_with_others() const {
+  return std::all_of(parts_->panes.begin(), parts_->panes.end(),
+                     [](const Parts::Pane& pane) { return pane.surface->swaps_with_others(); });
 }
 
 core::Result<void> Presenter::check_mode(scene::StereoMode mode) const {

@@ -42,9 +42,20 @@ vk::SurfaceFormatKHR choose_surface_format(const Device& device, vk::SurfaceKHR 
   return {};
 }
 
+bool offers_present_barrier(const Device& device, vk::SurfaceKHR surface) {
+  using Barrier = vk::SurfaceCapabilitiesPresentBarrierNV;
+  return device.present_barrier() && device.physical()
+                                             .getSurfaceCapabilities2KHR<vk::SurfaceCapabilities2KHR, Barrier>(
+                                                 vk::PhysicalDeviceSurfaceInfo2KHR{.surface = surface})
+                                             .get<Barrier>()
+                                             .presentBarrierSupported == VK_TRUE;
+}
+
 Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
-                     std::uint32_t layers, const Swapchain* old)
+                     std::uint32_t layers, Swap swap, const Swapchain* old)
     : layer_count_(layers) {
+  const vk::SwapchainPresentBarrierCreateInfoNV barrier{.presentBarrierEnable = VK_TRUE};
+  const bool with_others = swap == Swap::WithOthers && offers_present_barrier(device, surface);
   const auto capabilities = device.physical().getSurfaceCapabilitiesKHR(surface);
   extent_ = choose_extent(capabilities, wanted);
   constexpr auto kCopies = vk::ImageUsageFlagBits::eTransferDst;
@@ -52,7 +63,8 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
   vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eColorAttachment;
   if (takes_copies_) usage |= kCopies;
   swapchain_ =
-      vk::raii::SwapchainKHR(*device, {.surface = surface,
+      vk::raii::SwapchainKHR(*device, {.pNext = with_others ? &barrier : nullptr,
+                                       .surface = surface,
                                        .minImageCount = choose_image_count(capabilities),
                                        .imageFormat = format.format,
                                        .imageColorSpace = format.colorSpace,

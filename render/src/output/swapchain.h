@@ -7,20 +7,24 @@
 
 #include "device/device.h"
 #include "output/composer.h"
+#include "render/presenter.h"
 
 namespace afm::render {
 
 // 8-bit UNORM in sRGB, which takes the eyes' bytes as they are; eUndefined if the surface has none.
 vk::SurfaceFormatKHR choose_surface_format(const Device& device, vk::SurfaceKHR surface);
 
+// Whether the surface can change its picture in the same refresh as those of other machines whose displays are in step.
+bool offers_present_barrier(const Device& device, vk::SurfaceKHR surface);
+
 // The images of one size that a surface shows in turn, first in first out; with two layers the second is the right
 // eye's. Made anew for every size.
 class Swapchain {
  public:
-  // `wanted` counts where the surface leaves the size to us. `old` may be null; nothing of it is in flight, and it is
-  // not used afterwards. Throws as vkCreateSwapchainKHR fails.
+  // `wanted` counts where the surface leaves the size to us. `swap`: with others only where the surface offers it.
+  // `old` may be null; nothing of it is in flight, and it is not used afterwards. Throws as vkCreateSwapchainKHR fails.
   Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
-            std::uint32_t layers, const Swapchain* old);
+            std::uint32_t layers, Swap swap, const Swapchain* old);
 
   const vk::raii::SwapchainKHR& operator*() const { return swapchain_; }
   const vk::raii::SwapchainKHR* operator->() const { return &swapchain_; }

@@ -17,10 +17,11 @@ constexpr ImageUse kPresented{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagB
 
 }  // namespace
 
-WindowSurface::WindowSurface(const Device& device, Window& window, Composer& composer)
+WindowSurface::WindowSurface(const Device& device, Window& window, Composer& composer, Swap swap)
     : device_(device),
       window_(window),
       composer_(composer),
+      swap_(swap),
       surface_(window.handle().create_surface(device.instance())),
       acquired_(*device, vk::SemaphoreCreateInfo{}) {}
 
@@ -55,7 +56,7 @@ bool WindowSurface::follow_window(std::uint32_t layers) {
     return false;
   }
   device_.finish_all();
-  swapchain_ = Swapchain(device_, *surface_, format_, wanted, layers, swapchain_ ? &*swapchain_ : nullptr);
+  swapchain_ = Swapchain(device_, *surface_, format_, wanted, layers, swap_, swapchain_ ? &*swapchain_ : nullptr);
   // an image that was taken from the old ones may have left it signalled
   acquired_ = vk::raii::Semaphore(*device_, vk::SemaphoreCreateInfo{});
   index_.reset();

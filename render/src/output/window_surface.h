@@ -18,7 +18,7 @@ inline constexpr auto kFilling = vk::PipelineStageFlagBits2::eColorAttachmentOut
 // the composer must outlive it.
 class WindowSurface {
  public:
-  WindowSurface(const Device& device, Window& window, Composer& composer);
+  WindowSurface(const Device& device, Window& window, Composer& composer, Swap swap);
   WindowSurface(const WindowSurface&) = delete;
   WindowSurface& operator=(const WindowSurface&) = delete;
 
@@ -27,6 +27,9 @@ class WindowSurface {
 
   // 2 on a display with a picture for each eye.
   std::uint32_t most_layers() const;
+
+  // Its pictures change together with those of other machines.
+  bool swaps_with_others() const { return swap_ == Swap::WithOthers && offers_present_barrier(device_, *surface_); }
 
   // Makes the images that fit the window as it is now; false if there is nothing to fit.
   bool follow_window(std::uint32_t layers);
@@ -54,6 +57,7 @@ class WindowSurface {
   const Device& device_;
   Window& window_;
   Composer& composer_;
+  Swap swap_;
   vk::raii::SurfaceKHR surface_;
   vk::SurfaceFormatKHR format_;
   std::optional<ComposePipeline> pipeline_;

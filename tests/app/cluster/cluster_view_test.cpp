@@ -7,17 +7,25 @@
 #include <fstream>
 
 #include "app/cluster/cluster_wall.h"
+#include "core/whole_file.h"
 
 namespace afm::app {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 class ClusterViewTest : public ClusterWall {
  protected:
-  std::unique_ptr<support::LiveProgram> node(const std::string& name) const {
-    return start(node_command(name, "127.0.0.1"));
+  // With a haptic device that every program finds which looks for one.
+  std::unique_ptr<support::LiveProgram> node(const std::string& name,
+                                             const std::vector<std::string>& environment = {}) const {
+    std::vector<std::string> command{"/usr/bin/env", "TOUCHAFM_HD_LIBRARY=" AFM_MOCK_HD};
+    command.insert(command.end(), environment.begin(), environment.end());
+    const auto program = node_command(name, "127.0.0.1");
+    command.insert(command.end(), program.begin(), program.end());
+    return start(command);
   }
 };
 
@@ -43,15 +51,28 @@ std::string open_devices_of(pid_t process) {
   return found;
 }
 
+bool has_loaded(pid_t process, const std::string& library) {
+  return core::read_file("/proc/" + std::to_string(process) + "/maps").value_or(library).find(library) !=
+         std::string::npos;
+}
+
 TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   auto left = node("left");
-  const auto right = node("right");
+  const std::string swapchains = folder_.file("swapchains");
+  const auto right = node("right", {"VK_LAYER_PATH=" AFM_FAULT_LAYER_DIR, "VK_INSTANCE_LAYERS=VK_LAYER_AFM_fault",
+                                    "AFM_TEST_FAULT=barrier:" + swapchains});
   const auto hand = start(master_command());
   expect_both_shown(*hand);
 
   // no servo and no haptic device but the master's
   EXPECT_EQ(children_of(left->pid()), "");
   EXPECT_EQ(open_devices_of(left->pid()), "");
+  EXPECT_FALSE(has_loaded(left->pid(), AFM_MOCK_HD));
+  EXPECT_TRUE(has_loaded(left->pid(), "libddsc"));
+
+  EXPECT_THAT(left->said(), HasSubstr("without VK_NV_present_barrier"));
+  EXPECT_THAT(right->said(), HasSubstr("change together with the other machines' (VK_NV_present_barrier)"));
+  EXPECT_THAT(core::read_file(swapchains).value_or("none"), StartsWith("barrier"));
 
   // sample, eyes, parameters, eye distance, stereo mode, head; once the servo has the sample, friction loop and scan
   press_at_master("2 s F2 bracketright v Left");

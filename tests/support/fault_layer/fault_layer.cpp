@@ -7,6 +7,7 @@
 //   memory:N  from the Nth allocation on there is no device memory
 //   surface:N from the Nth picture of a window on its surface is lost, and no other can be had
 //   one-view  there is no multiview
+//   barrier:F surfaces offer VK_NV_present_barrier, which does nothing; F gets a line for each swapchain made with it
 //   count     nothing fails
 // It counts the device's allocations that are not freed: afm_live_allocations().
 // The interface is that of the Vulkan loader's documentation, "Layer Interface" version 2.
@@ -15,12 +16,16 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace {
 
@@ -44,6 +49,8 @@ Fault the_fault;
 PFN_vkGetInstanceProcAddr next_instance = nullptr;
 PFN_vkGetDeviceProcAddr next_device = nullptr;
 PFN_vkGetPhysicalDeviceFeatures2 next_features = nullptr;
+PFN_vkEnumerateDeviceExtensionProperties next_extensions = nullptr;
+PFN_vkGetPhysicalDeviceSurfaceCapabilities2KHR next_surface = nullptr;
 VkInstance the_instance = VK_NULL_HANDLE;
 VkDevice the_device = VK_NULL_HANDLE;
 std::atomic<int> submissions{0}, allocations{0}, pictures{0}, live_allocations{0};
@@ -110,25 +117,69 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire_next_image(VkDevice device, VkSwapchainKH
   return next<PFN_vkAcquireNextImageKHR>("vkAcquireNextImageKHR")(device, swapchain, timeout, semaphore, fence, index);
 }
 
-VKAPI_ATTR void VKAPI_CALL get_features(VkPhysicalDevice physical, VkPhysicalDeviceFeatures2* features) {
-  next_features(physical, features);
-  if (the_fault.kind != "one-view") return;
-  for (auto* each = static_cast<VkBaseOutStructure*>(features->pNext); each != nullptr; each = each->pNext) {
-    if (each->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES) {
-      reinterpret_cast<VkPhysicalDeviceVulkan11Features*>(each)->multiview = VK_FALSE;
-    }
+// The structure of that type in a chain; null if it has none.
+template <class Wanted>
+Wanted* in_chain(const void* chain, VkStructureType type) {
+  for (auto* each = static_cast<const VkBaseInStructure*>(chain); each != nullptr; each = each->pNext) {
+    if (each->sType == type) return const_cast<Wanted*>(reinterpret_cast<const Wanted*>(each));
+  }
+  return nullptr;
+}
+
+// The chain without the structure of that type.
+void leave_out(const void* chain, VkStructureType type) {
+  for (auto* each = const_cast<VkBaseInStructure*>(static_cast<const VkBaseInStructure*>(chain)); each != nullptr;
+       each = const_cast<VkBaseInStructure*>(each->pNext)) {
+    if (each->pNext != nullptr && each->pNext->sType == type) each->pNext = each->pNext->pNext;
   }
 }
 
-// Whether a new device is to have multiview.
-bool asks_for_multiview(const VkDeviceCreateInfo& info) {
-  for (auto* each = static_cast<const VkBaseInStructure*>(info.pNext); each != nullptr; each = each->pNext) {
-    if (each->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES &&
-        reinterpret_cast<const VkPhysicalDeviceVulkan11Features*>(each)->multiview == VK_TRUE) {
-      return true;
-    }
+bool offers_barrier() { return the_fault.kind == "barrier"; }
+
+VKAPI_ATTR void VKAPI_CALL get_features(VkPhysicalDevice physical, VkPhysicalDeviceFeatures2* features) {
+  next_features(physical, features);
+  auto* multiview = in_chain<VkPhysicalDeviceVulkan11Features>(features->pNext,
+                                                               VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES);
+  if (multiview != nullptr && the_fault.kind == "one-view") multiview->multiview = VK_FALSE;
+  auto* barrier = in_chain<VkPhysicalDevicePresentBarrierFeaturesNV>(
+      features->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_BARRIER_FEATURES_NV);
+  if (barrier != nullptr && offers_barrier()) barrier->presentBarrier = VK_TRUE;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL list_extensions(VkPhysicalDevice physical, const char* layer, std::uint32_t* count,
+                                               VkExtensionProperties* list) {
+  if (!offers_barrier()) return next_extensions(physical, layer, count, list);
+  std::uint32_t others = 0;
+  next_extensions(physical, layer, &others, nullptr);
+  std::vector<VkExtensionProperties> all(others);
+  next_extensions(physical, layer, &others, all.data());
+  VkExtensionProperties own{VK_NV_PRESENT_BARRIER_EXTENSION_NAME, VK_NV_PRESENT_BARRIER_SPEC_VERSION};
+  all.push_back(own);
+  if (list != nullptr) std::copy_n(all.begin(), std::min<std::size_t>(*count, all.size()), list);
+  const bool whole = list == nullptr || *count >= all.size();
+  *count = static_cast<std::uint32_t>(list == nullptr ? all.size() : std::min<std::size_t>(*count, all.size()));
+  return whole ? VK_SUCCESS : VK_INCOMPLETE;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL get_surface(VkPhysicalDevice physical, const VkPhysicalDeviceSurfaceInfo2KHR* info,
+                                           VkSurfaceCapabilities2KHR* capabilities) {
+  const VkResult result = next_surface(physical, info, capabilities);
+  auto* barrier = in_chain<VkSurfaceCapabilitiesPresentBarrierNV>(
+      capabilities->pNext, VK_STRUCTURE_TYPE_SURFACE_CAPABILITIES_PRESENT_BARRIER_NV);
+  if (barrier != nullptr && offers_barrier()) barrier->presentBarrierSupported = VK_TRUE;
+  return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_swapchain(VkDevice device, const VkSwapchainCreateInfoKHR* info,
+                                                const VkAllocationCallbacks* callbacks, VkSwapchainKHR* swapchain) {
+  const auto* barrier = in_chain<VkSwapchainPresentBarrierCreateInfoNV>(
+      info->pNext, VK_STRUCTURE_TYPE_SWAPCHAIN_PRESENT_BARRIER_CREATE_INFO_NV);
+  if (barrier != nullptr && barrier->presentBarrierEnable == VK_TRUE && offers_barrier()) {
+    std::ofstream(the_fault.file, std::ios::app) << "barrier\n";
   }
-  return false;
+  VkSwapchainCreateInfoKHR own = *info;
+  leave_out(&own, VK_STRUCTURE_TYPE_SWAPCHAIN_PRESENT_BARRIER_CREATE_INFO_NV);
+  return next<PFN_vkCreateSwapchainKHR>("vkCreateSwapchainKHR")(device, &own, callbacks, swapchain);
 }
 
 template <class Info>
@@ -153,6 +204,10 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
   // asked for later, the loader would name this layer again
   next_features =
       reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(next_instance(*instance, "vkGetPhysicalDeviceFeatures2"));
+  next_extensions = reinterpret_cast<PFN_vkEnumerateDeviceExtensionProperties>(
+      next_instance(*instance, "vkEnumerateDeviceExtensionProperties"));
+  next_surface = reinterpret_cast<PFN_vkGetPhysicalDeviceSurfaceCapabilities2KHR>(
+      next_instance(*instance, "vkGetPhysicalDeviceSurfaceCapabilities2KHR"));
   return result;
 }
 
@@ -160,12 +215,25 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const Vk
                                              const VkAllocationCallbacks* callbacks, VkDevice* device) {
   auto* link = link_info<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
   if (link == nullptr) return VK_ERROR_INITIALIZATION_FAILED;
-  if (the_fault.kind == "one-view" && asks_for_multiview(*info)) return VK_ERROR_FEATURE_NOT_PRESENT;
+  const auto* multiview =
+      in_chain<VkPhysicalDeviceVulkan11Features>(info->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES);
+  const bool asked = multiview != nullptr && multiview->multiview == VK_TRUE;
+  if (the_fault.kind == "one-view" && asked) return VK_ERROR_FEATURE_NOT_PRESENT;
+  // what the driver has not
+  VkDeviceCreateInfo own = *info;
+  std::vector<const char*> extensions;
+  for (std::uint32_t i = 0; i < info->enabledExtensionCount; ++i) {
+    const char* name = info->ppEnabledExtensionNames[i];
+    if (std::strcmp(name, VK_NV_PRESENT_BARRIER_EXTENSION_NAME) != 0) extensions.push_back(name);
+  }
+  own.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  own.ppEnabledExtensionNames = extensions.data();
+  leave_out(&own, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_BARRIER_FEATURES_NV);
   const auto instance_function = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   next_device = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
   const auto create = reinterpret_cast<PFN_vkCreateDevice>(instance_function(the_instance, "vkCreateDevice"));
-  const VkResult result = create(physical, info, callbacks, device);
+  const VkResult result = create(physical, &own, callbacks, device);
   the_device = *device;
   return result;
 }
@@ -184,6 +252,9 @@ PFN_vkVoidFunction own_function(const char* name) {
       {"vkCreateInstance", reinterpret_cast<PFN_vkVoidFunction>(create_instance)},
       {"vkCreateDevice", reinterpret_cast<PFN_vkVoidFunction>(create_device)},
       {"vkGetPhysicalDeviceFeatures2", reinterpret_cast<PFN_vkVoidFunction>(get_features)},
+      {"vkEnumerateDeviceExtensionProperties", reinterpret_cast<PFN_vkVoidFunction>(list_extensions)},
+      {"vkGetPhysicalDeviceSurfaceCapabilities2KHR", reinterpret_cast<PFN_vkVoidFunction>(get_surface)},
+      {"vkCreateSwapchainKHR", reinterpret_cast<PFN_vkVoidFunction>(create_swapchain)},
       {"vkQueueSubmit2", reinterpret_cast<PFN_vkVoidFunction>(queue_submit2)},
       {"vkWaitSemaphores", reinterpret_cast<PFN_vkVoidFunction>(wait_semaphores)},
       {"vkWaitForFences", reinterpret_cast<PFN_vkVoidFunction>(wait_for_fences)},
