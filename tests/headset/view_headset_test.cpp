@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "app/headset/view_headset.h"
+#include "core/whole_file.h"
 #include "exhibit/exhibit_setup.h"
 #include "places.h"
 #include "servo/replay.h"
@@ -83,6 +84,11 @@ class ViewInAHeadset : public ::testing::Test {
   bool loses_the_picture(support::LiveProgram& view, const std::string& take, const std::string& give_back) const {
     return loses_the_picture(view, [&] { tell(take); }, [&] { tell(give_back); });
   }
+  // Pushes that the controller has given the hand.
+  std::ptrdiff_t pulses() const {
+    const std::string lines = core::read_file(folder_.file("script.pulses")).value_or("");
+    return std::count(lines.begin(), lines.end(), '\n');
+  }
   static exhibit::Stage stage_of_the_assets() {
     exhibit::ExhibitFiles files;
     files.assets_dir = AFM_SOURCE_DIR "/assets";
@@ -144,6 +150,7 @@ TEST_F(ViewInAHeadset, FeelsASampleAndLetsTheHandGoInTimeWheneverTheHeadsetIsGon
   EXPECT_TRUE(view.says("chosen: Gold")) << view.said();
   EXPECT_TRUE(view.says("jump to contact at Z")) << view.said();
   EXPECT_TRUE(view.says("jump off contact")) << view.said();
+  EXPECT_TRUE(view.within(std::chrono::seconds(5), [&] { return pulses() >= 2; })) << "one for each jump: " << pulses();
   ASSERT_TRUE(loses_the_picture(view, "state 4\nstate 3\nstate 6", "state 2")) << view.said();
   tell("state 2");
   ASSERT_TRUE(view.says("force on")) << view.said();

@@ -80,7 +80,7 @@ class LiveProgram {
     return exit_code_;
   }
 
- private:
+  // Waits until something holds; false after `patience`, or if it does not when the program has ended.
   template <class Condition>
   bool within(std::chrono::seconds patience, Condition&& holds) {
     const auto end = std::chrono::steady_clock::now() + patience;
@@ -91,6 +91,8 @@ class LiveProgram {
     }
     return true;
   }
+
+ private:
   bool poll_end() {
     int status = 0;
     if (!exit_code_ && ::waitpid(pid_, &status, WNOHANG) == pid_) {

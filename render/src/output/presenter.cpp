@@ -89,23 +89,17 @@ bool Presenter::Parts::follow_surfaces(Work&& work) {
   try {
     std::forward<Work>(work)();
     return true;
-  } catch (const vk::OutOfDateKHRError&) {
-    for (Pane& pane : panes) {
-      pane.surface->outdate();
-    }
-  } catch (const vk::OutOfHostMemoryError&) {
+  } catch (const vk::SystemError& error) {
+    const auto result = static_cast<vk::Result>(error.code().value());
     // Mesa's answer, too, to a display that has gone, which the next poll() of the window finds
-    if (++surfaces_lost > kMostSurfacesLost) throw;
-    for (Pane& pane : panes) {
-      pane.surface->outdate();
-    }
-  } catch (const vk::SurfaceLostKHRError&) {
-    if (++surfaces_lost > kMostSurfacesLost) {
+    const bool no_memory = result == vk::Result::eErrorOutOfHostMemory || result == vk::Result::eErrorOutOfDeviceMemory;
+    const bool lost = result == vk::Result::eErrorSurfaceLostKHR;
+    if (!no_memory && !lost && result != vk::Result::eErrorOutOfDateKHR) throw;
+    if ((no_memory || lost) && ++surfaces_lost > kMostSurfacesLost) {
+      if (no_memory) throw;
       throw DeviceFailure("the window's surface was lost and cannot be recreated: check the display and start again");
     }
-    for (Pane& pane : panes) {
-      pane.surface->replace();
-    }
+    for (Pane& pane : panes) lost ? pane.surface->lose() : pane.surface->outdate();
   }
   for (Pane& pane : panes) {
     pane.taken = pane.drawn = false;

@@ -47,6 +47,7 @@ bool WindowSurface::follow_window(std::uint32_t layers) {
   if (size.x == 0 || size.y == 0) {
     return false;
   }
+  if (lost_) replace();
   const vk::Extent2D wanted{size.x, size.y};
   if (swapchain_ && !outdated_ && swapchain_->extent() == wanted && swapchain_->layer_count() == layers) {
     return true;
@@ -105,6 +106,7 @@ void WindowSurface::replace() {
   surface_ = nullptr;
   surface_ = window_.handle().create_surface(device_.instance());
   acquired_ = vk::raii::Semaphore(*device_, vk::SemaphoreCreateInfo{});
+  lost_ = false;
 }
 
 }  // namespace afm::render

@@ -50,10 +50,13 @@ class WindowSurface {
   void presented() { index_.reset(); }
   void outdate() { outdated_ = true; }
 
-  // The window system took the surface away: a display driver was restarted, a monitor was lost.
-  void replace();
+  // The window system took the surface away: a display driver was restarted, a monitor was lost. Another is made next
+  // time.
+  void lose() { lost_ = true; }
 
  private:
+  void replace();
+
   const Device& device_;
   Window& window_;
   Composer& composer_;
@@ -65,6 +68,7 @@ class WindowSurface {
   std::optional<Swapchain> swapchain_;
   std::optional<std::uint32_t> index_;  // of the image that is taken
   bool outdated_ = false;
+  bool lost_ = false;
   bool starved_ = false;  // it lent no image last time, so that nobody waits long for the next
 };
 

@@ -253,6 +253,9 @@ XrResult XRAPI_CALL state_pose(XrSession, const XrActionStateGetInfo*, XrActionS
 XrResult XRAPI_CALL apply_haptics(XrSession, const XrHapticActionInfo*, const XrHapticBaseHeader*) {
   AFM_ENTER("xrApplyHapticFeedback");
   ++s.log.pulses;
+  if (const char* path = std::getenv("AFM_STAND_IN")) {
+    std::ofstream(std::string(path) + ".pulses", std::ios::app) << "pulse" << std::endl;
+  }
   return XR_SUCCESS;
 }
 
