@@ -43,6 +43,19 @@ render::RendererOptions ViewDisplay::drawing_in_headset(const exhibit::Stage& st
   return drawing;
 }
 
+// Modes that the display cannot show are refused; says when pictures change.
+core::Result<void> ViewDisplay::check_outputs(render::Swap swap) const {
+  if (swap == render::Swap::WithOthers) {
+    core::log_line(presenter_->swaps_with_others()
+                       ? "cluster: pictures change together with the other machines' (VK_NV_present_barrier)"
+                       : "cluster: pictures change once all machines have drawn theirs; without VK_NV_present_barrier");
+  }
+  for (const ViewOutput& output : outputs_) {
+    if (auto shown = presenter_->check_mode(output.mode); !shown) return shown;
+  }
+  return {};
+}
+
 core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stage& stage, const DisplayOptions& options,
                                                              render::HeadsetRuntime* runtime,
                                                              const core::Clock& clock) {
@@ -77,14 +90,7 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
       render::Presenter::create(*display->context_, *display->renderer_, display->windows_->all(), options.swap);
   if (!presenter) return tl::unexpected(presenter.error());
   display->presenter_ = std::move(*presenter);
-  if (options.swap == render::Swap::WithOthers) {
-    core::log_line(display->presenter_->swaps_with_others()
-                       ? "cluster: pictures change together with the other machines' (VK_NV_present_barrier)"
-                       : "cluster: pictures change once all machines have drawn theirs; without VK_NV_present_barrier");
-  }
-  for (const ViewOutput& output : display->outputs_) {
-    if (auto shown = display->presenter_->check_mode(output.mode); !shown) return tl::unexpected(shown.error());
-  }
+  if (auto shown = display->check_outputs(options.swap); !shown) return tl::unexpected(shown.error());
   if (runtime != nullptr) {
     auto headset = ViewHeadset::begin(stage, *runtime, *display->context_, *display->renderer_, clock);
     if (!headset) return tl::unexpected(headset.error());

@@ -50,6 +50,7 @@ class ViewDisplay {
  private:
   ViewDisplay() = default;
   render::RendererOptions drawing(const exhibit::Stage& stage, const DisplayOptions& options) const;
+  core::Result<void> check_outputs(render::Swap swap) const;
   static render::RendererOptions drawing_in_headset(const exhibit::Stage& stage, glm::uvec2 eye_px);
 
   std::vector<ViewOutput> outputs_;
