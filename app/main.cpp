@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nothing but this: what an object of the program itself has of the standard library's templates, unlike that of an
-// archive, its drivers would call instead of their own.
+// Only main(): the linker hides our instances of the standard library's templates where they come from an archive
+// (--exclude-libs), not where they come from this object, and a driver would call them instead of its own.
 #include "app/commit.h"
 #include "app/program.h"
 #include "core/run_main.h"

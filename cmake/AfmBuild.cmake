@@ -31,8 +31,8 @@ endif()
 # every symbol is bound at the start: the servo must not look one up in a tick
 add_link_options(-Wl,-z,relro,-z,now)
 if(NOT AFM_SANITIZE)
-  # drivers and vendors' libraries call their own instances of the standard library's templates, not ours, which are
-  # compiled with other checks; a sanitizer's runtime must be found by them
+  # hides our instances of the standard library's templates: drivers and vendors' libraries must call their own, since
+  # ours are compiled with other checks; a sanitizer's runtime has to stay visible
   add_link_options(-Wl,--exclude-libs,ALL)
 endif()
 

@@ -43,7 +43,7 @@ render::RendererOptions ViewDisplay::drawing_in_headset(const exhibit::Stage& st
   return drawing;
 }
 
-// Modes that the display cannot show are refused; says when pictures change.
+// Refuses a mode that the display cannot show, and says when the pictures of a wall of several machines change.
 core::Result<void> ViewDisplay::check_outputs(render::Swap swap) const {
   if (swap == render::Swap::WithOthers) {
     core::log_line(presenter_->swaps_with_others()

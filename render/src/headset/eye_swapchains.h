@@ -35,9 +35,10 @@ class PictureChain {
   PictureChain(const OpenXrInstance& calls, XrSession session, vk::Format format, vk::Extent2D extent,
                std::uint32_t layers);
 
-  // Takes the image that is filled next, unless one is already taken; false if the runtime lends none for as long as a
-  // hand may be held without a picture, or, where it only may, lends none now.
+  // Takes the image that is filled next, unless one is already taken. False: the runtime has lent none for 250 ms, as
+  // long as a hand may be held without a picture.
   bool take(const std::function<void()>& while_waiting);
+  // The same without waiting.
   bool take_if_lent() { return taken_ || wait_once(0); }
   void give_back();
 

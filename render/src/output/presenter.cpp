@@ -196,7 +196,7 @@ core::Result<Presenter> Presenter::create(Context& context, Renderer& renderer, 
 
 bool Presenter::swaps_with_others() const {
   return std::all_of(parts_->panes.begin(), parts_->panes.end(),
-                     [](const Parts::Pane& pane) { return pane.surface->swaps_with_others(); });
+                     [](const Parts::Pane& pane) { return pane.surface->swap() == Swap::WithOthers; });
 }
 
 core::Result<void> Presenter::check_mode(scene::StereoMode mode) const {

@@ -55,7 +55,6 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
                      std::uint32_t layers, Swap swap, const Swapchain* old)
     : layer_count_(layers) {
   const vk::SwapchainPresentBarrierCreateInfoNV barrier{.presentBarrierEnable = VK_TRUE};
-  const bool with_others = swap == Swap::WithOthers && offers_present_barrier(device, surface);
   const auto capabilities = device.physical().getSurfaceCapabilitiesKHR(surface);
   extent_ = choose_extent(capabilities, wanted);
   constexpr auto kCopies = vk::ImageUsageFlagBits::eTransferDst;
@@ -63,7 +62,7 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
   vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eColorAttachment;
   if (takes_copies_) usage |= kCopies;
   swapchain_ =
-      vk::raii::SwapchainKHR(*device, {.pNext = with_others ? &barrier : nullptr,
+      vk::raii::SwapchainKHR(*device, {.pNext = swap == Swap::WithOthers ? &barrier : nullptr,
                                        .surface = surface,
                                        .minImageCount = choose_image_count(capabilities),
                                        .imageFormat = format.format,

@@ -21,8 +21,8 @@ bool offers_present_barrier(const Device& device, vk::SurfaceKHR surface);
 // eye's. Made anew for every size.
 class Swapchain {
  public:
-  // `wanted` counts where the surface leaves the size to us. `swap`: with others only where the surface offers it.
-  // `old` may be null; nothing of it is in flight, and it is not used afterwards. Throws as vkCreateSwapchainKHR fails.
+  // `wanted` counts where the surface leaves the size to us. `swap`: with others only if the surface offers it. `old`
+  // may be null; nothing of it is in flight, and it is not used afterwards. Throws as vkCreateSwapchainKHR fails.
   Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
             std::uint32_t layers, Swap swap, const Swapchain* old);
 

@@ -21,7 +21,7 @@ WindowSurface::WindowSurface(const Device& device, Window& window, Composer& com
     : device_(device),
       window_(window),
       composer_(composer),
-      swap_(swap),
+      wanted_swap_(swap),
       surface_(window.handle().create_surface(device.instance())),
       acquired_(*device, vk::SemaphoreCreateInfo{}) {}
 
@@ -39,7 +39,12 @@ core::Result<void> WindowSurface::choose_format() {
 }
 
 std::uint32_t WindowSurface::most_layers() const {
-  return device_.physical().getSurfaceCapabilitiesKHR(*surface_).maxImageArrayLayers;
+  return lost_ ? 1 : device_.physical().getSurfaceCapabilitiesKHR(*surface_).maxImageArrayLayers;
+}
+
+Swap WindowSurface::swap() const {
+  const bool offered = wanted_swap_ == Swap::WithOthers && offers_present_barrier(device_, *surface_);
+  return offered ? Swap::WithOthers : Swap::Alone;
 }
 
 bool WindowSurface::follow_window(std::uint32_t layers) {
@@ -57,7 +62,7 @@ bool WindowSurface::follow_window(std::uint32_t layers) {
     return false;
   }
   device_.finish_all();
-  swapchain_ = Swapchain(device_, *surface_, format_, wanted, layers, swap_, swapchain_ ? &*swapchain_ : nullptr);
+  swapchain_ = Swapchain(device_, *surface_, format_, wanted, layers, swap(), swapchain_ ? &*swapchain_ : nullptr);
   // an image that was taken from the old ones may have left it signalled
   acquired_ = vk::raii::Semaphore(*device_, vk::SemaphoreCreateInfo{});
   index_.reset();

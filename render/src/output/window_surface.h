@@ -25,11 +25,11 @@ class WindowSurface {
   // DeviceMissing: the display shows no pictures of 8 bits a channel.
   core::Result<void> choose_format();
 
-  // 2 on a display with a picture for each eye.
+  // 2 on a display with a picture for each eye; 1 while the surface is lost.
   std::uint32_t most_layers() const;
 
-  // Its pictures change together with those of other machines.
-  bool swaps_with_others() const { return swap_ == Swap::WithOthers && offers_present_barrier(device_, *surface_); }
+  // How its pictures change: with those of other machines if that is wanted and the surface offers it.
+  Swap swap() const;
 
   // Makes the images that fit the window as it is now; false if there is nothing to fit.
   bool follow_window(std::uint32_t layers);
@@ -60,7 +60,7 @@ class WindowSurface {
   const Device& device_;
   Window& window_;
   Composer& composer_;
-  Swap swap_;
+  Swap wanted_swap_;
   vk::raii::SurfaceKHR surface_;
   vk::SurfaceFormatKHR format_;
   std::optional<ComposePipeline> pipeline_;
