@@ -12,8 +12,10 @@
 #include "app/cluster/cluster_wall.h"
 #include "cluster/master_link.h"
 #include "core/clock.h"
+#include "core/percentiles.h"
 #include "core/whole_file.h"
 #include "exhibit/cluster/wall_model.h"
+#include "servo/session_file.h"
 
 namespace afm::app {
 namespace {
@@ -23,15 +25,18 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+constexpr seconds kFelt{4};  // on either side of what happens
+
 class ClusterFailures : public ClusterWall {
  protected:
   std::unique_ptr<support::LiveProgram> node(const std::string& name) const {
     return start(node_command(name, "127.0.0.1"));
   }
   // With a force on the hand.
-  std::unique_ptr<support::LiveProgram> felt_wall() const {
+  std::unique_ptr<support::LiveProgram> felt_wall(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> command = master_command();
     command.insert(command.end(), {"--haptics", "sim"});
+    command.insert(command.end(), more.begin(), more.end());
     auto hand = start(command);
     expect_both_shown(*hand);
     press_at_master("1");
@@ -65,6 +70,39 @@ TEST_F(ClusterFailures, ANodeThatStopsForFiveSecondsAndOneThatIsKilledAreLeftOut
   ASSERT_TRUE(hand->says("node right shows the wall")) << hand->said();
   expect_force_never_ended(*hand);
   expect_orderly_end(*hand);
+}
+
+// What the hand felt is in the session: a tick for each millisecond, none of which let go.
+TEST_F(ClusterFailures, AKilledNodeIsNotFelt) {
+  const auto left = node("left"), right = node("right");
+  const auto hand = felt_wall({"--record", folder_.file("kept"), "--material", "mica"});
+  std::this_thread::sleep_for(kFelt);
+  const std::int64_t killed_ns = core::MonotonicClock().now_ns();
+  right->signal(SIGKILL);
+  ASSERT_TRUE(hand->says("node right is missing")) << hand->said();
+  std::this_thread::sleep_for(kFelt);
+  expect_orderly_end(*hand);
+
+  const auto session = servo::load_session(folder_.file("kept/session-mica.afms"));
+  ASSERT_TRUE(session) << session.error().message;
+  const std::int64_t around_ns = std::chrono::nanoseconds(kFelt).count();
+  std::vector<double> before_us, after_us;
+  std::uint64_t last_tick = 0;
+  for (const scene::TipSample& sample : session->samples) {
+    if (std::abs(sample.time_ns - killed_ns) > around_ns) continue;
+    EXPECT_EQ(sample.renderer, scene::RendererLink::Alive) << sample.tick;
+    EXPECT_EQ(sample.servo_state, scene::ServoState::Running) << sample.tick;
+    if (last_tick != 0) EXPECT_EQ(sample.tick, last_tick + 1);
+    last_tick = sample.tick;
+    (sample.time_ns < killed_ns ? before_us : after_us).push_back(sample.wake_us);
+  }
+  const double ticks = session->rate_hz * std::chrono::duration<double>(kFelt).count();
+  EXPECT_GT(static_cast<double>(before_us.size()), 0.9 * ticks);
+  EXPECT_GT(static_cast<double>(after_us.size()), 0.9 * ticks);
+  for (const auto& [what, late_us] : {std::pair{"before a node is killed", &before_us}, {"from then on", &after_us}}) {
+    const core::Percentiles late = core::percentiles(*late_us);
+    std::printf("ticks %s: late by %.0f us (p50), %.0f us (p99), %.0f us at most\n", what, late.p50, late.p99, late.max);
+  }
 }
 
 // A thread of another process that does nothing as long as this lives, as if it waited in a system call.

@@ -30,6 +30,17 @@ class ClusterPixels : public ClusterWall {
   std::unique_ptr<support::LiveProgram> node(const std::string& name, const support::VirtualDisplay& display) const {
     return std::make_unique<support::LiveProgram>(node_command(name, "127.0.0.1"), display.name());
   }
+  // With a graphics device that fails, or is less able, as tests/support/fault_layer says.
+  std::unique_ptr<support::LiveProgram> node(const std::string& name, const support::VirtualDisplay& display,
+                                             const std::string& fault) const {
+    std::vector<std::string> command{"/usr/bin/env", "VK_ADD_LAYER_PATH=" AFM_FAULT_LAYER_DIR,
+                                     "VK_INSTANCE_LAYERS=VK_LAYER_AFM_fault", "AFM_TEST_FAULT=" + fault};
+    const std::vector<std::string> program = node_command(name, "127.0.0.1");
+    command.insert(command.end(), program.begin(), program.end());
+    return std::make_unique<support::LiveProgram>(command, display.name());
+  }
+  void watch(const support::VirtualDisplay& left_display, const support::VirtualDisplay& right_display,
+             const char* what) const;
   static void expect_orderly_end(support::LiveProgram& hand) {
     hand.signal(SIGTERM);
     EXPECT_EQ(hand.ends(), 0) << hand.said();
@@ -216,10 +227,9 @@ void print_skew(const char* what, const std::vector<double>& skews_ms) {
               skews_ms.size(), p.p50, p.p99, p.max);
 }
 
-TEST_F(ClusterPixels, EveryScreenShowsTheSameFramesInTheSameOrder) {
-  folder_.write("wall.toml", wall_of_three("127.0.0.1", "127.0.0.1", {}));
-  const support::VirtualDisplay right_display(kWidth, kHeight), left_display(kWidth, kHeight);
-  const auto left = node("left", left_display), right = node("right", right_display);
+// The machine with the hand feels mica; what appears on the three screens is compared for some seconds.
+void ClusterPixels::watch(const support::VirtualDisplay& left_display, const support::VirtualDisplay& right_display,
+                          const char* what) const {
   std::vector<std::string> command = master_command();
   command.insert(command.end(), {"--haptics", "sim", "--material", "mica"});
   const auto hand = start(command);
@@ -240,7 +250,28 @@ TEST_F(ClusterPixels, EveryScreenShowsTheSameFramesInTheSameOrder) {
   EXPECT_GT(states.common(0).size(), 40U);
   EXPECT_EQ(states.common(1), states.common(0));
   EXPECT_EQ(states.common(2), states.common(0));
-  print_skew("frame by frame", states.skews_ms());
+  print_skew(what, states.skews_ms());
+}
+
+TEST_F(ClusterPixels, MonitorsAt50And60HzShowTheSameFramesInTheSameOrder) {
+  folder_.write("wall.toml", wall_of_three("127.0.0.1", "127.0.0.1", {}));
+  const support::VirtualDisplay right_display(kWidth, kHeight), left_display(kWidth, kHeight);
+  const auto left = node("left", left_display, "refresh:50"), right = node("right", right_display, "refresh:60");
+  watch(left_display, right_display, "at 50 and 60 Hz");
+}
+
+TEST_F(ClusterPixels, ADeviceThatDrawsOneEyeAfterTheOtherShowsTheSameFrames) {
+  folder_.write("wall.toml", wall_of_three("127.0.0.1", "127.0.0.1", {}));
+  const support::VirtualDisplay right_display(kWidth, kHeight), left_display(kWidth, kHeight);
+  const auto left = node("left", left_display), right = node("right", right_display, "one-view");
+  watch(left_display, right_display, "one of them by a device without multiview");
+}
+
+TEST_F(ClusterPixels, EveryScreenShowsTheSameFramesInTheSameOrder) {
+  folder_.write("wall.toml", wall_of_three("127.0.0.1", "127.0.0.1", {}));
+  const support::VirtualDisplay right_display(kWidth, kHeight), left_display(kWidth, kHeight);
+  const auto left = node("left", left_display), right = node("right", right_display);
+  watch(left_display, right_display, "frame by frame");
 }
 
 // One that is small, and one that is large and takes longer to draw: what all show is blank or not.

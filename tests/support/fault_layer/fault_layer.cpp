@@ -6,6 +6,7 @@
 //   stuck:F   nothing is finished while the file F exists: what waits for it does so for as long as it may
 //   memory:N  from the Nth allocation on there is no device memory
 //   surface:N from the Nth picture of a window on its surface is lost, and no other can be had
+//   refresh:H pictures of a window appear at the refreshes of a monitor with H of them a second, as FIFO has it
 //   one-view  there is no multiview
 //   barrier:F surfaces offer VK_NV_present_barrier, which does nothing; F gets a line for each swapchain made with it
 //   count     nothing fails
@@ -115,6 +116,17 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire_next_image(VkDevice device, VkSwapchainKH
                                                   VkSemaphore semaphore, VkFence fence, std::uint32_t* index) {
   if (failing("surface", pictures, 1)) return VK_ERROR_SURFACE_LOST_KHR;
   return next<PFN_vkAcquireNextImageKHR>("vkAcquireNextImageKHR")(device, swapchain, timeout, semaphore, fence, index);
+}
+
+// At the next refresh; monitors that begin at one time do not stay in step.
+VKAPI_ATTR VkResult VKAPI_CALL queue_present(VkQueue queue, const VkPresentInfoKHR* info) {
+  if (the_fault.kind == "refresh") {
+    using std::chrono::nanoseconds, std::chrono::steady_clock;
+    const std::int64_t period = std::nano::den / the_fault.after;
+    const std::int64_t now = nanoseconds(steady_clock::now().time_since_epoch()).count();
+    std::this_thread::sleep_until(steady_clock::time_point(nanoseconds((now / period + 1) * period)));
+  }
+  return next<PFN_vkQueuePresentKHR>("vkQueuePresentKHR")(queue, info);
 }
 
 // The structure of that type in a chain; null if it has none.
@@ -261,6 +273,7 @@ PFN_vkVoidFunction own_function(const char* name) {
       {"vkAllocateMemory", reinterpret_cast<PFN_vkVoidFunction>(allocate_memory)},
       {"vkFreeMemory", reinterpret_cast<PFN_vkVoidFunction>(free_memory)},
       {"vkAcquireNextImageKHR", reinterpret_cast<PFN_vkVoidFunction>(acquire_next_image)},
+      {"vkQueuePresentKHR", reinterpret_cast<PFN_vkVoidFunction>(queue_present)},
   };
   for (const Own& own : kOwn) {
     if (std::strcmp(own.name, name) == 0) return own.function;
