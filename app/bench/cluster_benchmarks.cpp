@@ -92,10 +92,13 @@ std::string cluster_table(const ClusterTiming& timing, const ClusterTimingPlan& 
   row("frame sent to shown at the slowest", timing.latency_ms);
   row("wait of the master at the barrier", timing.barrier_ms);
   row("round trip", timing.round_ms);
-  return text + fmt::format(
-                    "\nframes shown without a node: {}\nsamples that a node did not get: {}\nbytes sent again: {}\n"
-                    "processor time of the master: {:.1f} %\n",
-                    count_all(timing.timeouts), count_all(timing.lost), timing.resent_bytes, 100.0 * timing.cpu_share);
+  const auto [behind, ahead] = std::minmax_element(timing.clock_ms.begin(), timing.clock_ms.end());
+  return text +
+         fmt::format(
+             "\nclocks of the nodes: {:+.2f} to {:+.2f} ms\nframes shown without a node: {}\n"
+             "samples that a node did not get: {}\nbytes sent again: {}\nprocessor time of the master: {:.1f} %\n",
+             *behind, *ahead, count_all(timing.timeouts), count_all(timing.lost), timing.resent_bytes,
+             100.0 * timing.cpu_share);
 }
 
 std::string cluster_json(const ClusterTiming& timing, const ClusterTimingPlan& plan) {
@@ -111,6 +114,8 @@ std::string cluster_json(const ClusterTiming& timing, const ClusterTimingPlan& p
   row("latency_s", timing.latency_ms);
   row("barrier_s", timing.barrier_ms);
   row("round_trip_s", timing.round_ms);
+  root["clock_offset_s"] = nlohmann::json::array();
+  for (const double ms : timing.clock_ms) root["clock_offset_s"].push_back(1e-3 * ms);
   root["frames_measured"] = timing.skew_ms.size();
   root["timeouts"] = timing.timeouts;
   root["lost_samples"] = timing.lost;

@@ -61,6 +61,9 @@ class SwapTimes {
       timing.skew_ms.push_back(kMsPerNs * static_cast<double>(*last - *first));
       timing.latency_ms.push_back(kMsPerNs * static_cast<double>(*last - sent->second));
     }
+    for (const auto& offset : offsets_ns_) {
+      timing.clock_ms.push_back(offset ? kMsPerNs * static_cast<double>(offset->first) : 0.0);
+    }
   }
 
  private:

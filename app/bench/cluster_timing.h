@@ -24,6 +24,7 @@ struct ClusterTiming {
   std::vector<double> latency_ms;       // from the sending of a frame to its showing at the slowest node
   std::vector<double> barrier_ms;       // that the master waited
   std::vector<double> round_ms;         // of a frame and its answer, without the time that the node took
+  std::vector<double> clock_ms;         // by how much each node's clock is ahead of the master's
   std::vector<std::uint64_t> timeouts;  // of each node
   std::vector<std::uint64_t> lost;      // records of the journal that a node did not get
   std::uint64_t resent_bytes = 0;       // by the master, since they were lost on the way

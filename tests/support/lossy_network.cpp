@@ -37,14 +37,18 @@ std::int64_t now_ns() {
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::runtime_error("cannot make the network of the test: " + what + ": " + std::strerror(errno) +
+[[noreturn]] void refuse(const std::string& what, const std::string& why) {
+  throw std::runtime_error("cannot make the network of the test: " + what + ": " + why +
                            "; network namespaces and /dev/net/tun need root");
 }
+[[noreturn]] void refuse(const std::string& what) { refuse(what, std::strerror(errno)); }
 
 void run(const std::string& command) {
   const ProgramResult result = run_program(command);
-  if (result.exit_code != 0) refuse(command + ": " + result.out + result.err);
+  if (result.exit_code == 0) return;
+  std::string said = result.out + result.err;
+  while (said.ends_with('\n')) said.pop_back();
+  refuse(command, said);
 }
 
 // The end of a TAP interface in a namespace, as a child that has entered it opens it.

@@ -25,7 +25,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr seconds kFelt{4};  // on either side of what happens
+constexpr seconds kFelt{3};  // on either side of what happens
 
 class ClusterFailures : public ClusterWall {
  protected:
@@ -92,7 +92,7 @@ TEST_F(ClusterFailures, AKilledNodeIsNotFelt) {
     if (std::abs(sample.time_ns - killed_ns) > around_ns) continue;
     EXPECT_EQ(sample.renderer, scene::RendererLink::Alive) << sample.tick;
     EXPECT_EQ(sample.servo_state, scene::ServoState::Running) << sample.tick;
-    if (last_tick != 0) EXPECT_EQ(sample.tick, last_tick + 1);
+    EXPECT_TRUE(last_tick == 0 || sample.tick == last_tick + 1) << sample.tick;
     last_tick = sample.tick;
     (sample.time_ns < killed_ns ? before_us : after_us).push_back(sample.wake_us);
   }
@@ -101,7 +101,8 @@ TEST_F(ClusterFailures, AKilledNodeIsNotFelt) {
   EXPECT_GT(static_cast<double>(after_us.size()), 0.9 * ticks);
   for (const auto& [what, late_us] : {std::pair{"before a node is killed", &before_us}, {"from then on", &after_us}}) {
     const core::Percentiles late = core::percentiles(*late_us);
-    std::printf("ticks %s: late by %.0f us (p50), %.0f us (p99), %.0f us at most\n", what, late.p50, late.p99, late.max);
+    std::printf("ticks %s: late by %.0f us (p50), %.0f us (p99), %.0f us at most\n", what, late.p50, late.p99,
+                late.max);
   }
 }
 
