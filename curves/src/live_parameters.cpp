@@ -138,6 +138,7 @@ bool LiveParameters::reset() {
 }
 
 std::string typographic(std::string text) {
+  if (text.starts_with('-')) text.replace(0, 1, "\u2212");
   if (text.ends_with("m2")) text.replace(text.size() - 1, 1, "\u00b2");
   if (const std::size_t micro = text.find(" u"); micro != std::string::npos) text.replace(micro + 1, 1, "\u00b5");
   return text;

@@ -7,6 +7,7 @@
 
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -102,6 +103,21 @@ TEST_F(MeasuredSample, HasABarWithItsReliefBesideIt) {
   EXPECT_THAT(texts({.material = 0}), testing::Contains(testing::HasSubstr(" nm")));
   EXPECT_THAT(texts({.material = 0}), testing::Contains(testing::HasSubstr("heights \u00d7")));
   EXPECT_THAT(texts({}), testing::Not(testing::Contains(testing::HasSubstr("heights \u00d7"))));
+}
+
+TEST(OwnSample, SaysWhatWasNotMeasuredAndIsFilled) {
+  const support::ScratchFolder folder;
+  std::vector<float> heights(12 * 8, 1e-9F);
+  heights[17] = 4e-9F;
+  const std::string file = folder.file("holes.gsf");
+  const auto summary = [&] {
+    std::ofstream(file, std::ios::binary)
+        << test::gsf_file("XRes = 12\nYRes = 8\nXReal = 3e-6\nYReal = 2e-6\nXYUnits = m\nZUnits = m\n", heights);
+    return load_own_models("", file).value().topography.value().summary;
+  };
+  EXPECT_THAT(summary(), testing::Not(testing::HasSubstr("not measured")));
+  for (const std::size_t i : {30U, 31U, 55U}) heights[i] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(summary(), testing::HasSubstr("; 3 points that were not measured are filled from around them; heights"));
 }
 
 TEST(OwnSample, IsRefusedWithWhatWouldBeRead) {

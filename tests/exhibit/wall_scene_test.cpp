@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <string_view>
+#include <utility>
 
 #include "physics/contact.h"
 #include "support/paper_wall.h"
@@ -93,6 +96,30 @@ TEST_F(WallSceneTest, TheBeamOfLightFollowsTheTip) {
   const double scale = scene_.drawn_scale(0).sample_m_per_m;
   EXPECT_NEAR(glm::length(lever_end(there) - lever_end({})), glm::length(there) / scale, 1e-9);
   EXPECT_NEAR(glm::dot(lever_end(there) - lever_end({}), scene_.sample_right()), there.x / scale, 1e-9);
+}
+
+TEST_F(WallSceneTest, TheRulerEndsInATickAtItsFootAndOneAtItsTop) {
+  const render::FrameState state = frame({.material = 0, .tip = {.z_m = 4e-9}});
+  const auto bounds = [&](std::string_view node) {
+    const scene::NodeIndex index = scene_.scene().find_node(node).value();
+    std::pair<glm::dvec3, glm::dvec3> box{glm::dvec3(1e9), glm::dvec3(-1e9)};
+    for (const scene::Primitive& primitive : scene_.scene().meshes[*scene_.scene().nodes[index].mesh].primitives) {
+      for (const scene::Vertex& vertex : primitive.vertices) {
+        const glm::dvec3 place(state.room_from_node[index] * glm::dvec4(glm::dvec3(vertex.position), 1.0));
+        box = {glm::min(box.first, place), glm::max(box.second, place)};
+      }
+    }
+    return box;
+  };
+  const auto [line_low, line_high] = bounds("marks/line");
+  const double thick = line_high.x - line_low.x;
+  ASSERT_GT(line_high.y - line_low.y, 10.0 * thick);
+  for (const auto& [tick, end_y] : {std::pair{"marks/low", line_low.y}, {"marks/high", line_high.y}}) {
+    const auto [low, high] = bounds(tick);
+    EXPECT_NEAR(0.5 * (low.y + high.y), end_y, thick) << tick;
+    EXPECT_NEAR(0.5 * (low.x + high.x), 0.5 * (line_low.x + line_high.x), thick) << tick;
+    EXPECT_GT(high.x - low.x, 3.0 * thick) << tick;
+  }
 }
 
 TEST_F(WallSceneTest, AStrokeFillsThreeTenthsOfTheWallsHeight) {

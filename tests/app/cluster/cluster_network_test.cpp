@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -13,6 +14,7 @@
 #include <thread>
 
 #include "app/cluster/cluster_cable.h"
+#include "core/percentiles.h"
 #include "core/whole_file.h"
 
 namespace afm::app {
@@ -134,7 +136,19 @@ TEST_F(ClusterNetworkTest, ACableThatIsPulledForTwoSecondsCostsThreeFrames) {
 }
 
 // The wall itself over such a network.
-class ClusterCableTest : public ClusterCable {};
+class ClusterCableTest : public ClusterCable {
+ protected:
+  // Milliseconds between frames, from a frame log.
+  static std::vector<double> intervals_ms(const std::string& log) {
+    std::vector<double> all;
+    std::istringstream lines(core::read_file(log).value_or(""));
+    for (std::string line; std::getline(lines, line);) {
+      double interval_ms = 0;
+      if (std::sscanf(line.c_str(), "%*d,%*f,%*f,%lf", &interval_ms) == 1) all.push_back(interval_ms);
+    }
+    return all;
+  }
+};
 
 TEST_F(ClusterCableTest, IsPulledAndTheHandNeverNotices) {
   const auto left = node("left", 1);
@@ -157,6 +171,10 @@ TEST_F(ClusterCableTest, IsPulledAndTheHandNeverNotices) {
   EXPECT_EQ(hand->ends(), 0) << hand->said();
   EXPECT_THAT(hand->said(), ::testing::Not(::testing::HasSubstr("built frame")));
   EXPECT_GT(network_.lost(), 0U);
+  const core::Percentiles between = core::percentiles(intervals_ms(folder_.file("frames.csv")));
+  EXPECT_GT(between.max, 0.0);
+  std::printf("frames of the machine with the hand, a cable pulled and plugged: %.0f ms apart (p50), %.0f ms at most\n",
+              between.p50, between.max);
 }
 
 class ClusterWithoutMulticastTest : public ClusterCable {
