@@ -194,7 +194,8 @@ class Build:
             found = set()
             pattern = rf"^\S*?{self.folder}/([\w/.]+):(\d+)(?::\d+)?: +(?:error|note|required)"
             for file, line in re.findall(pattern, re.sub(r"\x1b\[[\d;]*[mK]", "", built.stdout), re.M):
-                found |= {places[place] for place in [(file, int(line))] if place in places}
+                place = (os.path.normpath(file), int(line))  # a unity build names the file by way of its own folder
+                found |= {places[place]} if place in places else set()
             if not found:
                 raise SystemExit("error: the copy does not build, and no edit is to blame:\n" + built.stdout[-20000:])
             for number in sorted(found):
