@@ -194,8 +194,9 @@ class Build:
             found = set()
             pattern = rf"^\S*?{self.folder}/([\w/.]+):(\d+)(?::\d+)?: +(?:error|note|required)"
             for file, line in re.findall(pattern, re.sub(r"\x1b\[[\d;]*[mK]", "", built.stdout), re.M):
-                place = (os.path.normpath(file), int(line))  # a unity build names the file by way of its own folder
-                found |= {places[place]} if place in places else set()
+                file = os.path.normpath(file)  # a unity build names it by way of its own folder
+                # what lacks before an edit is missed in the line before
+                found |= {places[place] for place in ((file, int(line)), (file, int(line) + 1)) if place in places}
             if not found:
                 raise SystemExit("error: the copy does not build, and no edit is to blame:\n" + built.stdout[-20000:])
             for number in sorted(found):
