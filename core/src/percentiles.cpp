@@ -31,7 +31,7 @@ Percentiles percentiles(std::span<const std::uint32_t> bins, std::uint32_t max_u
     for (std::size_t i = 0; i < bins.size(); ++i) {
       seen += bins[i];
       // the last bin holds all that is longer, and says nothing but the maximum
-      if (seen >= wanted) return i + 1 == bins.size() ? double(max_us) : static_cast<double>(i + 1);
+      if (seen >= wanted) return i + 1 == bins.size() ? double(max_us) : std::min(double(max_us), double(i + 1));
     }
     return double(max_us);
   };

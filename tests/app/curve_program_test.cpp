@@ -141,7 +141,8 @@ TEST(CurveProgram, DrawsAMeasuredCurveOverTheModel) {
 TEST(MaterialProgram, ListsMaterialsAndProbes) {
   const ProgramResult list = touchafm("material");
   ASSERT_EQ(list.exit_code, 0) << list.err;
-  for (const char* name : {"mica", "pdms-air", "polystyrene-water", "ppp-contr", "colloid-5um"}) {
+  for (const char* name : {"materials (touchafm material NAME", "mica", "pdms-air", "polystyrene-water",
+                           "probes (--probe NAME; nominal values)", "ppp-contr", "colloid-5um"}) {
     EXPECT_THAT(list.out, HasSubstr(name));
   }
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <regex>
 #include <string>
 #include <thread>
 
@@ -119,6 +120,22 @@ TEST(DoctorCommand, EndsWellWhateverItFinds) {
                             "haptic device", "wands (HID)", "late by    ticks"}) {
     EXPECT_THAT(result.out, HasSubstr(check));
   }
+}
+
+TEST(DoctorCommand, PrintsAHistogramThatHoldsEveryTick) {
+  const ProgramResult result = touchafm("doctor --seconds 0.3");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::smatch missed;
+  ASSERT_TRUE(std::regex_search(result.out, missed, std::regex("([0-9]+) of ([0-9]+) ticks missed"))) << result.out;
+  // "     10 to 20 us       123  ###"
+  const std::regex row("(?:to [0-9]+|and more) \u00b5s +([0-9]+)  ");
+  std::uint64_t ticks = 0;
+  int rows = 0;
+  for (std::sregex_iterator it(result.out.begin(), result.out.end(), row); it != std::sregex_iterator(); ++it, ++rows) {
+    ticks += std::stoull((*it)[1]);
+  }
+  EXPECT_EQ(rows, 8) << result.out;
+  EXPECT_EQ(ticks + std::stoull(missed[1]), std::stoull(missed[2])) << result.out;
 }
 
 TEST(DoctorCommand, GivesItsFindingsAndTheHistogramAsJson) {

@@ -61,5 +61,15 @@ TEST(Percentiles, BeyondAHistogramAreItsMaximum) {
   EXPECT_EQ(of.max, 700);
 }
 
+TEST(Percentiles, OfAHistogramAreNeverAboveItsMaximum) {
+  std::array<std::uint32_t, 401> bins{};
+  bins[42] = 998;
+  bins[357] = 2;  // 357.3 and 357.9 us: the maximum is kept in whole microseconds
+  const Percentiles of = percentiles(bins, 357);
+  EXPECT_EQ(of.p50, 43.0);
+  EXPECT_EQ(of.p999, 357.0);
+  EXPECT_EQ(of.max, 357.0);
+}
+
 }  // namespace
 }  // namespace afm::core

@@ -57,6 +57,15 @@ TEST_F(StudyReport, OfTheSameDataIsTheSameBytes) {
   EXPECT_THAT(first.at("study.md"), Not(HasSubstr(folder_.path())));
 }
 
+TEST_F(StudyReport, NamesBothAxesOfEveryPlot) {
+  add_class(8);
+  const auto all = files();
+  EXPECT_THAT(all.at("table3.svg"), HasSubstr("mean answer, 0 to 4"));
+  EXPECT_THAT(all.at("identify-three.svg"), HasSubstr("share right"));
+  EXPECT_THAT(all.at("identify-three.svg"), HasSubstr("step and condition, in the order of the table"));
+  EXPECT_THAT(all.at("threshold-three.svg"), HasSubstr("share right"));
+}
+
 TEST_F(StudyReport, PrintsNoPWithoutEffectSizeAndInterval) {
   add_class(8);
   const auto all = files();
