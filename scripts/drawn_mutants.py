@@ -23,6 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADER = "tests/mutants/mutant.h"
 FOLDERS = ["core", "physics", "scene", "haptics", "input", "render", "servo", "curves", "cluster", "exhibit", "app"]
 COUNTED_TWICE = ("haptics", "servo")
+ALSO_TESTED_IN = {"render": ["headset"], "app": ["headset"]}  # folders of tests alone
 MARKS = DRAWN = 4096  # as in mutant.h
 LEFT_OUT = {"long", "architecture", "soak", "fuzz", "guest", "cluster"}  # labels
 
@@ -161,6 +162,7 @@ class Build:
 
     def __init__(self, seed, folders, copy):
         self.folders = folders
+        self.test_folders = sorted({*folders, *(more for folder in folders for more in ALSO_TESTED_IN.get(folder, []))})
         kept = ROOT / "build" / f"drawn-mutants-{seed}"
         self.folder = copy or kept
         self.drawn_path = kept.with_suffix(".drawn.json")
@@ -188,7 +190,7 @@ class Build:
             write_tree(self.folder, texts)
             if not (self.folder / "build" / "release" / "build.ninja").exists():
                 self.run("cmake", "--preset", "release")
-            built = self.run("cmake", "--build", "--preset", "release", "--target", *self.targets(self.folders), "--", "-k", "0")
+            built = self.run("cmake", "--build", "--preset", "release", "--target", *self.targets(self.test_folders), "--", "-k", "0")
             if built.returncode == 0:
                 return edits
             found = set()
@@ -221,7 +223,7 @@ def listed_tests(build):
     for row in json.loads(build.run("ctest", "--preset", "release", "--show-only=json-v1").stdout)["tests"]:
         properties = {each["name"]: each["value"] for each in row["properties"]}
         command = row.get("command", [])
-        if not command or row["name"].split(".")[0] not in build.folders or LEFT_OUT & set(properties.get("LABELS", [])) or row["name"] == "app.installation":
+        if not command or row["name"].split(".")[0] not in build.test_folders or LEFT_OUT & set(properties.get("LABELS", [])) or row["name"] == "app.installation":
             continue
         case = next((part.split("=", 1)[1] for part in command if part.startswith("--gtest_filter=")), "")
         tests.append(Test(row["name"], [part for part in command if not part.startswith("--gtest")], case,
