@@ -144,6 +144,8 @@ TEST(SweepTable, HasAColumnForEveryNumberAndALineForEveryPoint) {
   }
   EXPECT_EQ(lines, 5U);
   EXPECT_TRUE(names.starts_with("spring_constant_N_per_m,model,regime,tabor_parameter"));
+  EXPECT_TRUE(header.starts_with("# TouchAFM sweep\n# software: TouchAFM ")) << header;
+  EXPECT_THAT(header, HasSubstr("source of hamaker"));
   EXPECT_THAT(header, HasSubstr("# swept: spring_constant_N_per_m from 0.1 to 0.4, 4 values\n"));
   EXPECT_THAT(header, testing::Not(HasSubstr("source of spring_constant")));
 

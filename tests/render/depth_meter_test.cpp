@@ -9,8 +9,9 @@
 namespace afm::test {
 namespace {
 
-constexpr double kHeadM = 2.5;        // before the wall
-constexpr double kToleranceM = 1e-4;  // 32-bit depth
+constexpr double kHeadM = 2.5;         // before the wall
+constexpr double kHalfWidthM = 1.524;  // of the wall
+constexpr double kToleranceM = 1e-4;   // 32-bit depth
 
 class DepthMeters : public VulkanTest {
  protected:
@@ -60,6 +61,18 @@ TEST_F(DepthMeters, SeesWhatTheRightEyeAloneSees) {
   const auto range = measure(small());
   ASSERT_TRUE(range);
   EXPECT_NEAR(range->nearest_m, kHeadM - 1.6, kToleranceM);
+}
+
+// Groups of 64 pixels measure it: one more column is a group of its own.
+TEST_F(DepthMeters, SeesWhatLiesInTheLastColumnAlone) {
+  add_square(-1.5, 0.0, 20.0);
+  add_square(0.0, kHalfWidthM - 0.014, 0.03);
+  render::RendererOptions options = small(1);
+  options.eye_width = options.eye_height = 65;
+  const auto range = measure(options);
+  ASSERT_TRUE(range);
+  EXPECT_NEAR(range->nearest_m, kHeadM, kToleranceM);
+  EXPECT_NEAR(range->farthest_m, kHeadM + 1.5, kToleranceM);
 }
 
 TEST_F(DepthMeters, SaysNothingOfAnEmptyPicture) {

@@ -199,8 +199,9 @@ XrResult XRAPI_CALL string_to_path(XrInstance, const char* text, XrPath* path) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL create_action_set(XrInstance, const XrActionSetCreateInfo*, XrActionSet* set) {
+XrResult XRAPI_CALL create_action_set(XrInstance, const XrActionSetCreateInfo* info, XrActionSet* set) {
   AFM_ENTER("xrCreateActionSet");
+  if (info->localizedActionSetName[0] == '\0') return XR_ERROR_LOCALIZED_NAME_INVALID;
   *set = reinterpret_cast<XrActionSet>(std::uintptr_t{1});
   return XR_SUCCESS;
 }
@@ -208,6 +209,7 @@ XrResult XRAPI_CALL create_action_set(XrInstance, const XrActionSetCreateInfo*, 
 // Of one instance after the other: the last ones are kept until the end.
 XrResult XRAPI_CALL create_action(XrActionSet, const XrActionCreateInfo* info, XrAction* action) {
   AFM_ENTER("xrCreateAction");
+  if (info->localizedActionName[0] == '\0') return XR_ERROR_LOCALIZED_NAME_INVALID;
   static std::deque<Action> actions;
   actions.push_back({info->actionName});
   *action = reinterpret_cast<XrAction>(&actions.back());
