@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
+
 #include <string>
 
 #include "app/bench/servo_latency.h"
@@ -11,7 +11,6 @@
 #include "app/bench/servo_work.h"
 #include "physics/law.h"
 #include "places.h"
-#include "support/run_program.h"
 
 // That the benchmarks of the servo measure something; how much is for people to judge.
 namespace afm::app {
@@ -56,23 +55,6 @@ TEST(ServoBenchmarks, SeeTheHandReleasedAfterTheRenderersEndAndByStop) {
     EXPECT_GE(shortest_ms, kAtLeastMs[i]) << kReleases[i].name;
     EXPECT_LE(shortest_ms, 2.0 * kReleases[i].bar_ms) << kReleases[i].name;
   }
-}
-
-TEST(ServoBenchmarks, AreAllInTheCommandsJson) {
-  const support::ProgramResult result =
-      support::run_program(kProgram + " bench haptics --seconds 0.5 --rounds 1 --ticks 1000 --json");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto all = nlohmann::json::parse(result.out);
-  EXPECT_EQ(all.at("work").size(), physics::laws_with(&physics::LawTraits::computed).size() + 3);
-  for (const auto& work : all.at("work")) EXPECT_EQ(work.at("ticks"), 1000) << work;
-  for (const char* loop : {"servo", "plain_loop"}) EXPECT_GT(all.at("wake").at(loop).at("ticks"), 0) << loop;
-  EXPECT_GT(all.at("wake").at("beside").at("frames"), 0);
-  EXPECT_EQ(all.at("release").size(), kReleases.size());
-  for (const auto& release : all.at("release")) EXPECT_GT(release.at("max_s"), 0.0) << release;
-
-  const support::ProgramResult refused = support::run_program(kProgram + " bench haptics --sample /nowhere.gsf");
-  EXPECT_EQ(refused.exit_code, 3) << refused.err;
-  EXPECT_NE(refused.err.find("/nowhere.gsf"), std::string::npos) << refused.err;
 }
 
 }  // namespace

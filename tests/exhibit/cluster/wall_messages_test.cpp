@@ -116,6 +116,7 @@ TEST(WallHistoryTest, IsTheSameForANodeThatComesLate) {
   auto there = load_history(document, 3);
   ASSERT_TRUE(there);
   EXPECT_EQ(there->journal, 901U);
+  EXPECT_EQ(save_history(there->journal, there->cycles, there->friction, there->edits, there->scan), document);
   for (int i = 900; i < 1500; ++i) {
     const JournalRecord record(sample_at(i));
     here.apply(record);
