@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -122,6 +123,34 @@ TEST(Interruption, OfAViewThatStartsIsItsEnd) {
     EXPECT_EQ(ended.exit_code, 0) << ended.said;
     EXPECT_LT(ended.after, kBound);
   }
+}
+
+// The servo of a program: a child of that name.
+pid_t servo_of(pid_t program) {
+  const auto children = core::read_file(fmt::format("/proc/{0}/task/{0}/children", program));
+  std::istringstream numbers(children.value_or(""));
+  for (pid_t child = 0; numbers >> child;) {
+    if (core::read_file(fmt::format("/proc/{}/comm", child)).value_or("") == "touchafm-servo\n") return child;
+  }
+  return -1;
+}
+
+// A servo that does not run for 60 ms lets go; the demonstration lifts, begins the cycle again and tells all of it.
+TEST(StalledServo, OfADemonstrationFeelsTheWholeCycleAgain) {
+  const support::ScratchFolder folder;
+  support::LiveProgram demo({AFM_PROGRAM, "demo", "--material", "gold", "--eye-width", "64", "--hand-speed", "100mm/s",
+                             "--out", folder.file("out")},
+                            "");
+  ASSERT_TRUE(demo.says("jump to contact")) << demo.said();
+  const pid_t servo = servo_of(demo.pid());
+  ASSERT_GT(servo, 0);
+  ::kill(servo, SIGSTOP);
+  std::this_thread::sleep_for(milliseconds(60));
+  ::kill(servo, SIGCONT);
+  ASSERT_TRUE(demo.says("the servo released the hand")) << demo.said();
+  ASSERT_TRUE(demo.says("jump to contact")) << demo.said();
+  ASSERT_TRUE(demo.says("jump off contact")) << demo.said();
+  EXPECT_EQ(interrupt(demo, SIGINT).exit_code, 1);
 }
 
 }  // namespace
