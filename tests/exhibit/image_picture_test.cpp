@@ -30,6 +30,7 @@ TEST(ImagePicture, ShowsRowsFromTheTopOverTheirWholeRange) {
   EXPECT_EQ(pixel(picture, 220, 20), exhibit::height_colour(1.0));
   EXPECT_EQ(pixel(picture, 220, 220), exhibit::height_colour(0.5));
   EXPECT_NE(pixel(picture, 20, 220), exhibit::height_colour(0.0)) << "what was not measured is not low";
+  EXPECT_EQ(pixel(picture, 0, 0), (Color{24, 26, 30})) << "the image lies on dark paper";
   // a bar of 20 nm is 56 of 256 pixels long
   const std::size_t below = 12 + 256 + 8;
   EXPECT_EQ(pixel(picture, 12, below), pixel(picture, 12 + 55, below));
