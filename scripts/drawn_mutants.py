@@ -350,7 +350,7 @@ def judge_drawn(count, seed, folders, copy):
 
     def judged(number):
         edit = drawn[number]
-        if number not in sleeping:
+        if number in alone:
             return judge_alone(build, edit)
         if by := judge.notice(number, edit):
             return "noticed", by
@@ -366,7 +366,11 @@ def judge_drawn(count, seed, folders, copy):
         return result
 
     mine = [number for number, edit in drawn.items() if edit.file.split("/")[0] in folders]
+    reached = {number for test in judge.tests for number in test.reached}
+    # a constant of the compiler, such as one within a table, cannot sleep either: it never wakes
+    alone = {number for number in mine
+             if number not in sleeping or number not in reached and drawn[number].kind.startswith("constant")}
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        verdicts = list(pool.map(verdict, [number for number in mine if number in sleeping]))
-    verdicts += [verdict(number) for number in mine if number not in sleeping]
+        verdicts = list(pool.map(verdict, [number for number in mine if number not in alone]))
+    verdicts += [verdict(number) for number in mine if number in alone]
     return [each for each in verdicts if each != "does not compile"]

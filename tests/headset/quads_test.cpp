@@ -42,7 +42,8 @@ class HeadsetQuads : public HeadsetTest {
   }
 
   // What the texture of a panel is to hold: its picture on a wall that it fills, where the plate is opaque.
-  void expect_texture_of(const stand_in::SubmittedQuad& quad, const render::PanelPlacement& placement) {
+  void expect_texture_of(const stand_in::SubmittedQuad& quad, const render::PanelPlacement& placement,
+                         double opaque_share = 0.9) {
     render::Renderer wall = must(render::Renderer::create(*context_, scene_.scene,
                                                           {.eye_width = quad.width,
                                                            .eye_height = quad.height,
@@ -69,7 +70,7 @@ class HeadsetQuads : public HeadsetTest {
       for (std::size_t c = 0; c < 3; ++c) wrong += std::abs(quad.bytes[i + c] - picture.rgba[i + c]) > 1 ? 1U : 0U;
     }
     EXPECT_EQ(wrong, 0U) << "of " << opaque << " opaque texels";
-    EXPECT_GT(opaque, quad.bytes.size() / 4 * 9 / 10);
+    EXPECT_GT(static_cast<double>(opaque), opaque_share * static_cast<double>(quad.bytes.size() / 4));
   }
 
   // The eyes' pictures are those of the frame without these panels.
@@ -113,6 +114,22 @@ TEST_F(HeadsetQuads, HoldTheTexturesOfThePanels) {
   frame_.banner.guidance = "Press Turn-On";
   ASSERT_TRUE(draw_next());
   expect_texture_of(quads()[2], frame_.banner_placement);
+}
+
+TEST_F(HeadsetQuads, HoldTheTextureOfEachLabel) {
+  frame_.labels.clear();
+  for (const auto& [text, x] : {std::pair{"first", -1.2}, {"second", 0.9}}) {
+    frame_.labels.push_back(
+        {.text = text,
+         .highlighted = false,
+         .placement = {.lower_left_m = {x, 0.55, 0.0}, .right_m = {0.2, 0.0, 0.0}, .up_m = {0.0, 0.08, 0.0}}});
+  }
+  connect();
+  ASSERT_TRUE(draw_next());
+  ASSERT_THAT(quads(), SizeIs(5));
+  // their corners are round
+  for (const std::size_t i : {0U, 1U}) expect_texture_of(quads()[2 + i], frame_.labels[i].placement, 0.7);
+  expect_texture_of(quads()[4], frame_.banner_placement);
 }
 
 TEST_F(HeadsetQuads, StandInTheRoomHoweverTheWearerStandsInIt) {

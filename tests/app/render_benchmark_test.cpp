@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "support/run_program.h"
+
+namespace afm::app {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(RenderBenchmark, PrintsEverySubjectAndItsPeer) {
+  const support::ProgramResult result = support::run_program(
+      AFM_PROGRAM
+      " bench render --rounds 1 --frames 1 --eye-width 64 --json --peer 'echo \"{\\\"frame_ms\\\": 2.5}\"'");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto all = nlohmann::json::parse(result.out);
+  std::set<std::string> subjects;
+  double peer_s = 0.0;
+  for (const auto& figure : all.at("figures")) {
+    subjects.insert(figure.at("subject"));
+    if (figure.at("subject") == "peer") peer_s = figure.at("p50_s");
+    if (figure.contains("processor_s") && figure.at("subject") != "wall at rest") {
+      EXPECT_GT(figure.at("processor_s"), 0.0) << figure;
+    }
+  }
+  EXPECT_THAT(subjects,
+              testing::IsSupersetOf({"wall", "wall, head moving", "wall at rest", "131072 triangles", "1000 nodes"}));
+  EXPECT_DOUBLE_EQ(peer_s, 0.0025);
+  EXPECT_GT(all.at("wall_frames_per_s"), 0.0);
+  EXPECT_GT(all.at("first_frame_cold_s"), 0.0);
+}
+
+TEST(RenderBenchmark, NamesAPeerThatPrintsNoTime) {
+  const support::ProgramResult result =
+      support::run_program(AFM_PROGRAM " bench render --rounds 1 --frames 1 --eye-width 64 --peer 'echo nothing'");
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("echo nothing"));
+}
+
+}  // namespace
+}  // namespace afm::app
