@@ -25,7 +25,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr seconds kFelt{3};  // on either side of what happens
+constexpr seconds kFelt{2};  // on either side of what happens
 
 class ClusterFailures : public ClusterWall {
  protected:
