@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "app/cluster/cluster_noise.h"
 #include "app/cluster/cluster_wall.h"
@@ -25,7 +26,8 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr seconds kFelt{2};  // on either side of what happens
+constexpr std::string_view kMode = "anaglyph-red-cyan";  // of wall_of_three()
+constexpr seconds kFelt{2};                              // on either side of what happens
 
 class ClusterFailures : public ClusterWall {
  protected:
@@ -152,6 +154,16 @@ TEST_F(ClusterFailures, NodesOutliveTheirMasterAndFollowTheNext) {
   expect_both_shown(*hand);
   hand->signal(SIGKILL);
   EXPECT_EQ(hand->ends(), 128 + SIGKILL);
+  hand = start(master_command());
+  expect_both_shown(*hand);
+  // and one with another wall
+  hand->signal(SIGKILL);
+  EXPECT_EQ(hand->ends(), 128 + SIGKILL);
+  std::string other = core::read_file(folder_.file("wall.toml")).value();
+  for (std::size_t at = other.find(kMode); at != std::string::npos; at = other.find(kMode)) {
+    other.replace(at, kMode.size(), "top-bottom-half");
+  }
+  folder_.write("wall.toml", other);
   hand = start(master_command());
   expect_both_shown(*hand);
   xdotool("mousemove 5 " + std::to_string(kHeight + kMargin - 1));
