@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "servo/session_file.h"
+#include "support/faulty_device.h"
 #include "support/live_program.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
@@ -21,10 +22,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::vector<std::string> failing(const std::string& fault, std::vector<std::string> command) {
-  std::vector<std::string> all{"/usr/bin/env", "VK_LAYER_PATH=" AFM_FAULT_LAYER_DIR,
-                               "VK_INSTANCE_LAYERS=VK_LAYER_AFM_fault", "AFM_TEST_FAULT=" + fault, AFM_PROGRAM};
-  all.insert(all.end(), command.begin(), command.end());
-  return all;
+  command.insert(command.begin(), AFM_PROGRAM);
+  return test::on_faulty_device(fault, command);
 }
 
 // Without a sanitizer's warnings about its symbolizer, which may be too slow.

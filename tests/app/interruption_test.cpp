@@ -135,7 +135,8 @@ pid_t servo_of(pid_t program) {
   return -1;
 }
 
-// A servo that does not run for 60 ms lets go; the demonstration lifts, begins the cycle again and tells all of it.
+// A servo that is suspended for 60 ms releases the hand; the demonstration lifts, repeats the cycle and reports every
+// jump.
 TEST(StalledServo, OfADemonstrationFeelsTheWholeCycleAgain) {
   const support::ScratchFolder folder;
   support::LiveProgram demo({AFM_PROGRAM, "demo", "--material", "gold", "--eye-width", "64", "--hand-speed", "100mm/s",

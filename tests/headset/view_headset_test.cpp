@@ -25,6 +25,7 @@
 #include "places.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
+#include "support/faulty_device.h"
 #include "support/live_program.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
@@ -174,12 +175,9 @@ TEST_F(ViewInAHeadset, FeelsASampleAndLetsTheHandGoInTimeWheneverTheHeadsetIsGon
 // The program waits for the device, and the wearer before a picture that stands still.
 TEST_F(ViewInAHeadset, LetsTheHandGoInTimeWhenTheGraphicsDeviceHangs) {
   const std::string sessions = folder_.file("sessions"), stuck = folder_.file("stuck");
-  std::vector<std::string> all{"/usr/bin/env", "VK_LAYER_PATH=" AFM_FAULT_LAYER_DIR,
-                               "VK_INSTANCE_LAYERS=VK_LAYER_AFM_fault", "AFM_TEST_FAULT=stuck:" + stuck};
-  for (const std::string& word : command({"--record", sessions})) {
-    if (word != "--validate") all.push_back(word);  // the layers are found in one folder
-  }
-  support::LiveProgram view(all, display_.name());
+  std::vector<std::string> program = command({"--record", sessions});
+  std::erase(program, "--validate");  // which knows nothing of the pretended hang
+  support::LiveProgram view(test::on_faulty_device("stuck:" + stuck, program), display_.name());
   ASSERT_TRUE(view.says("headset: has the controllers")) << view.said();
   choose(1);
   ASSERT_TRUE(view.says("jump to contact at Z")) << view.said();

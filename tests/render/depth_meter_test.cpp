@@ -63,7 +63,7 @@ TEST_F(DepthMeters, SeesWhatTheRightEyeAloneSees) {
   EXPECT_NEAR(range->nearest_m, kHeadM - 1.6, kToleranceM);
 }
 
-// Groups of 64 pixels measure it: one more column is a group of its own.
+// The meter works in groups of 64 pixels: column 65 needs a second group.
 TEST_F(DepthMeters, SeesWhatLiesInTheLastColumnAlone) {
   add_square(-1.5, 0.0, 20.0);
   add_square(0.0, kHalfWidthM - 0.014, 0.03);

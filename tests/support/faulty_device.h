@@ -4,8 +4,17 @@
 #include <stdlib.h>
 
 #include <string>
+#include <vector>
 
 namespace afm::test {
+
+// A command line that runs a program whose graphics device fails, or is less able, in that way.
+inline std::vector<std::string> on_faulty_device(const std::string& fault, const std::vector<std::string>& program) {
+  std::vector<std::string> command{"/usr/bin/env", "VK_ADD_LAYER_PATH=" AFM_FAULT_LAYER_DIR,
+                                   "VK_INSTANCE_LAYERS=VK_LAYER_AFM_fault", "AFM_TEST_FAULT=" + fault};
+  command.insert(command.end(), program.begin(), program.end());
+  return command;
+}
 
 // While it lives, a layer of our own stands between new Vulkan instances and the driver, and makes the device fail as
 // tests/support/fault_layer says. One at a time.

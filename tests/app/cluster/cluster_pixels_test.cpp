@@ -16,6 +16,7 @@
 #include "core/file_descriptor.h"
 #include "core/fnv1a.h"
 #include "core/percentiles.h"
+#include "support/faulty_device.h"
 
 namespace afm::app {
 namespace {
@@ -30,19 +31,8 @@ class ClusterPixels : public ClusterWall {
   std::unique_ptr<support::LiveProgram> node(const std::string& name, const support::VirtualDisplay& display) const {
     return std::make_unique<support::LiveProgram>(node_command(name, "127.0.0.1"), display.name());
   }
-  // The command with a graphics device that fails, or is less able, as tests/support/fault_layer says.
-  static std::vector<std::string> on_device(const std::string& fault, const std::vector<std::string>& program) {
-    std::vector<std::string> command{"/usr/bin/env", "VK_ADD_LAYER_PATH=" AFM_FAULT_LAYER_DIR,
-                                     "VK_INSTANCE_LAYERS=VK_LAYER_AFM_fault", "AFM_TEST_FAULT=" + fault};
-    command.insert(command.end(), program.begin(), program.end());
-    return command;
-  }
-  std::unique_ptr<support::LiveProgram> node(const std::string& name, const support::VirtualDisplay& display,
-                                             const std::string& fault) const {
-    return std::make_unique<support::LiveProgram>(on_device(fault, node_command(name, "127.0.0.1")), display.name());
-  }
   void watch(const support::VirtualDisplay& left_display, const support::VirtualDisplay& right_display,
-             const char* what, const std::string& fault_of_master = "count") const;
+             const char* what, const std::string& fault_of_master = {}) const;
   static void expect_orderly_end(support::LiveProgram& hand) {
     hand.signal(SIGTERM);
     EXPECT_EQ(hand.ends(), 0) << hand.said();
@@ -235,7 +225,8 @@ void ClusterPixels::watch(const support::VirtualDisplay& left_display, const sup
                           const char* what, const std::string& fault_of_master) const {
   std::vector<std::string> command = master_command();
   command.insert(command.end(), {"--haptics", "sim", "--material", "mica"});
-  const auto hand = start(on_device(fault_of_master, command));
+  if (!fault_of_master.empty()) command = test::on_faulty_device(fault_of_master, command);
+  const auto hand = start(command);
   expect_both_shown(*hand);
   press_at_master("1");
   ASSERT_TRUE(hand->says("force on")) << hand->said();
@@ -264,7 +255,11 @@ void ClusterPixels::watch(const support::VirtualDisplay& left_display, const sup
 TEST_F(ClusterPixels, OtherMonitorsAndDevicesShowTheSameFramesInTheSameOrder) {
   folder_.write("wall.toml", wall_of_three("127.0.0.1", "127.0.0.1", {}));
   const support::VirtualDisplay right_display(kWidth, kHeight), left_display(kWidth, kHeight);
-  const auto left = node("left", left_display, "refresh:50"), right = node("right", right_display, "refresh:60");
+  const auto faulty = [&](const std::string& name, const support::VirtualDisplay& display, const std::string& fault) {
+    return std::make_unique<support::LiveProgram>(test::on_faulty_device(fault, node_command(name, "127.0.0.1")),
+                                                  display.name());
+  };
+  const auto left = faulty("left", left_display, "refresh:50"), right = faulty("right", right_display, "refresh:60");
   watch(left_display, right_display, "at 50 and 60 Hz and by another device", "one-view");
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/cluster/cluster_wall.h"
 #include "core/whole_file.h"
+#include "support/faulty_device.h"
 
 namespace afm::app {
 namespace {
@@ -19,13 +20,11 @@ using ::testing::StartsWith;
 class ClusterViewTest : public ClusterWall {
  protected:
   // With a haptic device that every program finds which looks for one.
-  std::unique_ptr<support::LiveProgram> node(const std::string& name,
-                                             const std::vector<std::string>& environment = {}) const {
-    std::vector<std::string> command{"/usr/bin/env", "TOUCHAFM_HD_LIBRARY=" AFM_MOCK_HD};
-    command.insert(command.end(), environment.begin(), environment.end());
-    const auto program = node_command(name, "127.0.0.1");
-    command.insert(command.end(), program.begin(), program.end());
-    return start(command);
+  std::unique_ptr<support::LiveProgram> node(const std::string& name, const std::string& fault = {}) const {
+    std::vector<std::string> program = node_command(name, "127.0.0.1");
+    if (!fault.empty()) program = test::on_faulty_device(fault, program);
+    program.insert(program.begin(), {"/usr/bin/env", "TOUCHAFM_HD_LIBRARY=" AFM_MOCK_HD});
+    return start(program);
   }
 };
 
@@ -59,8 +58,7 @@ bool has_loaded(pid_t process, const std::string& library) {
 TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   auto left = node("left");
   const std::string swapchains = folder_.file("swapchains");
-  const auto right = node("right", {"VK_LAYER_PATH=" AFM_FAULT_LAYER_DIR, "VK_INSTANCE_LAYERS=VK_LAYER_AFM_fault",
-                                    "AFM_TEST_FAULT=barrier:" + swapchains});
+  const auto right = node("right", "barrier:" + swapchains);
   const auto hand = start(master_command());
   expect_both_shown(*hand);
 

@@ -6,7 +6,7 @@
 //   stuck:F   nothing is finished while the file F exists: what waits for it does so for as long as it may
 //   memory:N  from the Nth allocation on there is no device memory
 //   surface:N from the Nth picture of a window on its surface is lost, and no other can be had
-//   refresh:H pictures of a window appear at the refreshes of a monitor with H of them a second, as FIFO has it
+//   refresh:H a window shows its pictures at the refreshes of an H Hz monitor, as with FIFO
 //   one-view  there is no multiview
 //   barrier:F surfaces offer VK_NV_present_barrier, which does nothing; F gets a line for each swapchain made with it
 //   count     nothing fails
@@ -118,7 +118,7 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire_next_image(VkDevice device, VkSwapchainKH
   return next<PFN_vkAcquireNextImageKHR>("vkAcquireNextImageKHR")(device, swapchain, timeout, semaphore, fence, index);
 }
 
-// At the next refresh; monitors that begin at one time do not stay in step.
+// Waits for the next refresh. Monitors of different rates do not stay in step.
 VKAPI_ATTR VkResult VKAPI_CALL queue_present(VkQueue queue, const VkPresentInfoKHR* info) {
   if (the_fault.kind == "refresh") {
     using std::chrono::nanoseconds, std::chrono::steady_clock;
