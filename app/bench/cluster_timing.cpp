@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "cluster/clock_offset.h"
 #include "cluster/master_link.h"
 #include "cluster/membership.h"
 #include "cluster/node_link.h"
@@ -38,17 +39,11 @@ double process_cpu_s() {
 // When each node has shown a frame, in the master's time.
 class SwapTimes {
  public:
-  explicit SwapTimes(std::uint32_t nodes) : nodes_(nodes), offsets_ns_(nodes) {}
+  explicit SwapTimes(std::uint32_t nodes) : clocks_(nodes) {}
 
-  // The clock of a node, from the four times of a round trip (RFC 5905, section 8).
   void answer(const cluster::ReadyMessage& ready, std::int64_t came_ns, ClusterTiming& timing) {
-    const std::int64_t there_ns = ready.frame_came_ns - ready.frame_sent_ns;
-    const std::int64_t back_ns = came_ns - ready.ready_sent_ns;
-    timing.round_ms.push_back(kMsPerNs * static_cast<double>(there_ns + back_ns));
-    auto& offset = offsets_ns_[ready.header.node];
-    const std::int64_t measured = (there_ns - back_ns) / 2;
-    // the shortest round is the most exact one
-    if (!offset || there_ns + back_ns < offset->second) offset = {measured, there_ns + back_ns};
+    const std::int64_t round_ns = clocks_[ready.header.node].add(ready, came_ns);
+    timing.round_ms.push_back(kMsPerNs * static_cast<double>(round_ns));
     if (ready.swapped_ns != 0) shown_[ready.header.number - 1].push_back({ready.header.node, ready.swapped_ns});
   }
 
@@ -57,21 +52,20 @@ class SwapTimes {
   void finish(ClusterTiming& timing) const {
     for (const auto& [number, times] : shown_) {
       const auto sent = sent_.find(number);
-      if (times.size() != nodes_ || sent == sent_.end()) continue;
+      if (times.size() != clocks_.size() || sent == sent_.end()) continue;
       std::vector<std::int64_t> here;
-      for (const auto& [node, at_ns] : times) here.push_back(at_ns - offsets_ns_[node]->first);
+      for (const auto& [node, at_ns] : times) here.push_back(at_ns - clocks_[node].ahead_ns());
       const auto [first, last] = std::minmax_element(here.begin(), here.end());
       timing.skew_ms.push_back(kMsPerNs * static_cast<double>(*last - *first));
       timing.latency_ms.push_back(kMsPerNs * static_cast<double>(*last - sent->second));
     }
-    for (const auto& offset : offsets_ns_) {
-      timing.clock_ms.push_back(offset ? kMsPerNs * static_cast<double>(offset->first) : 0.0);
+    for (const cluster::ClockOffset& clock : clocks_) {
+      timing.clock_ms.push_back(kMsPerNs * static_cast<double>(clock.ahead_ns()));
     }
   }
 
  private:
-  std::size_t nodes_;
-  std::vector<std::optional<std::pair<std::int64_t, std::int64_t>>> offsets_ns_;  // and of which round trip
+  std::vector<cluster::ClockOffset> clocks_;  // of the nodes
   std::map<std::uint64_t, std::vector<std::pair<std::uint32_t, std::int64_t>>> shown_;
   std::map<std::uint64_t, std::int64_t> sent_;
 };

@@ -14,6 +14,7 @@
 
 #include "app/commands/diagnosis.h"
 #include "app/commands/findings_json.h"
+#include "cluster/clock_offset.h"
 #include "cluster/master_link.h"
 #include "core/interruption.h"
 #include "core/percentiles.h"
@@ -32,17 +33,12 @@ constexpr double kSlowRoundMs = 5.0;        // of an idle network
 struct NodeAnswers {
   std::optional<cluster::ReadyMessage> newest;
   std::vector<double> round_ms;
-  double shortest_ms = 1e9, clock_ms = 0;  // of the other clock against this one, with the shortest round
+  cluster::ClockOffset clock;
 
   void add(const cluster::ReadyMessage& ready, std::int64_t now_ns) {
     newest = ready;
     if (ready.frame_sent_ns == 0) return;
-    const double there_ms = 1e-6 * static_cast<double>(ready.frame_came_ns - ready.frame_sent_ns);
-    const double back_ms = 1e-6 * static_cast<double>(now_ns - ready.ready_sent_ns);
-    round_ms.push_back(there_ms + back_ms);
-    if (round_ms.back() >= shortest_ms) return;
-    shortest_ms = round_ms.back();
-    clock_ms = 0.5 * (there_ms - back_ms);
+    round_ms.push_back(1e-6 * static_cast<double>(clock.add(ready, now_ns)));
   }
   bool enough() const {
     return newest && newest->state == cluster::NodeState::Drawing && round_ms.size() >= kEnoughAnswers;
@@ -113,7 +109,7 @@ Finding judge(const scene::WallNode& node, const NodeAnswers& answers, const clu
   finding.verdict = slow ? Verdict::Limited : Verdict::Good;
   finding.found =
       fmt::format("draws in {:.1f} ms; round trip {:.2f} ms, at most {:.2f} ms; its clock differs by {:+.1f} ms",
-                  1e-3 * newest.draw_us, round.p50, round.max, answers.clock_ms);
+                  1e-3 * newest.draw_us, round.p50, round.max, 1e-6 * static_cast<double>(answers.clock.ahead_ns()));
   if (slow) finding.fix = "use a wired network that the wall has for itself";
   return finding;
 }

@@ -135,6 +135,10 @@ TEST(DoctorCommand, PrintsAHistogramThatHoldsEveryTick) {
     ticks += std::stoull((*it)[1]);
   }
   EXPECT_EQ(rows, 8) << result.out;
+  for (const char* range : {" 0 to 10 ", " 10 to 20 ", " 20 to 50 ", " 50 to 100 ", " 100 to 200 ", " 200 to 500 ",
+                            " 500 to 1000 ", "1000 and more "}) {
+    EXPECT_THAT(result.out, HasSubstr(std::string(range) + "\u00b5s"));
+  }
   EXPECT_EQ(ticks + std::stoull(missed[1]), std::stoull(missed[2])) << result.out;
 }
 

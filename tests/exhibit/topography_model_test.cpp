@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/topography_model.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -101,7 +102,9 @@ TEST_F(MeasuredSample, HasABarWithItsReliefBesideIt) {
     return found;
   };
   EXPECT_THAT(texts({.material = 0}), testing::Contains(testing::HasSubstr(" nm")));
-  EXPECT_THAT(texts({.material = 0}), testing::Contains(testing::HasSubstr("heights \u00d7")));
+  ASSERT_NE(own_.topography->exaggeration, 1.0);
+  const std::string times = fmt::format("heights \u00d7{:g}", own_.topography->exaggeration);
+  EXPECT_THAT(texts({.material = 0}), testing::Contains(testing::HasSubstr(times)));
   EXPECT_THAT(texts({}), testing::Not(testing::Contains(testing::HasSubstr("heights \u00d7"))));
 }
 

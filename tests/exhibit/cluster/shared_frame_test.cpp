@@ -91,5 +91,34 @@ TEST_F(SharedFrame, IsTheOneOfASingleMachineAtTwentyMoments) {
   }
 }
 
+// What the panel of parameters says of an edit, too.
+TEST_F(SharedFrame, HasTheTipOfTheHand) {
+  scene::TipState tip = tip_at(5);
+  tip.surface = {.xy_m = {1e-9, -2e-9}, .height_m = 3e-9};
+  tip.active.release_z_m = 14e-9;
+  tip.active.slow_motion = 2.0;
+  tip.active.edit_revision = 6;
+  tip.acknowledged.refused_edit = 5;
+  tip.realtime = true;
+  cluster::FrameMessage message;
+  set_moment(moment_at(5, tip), tip, "", false, message);
+  const auto came = cluster::decode<cluster::FrameMessage>(cluster::encode(message));
+  ASSERT_TRUE(came);
+  const scene::TipState there = tip_of(*came);
+  EXPECT_EQ(there.time_ns, tip.time_ns);
+  EXPECT_EQ(there.tip.z_m, tip.tip.z_m);
+  EXPECT_EQ(there.tip.force_n, tip.tip.force_n);
+  EXPECT_EQ(there.surface.xy_m, tip.surface.xy_m);
+  EXPECT_EQ(there.surface.height_m, tip.surface.height_m);
+  EXPECT_EQ(there.active.release_z_m, tip.active.release_z_m);
+  EXPECT_EQ(there.active.slow_motion, tip.active.slow_motion);
+  EXPECT_EQ(there.active.edit_revision, tip.active.edit_revision);
+  EXPECT_EQ(there.acknowledged.refused_edit, tip.acknowledged.refused_edit);
+  EXPECT_EQ(there.material, tip.material);
+  EXPECT_EQ(there.phase, tip.phase);
+  EXPECT_EQ(there.servo_state, tip.servo_state);
+  EXPECT_EQ(there.realtime, tip.realtime);
+}
+
 }  // namespace
 }  // namespace afm::exhibit
