@@ -11,7 +11,7 @@ namespace afm::core {
 
 void log_line(std::string_view text) {
   std::string line = "touchafm: ";
-  line += printable(text);
+  line += printable_line(text);
   line += '\n';
   // a closed stderr is nothing that a log line could report
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());

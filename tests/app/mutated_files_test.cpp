@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <random>
 #include <string>
 #include <string_view>
@@ -27,10 +28,9 @@ constexpr std::size_t kLongestError = 1500;
 
 struct Reading {
   const char* name;
-  const char* before;  // of the command line, before the file
-  const char* after;
-  const char* file;    // that is damaged, from the sources
-  const char* ending;  // of its name
+  const char* command;  // {} is the folder of the test
+  const char* file;     // that is damaged, from the sources
+  const char* place;    // of the damaged one, in the folder
 };
 
 // Of 0.1.0, saved as this version does: one that is cut holds what came before.
@@ -39,29 +39,60 @@ constexpr const char* kSession = "/tests/formats/0.1.0/session-gold.afms";
 #define AFM_CORPUS "/tests/fuzz/corpus/"
 
 constexpr Reading kReadings[]{
-    {"AnalyseTouchafmCsv", "analyse ", "", AFM_CORPUS "curve_files/touchafm.csv", ".csv"},
-    {"AnalyseWorkshopCsv", "analyse ", "", AFM_CORPUS "curve_files/workshop-volts.csv", ".csv"},
-    {"AnalyseTab", "analyse ", "", AFM_CORPUS "curve_files/adhesive.tab", ".tab"},
-    {"AnalyseHdf5", "analyse ", "", AFM_CORPUS "hdf5/adhesive.h5", ".h5"},
-    {"AnalyseJpk", "analyse ", "", AFM_CORPUS "curve_files/adhesive.jpk-force", ".jpk-force"},
-    {"AnalyseIgor", "analyse ", "", AFM_CORPUS "curve_files/adhesive.ibw", ".ibw"},
-    {"AnalyseGsf", "analyse ", "", AFM_CORPUS "image_files/relief.gsf", ".gsf"},
-    {"AnalyseGwy", "analyse ", "", AFM_CORPUS "image_files/two.gwy", ".gwy"},
-    {"AnalyseNanoscope", "analyse ", "", AFM_CORPUS "image_files/four-bytes.spm", ".spm"},
-    {"AnalyseIgorImage", "analyse ", "", AFM_CORPUS "image_files/trace.ibw", ".ibw"},
-    {"AnalyseJpkImage", "analyse ", "", AFM_CORPUS "image_files/slots.jpk", ".jpk"},
-    {"CurveOverlay", "curve --material mica --step 1nm --format svg --overlay ", "",
-     AFM_CORPUS "curve_files/touchafm.csv", ".csv"},
-    {"CurveMaterials", "curve --material gold --step 1nm --materials ", "", "/tests/formats/0.1.0/materials.toml",
-     ".toml"},
-    {"CurveProbes", "curve --material gold --step 1nm --probe mlct-c --probes ", "", "/tests/formats/0.1.0/probes.toml",
-     ".toml"},
-    {"Material", "material gold --materials ", "", "/tests/formats/0.1.0/materials.toml", ".toml"},
-    {"Wall", "wall ", " --json", "/assets/walls/cave.toml", ".toml"},
-    {"Replay", "replay ", "", kSession, ".afms"},
-    {"RenderSession", "render --at 0.1 --size 48x36 --out /dev/null --session ", "", kSession, ".afms"},
-    {"RenderGltf", "render --size 48x36 --out /dev/null --gltf ", "", AFM_CORPUS "gltf/triangle.glb", ".glb"},
+    {"AnalyseTouchafmCsv", "analyse {}/damaged.csv", AFM_CORPUS "curve_files/touchafm.csv", "damaged.csv"},
+    {"AnalyseWorkshopCsv", "analyse {}/damaged.csv", AFM_CORPUS "curve_files/workshop-volts.csv", "damaged.csv"},
+    {"AnalyseTab", "analyse {}/damaged.tab", AFM_CORPUS "curve_files/adhesive.tab", "damaged.tab"},
+    {"AnalyseHdf5", "analyse {}/damaged.h5", AFM_CORPUS "hdf5/adhesive.h5", "damaged.h5"},
+    {"AnalyseJpk", "analyse {}/damaged.jpk-force", AFM_CORPUS "curve_files/adhesive.jpk-force", "damaged.jpk-force"},
+    {"AnalyseIgor", "analyse {}/damaged.ibw", AFM_CORPUS "curve_files/adhesive.ibw", "damaged.ibw"},
+    {"AnalyseGsf", "analyse {}/damaged.gsf", AFM_CORPUS "image_files/relief.gsf", "damaged.gsf"},
+    {"AnalyseGwy", "analyse {}/damaged.gwy", AFM_CORPUS "image_files/two.gwy", "damaged.gwy"},
+    {"AnalyseNanoscope", "analyse {}/damaged.spm", AFM_CORPUS "image_files/four-bytes.spm", "damaged.spm"},
+    {"AnalyseIgorImage", "analyse {}/damaged.ibw", AFM_CORPUS "image_files/trace.ibw", "damaged.ibw"},
+    {"AnalyseJpkImage", "analyse {}/damaged.jpk", AFM_CORPUS "image_files/slots.jpk", "damaged.jpk"},
+    {"CurveOverlay", "curve --material mica --step 1nm --format svg --overlay {}/damaged.csv",
+     AFM_CORPUS "curve_files/touchafm.csv", "damaged.csv"},
+    {"CurveMaterials", "curve --material gold --step 1nm --materials {}/damaged.toml",
+     "/tests/formats/0.1.0/materials.toml", "damaged.toml"},
+    {"CurveProbes", "curve --material gold --step 1nm --probe mlct-c --probes {}/damaged.toml",
+     "/tests/formats/0.1.0/probes.toml", "damaged.toml"},
+    {"Devices", "devices --wand-file {}/damaged.toml", AFM_CORPUS "wand/wide.toml", "damaged.toml"},
+    {"Material", "material gold --materials {}/damaged.toml", "/tests/formats/0.1.0/materials.toml", "damaged.toml"},
+    {"Paper", "paper --summary {}/damaged.json --out {}/paper", AFM_CORPUS "summary/two.json", "damaged.json"},
+    {"Scan", "scan --material gold --pixels 8 --rate 100Hz --json --materials {}/damaged.toml",
+     "/tests/formats/0.1.0/materials.toml", "damaged.toml"},
+    {"StudyPeople", "study {}/class --out {}/report", AFM_CORPUS "study/people.tsv", "class/participants.tsv"},
+    {"StudyEvents", "study {}/class --out {}/report", AFM_CORPUS "study/events.tsv",
+     "class/sub-ABCDEF/task-three_events.tsv"},
+    {"StudyFacts", "study {}/class --out {}/report", AFM_CORPUS "study/facts.json",
+     "class/sub-ABCDEF/task-three_events.json"},
+    {"Wall", "wall {}/damaged.toml --json", "/assets/walls/cave.toml", "damaged.toml"},
+    {"Replay", "replay {}/damaged.afms", kSession, "damaged.afms"},
+    {"RenderSession", "render --at 0.1 --size 48x36 --out /dev/null --session {}/damaged.afms", kSession,
+     "damaged.afms"},
+    {"RenderGltf", "render --size 48x36 --out /dev/null --gltf {}/damaged.glb", AFM_CORPUS "gltf/triangle.glb",
+     "damaged.glb"},
 };
+
+std::string whole_file(const char* from_sources) {
+  return core::read_file(std::string(AFM_SOURCE_DIR) + from_sources).value();
+}
+
+std::string in_folder(std::string text, const std::string& folder) {
+  for (std::size_t at = text.find("{}"); at != std::string::npos; at = text.find("{}", at)) text.replace(at, 2, folder);
+  return text;
+}
+
+// Two people, of whom one stopped.
+void write_study(const std::string& folder) {
+  for (const char* code : {"sub-ABCDEF", "sub-GHIJKL"}) {
+    const std::string own = folder + "/" + code;
+    std::filesystem::create_directories(own);
+    ASSERT_TRUE(core::write_file(own + "/task-three_events.tsv", whole_file(AFM_CORPUS "study/events.tsv")));
+    ASSERT_TRUE(core::write_file(own + "/task-three_events.json", whole_file(AFM_CORPUS "study/facts.json")));
+  }
+  ASSERT_TRUE(core::write_file(folder + "/participants.tsv", whole_file(AFM_CORPUS "study/people.tsv")));
+}
 
 std::string damaged(std::string bytes, std::mt19937& random) {
   const auto at = [&] { return bytes.empty() ? 0 : random() % bytes.size(); };
@@ -96,11 +127,11 @@ class MutatedFiles : public ::testing::TestWithParam<Reading> {};
 TEST_P(MutatedFiles, AreReadOrRefusedInOneLine) {
   const Reading& reading = GetParam();
   const support::ScratchFolder folder;
-  const std::string path = folder.file(std::string("damaged") + reading.ending);
-  const auto read = [&] {
-    return support::run_program(std::string("timeout 30 " AFM_PROGRAM " ") + reading.before + path + reading.after);
-  };
-  std::string whole = core::read_file(std::string(AFM_SOURCE_DIR) + reading.file).value();
+  const std::string path = folder.file(reading.place);
+  const std::string command = in_folder(reading.command, folder.path());
+  const auto read = [&] { return support::run_program("timeout 30 " AFM_PROGRAM " " + command); };
+  write_study(folder.path() + "/class");
+  std::string whole = whole_file(reading.file);
   ASSERT_TRUE(core::write_file(path, whole));
   if (reading.file == kSession) {
     ASSERT_TRUE(servo::save_session(servo::load_session(path).value(), path));
@@ -121,7 +152,7 @@ TEST_P(MutatedFiles, AreReadOrRefusedInOneLine) {
     const std::string said = done.err.substr(error);
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << "run " << run << ": " << said;
     EXPECT_LT(said.size(), kLongestError) << "run " << run << ": " << said;
-    EXPECT_THAT(said, HasSubstr(path)) << "run " << run;
+    EXPECT_THAT(said, HasSubstr(path)) << "run " << run << ": " << said;
   }
   std::printf("%s: %d of %d were refused\n", reading.name, refused, kRuns);
   EXPECT_GT(refused, 0);

@@ -25,6 +25,10 @@ TEST(Printable, ReplacesEscapesAndOtherControls) {
       << "the 8-bit form of ESC [";
 }
 
+TEST(Printable, MakesOneLineOfSeveral) {
+  EXPECT_EQ(printable_line("a channel \"heig\nht\"\x1b"), "a channel \"heig ht\"\uFFFD");
+}
+
 TEST(Printable, ReplacesWhatIsNoUtf8) {
   EXPECT_EQ(printable("\xB5m"), "\uFFFDm") << "Latin-1";
   EXPECT_EQ(printable("\xC0\xAF"), "\uFFFD\uFFFD") << "longer than needed";

@@ -10,4 +10,7 @@ namespace afm::core {
 // every control character but the end of a line and the tab, becomes U+FFFD.
 std::string printable(std::string_view text);
 
+// The same for what must be one line: ends of lines and tabs become spaces.
+std::string printable_line(std::string_view text);
+
 }  // namespace afm::core

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "curves/recorded_curve.h"
 
-#include <algorithm>
 #include <charconv>
 
 #include "core/printable.h"
@@ -24,17 +23,13 @@ void add_parameter(std::string_view line, CurveMetadata& metadata) {
   const std::size_t colon = line.find(": ");
   if (colon == std::string_view::npos || line.size() > kLongest || metadata.parameters.size() == kMostParameters)
     return;
-  const auto one_line = [](std::string_view part) {
-    std::string text = core::printable(trimmed(part));
-    std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
-    return text;
-  };
   // with room for the rest of a heading in what a format is known by
   constexpr std::size_t kLongestOfAll = 32768;
   std::size_t all = line.size();
   for (const auto& parameter : metadata.parameters) all += parameter.first.size() + parameter.second.size();
   if (all > kLongestOfAll) return;
-  const std::string key = one_line(line.substr(0, colon)), value = one_line(line.substr(colon + 2));
+  const std::string key = core::printable_line(trimmed(line.substr(0, colon)));
+  const std::string value = core::printable_line(trimmed(line.substr(colon + 2)));
   if (!key.empty() && !value.empty()) metadata.parameters.emplace_back(key, value);
 }
 
