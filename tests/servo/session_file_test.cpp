@@ -143,6 +143,36 @@ TEST(SessionFile, CutAnywhereHoldsTheWholePartsBeforeTheCut) {
   EXPECT_EQ(load_session(folder.file("s.afms"))->samples.size(), 1000U);
 }
 
+TEST(SessionFile, SavedWholeAndCutLaterLosesItsLastSecondAtMost) {
+  const support::ScratchFolder folder;
+  RecordedSession session = example();
+  const RecordedSession first = session;
+  for (int second = 1; second < 5; ++second) {
+    for (scene::TipSample sample : first.samples) {
+      sample.time_ns += second * 1'000'000'000LL;
+      session.samples.push_back(sample);
+    }
+    session.events.push_back(session.events.back());
+    session.events.back().time_ns += 1'000'000'000;
+  }
+  ASSERT_TRUE(save_session(session, folder.file("s.afms")));
+  const std::string whole = core::read_file(folder.file("s.afms")).value();
+  for (const std::size_t lost : {std::size_t{1}, whole.size() / 3, whole.size() / 2}) {
+    const auto cut = load_session(folder.write("cut.afms", whole.substr(0, whole.size() - lost)));
+    ASSERT_TRUE(cut) << cut.error().message;
+    EXPECT_FALSE(cut->complete);
+    const std::size_t kept = session.samples.size() * (whole.size() - lost) / whole.size();
+    EXPECT_GE(cut->samples.size() + 1000, kept) << lost;
+    EXPECT_EQ(cut->events.size(), cut->samples.size() / 1000) << "of the ticks that are there";
+  }
+  const auto loaded = load_session(folder.file("s.afms"));
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_TRUE(loaded->complete);
+  EXPECT_EQ(loaded->samples.size(), session.samples.size());
+  ASSERT_EQ(loaded->events.size(), session.events.size());
+  EXPECT_EQ(loaded->events.back().time_ns, session.events.back().time_ns);
+}
+
 TEST(SessionFile, OfAFinishedWriterIsThatOfASavedSession) {
   const support::ScratchFolder folder;
   const RecordedSession session = example();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -99,7 +100,7 @@ struct EarlierCurve {
 
 // An array with an object a frame, which names only what is not as in the frame before; `last` is the frame before the
 // first one, and the last one afterwards.
-nlohmann::json json_of(const std::vector<WallFrame>& frames, nlohmann::json& last);
+nlohmann::json json_of(std::span<const WallFrame> frames, nlohmann::json& last);
 
 // Throws nlohmann::json::exception when a key is missing, of the wrong type or not finite.
 std::vector<WallFrame> frames_of(const nlohmann::json& json, nlohmann::json& last);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session_chunks.h"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "session_header.h"
 #include "session_records.h"
 
@@ -9,6 +12,7 @@ namespace afm::servo {
 namespace {
 
 constexpr std::size_t kNameBytes = 4;
+constexpr std::int64_t kLongestPartNs = 1'000'000'000;  // all that a file loses that is cut
 constexpr std::size_t kSumBytes = sizeof(std::uint64_t);
 
 std::string text_of(const nlohmann::json& json) {
@@ -33,16 +37,34 @@ void SessionEncoder::head(const RecordedSession& session) {
   if (session.topography.columns > 0) {
     std::string topography;
     put(topography, session.topography.size());
-    put_all(topography, session.topography.height_m);
+    put_all(topography, std::span(session.topography.height_m));
     chunk(kTopographyChunk, topography);
   }
 }
 
 void SessionEncoder::part(const RecordedSession& session) {
+  std::span samples(session.samples);
+  std::span events(session.events);
+  std::span frames(session.wall);
+  while (!samples.empty() && samples.back().time_ns - samples.front().time_ns >= kLongestPartNs) {
+    const std::int64_t end_ns = samples.front().time_ns + kLongestPartNs;
+    const auto take_until_end = [&](auto& records) {
+      const auto end = std::find_if(records.begin(), records.end(), [&](const auto& r) { return r.time_ns >= end_ns; });
+      const auto taken = records.first(static_cast<std::size_t>(end - records.begin()));
+      records = records.subspan(taken.size());
+      return taken;
+    };
+    part(take_until_end(samples), take_until_end(events), take_until_end(frames));
+  }
+  part(samples, events, frames);
+}
+
+void SessionEncoder::part(std::span<const scene::TipSample> samples, std::span<const scene::TipEvent> events,
+                          std::span<const WallFrame> frames) {
   std::string payload;
-  put_all(payload, session.samples);
-  put_all(payload, session.events);
-  payload += text_of(json_of(session.wall, last_frame_));
+  put_all(payload, samples);
+  put_all(payload, events);
+  payload += text_of(json_of(frames, last_frame_));
   chunk(kPartChunk, payload);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -30,13 +31,15 @@ class SessionEncoder {
   SessionEncoder();
 
   void head(const RecordedSession& session);  // first, with its surface
-  void part(const RecordedSession& session);  // what has come since the last part
+  void part(const RecordedSession& session);  // what has come since the last part, in a chunk for each second
   void end();
 
   const std::string& bytes() const { return bytes_; }  // since the last clear()
   void clear() { bytes_.clear(); }
 
  private:
+  void part(std::span<const scene::TipSample> samples, std::span<const scene::TipEvent> events,
+            std::span<const WallFrame> frames);
   void add(std::string_view bytes);
   void add_sum();
   void chunk(std::string_view name, std::string_view payload);

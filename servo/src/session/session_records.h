@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -35,7 +36,7 @@ void put(std::string& bytes, const T& value) {
 }
 
 template <class T>
-void put_all(std::string& bytes, const std::vector<T>& values) {
+void put_all(std::string& bytes, std::span<const T> values) {
   put(bytes, std::uint64_t{values.size()});
   for (const T& value : values) put(bytes, value);
 }

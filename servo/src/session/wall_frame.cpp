@@ -131,7 +131,7 @@ void from_json_value(const json& value, T& to) {
 
 }  // namespace
 
-json json_of(const std::vector<WallFrame>& frames, json& last) {
+json json_of(std::span<const WallFrame> frames, json& last) {
   json array = json::array();
   for (const WallFrame& frame : frames) {
     json whole = to_json_value(frame);
