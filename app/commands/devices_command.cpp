@@ -140,8 +140,8 @@ core::Result<void> list(const std::string& assets_dir, const std::string& wand_f
   if (!places) return tl::unexpected(places.error());
   std::vector<Row> rows = look_for_devices(*places);
   for (Row& r : rows) {
-    r.device = core::printable(r.device);
-    r.detail = core::printable(r.detail);
+    r.device = core::printable_line(r.device);
+    r.detail = core::printable_line(r.detail);
   }
   if (json) {
     nlohmann::json list = nlohmann::json::array();

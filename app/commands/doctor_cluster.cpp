@@ -121,7 +121,7 @@ void print_findings(const std::vector<Finding>& findings, bool as_json) {
   }
   std::string text;
   for (const Finding& f : findings) {
-    text += fmt::format("{:<19} {:<8} {}\n", f.check, word(f.verdict), core::printable(f.found));
+    text += fmt::format("{:<19} {:<8} {}\n", f.check, word(f.verdict), core::printable_line(f.found));
     if (f.verdict != Verdict::Good) text += fmt::format("  fix: {}\n", f.fix);
   }
   std::fputs(text.c_str(), stdout);

@@ -132,7 +132,7 @@ core::Result<void> examine(const std::string& program, const DoctorOptions& opti
   const core::MonotonicClock clock;
   const MachineFacts facts = look_at_machine(clock, program, options.seconds);
   std::vector<Finding> findings = diagnose(facts);
-  for (Finding& f : findings) f.found = core::printable(f.found);
+  for (Finding& f : findings) f.found = core::printable_line(f.found);
   if (!options.bundle.empty()) {
     auto written = core::write_file(options.bundle, fault_bundle(facts, plain(facts, findings)));
     if (!written) return written;

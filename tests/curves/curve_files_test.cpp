@@ -155,6 +155,15 @@ TEST(AfmWorkshopFile, HasADateAndATimeWhereNoneAreKnown) {
   EXPECT_EQ(read->metadata.time, "");
 }
 
+TEST(AfmWorkshopFile, KeepsATextOfSeveralLinesInItsOwn) {
+  RecordedCurve written = adhesive_curve();
+  written.metadata.instrument = "an AFM\nTouchAFM speed approach:\t5";
+  const auto read = parse_curve(curve_bytes(CurveFormat::AfmWorkshop, written).value(), "mica");
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  EXPECT_EQ(read->metadata.instrument, "an AFM TouchAFM speed approach: 5");
+  EXPECT_EQ(read->metadata.approach_speed, written.metadata.approach_speed);
+}
+
 TEST(TouchAfmCsv, IsReadBack) {
   std::string text =
       "# TouchAFM force-displacement curve\n# material: mica\n# spring_constant_N_per_m: 0.1\nz_m,force_N,branch\n";

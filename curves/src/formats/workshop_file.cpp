@@ -89,7 +89,7 @@ std::string own_lines(const RecordedCurve& curve) {
   const nlohmann::ordered_json metadata = afmformats_metadata(curve);
   for (const auto& [key, value] : metadata.items()) {
     if (std::find(kElsewhere.begin(), kElsewhere.end(), key) != kElsewhere.end()) continue;
-    add(kOwnLine, key, value.is_string() ? core::printable(value.get<std::string>()) : value.dump());
+    add(kOwnLine, key, value.is_string() ? core::printable_line(value.get<std::string>()) : value.dump());
   }
   for (const auto& [key, value] : curve.metadata.parameters) add(kParameterLine, key, value);
   return fmt::to_string(text);
