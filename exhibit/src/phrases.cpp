@@ -54,9 +54,8 @@ std::size_t characters(const std::string& text) {
 
 std::string line_of(const toml::node& node, std::string_view key, std::size_t limit) {
   const auto text = node.value_exact<std::string>();
-  const bool one_line = text && std::none_of(text->begin(), text->end(), [](char c) { return c >= 0 && c < ' '; });
-  if (!one_line || text->empty() || characters(*text) > limit) {
-    refuse(node, key, fmt::format("must be one line of 1 to {} characters in quotes", limit));
+  if (!text || text->empty() || characters(*text) > limit) {
+    refuse(node, key, fmt::format("must be text of 1 to {} characters in quotes", limit));
   }
   return *text;
 }

@@ -164,6 +164,16 @@ TEST(AfmWorkshopFile, KeepsATextOfSeveralLinesInItsOwn) {
   EXPECT_EQ(read->metadata.approach_speed, written.metadata.approach_speed);
 }
 
+TEST(CurveTexts, OfAFileCannotCommandATerminal) {
+  RecordedCurve written = adhesive_curve();
+  written.metadata.instrument = "AFM\x1b[2J\nx";
+  written.metadata.curve_id = "a\tb";
+  const auto read = parse_curve(curve_bytes(CurveFormat::Tab, written).value(), "mica");
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  EXPECT_EQ(read->metadata.instrument, "AFM\uFFFD[2J x");
+  EXPECT_EQ(read->metadata.curve_id, "a b");
+}
+
 TEST(TouchAfmCsv, IsReadBack) {
   std::string text =
       "# TouchAFM force-displacement curve\n# material: mica\n# spring_constant_N_per_m: 0.1\nz_m,force_N,branch\n";

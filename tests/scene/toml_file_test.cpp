@@ -39,7 +39,7 @@ TEST(TomlFile, CountsThePartsOfKeysAlone) {
   const std::string dots(100, '.');
   for (const std::string& text :
        {"a = \"" + dots + "\"", "a = '" + dots + "' # " + dots, "a = \"\\\"" + dots + "\"",
-        "a = \"\"\"\n" + dots + "\n\"" + dots + "\"\"\"", "\"" + dots + "\" = 1",
+        "a = \"\"\"\n" + dots + "\\\n\"" + dots + "\"\"\"", "\"" + dots + "\" = 1",
         std::string("a = [1.5, 2.5, 3.5,\n 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 10.5, 11.5, 12.5, 13.5, 14.5, 15.5, 16.5]")}) {
     EXPECT_EQ(outcome(text), "read") << text;
   }
@@ -53,6 +53,16 @@ TEST(TomlFile, SaysWhatIsWrongInOneLine) {
   const std::string said = outcome("a = tr\nb = 1\n");
   EXPECT_THAT(said, HasSubstr("a.toml: line 1: "));
   EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+}
+
+// Texts go into lines: of a log, and of a curve file, where another line would be a sample.
+TEST(TomlFile, RefusesTextsOfSeveralLinesAndControlCharacters) {
+  for (const char* text : {"\"\"\"c\nd\"\"\"", "\"c\\nd\"", "[{ c = \"\\u001b[2J\" }]", "\"c\\td\"", "\"\\u009b\""}) {
+    EXPECT_THAT(outcome(std::string("a = 'a'\nb = ") + text + "\n"),
+                HasSubstr("a.toml: line 2: a text has several lines, a tab or another control character"))
+        << text;
+  }
+  EXPECT_EQ(outcome("a = 'µm · Å'\nb = \"\"\"\none line\"\"\"\n"), "read");
 }
 
 TEST(TomlFile, LeavesUnfinishedStringsToTheParser) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/printable.h"
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
 #include "formats/confined_child.h"
@@ -105,6 +106,14 @@ void check(RecordedCurve& curve) {
   if (!is_approach(curve.points.front())) throw CurveError("it has no approach");
 }
 
+// They go to terminals and into lines of files; the parameters are so already.
+void make_texts_printable(CurveMetadata& metadata) {
+  for (std::string* text : {&metadata.instrument, &metadata.software, &metadata.software_version, &metadata.date,
+                            &metadata.time, &metadata.curve_id}) {
+    *text = core::printable_line(*text);
+  }
+}
+
 }  // namespace
 
 std::optional<CurveFormat> writable_format(std::string_view name) {
@@ -138,6 +147,7 @@ core::Result<RecordedCurve> parse_curve(std::string_view bytes, const std::strin
     RecordedCurve curve = read(bytes, reading);
     recalibrate(reading, curve);
     check(curve);
+    make_texts_printable(curve.metadata);
     return curve;
   } catch (const CurveError& fault) {
     return bad(fault.what());

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/printable.h"
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
 #include "formats/confined_child.h"
@@ -254,6 +255,20 @@ void check_image(const LoadedImage& loaded) {
   }
 }
 
+// They go to terminals and into lines of files.
+void make_texts_printable(LoadedImage& loaded) {
+  const auto mend = [](std::string& text) { text = core::printable_line(text); };
+  for (physics::ImageChannel& channel : loaded.image.channels) {
+    mend(channel.name);
+    mend(channel.unit);
+  }
+  for (auto& [key, value] : loaded.image.metadata) {
+    mend(key);
+    mend(value);
+  }
+  std::for_each(loaded.left_out.begin(), loaded.left_out.end(), mend);
+}
+
 }  // namespace
 
 std::string_view name_of(ImageFormat format) { return kFormats[static_cast<std::size_t>(format)].name; }
@@ -292,6 +307,7 @@ core::Result<LoadedImage> parse_image(std::string_view bytes, const std::string&
                                                         "it is damaged: its reader could not survive it"))
                          : read_image(bytes, reading.channel);
     check_image(loaded);
+    make_texts_printable(loaded);
     return loaded;
   } catch (const std::bad_alloc&) {
     return bad("there is too little memory for it");

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/printable.h"
 #include "core/whole_file.h"
 
 namespace afm::scene {
@@ -64,9 +65,20 @@ std::optional<std::size_t> line_of_too_long_key(std::string_view text) {
   return std::nullopt;
 }
 
-std::string in_one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+// The line of the first text that holds what neither a terminal nor a line of a curve file may be given.
+std::optional<std::size_t> line_of_control_character(const toml::node& node) {
+  if (const toml::value<std::string>* text = node.as_string()) {
+    if (core::printable_line(text->get()) != text->get()) return node.source().begin.line;
+  } else if (const toml::array* array = node.as_array()) {
+    for (const toml::node& inner : *array) {
+      if (const auto line = line_of_control_character(inner)) return line;
+    }
+  } else if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, inner] : *table) {
+      if (const auto line = line_of_control_character(inner)) return line;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -79,12 +91,18 @@ core::Result<toml::table> parse_toml(const char* kind, const std::string& path) 
     return tl::unexpected(bad(kind, path, fmt::format("line {}: a key has more than {} parts", *line, kMostParts)));
   }
   try {
-    return toml::parse(*text, path);
+    toml::table root = toml::parse(*text, path);
+    if (const auto line = line_of_control_character(root)) {
+      return tl::unexpected(bad(kind, path,
+                                fmt::format("line {}: a text has several lines, a tab or another control "
+                                            "character; write it in one line",
+                                            *line)));
+    }
+    return root;
   } catch (const toml::parse_error& error) {
     // it quotes what it saw, which may be the end of the line
-    return tl::unexpected(
-        bad(kind, path,
-            fmt::format("line {}: {}", error.source().begin.line, in_one_line(std::string(error.description())))));
+    return tl::unexpected(bad(
+        kind, path, fmt::format("line {}: {}", error.source().begin.line, core::printable_line(error.description()))));
   }
 }
 
