@@ -10,6 +10,7 @@
 #include "app/command.h"
 #include "app/options/sound_options.h"
 #include "core/log.h"
+#include "core/printable.h"
 #include "core/whole_file.h"
 #include "exhibit/sound/session_sound.h"
 #include "servo/replay.h"
@@ -76,7 +77,7 @@ std::string plain(const servo::RecordedSession& session, const servo::Replay& re
   });
   std::string text =
       fmt::format("{}, recorded with {} at {:g} Hz: {:.3f} s, {} ticks, force on in {} of them, {} events\n",
-                  session.material, session.device.name.data(), session.rate_hz, seconds(session),
+                  session.material, core::printable_line(session.device.name.data()), session.rate_hz, seconds(session),
                   session.samples.size(), with_force, session.events.size());
   if (range.from_s > 0 || range.to_s < seconds(session)) {
     text += fmt::format("compared from {:.3f} s to {:.3f} s: {} ticks\n", range.from_s,

@@ -63,6 +63,8 @@ constexpr Absurdity kAbsurdities[]{
     {"WorkspaceInsideOut", [](RecordedSession& s) { std::swap(s.device.workspace_min_m, s.device.workspace_max_m); }},
     {"MaterialWithoutName", [](RecordedSession& s) { s.material.clear(); }},
     {"MaterialOfControlCharacters", [](RecordedSession& s) { s.material = std::string(10'000, '\x1b'); }},
+    {"MaterialThatCommandsATerminal", [](RecordedSession& s) { s.material = "gold\x1b[2J"; }},
+    {"DeviceThatCommandsATerminal", [](RecordedSession& s) { s.device.name = scene::to_name("a\x1b[2J\nb"); }},
     {"CurveHuge",
      [](RecordedSession& s) {
        s.earlier_curves = {{.material = "gold", .points = {{kHuge, -kHuge}, {-kHuge, kHuge}}}};
@@ -76,6 +78,7 @@ class AbsurdSession : public testing::TestWithParam<Absurdity> {
   void expect_borne(const std::string& command) {
     const auto done = support::run_program("timeout 60 " AFM_PROGRAM " " + command);
     EXPECT_TRUE(done.exit_code == 0 || done.exit_code == 1 || done.exit_code == 3) << done.exit_code << done.err;
+    EXPECT_EQ((done.out + done.err).find('\x1b'), std::string::npos) << done.out << done.err;
     if (done.exit_code == 0) return;
     const std::string last = done.err.substr(done.err.find("error: "));
     EXPECT_THAT(last, HasSubstr(path_)) << command;

@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "core/fnv1a.h"
+#include "core/printable.h"
 #include "core/whole_file.h"
 #include "scene/shared/shared_segment.h"
 #include "session_chunks.h"
@@ -146,7 +147,9 @@ bool can_be(const WallFrame& frame) {
          (!frame.wand || can_be(frame.wand->pose)) && can_be(frame.head);
 }
 
-bool can_be_a_name(const std::string& name) { return !name.empty() && name.size() < scene::kNameLength; }
+bool can_be_a_name(const std::string& name) {
+  return !name.empty() && name.size() < scene::kNameLength && core::printable_line(name) == name;
+}
 
 // What cannot be in a session that was read, or nothing.
 std::string what_cannot_be(const RecordedSession& session) {
