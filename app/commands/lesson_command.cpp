@@ -71,6 +71,16 @@ core::Result<scene::MaterialLibrary> load_library(const exhibit::ExhibitFiles& f
   return library;
 }
 
+// As the material files have them, for the live window too, which may say nothing of the lesson's file.
+core::Result<std::vector<curves::SampleModel>> samples_of(const exhibit::Lesson& lesson, const LessonOptions& options) {
+  const auto library = load_library(options.view.files);
+  if (!library) return tl::unexpected(library.error());
+  auto samples = exhibit::lesson_samples(lesson, *library);
+  if (samples) return samples;
+  return core::failure(core::ErrorCategory::BadInputFile,
+                       fmt::format("lesson file {}: {}", options.lesson, samples.error().message));
+}
+
 // A lesson's own numbers: the same for a code, whatever was done before. Readers of JSON hold integers of 53 bits.
 std::uint64_t seed_of(const std::string& code, const exhibit::Lesson& lesson) {
   return core::fnv1a(code + "/" + lesson.id) >> 11U;
@@ -85,9 +95,7 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   if (!lesson) return tl::unexpected(lesson.error());
   const auto phrases = exhibit::load_phrases(options.view.files);
   if (!phrases) return tl::unexpected(phrases.error());
-  const auto library = load_library(options.view.files);
-  if (!library) return tl::unexpected(library.error());
-  const auto samples = exhibit::lesson_samples(*lesson, *library);
+  const auto samples = samples_of(*lesson, options);
   if (!samples) return tl::unexpected(samples.error());
   const std::string code = participant->code();
   const std::uint64_t seed = seed_of(code, *lesson);
@@ -124,6 +132,7 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
   if (heard && !options.view.settings.sound.sound) {
     return core::wrong_usage(options.lesson + ": a condition of this lesson is sound; add --sound");
   }
+  if (const auto samples = samples_of(*lesson, options); !samples) return tl::unexpected(samples.error());
   ViewOptions view = options.view;
   view.files.shown = lesson->materials;
   view.settings.scale = lesson->scale;

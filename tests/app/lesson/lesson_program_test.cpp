@@ -82,6 +82,16 @@ TEST(LessonProgram, SaysWhatIsWrongInOneLine) {
   const auto unknown = lesson(bad + " --participant sim:1" + out);
   EXPECT_EQ(unknown.exit_code, 3);
   EXPECT_THAT(unknown.err, HasSubstr("line 2: speed: unknown key"));
+  std::string of_copper = core::read_file(kLessons + "first-touch.toml").value();
+  for (std::size_t at = of_copper.find("\"mica\""); at != std::string::npos; at = of_copper.find("\"mica\"")) {
+    of_copper.replace(at, 6, "\"copper\"");
+  }
+  const std::string strange = folder.write("copper.toml", of_copper);
+  for (const char* participant : {" --participant sim:1", ""}) {
+    const auto refused = lesson(strange + participant + (*participant == '\0' ? "" : out));
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("lesson file " + strange + ": unknown material \"copper\"; choose "));
+  }
   EXPECT_EQ(lesson(kLessons + "first-touch.toml --participant Anna" + out).exit_code, 2);
   EXPECT_EQ(lesson(kLessons + "first-touch.toml --participant sim:x" + out).exit_code, 2);
   EXPECT_EQ(lesson(kLessons + "first-touch.toml --participant sim:1").exit_code, 2);
