@@ -62,13 +62,6 @@ TEST(GsfImage, HasOneToFourNulsBeforeItsData) {
   }
 }
 
-TEST(GsfImage, CannotCommandATerminalByItsTexts) {
-  const LoadedImage image =
-      loaded(gsf_file("XRes = 2\nYRes = 2\nTitle = evil\x1b[2Jname\nComment = a\tb\n", {1, 2, 3, 4}));
-  EXPECT_EQ(image.image.channels.at(0).name, "evil\uFFFD[2Jname");
-  EXPECT_THAT(image.image.metadata, testing::Contains(testing::Pair("Comment", "a b")));
-}
-
 TEST(GsfImage, WithoutXRealIsOneWideAndSidesCountByTheirAbsoluteValue) {
   const LoadedImage image = loaded(gsf_file("XRes = 2\nYRes = 2\nYReal = -0.5\n", {1, 2, 3, 4}));
   EXPECT_EQ(image.image.width_m, 1.0);

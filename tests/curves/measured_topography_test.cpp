@@ -31,6 +31,14 @@ std::string gsf(int columns, int rows, double width_m, double height_m, const st
                         values);
 }
 
+TEST(MeasuredTopography, CannotCommandATerminalByItsTexts) {
+  const support::ScratchFolder folder;
+  const std::string bytes = gsf(2, 2, 1e-6, 1e-6, {1, 2, 3, 4}, "ZUnits = m\nTitle = evil\x1b[2Jname\n");
+  const auto evil = load_topography(write(folder, bytes), {});
+  ASSERT_TRUE(evil) << evil.error().message;
+  EXPECT_THAT(topography_text(*evil), HasSubstr("evil\uFFFD[2Jname"));
+}
+
 TEST(MeasuredTopography, IsNoSampleIfItIsSmallerThanAnAtom) {
   const support::ScratchFolder folder;
   const std::string header = "XRes = 2\nYRes = 2\nXReal = 1e-30\nYReal = 1e-30\nXYUnits = m\nZUnits = m\n";
