@@ -12,8 +12,14 @@ namespace afm::servo {
 namespace {
 
 constexpr std::size_t kNameBytes = 4;
-constexpr std::int64_t kLongestPartNs = 1'000'000'000;  // all that a file loses that is cut
+constexpr std::uint64_t kLongestPartNs = 1'000'000'000;  // all that a file loses that is cut
 constexpr std::size_t kSumBytes = sizeof(std::uint64_t);
+
+// Than the part that begins at `begin_ns`; whatever the times are, the difference of two fits.
+bool is_of_later_part(std::int64_t time_ns, std::int64_t begin_ns) {
+  return time_ns > begin_ns &&
+         static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(begin_ns) >= kLongestPartNs;
+}
 
 std::string text_of(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // a text of a file that is no UTF-8
@@ -46,10 +52,11 @@ void SessionEncoder::part(const RecordedSession& session) {
   std::span samples(session.samples);
   std::span events(session.events);
   std::span frames(session.wall);
-  while (!samples.empty() && samples.back().time_ns - samples.front().time_ns >= kLongestPartNs) {
-    const std::int64_t end_ns = samples.front().time_ns + kLongestPartNs;
+  while (!samples.empty() && is_of_later_part(samples.back().time_ns, samples.front().time_ns)) {
+    const std::int64_t begin_ns = samples.front().time_ns;
     const auto take_until_end = [&](auto& records) {
-      const auto end = std::find_if(records.begin(), records.end(), [&](const auto& r) { return r.time_ns >= end_ns; });
+      const auto end = std::find_if(records.begin(), records.end(),
+                                    [&](const auto& r) { return is_of_later_part(r.time_ns, begin_ns); });
       const auto taken = records.first(static_cast<std::size_t>(end - records.begin()));
       records = records.subspan(taken.size());
       return taken;
