@@ -25,8 +25,8 @@ namespace {
 constexpr int kSamplesAFrame = 17;  // of a servo at 1 kHz
 constexpr auto kDrawing = std::chrono::milliseconds(2);
 constexpr std::int64_t kComeNs = 20'000'000'000;  // for the nodes to be there
-// A reader that has just come lacks what was written before its writer knew it. A node of a wall gets that with the
-// history; here it is no loss of the measurement, once every node has noticed it.
+// A reader that has just joined misses what was written before its writer knew of it. A node of a wall gets that with
+// the history; here it is not counted as lost, and every node has noticed it after these frames.
 constexpr int kFramesToJoin = 30;
 constexpr double kMsPerNs = 1e-6;
 

@@ -71,14 +71,9 @@ core::Result<scene::MaterialLibrary> load_library(const exhibit::ExhibitFiles& f
   return library;
 }
 
-// As the material files have them, for the live window too, which may say nothing of the lesson's file.
-core::Result<std::vector<curves::SampleModel>> samples_of(const exhibit::Lesson& lesson, const LessonOptions& options) {
-  const auto library = load_library(options.view.files);
-  if (!library) return tl::unexpected(library.error());
-  auto samples = exhibit::lesson_samples(lesson, *library);
-  if (samples) return samples;
-  return core::failure(core::ErrorCategory::BadInputFile,
-                       fmt::format("lesson file {}: {}", options.lesson, samples.error().message));
+// What is wrong with a lesson's materials, with the file that names them.
+core::Error of_lesson_file(const LessonOptions& options, const core::Error& error) {
+  return {core::ErrorCategory::BadInputFile, fmt::format("lesson file {}: {}", options.lesson, error.message)};
 }
 
 // A lesson's own numbers: the same for a code, whatever was done before. Readers of JSON hold integers of 53 bits.
@@ -95,8 +90,10 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   if (!lesson) return tl::unexpected(lesson.error());
   const auto phrases = exhibit::load_phrases(options.view.files);
   if (!phrases) return tl::unexpected(phrases.error());
-  const auto samples = samples_of(*lesson, options);
-  if (!samples) return tl::unexpected(samples.error());
+  const auto library = load_library(options.view.files);
+  if (!library) return tl::unexpected(library.error());
+  const auto samples = exhibit::lesson_samples(*lesson, *library);
+  if (!samples) return tl::unexpected(of_lesson_file(options, samples.error()));
   const std::string code = participant->code();
   const std::uint64_t seed = seed_of(code, *lesson);
   auto data = exhibit::DataSet::create(*lesson, {.folder = options.out,
@@ -132,7 +129,10 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
   if (heard && !options.view.settings.sound.sound) {
     return core::wrong_usage(options.lesson + ": a condition of this lesson is sound; add --sound");
   }
-  if (const auto samples = samples_of(*lesson, options); !samples) return tl::unexpected(samples.error());
+  const auto library = load_library(options.view.files);
+  if (!library) return tl::unexpected(library.error());
+  const auto known = library->only(lesson->materials);
+  if (!known) return tl::unexpected(of_lesson_file(options, known.error()));
   ViewOptions view = options.view;
   view.files.shown = lesson->materials;
   view.settings.scale = lesson->scale;

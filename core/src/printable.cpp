@@ -57,7 +57,8 @@ std::string printable(std::string_view text) {
 
 std::string printable_line(std::string_view text) {
   std::string line = printable(text);
-  std::replace_if(line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::replace(line.begin(), line.end(), '\t', ' ');
   return line;
 }
 

@@ -89,7 +89,7 @@ TEST(Phrases, RefuseAWrongLineOfAFileOfTheUsersOwn) {
   EXPECT_THAT(refusal("lift = \"x\"\nlitf = \"y\"\n"), HasSubstr("line 2: litf: unknown key"));
   EXPECT_THAT(refusal("choose-sample = 3\n"), HasSubstr("line 1: choose-sample: must be text of"));
   EXPECT_THAT(refusal("choose-sample = \"" + std::string(101, 'x') + "\"\n"), HasSubstr("1 to 100 characters"));
-  EXPECT_THAT(refusal("choose-sample = \"a\\nb\"\n"), HasSubstr("in one line"));
+  EXPECT_THAT(refusal("choose-sample = \"a\\nb\"\n"), HasSubstr("on one line"));
   EXPECT_THAT(refusal("choose-sample = \"{button}\"\n"), HasSubstr("line 1: choose-sample: {button} is unknown"));
   EXPECT_THAT(refusal("\njourney = \"Away\"\n"), HasSubstr("line 2: journey: lacks {place}"));
   EXPECT_THAT(refusal("[words]\n\"Mica\" = 3\n"), HasSubstr("line 2: Mica: must be text of"));

@@ -59,7 +59,7 @@ TEST(TomlFile, SaysWhatIsWrongInOneLine) {
 TEST(TomlFile, RefusesTextsOfSeveralLinesAndControlCharacters) {
   for (const char* text : {"\"\"\"c\nd\"\"\"", "\"c\\nd\"", "[{ c = \"\\u001b[2J\" }]", "\"c\\td\"", "\"\\u009b\""}) {
     EXPECT_THAT(outcome(std::string("a = 'a'\nb = ") + text + "\n"),
-                HasSubstr("a.toml: line 2: a text has several lines, a tab or another control character"))
+                HasSubstr("a.toml: line 2: a text contains a line end, a tab or another control character"))
         << text;
   }
   EXPECT_EQ(outcome("a = 'µm · Å'\nb = \"\"\"\none line\"\"\"\n"), "read");

@@ -106,7 +106,7 @@ void check(RecordedCurve& curve) {
   if (!is_approach(curve.points.front())) throw CurveError("it has no approach");
 }
 
-// They go to terminals and into lines of files; the parameters are so already.
+// The texts go to terminals and into lines of files; the parameters are printable already.
 void make_texts_printable(CurveMetadata& metadata) {
   for (std::string* text : {&metadata.instrument, &metadata.software, &metadata.software_version, &metadata.date,
                             &metadata.time, &metadata.curve_id}) {

@@ -255,18 +255,18 @@ void check_image(const LoadedImage& loaded) {
   }
 }
 
-// They go to terminals and into lines of files.
+// The texts go to terminals and into lines of files.
 void make_texts_printable(LoadedImage& loaded) {
-  const auto mend = [](std::string& text) { text = core::printable_line(text); };
+  const auto make_printable = [](std::string& text) { text = core::printable_line(text); };
   for (physics::ImageChannel& channel : loaded.image.channels) {
-    mend(channel.name);
-    mend(channel.unit);
+    make_printable(channel.name);
+    make_printable(channel.unit);
   }
   for (auto& [key, value] : loaded.image.metadata) {
-    mend(key);
-    mend(value);
+    make_printable(key);
+    make_printable(value);
   }
-  std::for_each(loaded.left_out.begin(), loaded.left_out.end(), mend);
+  std::for_each(loaded.left_out.begin(), loaded.left_out.end(), make_printable);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ std::optional<std::size_t> line_of_too_long_key(std::string_view text) {
   return std::nullopt;
 }
 
-// The line of the first text that holds what neither a terminal nor a line of a curve file may be given.
+// The line of a text with a character that could command a terminal or break a line of a curve file.
 std::optional<std::size_t> line_of_control_character(const toml::node& node) {
   if (const toml::value<std::string>* text = node.as_string()) {
     if (core::printable_line(text->get()) != text->get()) return node.source().begin.line;
@@ -93,10 +93,10 @@ core::Result<toml::table> parse_toml(const char* kind, const std::string& path) 
   try {
     toml::table root = toml::parse(*text, path);
     if (const auto line = line_of_control_character(root)) {
-      return tl::unexpected(bad(kind, path,
-                                fmt::format("line {}: a text has several lines, a tab or another control "
-                                            "character; write it in one line",
-                                            *line)));
+      return tl::unexpected(bad(
+          kind, path,
+          fmt::format("line {}: a text contains a line end, a tab or another control character; write it on one line",
+                      *line)));
     }
     return root;
   } catch (const toml::parse_error& error) {

@@ -12,10 +12,11 @@ namespace afm::servo {
 namespace {
 
 constexpr std::size_t kNameBytes = 4;
-constexpr std::uint64_t kLongestPartNs = 1'000'000'000;  // all that a file loses that is cut
+constexpr std::uint64_t kLongestPartNs = 1'000'000'000;  // the most that is lost where a file is cut
 constexpr std::size_t kSumBytes = sizeof(std::uint64_t);
 
-// Than the part that begins at `begin_ns`; whatever the times are, the difference of two fits.
+// Whether a time belongs to a later part than the one that begins at `begin_ns`. Unsigned, since the difference of two
+// absurd times would overflow.
 bool is_of_later_part(std::int64_t time_ns, std::int64_t begin_ns) {
   return time_ns > begin_ns &&
          static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(begin_ns) >= kLongestPartNs;
