@@ -70,9 +70,7 @@ TEST(GsfImage, WithoutXRealIsOneWideAndSidesCountByTheirAbsoluteValue) {
 
 TEST(GsfImage, MasksNaNAndWhatIsInfinite) {
   const LoadedImage image = loaded(gsf_file("XRes = 2\nYRes = 2\n", {1, std::nanf(""), -HUGE_VALF, 4}));
-  EXPECT_TRUE(std::isnan(values(image)[1]));
-  EXPECT_TRUE(std::isnan(values(image)[2]));
-  EXPECT_EQ(values(image)[3], 4.0);
+  EXPECT_THAT(values(image), testing::ElementsAre(1, testing::IsNan(), testing::IsNan(), 4));
 }
 
 TEST(GsfImage, IsRefusedWhereItIsDamaged) {
@@ -94,6 +92,11 @@ std::string two_fields() {
          gwy_string("/3/data/title", "Height") + gwy_field("/4/data", 3, 2, 1e-6, 1e-6, "deg", {1, 2, 3, 4, 5, 6}) +
          gwy_object("/0/meta", "GwyContainer", gwy_string("Rate", "1 Hz")) +
          gwy_object("/3/mask", "GwyDataField", gwy_int("xres", 2));
+}
+
+TEST(GwyImage, MasksWhatIsBeyondAnyInstrument) {
+  const auto heights = values(loaded(gwy_file(gwy_field("/0/data", 2, 2, 1, 1, "m", {1e-9, 1e300, -1.1e100, -1e99}))));
+  EXPECT_THAT(heights, testing::ElementsAre(1e-9, testing::IsNan(), testing::IsNan(), -1e99));
 }
 
 TEST(GwyImage, IsReadExactly) {

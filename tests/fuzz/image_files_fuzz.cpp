@@ -25,11 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   if (afm::physics::height_statistics(heights).measured == 0) return 0;
   const auto level = afm::physics::levelled(heights, image.columns, image.rows, afm::physics::Levelling::Lines);
   for (const double height : level.heights) {
-    // of numbers beyond any length the sums may have no value
-    if (std::isnan(height) && afm::physics::height_statistics(heights).highest < 1e100 &&
-        afm::physics::height_statistics(heights).lowest > -1e100) {
-      std::abort();
-    }
+    if (!std::isfinite(height)) std::abort();
   }
   return 0;
 }

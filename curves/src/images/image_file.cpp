@@ -107,6 +107,9 @@ std::size_t chosen_page(const std::vector<ImagePage>& pages, const std::string& 
   return static_cast<std::size_t>(std::min_element(pages.begin(), pages.end(), lower_rank) - pages.begin());
 }
 
+// NaN and what is infinite is not.
+bool is_measured(double value) { return std::abs(value) <= physics::kMostImageValue; }
+
 bool same_grid(const ImagePage& a, const ImagePage& b) {
   return a.columns == b.columns && a.rows == b.rows && a.width_m == b.width_m && a.height_m == b.height_m;
 }
@@ -140,7 +143,7 @@ LoadedImage assembled(ImagePages found, const std::string& wanted, ImageFormat f
     if (i == chosen) loaded.chosen = image.channels.size();
     physics::ImageChannel& channel = image.channels.emplace_back(page.name, page.unit, page.values());
     std::replace_if(
-        channel.values.begin(), channel.values.end(), [](double value) { return !std::isfinite(value); },
+        channel.values.begin(), channel.values.end(), [](double value) { return !is_measured(value); },
         std::numeric_limits<double>::quiet_NaN());
   }
   return loaded;
@@ -249,8 +252,9 @@ void check_image(const LoadedImage& loaded) {
     throw CurveError("its reader gave no image");
   }
   for (const physics::ImageChannel& channel : image.channels) {
-    if (std::any_of(channel.values.begin(), channel.values.end(), [](double v) { return std::isinf(v); })) {
-      throw CurveError("its reader gave a number that is not finite");
+    if (std::any_of(channel.values.begin(), channel.values.end(),
+                    [](double v) { return !std::isnan(v) && !is_measured(v); })) {
+      throw CurveError("its reader gave a number beyond what any instrument measures");
     }
   }
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "physics/imaging/scan_image.h"
+
 namespace afm::physics {
 
 namespace {
@@ -162,6 +164,9 @@ LevelledHeights levelled(std::span<const double> heights, std::size_t columns, s
   const LevelGrid grid{result.heights, columns, rows};
   const HeightStatistics before = height_statistics(heights);
   if (before.measured == 0) throw std::invalid_argument("no height was measured");
+  if (!(before.lowest >= -kMostImageValue && before.highest <= kMostImageValue)) {
+    throw std::invalid_argument("a height is beyond what any instrument measures");
+  }
   if (levelling == Levelling::Lines) level_lines(grid);
   if (levelling != Levelling::None) {
     const LevelPlane plane = fitted_plane(grid);

@@ -95,6 +95,14 @@ TEST(Levelling, RefusesWhatIsNoTopography) {
   EXPECT_THROW(levelled(nothing, 4, 3, Levelling::Plane), std::invalid_argument);
   EXPECT_THROW(levelled(some, 5, 3, Levelling::Plane), std::invalid_argument);
   EXPECT_THROW(levelled({}, 0, 0, Levelling::Plane), std::invalid_argument);
+  for (const double absurd : {1e300, -1e300}) {
+    std::vector<double> heights(12, kNan);  // whose sums have no value: what is not measured could never be filled
+    heights[3] = absurd;
+    heights[8] = -absurd;
+    for (const Levelling levelling : {Levelling::Lines, Levelling::Plane, Levelling::None}) {
+      EXPECT_THROW(levelled(heights, 4, 3, levelling), std::invalid_argument);
+    }
+  }
   std::vector<double> one(12, kNan);
   one[5] = 7.0;
   EXPECT_EQ(levelled(one, 4, 3, Levelling::Lines).heights, std::vector<double>(12, 7.0));

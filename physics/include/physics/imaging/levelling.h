@@ -47,7 +47,8 @@ struct LevelledHeights {
 
 // `heights` row by row. Points that were not measured take no part; then they are filled from their neighbours, ring by
 // ring, each with the mean of those of the eight around it that are known. The mean height stays as it was measured.
-// Throws std::invalid_argument unless the sizes fit and a point was measured.
+// Throws std::invalid_argument unless the sizes fit, a point was measured, and none lies beyond kMostImageValue
+// (scan_image.h), where the sums would have no value.
 LevelledHeights levelled(std::span<const double> heights, std::size_t columns, std::size_t rows, Levelling levelling);
 
 }  // namespace afm::physics

@@ -8,6 +8,10 @@
 
 namespace afm::physics {
 
+// Of a channel's values: far beyond what any instrument measures, and small enough that sums of products of two stay
+// finite.
+inline constexpr double kMostImageValue = 1e100;
+
 // One quantity of a scan, row by row. Row 0 is the top one, with the largest y; columns run along x. NaN: not measured.
 struct ImageChannel {
   std::string name;  // as AFM programs write it: "Height", "Deflection", "Lateral force (retrace)"
