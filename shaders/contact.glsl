@@ -16,6 +16,10 @@ vec3 contact_ring(FrameBlock frame, vec3 place) {
   return frame.contact_ring.rgb * exp2(-off * off);
 }
 
+vec3 shaded_by_contact(FrameBlock frame, vec3 place, vec3 radiance) {
+  return radiance * contact_shade(frame, place) + contact_ring(frame, place);
+}
+
 float fog(FrameBlock frame, vec3 place) {
   float behind = dot(frame.fog_axis, vec4(place, 1.0));
   float far = smoothstep(0.0, 1.0, (behind - frame.fog.x) * frame.fog.y);

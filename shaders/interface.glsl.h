@@ -31,7 +31,8 @@
 // Of plain materials too: the shadow on a back is looked up a step off the back, not off the front.
 #define AFM_FEATURE_DOUBLE_SIDED 0x80000000u
 
-// What a pipeline of plain materials does: dissolve what is far. A CPU device computes what a branch leaves out, too.
+// What a pipeline of plain materials does: dissolve what is far; with AFM_FEATURE_UNLIT, leave the light out. A CPU
+// device computes what a branch leaves out, too.
 #define AFM_FEATURE_FOG 0x1u
 
 // texels each way

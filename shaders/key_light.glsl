@@ -8,9 +8,3 @@ float key_light_visibility() {
   const vec3 offset = vec3(vec2(0.5 / float(AFM_SHADOW_MAP_SIZE)), 0.0);
   return 0.5 * (textureLod(shadow_map, shadow_place - offset, 0.0) + textureLod(shadow_map, shadow_place + offset, 0.0));
 }
-
-// A chosen thing must be seen from the last row: warm body, bright rim.
-vec3 highlight_glow(Surface s, float amount) {
-  float rim = 1.0 - max(dot(s.normal, s.to_eye), 0.0);
-  return amount * (vec3(1.0, 0.55, 0.12) * (0.16 + 1.6 * rim * rim));
-}

@@ -116,3 +116,9 @@ vec3 studio_reflection(Surface s, Key key, Lobe lobe) {
   return s.diffuse * studio_irradiance(s.normal, key) +
          specular_albedo(s.specular, s.roughness, n_dot_v) * studio_radiance(reflected, key, s.roughness, lobe);
 }
+
+// A chosen thing must be seen from the last row: warm body, bright rim.
+vec3 highlight_glow(Surface s, float amount) {
+  float rim = 1.0 - max(dot(s.normal, s.to_eye), 0.0);
+  return amount * (vec3(1.0, 0.55, 0.12) * (0.16 + 1.6 * rim * rim));
+}

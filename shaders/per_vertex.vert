@@ -32,7 +32,7 @@ void main() {
   vec3 room_position = (draw.room_from_node * vec4(bent_position(position), 1.0)).xyz;
   vec3 room_normal = normalize(normal_in_room(position, normal));
   shadow_place = place_in_shadow_map(room_position, room_normal);
-  shown = srgb_from_linear(shaded(room_position, room_normal, (color * draw.base_color).rgb,
-                                  lobe_of(draw.surface.y)));
+  Surface s = surface_at(room_position, room_normal, (color * draw.base_color).rgb);
+  shown = srgb_from_linear(shaded(room_position, s, lobe_of(s.roughness), key_light_visibility()));
   gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
 }

@@ -33,9 +33,15 @@ vec3 shadow_place;
 void main() {
   vec3 front = normalize(room_normal);
   vec3 normal = gl_FrontFacing ? front : -front;
-  bool has_back = (kVariant & AFM_FEATURE_DOUBLE_SIDED) != 0u;
-  shadow_place = has_back ? place_in_shadow_map(room_position, normal) : front_shadow_place;
-  vec3 shown = shaded(room_position, normal, vertex_color.rgb, Lobe(lobe.x, lobe.yzw));
+  Surface s = surface_at(room_position, normal, vertex_color.rgb);
+  vec3 shown;
+  if ((kVariant & AFM_FEATURE_UNLIT) != 0u) {
+    shown = vertex_color.rgb + own_light(s);
+  } else {
+    bool has_back = (kVariant & AFM_FEATURE_DOUBLE_SIDED) != 0u;
+    shadow_place = has_back ? place_in_shadow_map(room_position, normal) : front_shadow_place;
+    shown = shaded(room_position, s, Lobe(lobe.x, lobe.yzw), key_light_visibility());
+  }
 
   // what has dissolved is the background
   if ((kVariant & AFM_FEATURE_FOG) != 0u) {

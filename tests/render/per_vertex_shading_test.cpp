@@ -40,6 +40,47 @@ scene::Primitive hills(std::uint32_t material) {
   return primitive;
 }
 
+// A floor of 2 x 10 x 10 triangles with the shadow of a bar and the shade at the contact on it: fewer triangles than
+// are shaded by vertex, and rough enough for smooth.vert. What is seen from both sides is shaded by fragment.
+scene::Scene scene_of_floor(bool by_fragment) {
+  constexpr std::uint32_t kQuads = 10;
+  scene::Scene scene;
+  const auto rough = add_material(scene, {.name = "rough",
+                                          .base_color = {0.5F, 0.4F, 0.3F, 1.0F},
+                                          .metallic = 0.0F,
+                                          .roughness = 0.62F,
+                                          .double_sided = by_fragment});
+  scene::Primitive floor;
+  floor.material = rough;
+  for (std::uint32_t i = 0; i <= kQuads; ++i) {
+    for (std::uint32_t j = 0; j <= kQuads; ++j) {
+      floor.vertices.push_back(
+          {.position = {static_cast<float>(j) / kQuads - 0.5F, 0.0F, 0.5F - static_cast<float>(i) / kQuads},
+           .normal = {0.0F, 1.0F, 0.0F}});
+      if (i == kQuads || j == kQuads) continue;
+      const std::uint32_t a = i * (kQuads + 1) + j, behind = a + kQuads + 1;
+      floor.indices.insert(floor.indices.end(), {a, a + 1, behind + 1, a, behind + 1, behind});
+    }
+  }
+  add(scene, "floor", std::move(floor), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.25, -0.1)));
+  const auto grey = add_material(scene, {.name = "grey", .base_color = {0.5F, 0.5F, 0.5F, 1.0F}, .metallic = 0.0F});
+  add(scene, "bar", lever(grey, 0.05, 0.02, 1), glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5, 0.0, 0.0)));
+  return scene;
+}
+
+class SmoothShading : public VulkanTest {
+ protected:
+  Pair draw_floor(bool by_fragment, const render::RendererOptions& options) {
+    const scene::Scene scene = scene_of_floor(by_fragment);
+    render::FrameState frame = bare_frame(scene);
+    frame.contact = {.place_m = {0.1F, -0.25F, 0.0F},
+                     .shade_radius_m = 0.05F,
+                     .ring_color = glm::vec3(0.5F),
+                     .ring_radius_m = 0.05F};
+    return draw(scene, frame, options);
+  }
+};
+
 class PerVertexShading : public VulkanTest {
  protected:
   // The same surface with the shadow of a lever on it; what is seen from both sides is shaded by fragment.
@@ -96,6 +137,25 @@ TEST_F(PerVertexShading, LooksAsItWouldByFragment) {
 TEST_F(PerVertexShading, IsTheSameInOnePassAndInTwo) {
   const auto one = draw_hills(false, small(4, render::PassMode::Multiview));
   const auto two = draw_hills(false, small(4, render::PassMode::TwoPasses));
+  EXPECT_EQ(one.left.rgba, two.left.rgba);
+  EXPECT_EQ(one.right.rgba, two.right.rgba);
+}
+
+// The light on a rough floor is worked out at its vertices, the shadow and the shade at the contact where they are.
+TEST_F(SmoothShading, LooksAsItWouldByFragment) {
+  const auto smooth = draw_floor(false, small());
+  const auto plain = draw_floor(true, small());
+  for (const auto& [a, b] : {std::pair(&smooth.left, &plain.left), std::pair(&smooth.right, &plain.right)}) {
+    int most = 0;
+    for (std::size_t i = 0; i < a->rgba.size(); ++i) most = std::max(most, std::abs(int{a->rgba[i]} - int{b->rgba[i]}));
+    EXPECT_LE(most, 3) << "nobody sees that";
+    EXPECT_GT(most, 0) << "it is another program";
+  }
+}
+
+TEST_F(SmoothShading, IsTheSameInOnePassAndInTwo) {
+  const auto one = draw_floor(false, small(4, render::PassMode::Multiview));
+  const auto two = draw_floor(false, small(4, render::PassMode::TwoPasses));
   EXPECT_EQ(one.left.rgba, two.left.rgba);
   EXPECT_EQ(one.right.rgba, two.right.rgba);
 }

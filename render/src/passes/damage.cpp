@@ -17,7 +17,7 @@ namespace afm::render {
 namespace {
 
 // A draw's flags in a DrawnFrame.
-constexpr std::uint8_t kDrawn = 1, kCasts = 2, kMirrored = 4, kPerVertex = 8;
+constexpr std::uint8_t kDrawn = 1, kCasts = 2, kMirrored = 4, kPerVertex = 8, kLightPerVertex = 16;
 
 constexpr std::size_t kMostChanged = 64;  // draws; where more have changed, drawing everything costs about as much
 constexpr double kMostOfPicture = 0.75;   // likewise: vertices are placed again for each rectangle
@@ -139,8 +139,9 @@ void DrawnFrame::take(const FrameState& frame, const SceneGeometry& geometry, co
   for (const std::uint32_t i : order_) how_[i] |= kDrawn;
   for (const std::uint32_t i : list.shadow) how_[i] |= kCasts;
   for (std::uint32_t i = 0; i < draws.size(); ++i) {
-    how_[i] |=
-        static_cast<std::uint8_t>((list.mirrored[i] != 0 ? kMirrored : 0) | (list.per_vertex[i] != 0 ? kPerVertex : 0));
+    if (list.mirrored[i] != 0) how_[i] |= kMirrored;
+    if (list.shading[i] == Shading::ByVertex) how_[i] |= kPerVertex;
+    if (list.shading[i] == Shading::LightByVertex) how_[i] |= kLightPerVertex;
   }
 
   bounds_.assign(draws.size(), {});

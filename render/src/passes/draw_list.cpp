@@ -18,6 +18,8 @@ constexpr std::uint32_t kManyTriangles = 10'000;  // of one draw: fewer cost lit
 constexpr double kFineEdgePx = 8.0;               // of nine triangles in ten
 constexpr double kLongestEdgePx = 32.0;           // of any: the sides of a slab whose surface is fine
 
+constexpr double kMostTurn = 0.65;  // of the lobe's border: the pictures of the samples differ by at most 2 of 255
+
 struct Sight {
   bool seen = false;
   bool clipped = false;
@@ -36,21 +38,43 @@ Sight sight(const scene::EyeView& eye, const glm::dmat4& room_from_node, const D
   return sight;
 }
 
+double scale_of(const glm::dmat4& room_from_node) {
+  const glm::dmat3 linear(room_from_node);
+  return std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+}
+
 // Whether shading by vertex is as good as by fragment: edges as long as they would be if they lay across the line of
 // sight in the box's middle.
 bool is_fine(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node, double pixels_high) {
-  if (draw.variant || draw.blended || draw.double_sided || draw.index_count < 3 * kManyTriangles) {
+  if (draw.variant || draw.blended || draw.double_sided || draw.unlit || draw.index_count < 3 * kManyTriangles) {
     return false;
   }
   const glm::dvec4 middle = eye.projection * eye.view * room_from_node * glm::dvec4(glm::dvec3(draw.center), 1.0);
   if (middle.w <= 0.0) {
     return false;
   }
-  const glm::dmat3 linear(room_from_node);
-  const double scale = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
-  const double pixels_per_unit = 0.5 * pixels_high * std::abs(eye.projection[1][1]) * scale / middle.w;
+  const double pixels_per_unit =
+      0.5 * pixels_high * std::abs(eye.projection[1][1]) * scale_of(room_from_node) / middle.w;
   return static_cast<double>(draw.usual_edge) * pixels_per_unit < kFineEdgePx &&
          static_cast<double>(draw.longest_edge) * pixels_per_unit < kLongestEdgePx;
+}
+
+// Half the soft edge of what a surface reflects, in radians: lobe_of() in shaders/lighting.glsl.
+double lobe_border(double roughness) { return 0.04 + 0.9 * roughness * roughness + 0.25 * roughness; }
+
+// Whether the light on it changes so slowly that the vertices may carry it: along an edge the direction in which the
+// eye sees the studio reflected, which turns twice as far as the normal, stays within the reflection's soft edge.
+bool is_smooth(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node) {
+  if (draw.variant || draw.double_sided || draw.unlit) return false;
+  const glm::dvec3 middle_m(room_from_node * glm::dvec4(glm::dvec3(draw.center), 1.0));
+  const double edge_m = static_cast<double>(draw.usual_edge) * scale_of(room_from_node);
+  const double most = kMostTurn * lobe_border(static_cast<double>(draw.block.surface.y));
+  return edge_m < (most - 2.0 * static_cast<double>(draw.largest_turn)) * glm::distance(eye.eye_position_m, middle_m);
+}
+
+Shading shading(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node, double pixels_high) {
+  if (is_fine(draw, eye, room_from_node, pixels_high)) return Shading::ByVertex;
+  return is_smooth(draw, eye, room_from_node) ? Shading::LightByVertex : Shading::ByFragment;
 }
 
 }  // namespace
@@ -61,7 +85,7 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
   const glm::dvec3 viewer = 0.5 * (frame.eyes[0].eye_position_m + frame.eyes[1].eye_position_m);
   list.shadow.clear();
   list.mirrored.assign(draws.size(), 0);
-  list.per_vertex.assign(draws.size(), 0);
+  list.shading.assign(draws.size(), Shading::ByFragment);
   list.clipped = false;
   list.hazy = frame.fog.fade > 0.0F || frame.fog.end_m > frame.fog.begin_m;
   opaque_.clear();
@@ -76,7 +100,7 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
     }
     const auto& room_from_node = frame.room_from_node[draw.node];
     list.mirrored[i] = glm::determinant(glm::dmat3(room_from_node)) < 0.0 ? 1 : 0;
-    list.per_vertex[i] = !list.hazy && is_fine(draw, frame.eyes[0], room_from_node, pixels_high) ? 1 : 0;
+    if (!list.hazy) list.shading[i] = shading(draw, frame.eyes[0], room_from_node, pixels_high);
     const DrawBox box = bent_box(draw, bend_of(frame, draw.node));
     bool seen = false;
     for (const auto& eye : frame.eyes) {

@@ -10,15 +10,22 @@
 
 namespace afm::render {
 
+// Where the colours of a plain material are worked out.
+enum class Shading : std::uint8_t {
+  ByFragment,
+  ByVertex,      // the triangles are about as small as the pixels of an eye
+  LightByVertex  // rough, and turning little from vertex to vertex: shadows by fragment
+};
+
 // Draws of a frame: indices into SceneGeometry::draws().
 struct DrawList {
-  std::vector<std::uint32_t> shadow;     // opaque ones that are shown, seen or not
-  std::vector<std::uint32_t> opaque;     // seen by an eye, from near to far, so that what is hidden is not shaded
-  std::vector<std::uint32_t> blended;    // seen by an eye, from far to near
-  std::vector<std::uint8_t> mirrored;    // by draw, 1 where the node turns left into right
-  std::vector<std::uint8_t> per_vertex;  // by draw, 1 where triangles are about as small as the pixels of an eye
-  bool hazy = false;                     // something dissolves into the background
-  bool clipped = false;                  // an eye's near plane, or its guard band, cuts through one of those
+  std::vector<std::uint32_t> shadow;   // opaque ones that are shown, seen or not
+  std::vector<std::uint32_t> opaque;   // seen by an eye, from near to far, so that what is hidden is not shaded
+  std::vector<std::uint32_t> blended;  // seen by an eye, from far to near
+  std::vector<std::uint8_t> mirrored;  // by draw, 1 where the node turns left into right
+  std::vector<Shading> shading;        // by draw
+  bool hazy = false;                   // something dissolves into the background
+  bool clipped = false;                // an eye's near plane, or its guard band, cuts through one of those
 
   bool operator==(const DrawList&) const = default;
 };

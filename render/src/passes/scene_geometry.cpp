@@ -2,6 +2,7 @@
 #include "passes/scene_geometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -45,11 +46,18 @@ void measure_edges(const scene::Primitive& primitive, Draw& draw) {
     return;
   }
   std::vector<float> longest;
+  float least_cosine = 1.0F;
   for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-    const auto corner = [&](std::size_t k) { return primitive.vertices[primitive.indices[i + k]].position; };
-    longest.push_back(std::max({glm::distance(corner(0), corner(1)), glm::distance(corner(1), corner(2)),
-                                glm::distance(corner(2), corner(0))}));
+    float edge = 0.0F;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const scene::Vertex &from = primitive.vertices[primitive.indices[i + k]],
+                          &to = primitive.vertices[primitive.indices[i + (k + 1) % 3]];
+      edge = std::max(edge, glm::distance(from.position, to.position));
+      least_cosine = std::min(least_cosine, glm::dot(from.normal, to.normal));
+    }
+    longest.push_back(edge);
   }
+  draw.largest_turn = std::acos(std::clamp(least_cosine, -1.0F, 1.0F));
   const auto usual = longest.begin() + static_cast<std::ptrdiff_t>(longest.size() * 9 / 10);
   std::nth_element(longest.begin(), usual, longest.end());
   draw.usual_edge = *usual;
@@ -95,6 +103,7 @@ void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive
                    .index_count = static_cast<std::uint32_t>(order.indices.size()),
                    .first_vertex = static_cast<std::int32_t>(packed.vertices.size()),
                    .double_sided = material.double_sided,
+                   .unlit = material.unlit,
                    .blended = material.blended,
                    .casts_shadow = !material.blended && primitive.topology == scene::Topology::Triangles,
                    .material = primitive.material,

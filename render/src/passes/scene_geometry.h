@@ -22,6 +22,7 @@ struct Draw {
   std::uint32_t index_count = 0;
   std::int32_t first_vertex = 0;
   bool double_sided = false;
+  bool unlit = false;
   bool blended = false;
   bool casts_shadow = true;
   std::optional<std::uint32_t> variant{};  // a place in SceneGeometry::looks(); none: drawn by the plain pipelines
@@ -30,6 +31,7 @@ struct Draw {
   glm::vec3 half_size{0.0F};
   float usual_edge = 0.0F;    // in the node's frame: nine triangles in ten have none that is longer
   float longest_edge = 0.0F;  // 0: no triangles
+  float largest_turn = 0.0F;  // radians, between the normals at two corners of a triangle
   DrawBlock block{};          // with the material's constants filled in
 };
 

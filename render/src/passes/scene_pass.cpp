@@ -18,6 +18,9 @@
 #include "shaders/scene_vert.h"
 #include "shaders/scene_vert_one_view.h"
 #include "shaders/shadow_vert.h"
+#include "shaders/smooth_frag.h"
+#include "shaders/smooth_vert.h"
+#include "shaders/smooth_vert_one_view.h"
 
 namespace afm::render {
 namespace {
@@ -26,6 +29,8 @@ constexpr EyeCode kSceneVertex{shaders::scene_vert, shaders::scene_vert_one_view
 constexpr EyeCode kSceneFragment{shaders::scene_frag, shaders::scene_frag_one_view};
 constexpr EyeCode kFineVertex{shaders::per_vertex_vert, shaders::per_vertex_vert_one_view};
 constexpr EyeCode kFineFragment{shaders::per_vertex_frag, shaders::per_vertex_frag};
+constexpr EyeCode kSmoothVertex{shaders::smooth_vert, shaders::smooth_vert_one_view};
+constexpr EyeCode kSmoothFragment{shaders::smooth_frag, shaders::smooth_frag};
 constexpr EyeCode kMaterialVertex{shaders::material_vert, shaders::material_vert_one_view};
 constexpr EyeCode kMaterialFragment{shaders::material_frag, shaders::material_frag_one_view};
 constexpr EyeCode kBackgroundVertex{shaders::fullscreen_vert, shaders::fullscreen_vert};
@@ -119,10 +124,12 @@ ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_lay
   }
 }
 
-ScenePass::BothSides ScenePass::plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
-                                                std::uint32_t variant) {
+ScenePass::PlainPipelines ScenePass::plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
+                                                     std::uint32_t variant) {
   return {plain_pipeline(device, layout, blending, variant),
-          plain_pipeline(device, layout, blending, variant | AFM_FEATURE_DOUBLE_SIDED)};
+          plain_pipeline(device, layout, blending, variant | AFM_FEATURE_DOUBLE_SIDED),
+          plain_pipeline(device, layout, blending, variant | AFM_FEATURE_UNLIT),
+          {device, scene_request(layout, blending), kSmoothVertex, kSmoothFragment}};
 }
 
 void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
@@ -133,15 +140,20 @@ void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLa
   command.setFrontFace(input.draws.mirrored[i] != 0 ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
 }
 
+EyePipeline& ScenePass::plain_one(const Draw& draw, Shading shading, PlainPipelines& plain) {
+  if (shading == Shading::ByVertex) return fine_;
+  if (shading == Shading::LightByVertex) return plain.smooth;
+  if (draw.unlit) return plain.unlit;
+  return draw.double_sided ? plain.double_sided : plain.single_sided;
+}
+
 void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
-                               std::span<const std::uint32_t> draws, BothSides& plain) {
+                               std::span<const std::uint32_t> draws, PlainPipelines& plain) {
   const EyePipeline* bound = nullptr;
   for (const std::uint32_t i : draws) {
     if (input.box && input.frame->bounds(i).within(*input.box).empty()) continue;
     const Draw& draw = input.geometry.draws()[i];
-    EyePipeline& pipeline = draw.variant                     ? variants_[*draw.variant]
-                            : input.draws.per_vertex[i] != 0 ? fine_
-                                                             : plain[draw.double_sided ? 1 : 0];
+    EyePipeline& pipeline = draw.variant ? variants_[*draw.variant] : plain_one(draw, input.draws.shading[i], plain);
     if (&pipeline != bound) {
       command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
       bound = &pipeline;

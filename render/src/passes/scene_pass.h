@@ -34,25 +34,29 @@ class ScenePass {
   void record_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input);
 
  private:
-  using BothSides = std::array<EyePipeline, 2>;  // of single-sided materials, of double-sided ones
-  static BothSides plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
-                                   std::uint32_t variant);
+  struct PlainPipelines {
+    EyePipeline single_sided, double_sided, unlit;
+    EyePipeline smooth;  // Shading::LightByVertex, without haze
+  };
+  static PlainPipelines plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
+                                        std::uint32_t variant);
   static void set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
                         std::uint32_t draw);
+  EyePipeline& plain_one(const Draw& draw, Shading shading, PlainPipelines& plain);
   void record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
                          EyePipeline& pipeline) const;
   void record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
-                      std::span<const std::uint32_t> draws, BothSides& plain);
+                      std::span<const std::uint32_t> draws, PlainPipelines& plain);
 
   vk::raii::PipelineLayout layout_;
   vk::raii::PipelineLayout shadow_layout_;
   vk::raii::PipelineLayout variant_layout_;
   vk::raii::Pipeline shadow_;
-  std::array<BothSides, 2> opaque_;  // without haze, and with it
-  EyePipeline fine_;                 // shaded at the vertices, without haze
-  EyePipeline background_;           // where nothing else is
-  EyePipeline erasing_background_;   // in place of what was there
-  std::array<BothSides, 2> blended_;
+  std::array<PlainPipelines, 2> opaque_;  // without haze, and with it
+  EyePipeline fine_;                      // shaded at the vertices, without haze
+  EyePipeline background_;                // where nothing else is
+  EyePipeline erasing_background_;        // in place of what was there
+  std::array<PlainPipelines, 2> blended_;
   std::vector<EyePipeline> variants_;  // as SceneGeometry::looks()
 };
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_EXT_multiview : require
+#extension GL_GOOGLE_include_directive : require
+#include "interface.glsl.h"
+#include "beam.glsl"
+#include "contact.glsl"
+#include "lighting.glsl"
+#include "tone.glsl"
+#include "view.glsl"
+
+// Rough surfaces that turn little from vertex to vertex, such as the floor: the light on them changes slowly, so that it is worked out
+// at the vertices, once with the key light and once without. The shadows' edges and the shade at the contact are sharp: smooth.frag.
+layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
+layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 color;
+
+layout(location = 0) out vec3 room_position;
+layout(location = 1) out vec3 shadow_place;
+layout(location = 2) out vec3 radiance_in_shadow;
+layout(location = 3) out vec3 radiance_in_light;
+layout(location = 4) out vec4 own;  // light of its own, and alpha
+
+#include "placing.glsl"
+#include "shadow_place.glsl"
+#include "shading.glsl"
+
+void main() {
+  room_position = (draw.room_from_node * vec4(bent_position(position), 1.0)).xyz;
+  vec3 room_normal = normalize(normal_in_room(position, normal));
+  vec4 its_color = color * draw.base_color;
+  shadow_place = place_in_shadow_map(room_position, room_normal);
+  Surface s = surface_at(room_position, room_normal, its_color.rgb);
+  Lobe lobe = lobe_of(s.roughness);
+  radiance_in_shadow = radiance(s, lobe, 0.0);
+  radiance_in_light = radiance(s, lobe, 1.0);
+  own = vec4(own_light(s), its_color.a);
+  gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
+}
