@@ -38,9 +38,14 @@ Sight sight(const scene::EyeView& eye, const glm::dmat4& room_from_node, const D
   return sight;
 }
 
-double scale_of(const glm::dmat4& room_from_node) {
+struct Scale {
+  double most = 0;     // room per unit of the node, along one of its axes
+  double stretch = 1;  // most / least: by which an angle between normals grows at most
+};
+Scale scale_of(const glm::dmat4& room_from_node) {
   const glm::dmat3 linear(room_from_node);
-  return std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+  const auto [least, most] = std::minmax({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+  return {most, most / least};
 }
 
 // Whether shading by vertex is as good as by fragment: edges as long as they would be if they lay across the line of
@@ -54,7 +59,7 @@ bool is_fine(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room
     return false;
   }
   const double pixels_per_unit =
-      0.5 * pixels_high * std::abs(eye.projection[1][1]) * scale_of(room_from_node) / middle.w;
+      0.5 * pixels_high * std::abs(eye.projection[1][1]) * scale_of(room_from_node).most / middle.w;
   return static_cast<double>(draw.usual_edge) * pixels_per_unit < kFineEdgePx &&
          static_cast<double>(draw.longest_edge) * pixels_per_unit < kLongestEdgePx;
 }
@@ -67,9 +72,10 @@ double lobe_border(double roughness) { return 0.04 + 0.9 * roughness * roughness
 bool is_smooth(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node) {
   if (draw.variant || draw.double_sided || draw.unlit) return false;
   const glm::dvec3 middle_m(room_from_node * glm::dvec4(glm::dvec3(draw.center), 1.0));
-  const double edge_m = static_cast<double>(draw.usual_edge) * scale_of(room_from_node);
-  const double most = kMostTurn * lobe_border(static_cast<double>(draw.block.surface.y));
-  return edge_m < (most - 2.0 * static_cast<double>(draw.largest_turn)) * glm::distance(eye.eye_position_m, middle_m);
+  const Scale scale = scale_of(room_from_node);
+  const double turn = 2.0 * scale.stretch * static_cast<double>(draw.largest_turn);
+  const double most = kMostTurn * lobe_border(static_cast<double>(draw.block.surface.y)) - turn;
+  return static_cast<double>(draw.usual_edge) * scale.most < most * glm::distance(eye.eye_position_m, middle_m);
 }
 
 Shading shading(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node, double pixels_high) {
