@@ -35,6 +35,9 @@
 // device computes what a branch leaves out, too.
 #define AFM_FEATURE_FOG 0x1u
 
+// Half the soft edge of what a surface of that roughness reflects, radians.
+#define AFM_LOBE_BORDER(roughness) (0.04 + 0.9 * (roughness) * (roughness) + 0.25 * (roughness))
+
 // texels each way
 #define AFM_SHADOW_MAP_SIZE 2048
 

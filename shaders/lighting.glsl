@@ -28,7 +28,7 @@ float spread_of(vec2 half_size, float border) {
 }
 
 Lobe lobe_of(float roughness) {
-  float border = 0.04 + 0.9 * roughness * roughness + 0.25 * roughness;
+  float border = AFM_LOBE_BORDER(roughness);
   return Lobe(border, vec3(spread_of(kKeyHalfSize, border), spread_of(kRimHalfSize, border),
                            spread_of(kFillHalfSize, border)));
 }

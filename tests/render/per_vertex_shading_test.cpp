@@ -15,15 +15,14 @@
 namespace afm::test {
 namespace {
 
-// A square of hills of 2 x 100 x 100 triangles, as large as 1 x 1 node units, up along +z.
-scene::Primitive hills(std::uint32_t material) {
-  constexpr std::uint32_t kQuads = 100;
-  const auto height = [](double x, double y) { return 0.03 * std::sin(11.0 * x) * std::cos(9.0 * y); };
+// A square of 1 x 1 node units with hills of that height, in 2 x quads x quads triangles, up along +z.
+scene::Primitive hills(std::uint32_t material, std::uint32_t quads, double hill_height) {
+  const auto height = [&](double x, double y) { return hill_height * std::sin(11.0 * x) * std::cos(9.0 * y); };
   scene::Primitive primitive;
   primitive.material = material;
-  for (std::uint32_t row = 0; row <= kQuads; ++row) {
-    for (std::uint32_t column = 0; column <= kQuads; ++column) {
-      const double x = static_cast<double>(column) / kQuads - 0.5, y = static_cast<double>(row) / kQuads - 0.5;
+  for (std::uint32_t row = 0; row <= quads; ++row) {
+    for (std::uint32_t column = 0; column <= quads; ++column) {
+      const double x = static_cast<double>(column) / quads - 0.5, y = static_cast<double>(row) / quads - 0.5;
       constexpr double kStep = 1e-4;
       const glm::dvec3 normal(height(x - kStep, y) - height(x + kStep, y), height(x, y - kStep) - height(x, y + kStep),
                               2.0 * kStep);
@@ -31,9 +30,9 @@ scene::Primitive hills(std::uint32_t material) {
           {.position = glm::vec3(glm::dvec3(x, y, height(x, y))), .normal = glm::vec3(glm::normalize(normal))});
     }
   }
-  for (std::uint32_t row = 0; row < kQuads; ++row) {
-    for (std::uint32_t column = 0; column < kQuads; ++column) {
-      const std::uint32_t a = row * (kQuads + 1) + column, above = a + kQuads + 1;
+  for (std::uint32_t row = 0; row < quads; ++row) {
+    for (std::uint32_t column = 0; column < quads; ++column) {
+      const std::uint32_t a = row * (quads + 1) + column, above = a + quads + 1;
       primitive.indices.insert(primitive.indices.end(), {a, a + 1, above + 1, a, above + 1, above});
     }
   }
@@ -43,26 +42,14 @@ scene::Primitive hills(std::uint32_t material) {
 // A floor of 2 x 10 x 10 triangles with the shadow of a bar and the shade at the contact on it: fewer triangles than
 // are shaded by vertex, and rough enough for smooth.vert. What is seen from both sides is shaded by fragment.
 scene::Scene scene_of_floor(bool by_fragment) {
-  constexpr std::uint32_t kQuads = 10;
   scene::Scene scene;
   const auto rough = add_material(scene, {.name = "rough",
                                           .base_color = {0.5F, 0.4F, 0.3F, 1.0F},
                                           .metallic = 0.0F,
                                           .roughness = 0.62F,
                                           .double_sided = by_fragment});
-  scene::Primitive floor;
-  floor.material = rough;
-  for (std::uint32_t i = 0; i <= kQuads; ++i) {
-    for (std::uint32_t j = 0; j <= kQuads; ++j) {
-      floor.vertices.push_back(
-          {.position = {static_cast<float>(j) / kQuads - 0.5F, 0.0F, 0.5F - static_cast<float>(i) / kQuads},
-           .normal = {0.0F, 1.0F, 0.0F}});
-      if (i == kQuads || j == kQuads) continue;
-      const std::uint32_t a = i * (kQuads + 1) + j, behind = a + kQuads + 1;
-      floor.indices.insert(floor.indices.end(), {a, a + 1, behind + 1, a, behind + 1, behind});
-    }
-  }
-  add(scene, "floor", std::move(floor), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.25, -0.1)));
+  const glm::dmat4 lying = glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), glm::dvec3(1.0, 0.0, 0.0));
+  add(scene, "floor", hills(rough, 10, 0.0), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.25, -0.1)) * lying);
   const auto grey = add_material(scene, {.name = "grey", .base_color = {0.5F, 0.5F, 0.5F, 1.0F}, .metallic = 0.0F});
   add(scene, "bar", lever(grey, 0.05, 0.02, 1), glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5, 0.0, 0.0)));
   return scene;
@@ -93,7 +80,7 @@ class PerVertexShading : public VulkanTest {
                                            .double_sided = by_fragment});
     const auto grey = add_material(scene, {.name = "grey", .base_color = {0.5F, 0.5F, 0.5F, 1.0F}, .metallic = 0.0F});
     const glm::dmat4 tilted = glm::rotate(glm::dmat4(1.0), glm::radians(-60.0), glm::dvec3(1.0, 0.0, 0.0));
-    add(scene, "hills", hills(gold), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.3, -0.2)) * tilted);
+    add(scene, "hills", hills(gold, 100, 0.03), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.3, -0.2)) * tilted);
     add(scene, "bar", lever(grey, 0.05, 0.02, 1), glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5, 0.1, 0.1)));
     return scene;
   }

@@ -107,7 +107,7 @@ std::size_t chosen_page(const std::vector<ImagePage>& pages, const std::string& 
   return static_cast<std::size_t>(std::min_element(pages.begin(), pages.end(), lower_rank) - pages.begin());
 }
 
-// NaN and what is infinite is not.
+// Neither NaN nor an infinity is.
 bool is_measured(double value) { return std::abs(value) <= physics::kMostImageValue; }
 
 bool same_grid(const ImagePage& a, const ImagePage& b) {

@@ -64,9 +64,6 @@ bool is_fine(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room
          static_cast<double>(draw.longest_edge) * pixels_per_unit < kLongestEdgePx;
 }
 
-// Half the soft edge of what a surface reflects, in radians: lobe_of() in shaders/lighting.glsl.
-double lobe_border(double roughness) { return 0.04 + 0.9 * roughness * roughness + 0.25 * roughness; }
-
 // Whether the light on it changes so slowly that the vertices may carry it: along an edge the direction in which the
 // eye sees the studio reflected, which turns twice as far as the normal, stays within the reflection's soft edge.
 bool is_smooth(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node) {
@@ -74,7 +71,8 @@ bool is_smooth(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& ro
   const glm::dvec3 middle_m(room_from_node * glm::dvec4(glm::dvec3(draw.center), 1.0));
   const Scale scale = scale_of(room_from_node);
   const double turn = 2.0 * scale.stretch * static_cast<double>(draw.largest_turn);
-  const double most = kMostTurn * lobe_border(static_cast<double>(draw.block.surface.y)) - turn;
+  const auto roughness = static_cast<double>(draw.block.surface.y);
+  const double most = kMostTurn * AFM_LOBE_BORDER(roughness) - turn;
   return static_cast<double>(draw.usual_edge) * scale.most < most * glm::distance(eye.eye_position_m, middle_m);
 }
 
@@ -106,7 +104,6 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
     }
     const auto& room_from_node = frame.room_from_node[draw.node];
     list.mirrored[i] = glm::determinant(glm::dmat3(room_from_node)) < 0.0 ? 1 : 0;
-    if (!list.hazy) list.shading[i] = shading(draw, frame.eyes[0], room_from_node, pixels_high);
     const DrawBox box = bent_box(draw, bend_of(frame, draw.node));
     bool seen = false;
     for (const auto& eye : frame.eyes) {
@@ -115,6 +112,7 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
       list.clipped = list.clipped || (its.seen && its.clipped);
     }
     if (seen) {
+      if (!list.hazy) list.shading[i] = shading(draw, frame.eyes[0], room_from_node, pixels_high);
       const double distance = glm::distance(viewer, glm::dvec3(room_from_node * glm::dvec4(box.center, 1.0)));
       (draw.blended ? blended_ : opaque_).emplace_back(distance, i);
     }

@@ -23,7 +23,7 @@ struct DrawList {
   std::vector<std::uint32_t> opaque;   // seen by an eye, from near to far, so that what is hidden is not shaded
   std::vector<std::uint32_t> blended;  // seen by an eye, from far to near
   std::vector<std::uint8_t> mirrored;  // by draw, 1 where the node turns left into right
-  std::vector<Shading> shading;        // by draw
+  std::vector<Shading> shading;        // by draw; of what is not seen: ByFragment
   bool hazy = false;                   // something dissolves into the background
   bool clipped = false;                // an eye's near plane, or its guard band, cuts through one of those
 
