@@ -26,6 +26,7 @@
 #include "servo/replay.h"
 #include "servo/session_file.h"
 #include "support/faulty_device.h"
+#include "support/frame_log.h"
 #include "support/live_program.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
@@ -102,7 +103,8 @@ class ViewInAHeadset : public ::testing::Test {
 
   // From what the runtime did, by its own log, to the tick after which the servo holds no hand any more, by its
   // session; which is the same bit for bit when it is replayed.
-  void expect_free_in_time(const std::string& sessions, const std::set<std::string>& ways) const {
+  void expect_free_in_time(const std::string& sessions, const std::set<std::string>& ways,
+                           double most_ms = kMostMs) const {
     std::vector<scene::TipSample> samples;
     for (const auto& file : std::filesystem::directory_iterator(sessions)) {
       const auto session = servo::load_session(file.path());
@@ -123,16 +125,16 @@ class ViewInAHeadset : public ::testing::Test {
       const auto free = std::find_if_not(first, samples.end(), holds);
       ASSERT_NE(free, samples.end()) << what;
       EXPECT_EQ(free->hand_force_n, 0.0) << what;
-      const std::int64_t took_ns = free->time_ns - lost_ns;
-      EXPECT_LE(took_ns, kMostNs) << what;
-      RecordProperty(what + "_ms", std::to_string(1e-6 * static_cast<double>(took_ns)));
+      const double took_ms = 1e-6 * static_cast<double>(free->time_ns - lost_ns);
+      EXPECT_LE(took_ms, most_ms) << what;
+      RecordProperty(what + "_ms", std::to_string(took_ms));
     }
     EXPECT_EQ(seen, ways) << "with a force to lose";
   }
   static bool holds(const scene::TipSample& sample) {
     return sample.servo_state != scene::ServoState::Disarmed && sample.servo_state != scene::ServoState::Fault;
   }
-  static constexpr std::int64_t kMostNs = 2 * 350'000'000LL;  // twice the bound that the manual gives
+  static constexpr double kMostMs = 2.0 * 350.0;  // twice the bound that the manual gives
 
   exhibit::Stage stage_ = stage_of_the_assets();
   support::ScratchFolder folder_;
@@ -172,10 +174,26 @@ TEST_F(ViewInAHeadset, FeelsASampleAndLetsTheHandGoInTimeWheneverTheHeadsetIsGon
   expect_free_in_time(sessions, {"blocked", "failed", "kept"});
 }
 
+// Twice what the manual allows a device that hangs: longer after slow pictures. By the frame log of a program whose
+// last interval of kHangMs or more is the hang.
+constexpr int kHangMs = 1000;
+double most_after_a_hang_ms(const std::string& frame_log) {
+  constexpr double kPatienceMs = 250.0, kRestMs = 100.0;
+  constexpr std::ptrdiff_t kLastPictures = 8;
+  double longest_ms = 0.5 * kPatienceMs;
+  const std::vector<double> all = support::intervals_ms(frame_log);
+  const auto hung = std::find_if(all.rbegin(), all.rend(), [](double ms) { return ms >= kHangMs; });
+  for (auto ms = hung; ms != all.rend() && ms - hung <= kLastPictures; ++ms) {
+    if (ms != hung) longest_ms = std::max(longest_ms, *ms);
+  }
+  return 2.0 * (2.0 * longest_ms + kRestMs);
+}
+
 // The program waits for the device, and the wearer before a picture that stands still.
 TEST_F(ViewInAHeadset, LetsTheHandGoInTimeWhenTheGraphicsDeviceHangs) {
-  const std::string sessions = folder_.file("sessions"), stuck = folder_.file("stuck");
-  std::vector<std::string> program = command({"--record", sessions});
+  const std::string sessions = folder_.file("sessions"), stuck = folder_.file("stuck"),
+                    frames = folder_.file("frames.csv");
+  std::vector<std::string> program = command({"--record", sessions, "--frame-log", frames});
   std::erase(program, "--validate");  // which knows nothing of the pretended hang
   support::LiveProgram view(test::on_faulty_device("stuck:" + stuck, program), display_.name());
   ASSERT_TRUE(view.says("headset: has the controllers")) << view.said();
@@ -185,12 +203,12 @@ TEST_F(ViewInAHeadset, LetsTheHandGoInTimeWhenTheGraphicsDeviceHangs) {
     std::ofstream(folder_.file("script.log"), std::ios::app)
         << "hung " << std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1) << std::endl;
     folder_.write("stuck", "");
-    std::this_thread::sleep_for(std::chrono::seconds(1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(kHangMs));
     std::filesystem::remove(stuck);  // the program says nothing before
   };
   EXPECT_TRUE(loses_the_picture(view, hang, [] {})) << view.said();
   expect_good_end(view);
-  expect_free_in_time(sessions, {"hung"});
+  expect_free_in_time(sessions, {"hung"}, most_after_a_hang_ms(frames));
 }
 
 // AFM_HEADSET_VIEW_SECONDS: for how long.

@@ -16,6 +16,7 @@
 #include "app/cluster/cluster_cable.h"
 #include "core/percentiles.h"
 #include "core/whole_file.h"
+#include "support/frame_log.h"
 
 namespace afm::app {
 namespace {
@@ -138,16 +139,6 @@ TEST_F(ClusterNetworkTest, ACableThatIsPulledForTwoSecondsCostsThreeFrames) {
 // The wall itself over such a network.
 class ClusterCableTest : public ClusterCable {
  protected:
-  // Milliseconds between frames, from a frame log.
-  static std::vector<double> intervals_ms(const std::string& log) {
-    std::vector<double> all;
-    std::istringstream lines(core::read_file(log).value_or(""));
-    for (std::string line; std::getline(lines, line);) {
-      double interval_ms = 0;
-      if (std::sscanf(line.c_str(), "%*d,%*f,%*f,%lf", &interval_ms) == 1) all.push_back(interval_ms);
-    }
-    return all;
-  }
 };
 
 TEST_F(ClusterCableTest, IsPulledAndTheHandNeverNotices) {
@@ -171,7 +162,7 @@ TEST_F(ClusterCableTest, IsPulledAndTheHandNeverNotices) {
   EXPECT_EQ(hand->ends(), 0) << hand->said();
   EXPECT_THAT(hand->said(), ::testing::Not(::testing::HasSubstr("built frame")));
   EXPECT_GT(network_.lost(), 0U);
-  const core::Percentiles between = core::percentiles(intervals_ms(folder_.file("frames.csv")));
+  const core::Percentiles between = core::percentiles(support::intervals_ms(folder_.file("frames.csv")));
   EXPECT_GT(between.max, 0.0);
   std::printf("frames of the machine with the hand, a cable pulled and plugged: %.0f ms apart (p50), %.0f ms at most\n",
               between.p50, between.max);
