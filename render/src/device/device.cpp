@@ -314,21 +314,6 @@ core::Result<std::unique_ptr<Device>> Device::open(Validation validation, Presen
   return device;
 }
 
-std::uint32_t Device::memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags wanted) const {
-  const auto properties = physical_.getMemoryProperties();
-  const auto suits = [&](std::uint32_t type) {
-    return (type_bits & (1U << type)) != 0 && (properties.memoryTypes[type].propertyFlags & wanted) == wanted;
-  };
-  std::uint32_t type = 0;
-  while (type < properties.memoryTypeCount && !suits(type)) {
-    ++type;
-  }
-
-  // the specification promises host-visible coherent and device-local memory for every resource used here
-  AFM_CHECK(type < properties.memoryTypeCount);
-  return type;
-}
-
 std::uint64_t Device::largest_heap_bytes() const {
   const auto properties = physical_.getMemoryProperties();
   vk::DeviceSize largest = 0;

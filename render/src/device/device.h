@@ -50,10 +50,6 @@ class Device {
   const std::string& name() const { return name_; }
   MessageSink& messages() { return *messages_; }
 
-  // Index of a memory type among `type_bits` with all of `wanted`. Every Vulkan device has the combinations asked for
-  // here.
-  std::uint32_t memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags wanted) const;
-
   // True if both eyes can be drawn in one pass.
   bool multiview() const { return multiview_; }
 

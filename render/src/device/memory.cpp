@@ -4,22 +4,28 @@
 #include <array>
 #include <cstring>
 
+#include "device/memory_type.h"
+
 namespace afm::render {
 namespace {
 
 constexpr vk::MemoryPropertyFlags kHostMemory =
     vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
 
+// Host-visible memory is mapped.
 Buffer create_buffer(const Device& device, const std::string& name, vk::DeviceSize size, vk::BufferUsageFlags usage,
-                     vk::MemoryPropertyFlags properties) {
+                     vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags useful = {}) {
   Buffer result;
   result.size = size;
   result.buffer = vk::raii::Buffer(*device, {.size = size, .usage = usage});
   const auto needs = result.buffer.getMemoryRequirements();
-  result.memory = vk::raii::DeviceMemory(
-      *device, {.allocationSize = needs.size, .memoryTypeIndex = device.memory_type(needs.memoryTypeBits, properties)});
+  const std::uint32_t type = memory_type(device.physical().getMemoryProperties(), needs.memoryTypeBits, needed, useful);
+  result.memory = vk::raii::DeviceMemory(*device, {.allocationSize = needs.size, .memoryTypeIndex = type});
   result.buffer.bindMemory(*result.memory, 0);
   device.set_name(result.buffer, name);
+  if (needed & vk::MemoryPropertyFlagBits::eHostVisible) {
+    result.mapped = static_cast<std::byte*>(result.memory.mapMemory(0, VK_WHOLE_SIZE));
+  }
   return result;
 }
 
@@ -27,9 +33,12 @@ Buffer create_buffer(const Device& device, const std::string& name, vk::DeviceSi
 
 Buffer create_host_buffer(const Device& device, const std::string& name, vk::DeviceSize size,
                           vk::BufferUsageFlags usage) {
-  Buffer result = create_buffer(device, name, size, usage, kHostMemory);
-  result.mapped = static_cast<std::byte*>(result.memory.mapMemory(0, VK_WHOLE_SIZE));
-  return result;
+  return create_buffer(device, name, size, usage, kHostMemory);
+}
+
+Buffer create_readback_buffer(const Device& device, const std::string& name, vk::DeviceSize size,
+                              vk::BufferUsageFlags usage) {
+  return create_buffer(device, name, size, usage, kHostMemory, vk::MemoryPropertyFlagBits::eHostCached);
 }
 
 Buffer upload_buffer(const Device& device, const std::string& name, std::span<const std::byte> bytes,
@@ -65,9 +74,9 @@ DeviceImage create_image(const Device& device, const std::string& name, const Im
                                 .samples = request.samples,
                                 .usage = request.usage});
   const auto needs = result.image.getMemoryRequirements();
-  result.memory = vk::raii::DeviceMemory(
-      *device, {.allocationSize = needs.size,
-                .memoryTypeIndex = device.memory_type(needs.memoryTypeBits, vk::MemoryPropertyFlagBits::eDeviceLocal)});
+  const std::uint32_t type = memory_type(device.physical().getMemoryProperties(), needs.memoryTypeBits,
+                                         vk::MemoryPropertyFlagBits::eDeviceLocal);
+  result.memory = vk::raii::DeviceMemory(*device, {.allocationSize = needs.size, .memoryTypeIndex = type});
   result.image.bindMemory(*result.memory, 0);
   device.set_name(result.image, name);
   return result;

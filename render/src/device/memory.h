@@ -37,8 +37,14 @@ struct ImageRequest {
   vk::Format seen_as = vk::Format::eUndefined;  // views may have this format too
 };
 
+// For what the processor writes.
 Buffer create_host_buffer(const Device& device, const std::string& name, vk::DeviceSize size,
                           vk::BufferUsageFlags usage);
+
+// For what the processor reads: in cached memory where there is any. A GPU's first host-visible type often has no
+// cache, and each byte of a picture would be fetched by itself.
+Buffer create_readback_buffer(const Device& device, const std::string& name, vk::DeviceSize size,
+                              vk::BufferUsageFlags usage);
 
 // Copies `bytes` into device-local memory; waits for it.
 Buffer upload_buffer(const Device& device, const std::string& name, std::span<const std::byte> bytes,

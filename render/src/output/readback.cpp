@@ -31,7 +31,7 @@ void HostCopy::record(const Device& device, const vk::raii::CommandBuffer& comma
   extent_ = image.extent;
   const std::size_t bytes = image.layers * bytes_of(extent_);
   if (buffer_.size != bytes) {
-    buffer_ = create_host_buffer(device, "read back", bytes, vk::BufferUsageFlagBits::eTransferDst);
+    buffer_ = create_readback_buffer(device, "read back", bytes, vk::BufferUsageFlagBits::eTransferDst);
   }
   record_copy(command, *image.image, 0, image.layers, extent_, buffer_);
 }
@@ -42,7 +42,8 @@ ImageSpan HostCopy::picture(std::uint32_t layer) const {
 }
 
 Image read_back(const Device& device, vk::Image image, std::uint32_t layer, vk::Extent2D extent) {
-  const Buffer host = create_host_buffer(device, "read back", bytes_of(extent), vk::BufferUsageFlagBits::eTransferDst);
+  const Buffer host =
+      create_readback_buffer(device, "read back", bytes_of(extent), vk::BufferUsageFlagBits::eTransferDst);
   const ImageUse shown{vk::PipelineStageFlagBits2::eAllCommands, vk::AccessFlagBits2::eNone,
                        vk::ImageLayout::eShaderReadOnlyOptimal};
   device.run_once([&](const vk::raii::CommandBuffer& command) {

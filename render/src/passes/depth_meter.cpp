@@ -79,7 +79,8 @@ struct DepthMeter::Parts {
         pipeline(create_range_pipeline(device, *layout)),
         sampler(*device, vk::SamplerCreateInfo{.addressModeU = vk::SamplerAddressMode::eClampToEdge,
                                                .addressModeV = vk::SamplerAddressMode::eClampToEdge}),
-        range(create_host_buffer(device, "depth range", sizeof(DepthBits), vk::BufferUsageFlagBits::eStorageBuffer)),
+        range(
+            create_readback_buffer(device, "depth range", sizeof(DepthBits), vk::BufferUsageFlagBits::eStorageBuffer)),
         pool(create_range_pool(device)),
         commands_pool(*device, vk::CommandPoolCreateInfo{.queueFamilyIndex = device.queue_family()}),
         commands(std::move(vk::raii::CommandBuffers(*device, {.commandPool = *commands_pool,
