@@ -98,6 +98,37 @@ core::Error refuse(cluster::NodeLink& link, const cluster::ClusterHeader& header
                   build ? "install the same package" : "copy the master's probe and sample files to the same place")};
 }
 
+struct NodeStage {
+  std::uint32_t node = 0;  // its place in the wall
+  exhibit::Stage stage;
+};
+
+// The master's files are gone from the disk when this returns: a node that is killed while it shows them leaves none.
+core::Result<NodeStage> load_stage(const std::string& name, const cluster::ClusterHeader& header,
+                                   const exhibit::WallModel& model, const CommandContext& context,
+                                   cluster::NodeLink& link) {
+  const auto folder = PrivateFolder::create();
+  if (!folder) return tl::unexpected(folder.error());
+  const auto files = exhibit::unpack(model, context.assets_dir, (*folder)->path());
+  if (!files) return tl::unexpected(files.error());
+  const auto wall = scene::load_wall(files->wall);
+  if (!wall) return tl::unexpected(wall.error());
+  const auto node = place_of(name, *wall);
+  if (!node) return tl::unexpected(node.error());
+  const auto build = exhibit::build_digest(context.program_path);
+  if (!build) return tl::unexpected(build.error());
+  if (*build != model.build) {
+    return tl::unexpected(refuse(link, header, *node, cluster::NodeState::OtherBuild, *build, model.build));
+  }
+  auto stage = exhibit::load_exhibit(*files);
+  if (!stage) return tl::unexpected(stage.error());
+  if (const std::uint64_t here = scene::digest(stage->wall_scene.scene()); here != model.scene) {
+    return tl::unexpected(refuse(link, header, *node, cluster::NodeState::OtherScene, here, model.scene));
+  }
+  scene::keep_outputs_of(*node, stage->wall);
+  return NodeStage{*node, std::move(*stage)};
+}
+
 // Shows one wall; the description of the next one, if a master has another.
 core::Result<std::optional<cluster::NodeLink::Document>> show_wall(const NodeOptions& options,
                                                                    const cluster::NodeLink::Document& document,
@@ -105,37 +136,21 @@ core::Result<std::optional<cluster::NodeLink::Document>> show_wall(const NodeOpt
                                                                    cluster::NodeLink& link, const core::Clock& clock) {
   const auto model = exhibit::read_wall_model(document.bytes);
   if (!model) return tl::unexpected(model.error());
-  const auto folder = PrivateFolder::create();
-  if (!folder) return tl::unexpected(folder.error());
-  const auto files = exhibit::unpack(*model, context.assets_dir, (*folder)->path());
-  if (!files) return tl::unexpected(files.error());
-  const auto wall = scene::load_wall(files->wall);
-  if (!wall) return tl::unexpected(wall.error());
-  const auto node = place_of(options.name, *wall);
-  if (!node) return tl::unexpected(node.error());
-  const auto build = exhibit::build_digest(context.program_path);
-  if (!build) return tl::unexpected(build.error());
-  if (*build != model->build) {
-    return tl::unexpected(refuse(link, document.header, *node, cluster::NodeState::OtherBuild, *build, model->build));
-  }
-  auto stage = exhibit::load_exhibit(*files);
-  if (!stage) return tl::unexpected(stage.error());
-  if (const std::uint64_t here = scene::digest(stage->wall_scene.scene()); here != model->scene) {
-    return tl::unexpected(refuse(link, document.header, *node, cluster::NodeState::OtherScene, here, model->scene));
-  }
-  scene::keep_outputs_of(*node, stage->wall);
-  const auto materials = felt_samples(*stage, model->friction);
+  auto loaded = load_stage(options.name, document.header, *model, context, link);
+  if (!loaded) return tl::unexpected(loaded.error());
+  exhibit::Stage& stage = loaded->stage;
+  const auto materials = felt_samples(stage, model->friction);
   if (!materials) return tl::unexpected(materials.error());
   DisplayOptions display_options = options.display;
   display_options.picture = model->picture;
   display_options.contrast = model->contrast;
   display_options.swap = render::Swap::WithOthers;
-  auto display = ViewDisplay::open(*stage, display_options, nullptr, clock);
+  auto display = ViewDisplay::open(stage, display_options, nullptr, clock);
   if (!display) return tl::unexpected(display.error());
   core::log_line(
-      fmt::format("cluster: node {} of the wall, {} of its outputs", options.name, stage->wall.outputs.size()));
-  NodeView view(*stage, *materials, **display, link,
-                {.node = *node, .session = document.header.session, .model = document.bytes}, clock);
+      fmt::format("cluster: node {} of the wall, {} of its outputs", options.name, stage.wall.outputs.size()));
+  NodeView view(stage, *materials, **display, link,
+                {.node = loaded->node, .session = document.header.session, .model = document.bytes}, clock);
   try {
     return view.run();
   } catch (const render::DeviceFailure& failure) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 
 #include "app/cluster/cluster_wall.h"
@@ -23,9 +24,11 @@ class ClusterViewTest : public ClusterWall {
   std::unique_ptr<support::LiveProgram> node(const std::string& name, const std::string& fault = {}) const {
     std::vector<std::string> program = node_command(name, "127.0.0.1");
     if (!fault.empty()) program = test::on_faulty_device(fault, program);
-    program.insert(program.begin(), {"/usr/bin/env", "TOUCHAFM_HD_LIBRARY=" AFM_MOCK_HD});
+    program.insert(program.begin(),
+                   {"/usr/bin/env", "TOUCHAFM_HD_LIBRARY=" AFM_MOCK_HD, "TMPDIR=" + temporary_.path()});
     return start(program);
   }
+  support::ScratchFolder temporary_;  // the nodes' own
 };
 
 // Programs that a process has started, and devices that it has opened.
@@ -84,6 +87,7 @@ TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
 
   left->signal(SIGKILL);
   EXPECT_EQ(left->ends(), 128 + SIGKILL);
+  EXPECT_TRUE(std::filesystem::is_empty(temporary_.path())) << "left by a node that was killed";
   ASSERT_TRUE(hand->says("node left is missing")) << hand->said();
   left = node("left");
   ASSERT_TRUE(hand->says("node left shows the wall")) << hand->said();
