@@ -91,6 +91,16 @@ class ViewInAHeadset : public ::testing::Test {
     const std::string lines = core::read_file(folder_.file("script.pulses")).value_or("");
     return std::count(lines.begin(), lines.end(), '\n');
   }
+  // One for each jump; where the machine stalls some are missed, since a ring of light that is over begins no more.
+  // Were one of the two kinds never felt, it would be half of them.
+  bool each_jump_is_felt(const support::LiveProgram& view) const {
+    const std::string said = view.said();
+    std::ptrdiff_t jumps = 0;
+    for (std::size_t at = said.find("touchafm: jump"); at != std::string::npos;
+         at = said.find("touchafm: jump", at + 1))
+      ++jumps;
+    return jumps >= 4 && 2 * pulses() > jumps + 1;
+  }
   static exhibit::Stage stage_of_the_assets() {
     exhibit::ExhibitFiles files;
     files.assets_dir = AFM_SOURCE_DIR "/assets";
@@ -153,7 +163,8 @@ TEST_F(ViewInAHeadset, FeelsASampleAndLetsTheHandGoInTimeWheneverTheHeadsetIsGon
   EXPECT_TRUE(view.says("chosen: Gold")) << view.said();
   EXPECT_TRUE(view.says("jump to contact at Z")) << view.said();
   EXPECT_TRUE(view.says("jump off contact")) << view.said();
-  EXPECT_TRUE(view.within(std::chrono::seconds(5), [&] { return pulses() >= 2; })) << "one for each jump: " << pulses();
+  EXPECT_TRUE(view.within(std::chrono::seconds(60), [&] { return each_jump_is_felt(view); })) << pulses() << " pulses\n"
+                                                                                              << view.said();
   ASSERT_TRUE(loses_the_picture(view, "state 4\nstate 3\nstate 6", "state 2")) << view.said();
   tell("state 2");
   ASSERT_TRUE(view.says("force on")) << view.said();
