@@ -26,10 +26,9 @@ void LiveView::follow_headset() {
   picture_.look_from(headset.head());
 
   // the hand that holds the controller feels each ring of light begin
-  const auto cue = servo_.cues().at(now_ns);
-  const double cue_age_s = cue ? cue->age_s : exhibit::kCueSeconds;
-  if (cue_age_s < cue_age_s_) headset.pulse();
-  cue_age_s_ = cue_age_s;
+  const auto ring_ns = servo_.cues().begun_ns(now_ns);
+  if (ring_ns && ring_ns != felt_ring_ns_) headset.pulse();
+  felt_ring_ns_ = ring_ns;
 }
 
 }  // namespace afm::app

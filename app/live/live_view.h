@@ -26,7 +26,6 @@
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/journey.h"
-#include "exhibit/jump_cue.h"
 #include "exhibit/procedure.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_hand.h"
@@ -202,9 +201,9 @@ class LiveView {
   InstructorWindow* instructor_;
   bool hand_off_ = false;  // the instructor keeps the force away
   std::optional<std::int64_t> stop_asked_ns_;
-  std::string lesson_said_, lesson_line_;    // spoken words of the newest prompt, and the guidance behind them
-  double cue_age_s_ = exhibit::kCueSeconds;  // of the ring of light in the last frame in a headset
-  bool blank_ = false;                       // for who goes by ear and hand
+  std::string lesson_said_, lesson_line_;     // spoken words of the newest prompt, and the guidance behind them
+  std::optional<std::int64_t> felt_ring_ns_;  // begin of the newest ring of light that a headset's controller has felt
+  bool blank_ = false;                        // for who goes by ear and hand
   bool leaving_ = false;
 };
 

@@ -24,9 +24,19 @@ void JumpCues::add(const scene::TipEvent& event) {
   }
 }
 
-std::optional<JumpCue> JumpCues::at(std::int64_t now_ns) const {
+std::optional<JumpCues::Shown> JumpCues::begun(std::int64_t now_ns) const {
   const std::optional<Shown>& shown = next_ && next_->since_ns <= now_ns ? next_ : shown_;
-  if (!shown || now_ns < shown->since_ns) return std::nullopt;
+  return shown && now_ns >= shown->since_ns ? shown : std::nullopt;
+}
+
+std::optional<std::int64_t> JumpCues::begun_ns(std::int64_t now_ns) const {
+  const std::optional<Shown> shown = begun(now_ns);
+  return shown ? std::optional(shown->since_ns) : std::nullopt;
+}
+
+std::optional<JumpCue> JumpCues::at(std::int64_t now_ns) const {
+  const std::optional<Shown> shown = begun(now_ns);
+  if (!shown) return std::nullopt;
   const double age_s = static_cast<double>(now_ns - shown->since_ns) * 1e-9;
   if (age_s > kCueSeconds) return std::nullopt;
   return JumpCue{shown->kind, age_s};

@@ -52,6 +52,20 @@ TEST(JumpCue, LastsHalfASecondFromTheNewestJump) {
   EXPECT_FALSE(jump_cue({}, 5));
 }
 
+// A frame that takes longer than the cue must not take the jump from the hand.
+TEST(JumpCue, HasBegunThoughNoFrameHasShownIt) {
+  using enum physics::EventKind;
+  JumpCues cues;
+  EXPECT_FALSE(cues.begun_ns(0));
+  cues.add(event(JumpToContact, 1'000'000'000));
+  EXPECT_FALSE(cues.begun_ns(999'999'999));
+  EXPECT_FALSE(cues.at(9'000'000'000));
+  EXPECT_EQ(cues.begun_ns(9'000'000'000), 1'000'000'000);
+  cues.add(event(JumpOffContact, 1'100'000'000));  // waits until the other has been shown
+  EXPECT_EQ(cues.begun_ns(1'399'999'999), 1'000'000'000);
+  EXPECT_EQ(cues.begun_ns(9'000'000'000), 1'400'000'000);
+}
+
 TEST(JumpCue, OfATipThatChattersChangesThreeTimesASecondAndEndsWithTheLastJump) {
   using enum physics::EventKind;
   std::vector<scene::TipEvent> events;

@@ -11,7 +11,7 @@ using Flag = vk::MemoryPropertyFlagBits;
 constexpr vk::MemoryPropertyFlags kHost = Flag::eHostVisible | Flag::eHostCoherent;
 constexpr std::uint32_t kAll = 0xffff'ffff;
 
-// As NVIDIA's driver lists its types for a GPU with memory of its own.
+// The types of a discrete GPU, in the order of NVIDIA's driver.
 vk::PhysicalDeviceMemoryProperties discrete_gpu() {
   vk::PhysicalDeviceMemoryProperties memory;
   for (const vk::MemoryPropertyFlags flags : {vk::MemoryPropertyFlags(), vk::MemoryPropertyFlags(Flag::eDeviceLocal),

@@ -30,11 +30,16 @@ class JumpCues {
 
   std::optional<JumpCue> at(std::int64_t now_ns) const;
 
+  // When the newest one began, though it may be over: a slow frame may show nothing of it.
+  std::optional<std::int64_t> begun_ns(std::int64_t now_ns) const;
+
  private:
   struct Shown {
     physics::EventKind kind = physics::EventKind::JumpToContact;
     std::int64_t since_ns = 0;
   };
+  std::optional<Shown> begun(std::int64_t now_ns) const;
+
   std::optional<Shown> shown_, next_;
 };
 
