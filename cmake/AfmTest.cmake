@@ -10,14 +10,8 @@ add_custom_target(threaded_tests)
 set(AFM_TEST_OPTIMISATION -O0)
 afm_precompiled(afm_test_headers OPTIONS ${AFM_TEST_OPTIMISATION} LIBRARIES GTest::gmock_main nlohmann_json::nlohmann_json
                 HEADERS <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
-
-# Where the sources and the build lie, for the tests that ask. In a header, not on every command line: a compiler's cache finds
-# the other tests in whatever folder they are compiled.
-set(AFM_TEST_PLACES ${CMAKE_BINARY_DIR}/tests/places)
-file(CONFIGURE OUTPUT ${AFM_TEST_PLACES}/places.h CONTENT [[#pragma once
-#define AFM_SOURCE_DIR "@CMAKE_SOURCE_DIR@"
-#define AFM_BINARY_DIR "@CMAKE_BINARY_DIR@"
-]] @ONLY)
+afm_precompiled(afm_optimised_test_headers OPTIONS -O1 LIBRARIES GTest::gmock_main nlohmann_json::nlohmann_json
+                HEADERS <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
 
 # The programs that show pretended HID devices to a test and to what it starts.
 find_package(PkgConfig REQUIRED)
@@ -25,55 +19,84 @@ find_program(AFM_UMOCKDEV_WRAPPER umockdev-wrapper REQUIRED)
 pkg_check_modules(UMOCKDEV REQUIRED IMPORTED_TARGET umockdev-1.0)
 set(AFM_WITH_PRETENDED_DEVICES ${CMAKE_SOURCE_DIR}/tests/input/with_pseudo_terminals.sh ${AFM_UMOCKDEV_WRAPPER})
 
-# afm_test(NAME folder.unit SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT seconds] [OPTIMISED] [WHOLE] [PRETENDED_DEVICES])
-# One executable test_folder_unit; every TEST in it becomes a CTest case named folder.Suite.Case. With WHOLE the executable is
-# one case, for suites whose set-up is dear. Nothing runs beside it, nor beside a test of real time. PRETENDED_DEVICES is
-# WHOLE and runs under umockdev. Under a sanitizer, where a program takes 0.15 s to start, the unit tests of one are one case.
+# afm_test(NAME folder.subject SOURCES ... LIBRARIES ... LABELS ... [NEEDS target ...] [TIMEOUT seconds] [OPTIMISED] [SERIAL]
+#          [CASES | SUITES] [DEEP filter] [PRETENDED_DEVICES])
+# One program, test_folder_subject, of sources that are compiled together: the names in them must differ. It is one case of CTest,
+# folder.subject. With CASES every TEST in it is one, folder.Suite.Case, and with SUITES every suite, folder.Suite. Two cases run side by
+# side; nothing runs beside one that is SERIAL, as everything of labels realtime and hand is. The tests that `filter` names draw more in a
+# second case, NAME.deep of label deep (tests/support/deep.h). NEEDS names the programs that the test starts. PRETENDED_DEVICES runs it
+# under umockdev.
 function(afm_test)
-  cmake_parse_arguments(T "OPTIMISED;WHOLE;PRETENDED_DEVICES" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(T "OPTIMISED;SERIAL;CASES;SUITES;PRETENDED_DEVICES" "NAME;TIMEOUT;DEEP" "SOURCES;LIBRARIES;LABELS;NEEDS" ${ARGN})
+  if(T_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "afm_test(${T_NAME}): unknown: ${T_UNPARSED_ARGUMENTS}")
+  endif()
   string(REPLACE "." "_" target "test_${T_NAME}")
   string(REGEX REPLACE "\\..*" "" folder "${T_NAME}")
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 120)
   endif()
-  if(T_LABELS STREQUAL "realtime")
+  set(serial ${T_SERIAL})  # by option or label
+  if(T_LABELS MATCHES "^(realtime|hand)$")
     list(APPEND T_LIBRARIES afm_awake_processors)
+    set(serial TRUE)
   endif()
+  list(TRANSFORM T_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   add_executable(${target} ${T_SOURCES})
-  target_link_libraries(${target} PRIVATE ${T_LIBRARIES} GTest::gmock_main afm_build_flags)
+  target_link_libraries(${target} PRIVATE ${T_LIBRARIES} afm_test_places GTest::gmock_main afm_build_flags)
   if(T_OPTIMISED)
     target_compile_options(${target} PRIVATE -O1)
+    target_precompile_headers(${target} REUSE_FROM afm_optimised_test_headers)
   else()
     target_compile_options(${target} PRIVATE ${AFM_TEST_OPTIMISATION})
     target_precompile_headers(${target} REUSE_FROM afm_test_headers)
   endif()
-  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/tests ${AFM_TEST_PLACES})
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  if(T_LABELS MATCHES "^(threads|realtime)$")
+  if(T_LABELS MATCHES "^(threads|realtime|hand)$")
     add_dependencies(threaded_tests ${target})
+  endif()
+  if(T_NEEDS)
+    add_dependencies(${target} ${T_NEEDS})
   endif()
   set(wrapper "")
   if(T_PRETENDED_DEVICES)
     target_link_libraries(${target} PRIVATE PkgConfig::UMOCKDEV)
     # Debian 13's asks for -pthread, with which nothing was precompiled
     set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
-    set(T_WHOLE TRUE)
     set(wrapper ${AFM_WITH_PRETENDED_DEVICES})
   endif()
-  if(T_WHOLE)
+  afm_compile_together(${target})
+
+  if(T_DEEP)
+    add_test(NAME ${T_NAME}.deep COMMAND ${wrapper} $<TARGET_FILE:${target}> --gtest_filter=${T_DEEP})
+    set_tests_properties(${T_NAME}.deep PROPERTIES LABELS deep TIMEOUT 900 RUN_SERIAL ${serial} ENVIRONMENT AFM_DEEP=1)
+  endif()
+  set(properties LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${serial})
+  if(T_CASES)
+    gtest_discover_tests(${target} NO_PRETTY_VALUES TEST_PREFIX "${folder}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+                         PROPERTIES ${properties})
+  elseif(T_SUITES)
+    afm_suites_of(suites ${T_SOURCES})
+    foreach(suite ${suites})
+      add_test(NAME ${folder}.${suite} COMMAND ${wrapper} $<TARGET_FILE:${target}> --gtest_filter=${suite}.*)
+      set_tests_properties(${folder}.${suite} PROPERTIES ${properties})
+    endforeach()
+  else()
     add_test(NAME ${T_NAME} COMMAND ${wrapper} $<TARGET_FILE:${target}>)
-    set_tests_properties(${T_NAME} PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL TRUE)
-    return()
+    set_tests_properties(${T_NAME} PROPERTIES ${properties})
   endif()
-  if(AFM_SANITIZE AND T_LABELS STREQUAL "unit")
-    add_test(NAME ${T_NAME} COMMAND ${target})
-    set_tests_properties(${T_NAME} PROPERTIES LABELS unit TIMEOUT 600)
-    return()
-  endif()
-  set(alone FALSE)
-  if(T_LABELS STREQUAL "realtime")
-    set(alone TRUE)
-  endif()
-  gtest_discover_tests(${target} NO_PRETTY_VALUES TEST_PREFIX "${folder}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${alone})
+endfunction()
+
+# Sets `result` to the suites of TEST and TEST_F in the sources.
+function(afm_suites_of result)
+  set(suites "")
+  foreach(source ${ARGN})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
+    file(STRINGS ${source} lines REGEX "^TEST(_F)?\\(")
+    list(TRANSFORM lines REPLACE "^TEST(_F)?\\(([A-Za-z0-9]+).*" "\\2")
+    list(APPEND suites ${lines})
+  endforeach()
+  list(REMOVE_DUPLICATES suites)
+  set(${result} ${suites} PARENT_SCOPE)
 endfunction()

@@ -6,15 +6,15 @@
 #include <limits>
 #include <string>
 
-#include "places.h"
 #include "servo/session_file.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
 // Session files that are well formed, with right checksums, and hold what no session can: every command that reads one
 // does its work or says one line that names the file, and ends.
 namespace afm::app {
-namespace {
+namespace absurd_sessions_test {
 
 using servo::RecordedSession;
 using testing::HasSubstr;
@@ -76,7 +76,7 @@ class AbsurdSession : public testing::TestWithParam<Absurdity> {
  protected:
   // Ends within the time, by itself, and names the file in one line where it fails.
   void expect_borne(const std::string& command) {
-    const auto done = support::run_program("timeout 60 " AFM_PROGRAM " " + command);
+    const auto done = support::run_program("timeout 60 " + support::touchafm() + " " + command);
     EXPECT_TRUE(done.exit_code == 0 || done.exit_code == 1 || done.exit_code == 3) << done.exit_code << done.err;
     EXPECT_EQ((done.out + done.err).find('\x1b'), std::string::npos) << done.out << done.err;
     if (done.exit_code == 0) return;
@@ -91,7 +91,7 @@ class AbsurdSession : public testing::TestWithParam<Absurdity> {
 };
 
 TEST_P(AbsurdSession, IsPlayedOrNamed) {
-  auto session = servo::load_session(AFM_SOURCE_DIR "/tests/formats/0.1.0/session-gold.afms");
+  auto session = servo::load_session(support::source("tests/formats/0.1.0/session-gold.afms"));
   ASSERT_TRUE(session) << session.error().message;
   GetParam().make(*session);
   ASSERT_TRUE(servo::save_session(*session, path_));
@@ -103,5 +103,5 @@ TEST_P(AbsurdSession, IsPlayedOrNamed) {
 INSTANTIATE_TEST_SUITE_P(Of, AbsurdSession, testing::ValuesIn(kAbsurdities),
                          [](const auto& test) { return std::string(test.param.name); });
 
-}  // namespace
+}  // namespace absurd_sessions_test
 }  // namespace afm::app

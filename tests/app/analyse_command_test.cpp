@@ -15,7 +15,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::app {
-namespace {
+namespace analyse_command_test {
 
 using testing::HasSubstr;
 
@@ -143,5 +143,5 @@ TEST(AnalyseCommand, ReadsASensitivityThatIsADeflectionPerVolt) {
   }
 }
 
-}  // namespace
+}  // namespace analyse_command_test
 }  // namespace afm::app

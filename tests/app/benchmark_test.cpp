@@ -10,7 +10,7 @@
 #include "app/micro/physics_benchmarks.h"
 
 namespace afm::app {
-namespace {
+namespace benchmark_test {
 
 using testing::HasSubstr;
 
@@ -72,5 +72,5 @@ TEST(PhysicsBenchmarks, HaveNamesOfTheirOwnAndBars) {
   EXPECT_EQ(names.size(), 16U);
 }
 
-}  // namespace
+}  // namespace benchmark_test
 }  // namespace afm::app

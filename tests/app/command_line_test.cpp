@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <initializer_list>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -15,19 +16,21 @@
 #include "app/command.h"
 #include "core/whole_file.h"
 #include "haptics/device_registry.h"
-#include "places.h"
 #include "scene/shared/scale_modes.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
-namespace {
+namespace command_line_test {
 
 using support::ProgramResult;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-ProgramResult touchafm(const std::string& arguments) { return support::run_program(AFM_PROGRAM " " + arguments); }
+ProgramResult touchafm(const std::string& arguments) {
+  return support::run_program(support::touchafm() + " " + arguments);
+}
 
 // Everything that is refused says so in one line.
 void expect_refusal(const ProgramResult& result, int exit_code, const std::string& part) {
@@ -79,7 +82,7 @@ TEST(CommandLine, RefusesOptionsOfAnalyseThatAreForAnotherKindOfFile) {
     const std::string name = std::string(option).substr(0, std::string(option).find(' '));
     expect_refusal(touchafm("analyse " + image + " " + option), 2, name + " is for curves, and " + image);
   }
-  const std::string curve = AFM_SOURCE_DIR "/tests/formats/0.1.0/curve.csv", session = folder.write("x", "AFMS");
+  const std::string curve = support::source("tests/formats/0.1.0/curve.csv"), session = folder.write("x", "AFMS");
   expect_refusal(touchafm("analyse " + curve + " --channel Height"), 2,
                  "--channel is for images, and " + curve + " is a curve");
   expect_refusal(touchafm("analyse " + curve + " --level none"), 2, "--level is for images");
@@ -111,16 +114,19 @@ TEST(CommandLine, RefusesAWallWithCollinearCorners) {
 }
 
 TEST(CommandLine, RefusesAnEyeBehindTheWall) {
-  expect_refusal(touchafm("wall " AFM_SOURCE_DIR "/assets/walls/powerwall.toml --json --head 0,1.65,-2"), 3, "behind");
+  expect_refusal(touchafm("wall " + support::source("assets/walls/powerwall.toml --json --head 0,1.65,-2")), 3,
+                 "behind");
 }
 
 TEST(CommandLine, RefusesAHeadThatIsNotAPose) {
-  expect_refusal(touchafm("wall " AFM_SOURCE_DIR "/assets/walls/powerwall.toml --head 0,1.65"), 2, "x,y,z");
-  expect_refusal(touchafm("wall " AFM_SOURCE_DIR "/assets/walls/powerwall.toml --head 0,1,2,3,4,5,6"), 2, "quaternion");
+  expect_refusal(touchafm("wall " + support::source("assets/walls/powerwall.toml --head 0,1.65")), 2, "x,y,z");
+  expect_refusal(touchafm("wall " + support::source("assets/walls/powerwall.toml --head 0,1,2,3,4,5,6")), 2,
+                 "quaternion");
 }
 
 TEST(CommandLine, PrintsBothEyesOfAWallAsJson) {
-  const ProgramResult result = touchafm("wall " AFM_SOURCE_DIR "/assets/walls/powerwall.toml --json --head 0,1.65,2.5");
+  const ProgramResult result =
+      touchafm("wall " + support::source("assets/walls/powerwall.toml --json --head 0,1.65,2.5"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto frusta = nlohmann::json::parse(result.out);
   ASSERT_EQ(frusta.size(), 2U);
@@ -134,7 +140,7 @@ TEST(CommandLine, PrintsBothEyesOfAWallAsJson) {
 
 TEST(CommandLine, StartsAWallOfSeveralMachinesOrSaysWhatItLacks) {
   const support::ScratchFolder folder;
-  std::string text = core::read_file(AFM_SOURCE_DIR "/assets/walls/powerwall.toml").value();
+  std::string text = core::read_file(support::source("assets/walls/powerwall.toml")).value();
   const std::string alone = folder.write("alone.toml", text);
   text +=
       "\n[[node]]\nname = \"left\"\nhost = \"127.0.0.1\"\n[[output]]\nname = \"far\"\nnode = \"left\"\nscreen = "
@@ -179,7 +185,7 @@ TEST(CommandLine, ExplainsEveryScaleMode) {
   expect_refusal(touchafm("demo --out x --scale logarithmic"), 2, "compressed");
 }
 
-const std::string kWalls = AFM_SOURCE_DIR "/assets/walls/";
+const std::string kWalls = support::source("assets/walls/");
 
 // Width and height as a PNG's header has them.
 std::array<unsigned, 2> png_size(const std::string& path) {
@@ -237,7 +243,7 @@ TEST(CommandLine, ChecksEveryPresetAndAParaViewConfiguration) {
     EXPECT_THAT(result.out, HasSubstr("the wall file is valid"));
     EXPECT_THAT(result.out, ::testing::Not(HasSubstr("note:"))) << name;
   }
-  const ProgramResult pvx = touchafm("wall " AFM_SOURCE_DIR "/tests/fuzz/corpus/wall/good.pvx --json");
+  const ProgramResult pvx = touchafm("wall " + support::source("tests/fuzz/corpus/wall/good.pvx --json"));
   ASSERT_EQ(pvx.exit_code, 0) << pvx.err;
   EXPECT_EQ(nlohmann::json::parse(pvx.out).at(0).at("screen"), "w");
 }
@@ -275,7 +281,7 @@ TEST(CommandLine, DrawsTheTestPatternOfBlendedAndCurvedScreens) {
 
 TEST(CommandLine, RefusesMissingAndBrokenModels) {
   const support::ScratchFolder folder;
-  std::filesystem::copy(AFM_SOURCE_DIR "/assets", folder.file("assets"), std::filesystem::copy_options::recursive);
+  std::filesystem::copy(support::source("assets"), folder.file("assets"), std::filesystem::copy_options::recursive);
   const std::string demo = "demo --out " + folder.file("out") + " --assets " + folder.file("assets");
   std::filesystem::resize_file(folder.file("assets/models/probe.glb"), 1000);
   expect_refusal(touchafm(demo), 3, "probe.glb");
@@ -293,12 +299,12 @@ TEST(CommandLine, RefusesAnOutputFolderThatCannotBeWritten) {
 
 // doctor, wall and devices printed into a full disk and ended with 0.
 TEST(CommandLine, FailsWhenWhatItPrintsCannotBeWritten) {
-  for (const std::string arguments :
-       {"--help", "--version", "curve --help", "curve --material gold", "material", "material mica",
-        "wall " AFM_SOURCE_DIR "/assets/walls/cave.toml", "devices --json", "doctor --seconds 0.1",
-        "render --describe --gltf " AFM_SOURCE_DIR "/assets/models/probe.glb"}) {
+  for (const std::string& arguments : std::initializer_list<std::string>{
+           "--help", "--version", "curve --help", "curve --material gold", "material", "material mica",
+           "wall " + support::source("assets/walls/cave.toml"), "devices --json", "doctor --seconds 0.1",
+           "render --describe --gltf " + support::source("assets/models/probe.glb")}) {
     SCOPED_TRACE(arguments);
-    const ProgramResult result = support::run_program("(" AFM_PROGRAM " " + arguments + " >/dev/full)");
+    const ProgramResult result = support::run_program("(" + support::touchafm() + " " + arguments + " >/dev/full)");
     expect_refusal(result, 1, "cannot write to stdout: No space left on device");
   }
 }
@@ -329,8 +335,8 @@ TEST(CommandLine, WritesTheReportOfAStudyOrNothing) {
 
 TEST(CommandLine, SaysWhatToInstallWhenThereIsNoVulkanDriver) {
   const support::ScratchFolder folder;
-  const ProgramResult result = support::run_program(
-      "VK_ICD_FILENAMES=/nowhere.json VK_DRIVER_FILES=/nowhere.json " AFM_PROGRAM " demo --out " + folder.file("out"));
+  const ProgramResult result = support::run_program("VK_ICD_FILENAMES=/nowhere.json VK_DRIVER_FILES=/nowhere.json " +
+                                                    support::touchafm() + " demo --out " + folder.file("out"));
   expect_refusal(result, 4, "mesa-vulkan-drivers");
   EXPECT_FALSE(std::filesystem::exists(folder.file("out/report.html")));
 }
@@ -359,9 +365,9 @@ TEST(CommandLine, RefusesASessionThatIsNone) {
 }
 
 TEST(CommandLine, TheServoAloneSaysWhoStartsIt) {
-  const std::string servo = std::filesystem::path(AFM_PROGRAM).replace_filename("touchafm-servo").string();
+  const std::string servo = std::filesystem::path(support::touchafm()).replace_filename("touchafm-servo").string();
   expect_refusal(support::run_program(servo), 2, "touchafm starts this program");
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace afm::app

@@ -14,17 +14,17 @@
 
 #include "curves/curve_output.h"
 #include "physics/law.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::app {
-namespace {
+namespace curve_command_test {
 
 using testing::HasSubstr;
 using testing::Not;
 
 ContactOptions contact_of(const char* material, const char* model) {
   ContactOptions options;
-  options.assets_dir = AFM_SOURCE_DIR "/assets";
+  options.assets_dir = support::source("assets");
   options.material = material;
   options.model = model;
   return options;
@@ -291,5 +291,5 @@ TEST(CurvePlot, MarksBothJumps) {
   EXPECT_EQ(plot.lines[0].points.back().x, plot.lines[1].points.front().x);
 }
 
-}  // namespace
+}  // namespace curve_command_test
 }  // namespace afm::app

@@ -9,19 +9,22 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
 // `touchafm curve` and `touchafm material` as people run them: exit codes, one line for what is refused, and nothing
 // written then.
 namespace afm::app {
-namespace {
+namespace curve_program_test {
 
 using support::ProgramResult;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-ProgramResult touchafm(const std::string& arguments) { return support::run_program(AFM_PROGRAM " " + arguments); }
+ProgramResult touchafm(const std::string& arguments) {
+  return support::run_program(support::touchafm() + " " + arguments);
+}
 
 std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -162,5 +165,5 @@ TEST(MaterialProgram, TellsEveryNumberWithItsSourceAndTheLawWithItsReason) {
   EXPECT_FALSE(fs::exists(folder.file("x.svg")));
 }
 
-}  // namespace
+}  // namespace curve_program_test
 }  // namespace afm::app

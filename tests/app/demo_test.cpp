@@ -9,16 +9,16 @@
 
 #include "core/whole_file.h"
 #include "physics/contact.h"
-#include "places.h"
 #include "scene/samples/material_library.h"
 #include "servo/session_file.h"
+#include "support/places.h"
 #include "support/read_png.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
 // The main job from the command line to its last file, once, at a fast hand and a small picture.
 namespace afm::app {
-namespace {
+namespace demo_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -27,8 +27,8 @@ class Demo : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new support::ScratchFolder;
-    const std::string command = AFM_PROGRAM " demo --out " + folder_->path() +
-                                " --language en --hand-speed 120mm/s --eye-width 320 --servo " AFM_SERVO_MODE;
+    const std::string command = support::touchafm() + " demo --out " + folder_->path() +
+                                " --language en --hand-speed 120mm/s --eye-width 320 --servo " + support::servo_mode();
     result_ = new support::ProgramResult(support::run_program(command));
     // a virtual machine that stands still releases the hand again and again: then as a person would
     for (int more = 0; more < 2 && gave_up_for_load(*result_); ++more) *result_ = support::run_program(command);
@@ -57,7 +57,7 @@ TEST_F(Demo, EndsWellAndSaysWhatToOpen) {
 
 TEST_F(Demo, MeetsTheEquationsWithinATenthOfAPercent) {
   const auto materials =
-      scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value().only(scene::kPaperMaterials).value();
+      scene::load_materials(support::source("assets/materials.toml")).value().only(scene::kPaperMaterials).value();
   const nlohmann::json all = summary();
   for (const scene::MaterialEntry& material : materials.materials) {
     const auto events = physics::approach_retract_events(material.contact);
@@ -153,8 +153,9 @@ TEST_F(Demo, LeavesNothingElse) {
 
 TEST_F(Demo, ASessionIsDrawnAgain) {
   const std::string picture = folder_->file("again.png");
-  const auto again = support::run_program(AFM_PROGRAM " render --session " + folder_->file("session-gold.afms") +
-                                          " --at 1.5 --stereo left --eye-width 200 --out " + picture);
+  const auto again =
+      support::run_program(support::touchafm() + " render --session " + folder_->file("session-gold.afms") +
+                           " --at 1.5 --stereo left --eye-width 200 --out " + picture);
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(support::read_png(picture)->width, 200U);
   fs::remove(picture);
@@ -163,9 +164,11 @@ TEST_F(Demo, ASessionIsDrawnAgain) {
 // Another law, and its parameters changed while the servo runs; a locale chooses the report's language.
 TEST(DemoOfAnotherLaw, FeelsTheSameSampleWithOtherNumbers) {
   const support::ScratchFolder folder;
-  const auto result = support::run_program("LC_ALL=de_DE.UTF-8 " AFM_PROGRAM " demo --out " + folder.path() +
-                                           " --material mica --model dmt --vary spring-constant=0.2N/m:0.4N/m:2"
-                                           " --hand-speed 150mm/s --eye-width 160 --servo " AFM_SERVO_MODE);
+  const auto result =
+      support::run_program("LC_ALL=de_DE.UTF-8 " + support::touchafm() + " demo --out " + folder.path() +
+                           " --material mica --model dmt --vary spring-constant=0.2N/m:0.4N/m:2"
+                           " --hand-speed 150mm/s --eye-width 160 --servo " +
+                           support::servo_mode());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const nlohmann::json all = nlohmann::json::parse(core::read_file(folder.file("summary.json")).value());
   ASSERT_EQ(all["materials"].size(), 1U);
@@ -187,7 +190,7 @@ TEST(DemoOfAnotherLaw, FeelsTheSameSampleWithOtherNumbers) {
 TEST(DemoOfAnotherLaw, RefusesWhatCannotBeFeltBeforeAnythingMoves) {
   const support::ScratchFolder folder;
   const auto refused = [&](const std::string& options) {
-    return support::run_program(AFM_PROGRAM " demo --out " + folder.file("none") + " " + options);
+    return support::run_program(support::touchafm() + " demo --out " + folder.file("none") + " " + options);
   };
   EXPECT_EQ(refused("--model paper-rule").exit_code, 2);
   EXPECT_EQ(refused("--model dynamic-paper").exit_code, 2);
@@ -201,5 +204,5 @@ TEST(DemoOfAnotherLaw, RefusesWhatCannotBeFeltBeforeAnythingMoves) {
   EXPECT_FALSE(fs::exists(folder.file("none")));
 }
 
-}  // namespace
+}  // namespace demo_test
 }  // namespace afm::app

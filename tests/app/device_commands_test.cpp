@@ -12,20 +12,21 @@
 
 #include "haptics/device_registry.h"
 #include "support/loopback_sender.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
-namespace {
+namespace device_commands_test {
 
 using support::ProgramResult;
 using ::testing::HasSubstr;
 
 ProgramResult touchafm(const std::string& arguments, const std::string& environment = "") {
-  return support::run_program(environment + " " AFM_PROGRAM " " + arguments);
+  return support::run_program(environment + " " + support::touchafm() + " " + arguments);
 }
 
-const std::string kMock = "TOUCHAFM_HD_LIBRARY=" AFM_MOCK_HD;
+const std::string kMock = "TOUCHAFM_HD_LIBRARY=" + support::mock_hd();
 
 TEST(DevicesCommand, SaysWhatWasTriedAndWhyNot) {
   const ProgramResult result = touchafm("devices");
@@ -166,5 +167,5 @@ TEST(DoctorCommand, RefusesATimeThatCannotBe) {
   }
 }
 
-}  // namespace
+}  // namespace device_commands_test
 }  // namespace afm::app

@@ -9,20 +9,21 @@
 #include "servo/session_file.h"
 #include "support/faulty_device.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
 // The program on a graphics device that fails: a Vulkan layer of our own stands before the driver.
 namespace afm::app {
-namespace {
+namespace device_failure_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::vector<std::string> failing(const std::string& fault, std::vector<std::string> command) {
-  command.insert(command.begin(), AFM_PROGRAM);
+  command.insert(command.begin(), support::touchafm());
   return test::on_faulty_device(fault, command);
 }
 
@@ -39,9 +40,19 @@ std::string last_line(std::string text) {
 class DeviceFailureTest : public ::testing::Test {
  protected:
   std::vector<std::string> view(const std::string& fault, std::vector<std::string> more = {}) const {
-    std::vector<std::string> all{"view",         "--size",   "320x240",   "--frame-rate", "20",
-                                 "--eye-width",  "160",      "--haptics", "sim",          "--servo",
-                                 AFM_SERVO_MODE, "--linger", "0"};
+    std::vector<std::string> all{"view",
+                                 "--size",
+                                 "320x240",
+                                 "--frame-rate",
+                                 "20",
+                                 "--eye-width",
+                                 "160",
+                                 "--haptics",
+                                 "sim",
+                                 "--servo",
+                                 support::servo_mode(),
+                                 "--linger",
+                                 "0"};
     all.insert(all.end(), more.begin(), more.end());
     return failing(fault, all);
   }
@@ -111,11 +122,12 @@ TEST_F(DeviceFailureTest, NoMemoryIsSaidInOneLine) {
 TEST_F(DeviceFailureTest, ADemonstrationLeavesNothingHalfDone) {
   const std::string out = folder_.file("out");
   support::LiveProgram program(
-      failing("lost:40", {"demo", "--out", out, "--eye-width", "160", "--servo", AFM_SERVO_MODE}), display_.name());
+      failing("lost:40", {"demo", "--out", out, "--eye-width", "160", "--servo", support::servo_mode()}),
+      display_.name());
   ASSERT_EQ(program.ends(), 1) << program.said();
   EXPECT_THAT(last_line(program.said()), HasSubstr("was lost while drawing a frame"));
   EXPECT_TRUE(std::filesystem::is_empty(out));
 }
 
-}  // namespace
+}  // namespace device_failure_test
 }  // namespace afm::app

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 namespace afm::app {
-namespace {
+namespace diagnosis_test {
 
 using ::testing::HasSubstr;
 
@@ -117,5 +117,5 @@ TEST(Diagnosis, IsContentWithAnyDeviceThatRendersForce) {
   }
 }
 
-}  // namespace
+}  // namespace diagnosis_test
 }  // namespace afm::app

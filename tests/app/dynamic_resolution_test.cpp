@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace afm::app {
-namespace {
+namespace dynamic_resolution_test {
 
 constexpr double kBudget_ms = 40.0;
 
@@ -101,5 +101,5 @@ TEST(FrameBudgetTest, SaysWhatItChose) {
   EXPECT_THAT(budget.text(), testing::StartsWith("50 % of the pixels each way, 1 sample,"));
 }
 
-}  // namespace
+}  // namespace dynamic_resolution_test
 }  // namespace afm::app

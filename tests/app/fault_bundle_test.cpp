@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace afm::app {
-namespace {
+namespace fault_bundle_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -41,5 +41,5 @@ TEST(FaultBundle, HasWhatAReportNeeds) {
   }
 }
 
-}  // namespace
+}  // namespace fault_bundle_test
 }  // namespace afm::app

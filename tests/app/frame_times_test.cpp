@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace afm::app {
-namespace {
+namespace frame_times_test {
 
 constexpr std::int64_t kMs = 1'000'000;
 
@@ -43,5 +43,5 @@ TEST(FrameTimes, KnowsTheLongestHoweverLong) {
             "picture: 2 frames, 0.2 per second; interval p50 5000.0, p99 5000.0, p99.9 5000.0, max 5000.0 ms");
 }
 
-}  // namespace
+}  // namespace frame_times_test
 }  // namespace afm::app

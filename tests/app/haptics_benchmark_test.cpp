@@ -7,13 +7,14 @@
 
 #include "app/bench/servo_reaction.h"
 #include "physics/law.h"
+#include "support/places.h"
 #include "support/run_program.h"
 
 namespace afm::app {
-namespace {
+namespace haptics_benchmark_test {
 
 support::ProgramResult bench(const std::string& options) {
-  return support::run_program(std::string(AFM_PROGRAM) + " bench haptics " + options);
+  return support::run_program(support::touchafm() + " bench haptics " + options);
 }
 
 TEST(HapticsBenchmark, PrintsEveryFigureAsJson) {
@@ -35,5 +36,5 @@ TEST(HapticsBenchmark, NamesASurfaceThatItCannotRead) {
   EXPECT_THAT(result.err, testing::HasSubstr("/nowhere.gsf"));
 }
 
-}  // namespace
+}  // namespace haptics_benchmark_test
 }  // namespace afm::app

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/whole_file.h"
-#include "places.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
@@ -19,7 +19,7 @@
 // The demonstration and the live window while one call or one allocation of the program fails, drawn by a fixed seed:
 // half an hour, on demand (label long).
 namespace afm::app {
-namespace {
+namespace injected_failures_live_test {
 
 constexpr int kFailures = 100;
 
@@ -36,9 +36,9 @@ class LiveFailures : public ::testing::TestWithParam<const char*> {
   support::ProgramResult run(const std::string& environment, int seconds, long number, const std::string& command) {
     report_ = reports_.file(std::to_string(number));
     return support::run_program(environment + "timeout --preserve-status -s INT -k 30 " + std::to_string(seconds) +
-                                " env LD_PRELOAD=" AFM_FAILING_CALLS " AFM_FAIL_PROGRAM=1 AFM_FAIL=" + GetParam() +
-                                ":" + std::to_string(number) + " AFM_FAIL_REPORT=" + report_ + " " AFM_PROGRAM " " +
-                                command);
+                                " env LD_PRELOAD=" + support::failing_calls() +
+                                " AFM_FAIL_PROGRAM=1 AFM_FAIL=" + GetParam() + ":" + std::to_string(number) +
+                                " AFM_FAIL_REPORT=" + report_ + " " + support::touchafm() + " " + command);
   }
 
   long draw(int index, long count) {
@@ -112,7 +112,7 @@ TEST_P(LiveFailures, OfALiveWindowAreBorne) {
     expect_a_code_and_one_error(done, number);
     failed += done.exit_code == 0 ? 0 : 1;
     for (const auto& file : std::filesystem::directory_iterator(sessions.path())) {
-      const auto replayed = support::run_program(AFM_PROGRAM " replay " + file.path().string());
+      const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
       EXPECT_EQ(replayed.exit_code, 0) << number << replayed.err;
     }
   }
@@ -123,5 +123,5 @@ TEST_P(LiveFailures, OfALiveWindowAreBorne) {
 INSTANTIATE_TEST_SUITE_P(Of, LiveFailures, testing::Values("calls", "memory"),
                          [](const auto& test) { return std::string(test.param); });
 
-}  // namespace
+}  // namespace injected_failures_live_test
 }  // namespace afm::app

@@ -13,30 +13,30 @@
 #include <string>
 
 #include "core/whole_file.h"
-#include "places.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
 // The program while one allocation or one system call fails: it does its work all the same, or says one line and ends
 // with a code of the table, and leaves nothing partial.
 namespace afm::app {
-namespace {
+namespace injected_failures_test {
 
 struct Command {
   const char* name;
-  const char* line;
+  std::string line;
 };
 // Quick ones, which need neither a device nor a picture.
-constexpr Command kCommands[]{
+const Command kCommands[]{
     {"curve", "curve --material mica --step 1nm"},
     {"material", "material gold"},
-    {"wall", "wall " AFM_SOURCE_DIR "/assets/walls/3d-tv.toml"},
-    {"analyse", "analyse " AFM_SOURCE_DIR "/tests/formats/0.1.0/curve.csv"},
+    {"wall", "wall " + support::source("assets/walls/3d-tv.toml")},
+    {"analyse", "analyse " + support::source("tests/formats/0.1.0/curve.csv")},
 };
 
 support::ProgramResult with_failure(const std::string& wish, const std::string& report, const std::string& line) {
-  return support::run_program("env LD_PRELOAD=" AFM_FAILING_CALLS " AFM_FAIL=" + wish + " AFM_FAIL_REPORT=" + report +
-                              " " AFM_PROGRAM " " + line);
+  return support::run_program("env LD_PRELOAD=" + support::failing_calls() + " AFM_FAIL=" + wish +
+                              " AFM_FAIL_REPORT=" + report + " " + support::touchafm() + " " + line);
 }
 
 class InjectedFailures : public ::testing::TestWithParam<Command> {
@@ -153,5 +153,5 @@ TEST(InjectedFailure, OfAPictureIsBorne) {
   }
 }
 
-}  // namespace
+}  // namespace injected_failures_test
 }  // namespace afm::app

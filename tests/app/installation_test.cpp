@@ -12,12 +12,12 @@
 
 #include "app/command.h"
 #include "core/whole_file.h"
-#include "places.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
-namespace {
+namespace installation_test {
 
 namespace fs = std::filesystem;
 using support::ProgramResult;
@@ -34,7 +34,7 @@ class InstalledProgram : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = new support::ScratchFolder;
     const std::string first = folder_->file("first");
-    installation_ = run_program(AFM_CMAKE " --install " AFM_BINARY_DIR " --prefix " + first);
+    installation_ = run_program(support::cmake() + " --install " + support::built() + " --prefix " + first);
     ASSERT_EQ(installation_.exit_code, 0) << installation_.err;
     fs::rename(first, folder_->file("moved"));
     fs::create_directory(folder_->file("elsewhere"));
@@ -102,7 +102,7 @@ TEST_F(InstalledProgram, HoldsNoPathOfTheMachineThatBuiltIt) {
   for (const fs::directory_entry& file : fs::directory_iterator(prefix() + "/libexec/touchafm")) {
     programs.push_back(file.path().filename());
     const std::string bytes = read(file.path());
-    EXPECT_EQ(bytes.find(AFM_SOURCE_DIR "/"), std::string::npos) << file.path();
+    EXPECT_EQ(bytes.find(support::source() + "/"), std::string::npos) << file.path();
   }
   std::sort(programs.begin(), programs.end());
   EXPECT_THAT(programs, ElementsAre("touchafm", "touchafm-bench", "touchafm-hdf5", "touchafm-servo"));
@@ -123,8 +123,8 @@ TEST_F(InstalledProgram, ClaimsNoCommitOfSourcesWithoutGit) {
   fs::create_directory(tarball.file("sources"));
   ASSERT_EQ(run_program("git init -q " + tarball.path()).exit_code, 0);
   const ProgramResult result =
-      run_program(AFM_CMAKE " -DSOURCE=" + tarball.file("sources") + " -DFILE=" + tarball.file("commit.cpp") +
-                  " -P " AFM_SOURCE_DIR "/cmake/WriteCommit.cmake");
+      run_program(support::cmake() + " -DSOURCE=" + tarball.file("sources") + " -DFILE=" + tarball.file("commit.cpp") +
+                  " -P " + support::source("cmake/WriteCommit.cmake"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(read(tarball.file("commit.cpp")), HasSubstr("built without git"));
 }
@@ -158,7 +158,7 @@ TEST_F(InstalledProgram, HasAManPageOfEveryCommandAndOption) {
   ASSERT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("touchafm - feel and see"));
   EXPECT_THAT(text.out, HasSubstr("2 wrong usage"));
-  EXPECT_THAT(text.out, Not(HasSubstr(AFM_SOURCE_DIR)));
+  EXPECT_THAT(text.out, Not(HasSubstr(support::source())));
   for (const Command& command : kCommands) {
     const std::string name = "touchafm " + std::string(command.name);
     const std::size_t begin = text.out.find("\n   " + name + "\n");
@@ -217,5 +217,5 @@ TEST_F(Completion, OffersTheValuesOfAnOption) {
   EXPECT_THAT(offered({"touchafm", "demo", "--out", "sh"}), ElementsAre("share"));
 }
 
-}  // namespace
+}  // namespace installation_test
 }  // namespace afm::app

@@ -6,18 +6,19 @@
 #include <filesystem>
 #include <string>
 
-#include "places.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
 // The program under limits of memory, threads and the size of files: one line, exit code 1, nothing partial.
 namespace afm::app {
-namespace {
+namespace limits_test {
 
 using ::testing::HasSubstr;
 
 support::ProgramResult under(const std::string& limits, const std::string& arguments) {
-  return support::run_program("timeout 60 bash -c 'ulimit " + limits + "; exec " AFM_PROGRAM " " + arguments + "'");
+  return support::run_program("timeout 60 bash -c 'ulimit " + limits + "; exec " + support::touchafm() + " " +
+                              arguments + "'");
 }
 
 void expect_one_line(const support::ProgramResult& done, const std::string& what) {
@@ -45,7 +46,7 @@ TEST_F(Limits, OfTheSizeOfFilesLeaveNothingPartial) {
 TEST_F(Limits, OfThreadsAreSaidBeforeAnythingIsDrawn) {
   expect_one_line(under("-s 4000000 -v 12000000", "render --journey 4 --size 64x48 --out " + folder_.file("lever.png")),
                   "cannot start another thread");
-  expect_one_line(under("-s 4000000 -v 3000000", "wall " AFM_SOURCE_DIR "/assets/walls/3d-tv.toml"),
+  expect_one_line(under("-s 4000000 -v 3000000", "wall " + support::source("assets/walls/3d-tv.toml")),
                   "cannot start another thread");
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
@@ -56,5 +57,5 @@ TEST_F(Limits, OfMemoryAreSaidInOneLine) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
-}  // namespace
+}  // namespace limits_test
 }  // namespace afm::app

@@ -10,16 +10,16 @@
 #include <thread>
 #include <vector>
 
-#include "places.h"
 #include "servo/session_file.h"
 #include "support/live_program.h"
 #include "support/pictures.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
 namespace afm::app {
-namespace {
+namespace live_picture_test {
 
 using render::Image;
 using namespace std::chrono_literals;
@@ -49,8 +49,9 @@ Image interleaved(const Image& left, const Image& right, std::uint32_t down) {
 class LivePictureTest : public ::testing::Test {
  protected:
   std::vector<std::string> view(const std::string& mode, const std::string& size, std::vector<std::string> more = {}) {
-    std::vector<std::string> all{"/usr/bin/env", "-C", folder_.path(), AFM_PROGRAM, "view",    "--stereo",    mode,
-                                 "--size",       size, "--frame-rate", "10",        "--servo", AFM_SERVO_MODE};
+    std::vector<std::string> all{
+        "/usr/bin/env", "-C", folder_.path(), support::touchafm(),  "view", "--stereo", mode, "--size", size,
+        "--frame-rate", "10", "--servo",      support::servo_mode()};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -76,8 +77,8 @@ class LivePictureTest : public ::testing::Test {
   // What one eye sees of the test pattern, drawn without a window.
   Image pattern_of(const std::string& eye) const {
     const std::string file = folder_.file(eye + ".png");
-    const auto drawn = support::run_program(AFM_PROGRAM " wall " AFM_SOURCE_DIR
-                                                        "/assets/walls/powerwall.toml --test-pattern --stereo " +
+    const auto drawn = support::run_program(support::touchafm() + " wall " +
+                                            support::source("assets/walls/powerwall.toml --test-pattern --stereo ") +
                                             eye + " --size 320x240 --out " + file);
     EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
     return test::read_png(file);
@@ -140,8 +141,8 @@ sweet_spot = [0.0, 1.65, 2.5]
     wall += one.replace(one.find("NAME"), 4, std::string("at ") + top);
   }
   folder_.write("rows.toml", wall);
-  const auto drawn = support::run_program(AFM_PROGRAM " wall " + folder_.file("rows.toml") + " --test-pattern --out " +
-                                          folder_.file("rows.png"));
+  const auto drawn = support::run_program(support::touchafm() + " wall " + folder_.file("rows.toml") +
+                                          " --test-pattern --out " + folder_.file("rows.png"));
   ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
   const Image both = test::read_png(folder_.file("rows.png"));
   ASSERT_EQ(both.height, 481U);
@@ -179,8 +180,9 @@ TEST_F(LivePictureTest, ShowsWhatEyesSoFarApartSee) {
   const Image saved = test::read_png(folder_.file("touchafm-001.png"));
   const auto beyond = [&](const std::string& ipd) {
     const std::string file = folder_.file(ipd + ".png");
-    const auto drawn = support::run_program(AFM_PROGRAM " render --session " + kept + " --at " + std::to_string(end_s) +
-                                            " --stereo side-by-side --size 640x240 --ipd " + ipd + " --out " + file);
+    const auto drawn =
+        support::run_program(support::touchafm() + " render --session " + kept + " --at " + std::to_string(end_s) +
+                             " --stereo side-by-side --size 640x240 --ipd " + ipd + " --out " + file);
     EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
     return test::difference(saved, test::read_png(file), 24).share_beyond;
   };
@@ -190,5 +192,5 @@ TEST_F(LivePictureTest, ShowsWhatEyesSoFarApartSee) {
   EXPECT_LT(same, 0.7 * half) << same << " and " << half;
 }
 
-}  // namespace
+}  // namespace live_picture_test
 }  // namespace afm::app

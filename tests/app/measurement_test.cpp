@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/demo/measurement.h"
 #include "core/percentiles.h"
+#include "support/places.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "places.h"
-
 namespace afm::app {
-namespace {
+namespace measurement_test {
 
 curves::SampleModel mica(physics::Law law = physics::Law::Paper) {
-  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml");
+  const auto library = scene::load_materials(support::source("assets/materials.toml"));
   curves::ContactSetup setup{*library.value().find("mica"), {}, {}};
   setup.model.law = law;
   return curves::make_sample_model(setup).value();
@@ -123,5 +122,5 @@ TEST(Percentiles, OfNothingAreZero) {
   EXPECT_EQ(core::percentiles(std::array<std::uint32_t, 3>{}, 0).p50, 0.0);
 }
 
-}  // namespace
+}  // namespace measurement_test
 }  // namespace afm::app

@@ -12,8 +12,8 @@
 #include <string_view>
 
 #include "core/whole_file.h"
-#include "places.h"
 #include "servo/session_file.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
@@ -21,7 +21,7 @@
 // Every command on damaged copies of the files that it reads: it does its work, or ends with a code of the table and
 // one line that names the file. 2000 runs a row, drawn by a fixed seed, on demand (label long).
 namespace afm::app {
-namespace {
+namespace mutated_files_test {
 
 using ::testing::HasSubstr;
 
@@ -82,9 +82,7 @@ constexpr Reading kReadings[]{
      "damaged.glb"},
 };
 
-std::string whole_file(const char* from_sources) {
-  return core::read_file(std::string(AFM_SOURCE_DIR) + from_sources).value();
-}
+std::string whole_file(const char* from_sources) { return core::read_file(support::source() + from_sources).value(); }
 
 std::string in_folder(std::string text, const std::string& folder) {
   for (std::size_t at = text.find("{}"); at != std::string::npos; at = text.find("{}", at)) text.replace(at, 2, folder);
@@ -145,7 +143,7 @@ TEST_P(MutatedFiles, AreReadOrRefusedInOneLine) {
   if (reading.live) display.emplace(640, 480);
   const std::string started = display ? "DISPLAY=" + display->name() + " timeout --preserve-status -s INT -k 30 3 "
                                       : std::string("timeout 30 ");
-  const auto read = [&] { return support::run_program(started + AFM_PROGRAM " " + command); };
+  const auto read = [&] { return support::run_program(started + support::touchafm() + " " + command); };
   write_study(folder.path() + "/class");
   std::string whole = whole_file(reading.file);
   ASSERT_TRUE(core::write_file(path, whole));
@@ -178,5 +176,5 @@ TEST_P(MutatedFiles, AreReadOrRefusedInOneLine) {
 INSTANTIATE_TEST_SUITE_P(Of, MutatedFiles, testing::ValuesIn(kReadings),
                          [](const auto& test) { return std::string(test.param.name); });
 
-}  // namespace
+}  // namespace mutated_files_test
 }  // namespace afm::app

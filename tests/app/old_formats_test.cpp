@@ -4,20 +4,20 @@
 
 #include <string>
 
-#include "places.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
 // Every file that an earlier version wrote is still read: tests/formats/README.md.
 namespace afm::app {
-namespace {
+namespace old_formats_test {
 
 using ::testing::HasSubstr;
 
-const std::string kFiles = AFM_SOURCE_DIR "/tests/formats/0.1.0/";
+const std::string kFiles = support::source("tests/formats/0.1.0/");
 
 support::ProgramResult touchafm(const std::string& arguments) {
-  return support::run_program(std::string(AFM_PROGRAM) + " " + arguments);
+  return support::run_program(support::touchafm() + " " + arguments);
 }
 
 TEST(OldFormats, OfASessionReplaysBitForBit) {
@@ -50,5 +50,5 @@ TEST(OldFormats, OfWallMaterialsProbesAndWandAreRead) {
   }
 }
 
-}  // namespace
+}  // namespace old_formats_test
 }  // namespace afm::app

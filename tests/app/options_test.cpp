@@ -14,7 +14,7 @@
 #include "app/options/sound_options.h"
 
 namespace afm::app {
-namespace {
+namespace options_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -172,5 +172,5 @@ TEST(PixelSize, IsWidthAndHeight) {
   }
 }
 
-}  // namespace
+}  // namespace options_test
 }  // namespace afm::app

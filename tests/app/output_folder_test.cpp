@@ -10,7 +10,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::app {
-namespace {
+namespace output_folder_test {
 
 namespace fs = std::filesystem;
 
@@ -83,5 +83,5 @@ TEST(OutputFolder, ThatIsAFileIsRefusedAtOnce) {
   EXPECT_THAT(out.error().message, ::testing::HasSubstr("choose another with --out"));
 }
 
-}  // namespace
+}  // namespace output_folder_test
 }  // namespace afm::app

@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "curves/paper_tables.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::app {
-namespace {
+namespace paper_command_test {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -24,7 +24,7 @@ class PaperCommand : public testing::Test {
       : folder_(fs::temp_directory_path() /
                 (std::string("touchafm_paper_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::remove_all(folder_);
-    options_ = {AFM_SOURCE_DIR "/assets/materials.toml", "", folder_.string()};
+    options_ = {support::source("assets/materials.toml"), "", folder_.string()};
   }
   ~PaperCommand() override { fs::remove_all(folder_); }
 
@@ -146,7 +146,7 @@ TEST_F(PaperCommand, ShowsWhatARunMeasured) {
 }
 
 TEST_F(PaperCommand, LeavesNothingBehindForABadSummary) {
-  options_.summary_file = AFM_SOURCE_DIR "/assets/materials.toml";
+  options_.summary_file = support::source("assets/materials.toml");
   const auto done = write_paper(options_);
   ASSERT_FALSE(done.has_value());
   EXPECT_EQ(done.error().category, core::ErrorCategory::BadInputFile);
@@ -161,5 +161,5 @@ TEST_F(PaperCommand, FailsOnAFolderThatCannotBeWritten) {
   EXPECT_THAT(done.error().message, HasSubstr("/dev/null/paper"));
 }
 
-}  // namespace
+}  // namespace paper_command_test
 }  // namespace afm::app

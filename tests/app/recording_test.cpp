@@ -13,13 +13,14 @@
 #include "servo/session_file.h"
 #include "support/live_program.h"
 #include "support/pictures.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
 // What `touchafm view --record` leaves, however the window ends.
 namespace afm::app {
-namespace {
+namespace recording_test {
 
 using ::testing::HasSubstr;
 using namespace std::chrono_literals;
@@ -27,9 +28,23 @@ using namespace std::chrono_literals;
 class RecordingTest : public ::testing::Test {
  protected:
   std::vector<std::string> view(std::vector<std::string> more = {}) const {
-    std::vector<std::string> all{"/usr/bin/env", "-C",          folder_.path(), AFM_PROGRAM,    "view", "--size",
-                                 "320x240",      "--eye-width", "320",          "--frame-rate", "10",   "--record",
-                                 "kept",         "--servo",     AFM_SERVO_MODE, "--material",   "gold"};
+    std::vector<std::string> all{"/usr/bin/env",
+                                 "-C",
+                                 folder_.path(),
+                                 support::touchafm(),
+                                 "view",
+                                 "--size",
+                                 "320x240",
+                                 "--eye-width",
+                                 "320",
+                                 "--frame-rate",
+                                 "10",
+                                 "--record",
+                                 "kept",
+                                 "--servo",
+                                 support::servo_mode(),
+                                 "--material",
+                                 "gold"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -57,7 +72,7 @@ TEST_F(RecordingTest, OfAKilledProgramLacksTheLastSecondAtMostAndReplays) {
   EXPECT_FALSE(session->complete);
   // twice the second that docs/manual.md promises, for a machine that stalls
   EXPECT_LT(static_cast<double>(killed_ns - session->samples.back().time_ns) * 1e-9, 2.0);
-  const auto replayed = support::run_program(AFM_PROGRAM " replay " + kept());
+  const auto replayed = support::run_program(support::touchafm() + " replay " + kept());
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_THAT(replayed.err, HasSubstr("truncated after"));
   EXPECT_THAT(replayed.out, HasSubstr("jump-to-contact"));
@@ -85,8 +100,8 @@ TEST_F(RecordingTest, DrawsTheFrameThatWasOnTheWall) {
   EXPECT_TRUE(session->complete);
   ASSERT_FALSE(session->wall.empty());
   const auto draw = [&](double at_s, const std::string& name) {
-    const std::string command = std::string(AFM_PROGRAM) + " render --session " + kept() + " --at " +
-                                std::to_string(at_s) + " --size 320x240 --out " + folder_.file(name);
+    const std::string command = support::touchafm() + " render --session " + kept() + " --at " + std::to_string(at_s) +
+                                " --size 320x240 --out " + folder_.file(name);
     const auto drawn = support::run_program(command);
     EXPECT_EQ(drawn.exit_code, 0) << command << ": " << drawn.err;
     return test::read_png(folder_.file(name));
@@ -100,5 +115,5 @@ TEST_F(RecordingTest, DrawsTheFrameThatWasOnTheWall) {
   EXPECT_GT(test::difference(saved, draw(0.0, "begin.png"), 24).share_beyond, 0.15);  // the instrument, no panel
 }
 
-}  // namespace
+}  // namespace recording_test
 }  // namespace afm::app

@@ -6,16 +6,17 @@
 #include <set>
 #include <string>
 
+#include "support/places.h"
 #include "support/run_program.h"
 
 namespace afm::app {
-namespace {
+namespace render_benchmark_test {
 
 using testing::HasSubstr;
 
 TEST(RenderBenchmark, PrintsEverySubjectAndItsPeer) {
   const support::ProgramResult result = support::run_program(
-      AFM_PROGRAM
+      support::touchafm() +
       " bench render --rounds 1 --frames 1 --eye-width 64 --json --peer 'echo \"{\\\"frame_ms\\\": 2.5}\"'");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto all = nlohmann::json::parse(result.out);
@@ -36,11 +37,11 @@ TEST(RenderBenchmark, PrintsEverySubjectAndItsPeer) {
 }
 
 TEST(RenderBenchmark, NamesAPeerThatPrintsNoTime) {
-  const support::ProgramResult result =
-      support::run_program(AFM_PROGRAM " bench render --rounds 1 --frames 1 --eye-width 64 --peer 'echo nothing'");
+  const support::ProgramResult result = support::run_program(
+      support::touchafm() + " bench render --rounds 1 --frames 1 --eye-width 64 --peer 'echo nothing'");
   EXPECT_NE(result.exit_code, 0);
   EXPECT_THAT(result.err, HasSubstr("echo nothing"));
 }
 
-}  // namespace
+}  // namespace render_benchmark_test
 }  // namespace afm::app

@@ -10,7 +10,7 @@
 #include "support/phrases.h"
 
 namespace afm::app {
-namespace {
+namespace report_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -64,5 +64,5 @@ TEST(Report, LetsWhatIsWideBeMovedInItsOwnBox) {
   EXPECT_EQ(count(html, "<div class=\"wide\" tabindex=\"0\"><table"), 2U);
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace afm::app

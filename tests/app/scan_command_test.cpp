@@ -17,19 +17,19 @@
 #include "curves/sample_model.h"
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
-#include "places.h"
 #include "scene/gltf/gltf_loader.h"
 #include "scene/graph/height_field.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
-namespace {
+namespace scan_command_test {
 
 using testing::HasSubstr;
 
 ScanOptions options_for(const std::string& material) {
   ScanOptions options;
-  options.contact.assets_dir = AFM_SOURCE_DIR "/assets";
+  options.contact.assets_dir = support::source("assets");
   options.contact.material = material;
   options.pixels = 16;
   return options;
@@ -57,7 +57,7 @@ std::vector<double> values_of(const std::string& gwy, int channel) {
 haptics::SampleSurface felt_surface(const ScanOptions& options) {
   const auto setup = contact_setup(options.contact);
   const auto material = curves::make_sample_model(*setup);
-  const auto model = scene::load_gltf(AFM_SOURCE_DIR "/assets/models/sample-" + options.contact.material + ".glb");
+  const auto model = scene::load_gltf(support::source("assets/models/sample-") + options.contact.material + ".glb");
   const auto drawn = scene::height_field_below(*model, model->find_node("surface").value());
   const haptics::DeviceSpec device = haptics::SimulatedDevice().spec();
   const auto common = haptics::Scaling::common_scale(std::array{material->tables}, device);
@@ -175,5 +175,5 @@ TEST(ScanCommand, RefusesBeforeItScansAndWritesNothing) {
   EXPECT_THAT(refusal([](ScanOptions& options) { options.contact.material = "granite"; }), HasSubstr("mica"));
 }
 
-}  // namespace
+}  // namespace scan_command_test
 }  // namespace afm::app

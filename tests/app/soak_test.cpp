@@ -24,6 +24,7 @@
 
 #include "servo/session_file.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/tracker.h"
@@ -31,7 +32,7 @@
 #include "support/wand_port.h"
 
 namespace afm::app {
-namespace {
+namespace soak_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -191,13 +192,20 @@ class SoakTest : public ::testing::Test {
   }
 
   std::vector<std::string> view() const {
-    return {AFM_PROGRAM,    "view",
-            "--size",       std::to_string(kWidth) + "x" + std::to_string(kHeight),
-            "--frame-rate", "30",
-            "--servo",      AFM_SERVO_MODE,
-            "--wand",       "hid",
-            "--head",       "dtrack:2@" + tracker_.place(),
-            "--record",     folder_.file("sessions"),
+    return {support::touchafm(),
+            "view",
+            "--size",
+            std::to_string(kWidth) + "x" + std::to_string(kHeight),
+            "--frame-rate",
+            "30",
+            "--servo",
+            support::servo_mode(),
+            "--wand",
+            "hid",
+            "--head",
+            "dtrack:2@" + tracker_.place(),
+            "--record",
+            folder_.file("sessions"),
             "--validate"};
   }
 
@@ -266,5 +274,5 @@ TEST_F(SoakTest, RandomHandsNeitherDisturbTheServoNorFillTheMemory) {
   std::cout << "idle: " << servo_line(idle.said()) << "\n";
 }
 
-}  // namespace
+}  // namespace soak_test
 }  // namespace afm::app

@@ -12,16 +12,16 @@
 #include <string>
 
 #include "exhibit/exhibit_setup.h"
-#include "places.h"
 #include "render/image_file.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/read_png.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/two_monitors.h"
 
 namespace afm::app {
-namespace {
+namespace two_outputs_test {
 
 using support::TwoMonitors;
 using ::testing::AllOf;
@@ -65,8 +65,8 @@ class TwoOutputsTest : public ::testing::Test {
     folder_.write("missing.toml", wall_file("monitor = \"HDMI-7\""));
   }
   std::vector<std::string> view(const std::string& wall) const {
-    return {AFM_PROGRAM, "view",    "--wall",       folder_.file(wall), "--frame-rate",
-            "12",        "--servo", AFM_SERVO_MODE, "--validate"};
+    return {support::touchafm(),   "view",      "--wall", folder_.file(wall), "--frame-rate", "12", "--servo",
+            support::servo_mode(), "--validate"};
   }
   support::ProgramResult on_display(const std::string& command) const {
     return support::run_program("env -u WAYLAND_DISPLAY DISPLAY=" + monitors_.name() + " " + command);
@@ -100,20 +100,21 @@ TEST_F(TwoOutputsTest, EachProjectorShowsWhatIsDrawnForItsEyeThroughItsOwnKeysto
   ASSERT_TRUE(program.says("Choose a sample")) << program.said();
   const std::string reference = folder_.file("reference.png");
   ASSERT_EQ(
-      on_display(AFM_PROGRAM " wall " + folder_.file("placed.toml") + " --test-pattern --out " + reference).exit_code,
+      on_display(support::touchafm() + " wall " + folder_.file("placed.toml") + " --test-pattern --out " + reference)
+          .exit_code,
       0);
   const render::Image drawn = support::read_png(reference).value();
   ASSERT_EQ(drawn.width, 2U * TwoMonitors::kWidth);
   ASSERT_EQ(on_display("xdotool key g").exit_code, 0);
   const render::Image shown = until([&](const auto& seen) { return difference(seen, drawn, 0, drawn.width) == 0; });
-  EXPECT_TRUE(render::write_png(shown, AFM_BINARY_DIR "/two-outputs-pattern.png"));
+  EXPECT_TRUE(render::write_png(shown, support::built("two-outputs-pattern.png")));
   EXPECT_EQ(difference(shown, drawn, 0, TwoMonitors::kWidth), 0) << "the left projector";
   EXPECT_EQ(difference(shown, drawn, TwoMonitors::kWidth, TwoMonitors::kWidth), 0) << "the right projector";
 
   // the mouse in the second window is a hand as it is in the first
   ASSERT_EQ(on_display("xdotool key g").exit_code, 0);
   exhibit::ExhibitFiles files;
-  files.assets_dir = AFM_SOURCE_DIR "/assets";
+  files.assets_dir = support::source("assets");
   const exhibit::Stage stage = exhibit::load_exhibit(files).value();
   const auto clip =
       stage.eyes[1].projection * stage.eyes[1].view * glm::dvec4(stage.wall_scene.swatch_targets()[1].center_m, 1.0);
@@ -121,7 +122,7 @@ TEST_F(TwoOutputsTest, EachProjectorShowsWhatIsDrawnForItsEyeThroughItsOwnKeysto
   const auto x = std::lround(TwoMonitors::kWidth * (1.0 + place.x)), y = std::lround(TwoMonitors::kHeight * place.y);
   ASSERT_EQ(on_display("xdotool mousemove " + std::to_string(x) + " " + std::to_string(y) + " click 1").exit_code, 0);
   ASSERT_TRUE(program.says("chosen: Gold")) << program.said();
-  EXPECT_TRUE(render::write_png(monitors_.screenshot(), AFM_BINARY_DIR "/two-outputs-scene.png"));
+  EXPECT_TRUE(render::write_png(monitors_.screenshot(), support::built("two-outputs-scene.png")));
   ASSERT_EQ(on_display("xdotool key Escape").exit_code, 0);
   EXPECT_EQ(program.ends(), 0) << program.said();
 }
@@ -162,16 +163,16 @@ TEST_F(TwoOutputsTest, AMonitorUnderARectangleThatIsSwitchedOffAndOnAgainIsFille
 }
 
 TEST_F(TwoOutputsTest, MonitorsAreListedAndOneThatIsNotThereIsNamed) {
-  const auto devices = on_display(AFM_PROGRAM " devices");
+  const auto devices = on_display(support::touchafm() + " devices");
   EXPECT_THAT(devices.out, AllOf(HasSubstr("DUMMY0"), HasSubstr("number 2, 320 x 240 pixels at 320, 0")));
-  const auto missing = on_display(AFM_PROGRAM " view --wall " + folder_.file("missing.toml"));
+  const auto missing = on_display(support::touchafm() + " view --wall " + folder_.file("missing.toml"));
   EXPECT_EQ(missing.exit_code, 4);
   EXPECT_THAT(missing.err, AllOf(HasSubstr("output \"left projector\": there is no monitor \"HDMI-7\""),
                                  HasSubstr("1 DUMMY0 (320 x 240 at 0, 0), 2 DUMMY1 (320 x 240 at 320, 0)")));
-  const auto named = on_display(AFM_PROGRAM " view --monitor TV");
+  const auto named = on_display(support::touchafm() + " view --monitor TV");
   EXPECT_EQ(named.exit_code, 4);
   EXPECT_THAT(named.err, HasSubstr("--monitor: there is no monitor \"TV\""));
 }
 
-}  // namespace
+}  // namespace two_outputs_test
 }  // namespace afm::app

@@ -11,12 +11,13 @@
 
 #include "core/whole_file.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
 namespace afm::app {
-namespace {
+namespace view_alone_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -24,8 +25,9 @@ using ::testing::Not;
 class ViewAlone : public ::testing::Test {
  protected:
   std::vector<std::string> view(std::vector<std::string> more) const {
-    std::vector<std::string> all{AFM_PROGRAM,   "view", "--size",  "320x180",      "--frame-rate", "12",
-                                 "--eye-width", "160",  "--servo", AFM_SERVO_MODE, "--wand",       "mouse"};
+    std::vector<std::string> all{
+        support::touchafm(),   "view",   "--size", "320x180", "--frame-rate", "12", "--eye-width", "160", "--servo",
+        support::servo_mode(), "--wand", "mouse"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -80,5 +82,5 @@ TEST_F(ViewAlone, AnUnattendedWindowStaysShowsItselfAndMakesWay) {
   EXPECT_EQ(program.ends(), 0) << program.said();
 }
 
-}  // namespace
+}  // namespace view_alone_test
 }  // namespace afm::app

@@ -8,20 +8,42 @@
 
 #include "servo/session_file.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
 namespace afm::app {
-namespace {
+namespace view_friction_test {
 
 class ViewFriction : public ::testing::Test {
  protected:
   std::vector<std::string> view(const std::string& friction) const {
-    return {"/usr/bin/env", "-C",     folder_.path(), AFM_PROGRAM, "view",         "--size",     "320x240",
-            "--eye-width",  "320",    "--stereo",     "mono",      "--frame-rate", "10",         "--record",
-            "kept",         "--wand", "mouse",        "--servo",   AFM_SERVO_MODE, "--material", "mica",
-            "--haptics",    "sim",    "--friction",   friction};
+    return {"/usr/bin/env",
+            "-C",
+            folder_.path(),
+            support::touchafm(),
+            "view",
+            "--size",
+            "320x240",
+            "--eye-width",
+            "320",
+            "--stereo",
+            "mono",
+            "--frame-rate",
+            "10",
+            "--record",
+            "kept",
+            "--wand",
+            "mouse",
+            "--servo",
+            support::servo_mode(),
+            "--material",
+            "mica",
+            "--haptics",
+            "sim",
+            "--friction",
+            friction};
   }
   void xdotool(const std::string& what) const {
     const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool " + what);
@@ -73,5 +95,5 @@ TEST_F(ViewFriction, IsInTheSessionSoThatItIsDrawnAgain) {
   EXPECT_EQ(session->wall.back().panels, "friction-loop");
 }
 
-}  // namespace
+}  // namespace view_friction_test
 }  // namespace afm::app

@@ -11,19 +11,38 @@
 #include "servo/session_file.h"
 #include "support/live_program.h"
 #include "support/pictures.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
 namespace afm::app {
-namespace {
+namespace view_scan_test {
 
 class ViewScan : public ::testing::Test {
  protected:
   std::vector<std::string> view() const {
-    return {"/usr/bin/env", "-C",     folder_.path(), AFM_PROGRAM, "view",         "--size",     "320x240",
-            "--eye-width",  "320",    "--stereo",     "mono",      "--frame-rate", "10",         "--record",
-            "kept",         "--wand", "mouse",        "--servo",   AFM_SERVO_MODE, "--material", "gold"};
+    return {"/usr/bin/env",
+            "-C",
+            folder_.path(),
+            support::touchafm(),
+            "view",
+            "--size",
+            "320x240",
+            "--eye-width",
+            "320",
+            "--stereo",
+            "mono",
+            "--frame-rate",
+            "10",
+            "--record",
+            "kept",
+            "--wand",
+            "mouse",
+            "--servo",
+            support::servo_mode(),
+            "--material",
+            "gold"};
   }
   void xdotool(const std::string& what) const {
     const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool " + what);
@@ -108,9 +127,8 @@ TEST_F(ViewScan, IsDrawnAgainFromItsSession) {
   const double end_s =
       session->seconds_since_start(std::min(session->wall.back().time_ns, session->samples.back().time_ns));
   const auto draw = [&](double at_s, const std::string& name) {
-    const std::string command = std::string(AFM_PROGRAM) + " render --session " +
-                                folder_.file("kept/session-gold.afms") + " --at " + std::to_string(at_s) +
-                                " --size 320x240 --out " + folder_.file(name);
+    const std::string command = support::touchafm() + " render --session " + folder_.file("kept/session-gold.afms") +
+                                " --at " + std::to_string(at_s) + " --size 320x240 --out " + folder_.file(name);
     const auto drawn = support::run_program(command);
     EXPECT_EQ(drawn.exit_code, 0) << command << ": " << drawn.err;
     return test::read_png(folder_.file(name));
@@ -158,9 +176,8 @@ TEST_F(ViewScan, IsTakenByTheHandAndDrawnAgain) {
   const auto last = std::find_if(session->wall.rbegin(), session->wall.rend(), painted);
   ASSERT_NE(last, session->wall.rend());
   const auto draw = [&](const std::string& at_s, const std::string& name) {
-    const std::string command = std::string(AFM_PROGRAM) + " render --session " +
-                                folder_.file("kept/session-gold.afms") + " --at " + at_s + " --size 320x240 --out " +
-                                folder_.file(name);
+    const std::string command = support::touchafm() + " render --session " + folder_.file("kept/session-gold.afms") +
+                                " --at " + at_s + " --size 320x240 --out " + folder_.file(name);
     const auto drawn = support::run_program(command);
     EXPECT_EQ(drawn.exit_code, 0) << command << ": " << drawn.err;
     return test::read_png(folder_.file(name));
@@ -168,11 +185,10 @@ TEST_F(ViewScan, IsTakenByTheHandAndDrawnAgain) {
   const render::Image saved = test::read_png(folder_.file("touchafm-001.png"));
   const double end_s = session->seconds_since_start(last->time_ns);
   EXPECT_LT(test::difference(saved, draw(std::to_string(end_s), "end.png"), 24).share_beyond, 0.03);
-  const auto replayed =
-      support::run_program(std::string(AFM_PROGRAM) + " replay " + folder_.file("kept/session-gold.afms"));
+  const auto replayed = support::run_program(support::touchafm() + " replay " + folder_.file("kept/session-gold.afms"));
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_THAT(replayed.out, testing::HasSubstr("is identical, bit for bit"));
 }
 
-}  // namespace
+}  // namespace view_scan_test
 }  // namespace afm::app

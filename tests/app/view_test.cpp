@@ -18,10 +18,10 @@
 #include "exhibit/frame_builder.h"
 #include "exhibit/panel_hit.h"
 #include "exhibit/parameter_panel.h"
-#include "places.h"
 #include "render/control_layout.h"
 #include "render/image_file.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
@@ -29,7 +29,7 @@
 // The real window on an X server without a screen, driven by xdotool as a hand drives a mouse and keys. Vulkan's calls
 // are validated: a message would end the program with exit code 1.
 namespace afm::app {
-namespace {
+namespace view_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -41,8 +41,9 @@ constexpr double kHandPerPixel =
 class ViewTest : public ::testing::Test {
  protected:
   std::vector<std::string> command(std::vector<std::string> more = {}) const {
-    std::vector<std::string> all{AFM_PROGRAM,   "view", "--size",  "640x480",      "--frame-rate", "12",
-                                 "--eye-width", "320",  "--servo", AFM_SERVO_MODE, "--validate"};
+    std::vector<std::string> all{
+        support::touchafm(),   "view",      "--size", "640x480", "--frame-rate", "12", "--eye-width", "320", "--servo",
+        support::servo_mode(), "--validate"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -120,7 +121,7 @@ class ViewTest : public ::testing::Test {
   // The screen, kept in the build tree for people to look at.
   render::Image picture(const std::string& name) const {
     render::Image image = display_.screenshot();
-    EXPECT_TRUE(render::write_png(image, AFM_BINARY_DIR "/view-" + name + ".png"));
+    EXPECT_TRUE(render::write_png(image, support::built("view-") + name + ".png"));
     return image;
   }
 
@@ -140,7 +141,7 @@ class ViewTest : public ::testing::Test {
 
   static exhibit::Stage stage_of_the_assets() {
     exhibit::ExhibitFiles files;
-    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    files.assets_dir = support::source("assets");
     return exhibit::load_exhibit(files).value();
   }
 
@@ -246,7 +247,7 @@ TEST_F(ViewTest, OutlivesAStormOfSizesAndTheDeathOfItsServo) {
   EXPECT_TRUE(view.says("the journey of scale was reversed")) << view.said();
   xdotool("key j key a");
   EXPECT_TRUE(view.says("showing the instrument")) << view.said();
-  if (std::string(AFM_SERVO_MODE) == "process") {
+  if (support::servo_mode() == "process") {
     EXPECT_EQ(support::run_program("pkill -KILL -P " + std::to_string(view.pid())).exit_code, 0);
     EXPECT_TRUE(view.says("the servo ended unexpectedly")) << view.said();
     EXPECT_THAT(view.said(), Not(HasSubstr("; start again"))) << "it is started again by itself";
@@ -295,7 +296,7 @@ TEST_F(ViewTest, RestsWhileItIsMinimisedAndComesBack) {
 }
 
 TEST_F(ViewTest, StartsAServoThatDiesThreeTimesAMinuteAndThenAsksForKeyR) {
-  ASSERT_STREQ(AFM_SERVO_MODE, "process") << "a thread dies with its program";
+  ASSERT_EQ(support::servo_mode(), "process") << "a thread dies with its program";
   support::LiveProgram view(command(), display_.name());
   // said from within the loop, when the servo has been started
   ASSERT_TRUE(view.says("Choose a sample")) << view.said();
@@ -330,27 +331,27 @@ TEST_F(ViewTest, RecordsASessionThatReplaysBitForBit) {
   view.signal(SIGINT);
   EXPECT_EQ(view.ends(), 0) << view.said();
   EXPECT_THAT(view.said(), HasSubstr("recorded: "));
-  const auto replayed = support::run_program(AFM_PROGRAM " replay " + folder.file("kept/session-mica.afms"));
+  const auto replayed = support::run_program(support::touchafm() + " replay " + folder.file("kept/session-mica.afms"));
   EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
   EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
 }
 
 TEST(View, SaysWhatIsWrongInOneLine) {
-  const auto none = support::run_program("env -u WAYLAND_DISPLAY DISPLAY= " AFM_PROGRAM " view");
+  const auto none = support::run_program("env -u WAYLAND_DISPLAY DISPLAY= " + support::touchafm() + " view");
   EXPECT_EQ(none.exit_code, 4);
   EXPECT_THAT(none.err, HasSubstr("cannot open a window"));
-  const auto size = support::run_program(AFM_PROGRAM " view --size 1280");
+  const auto size = support::run_program(support::touchafm() + " view --size 1280");
   EXPECT_EQ(size.exit_code, 2);
   EXPECT_THAT(size.err, HasSubstr("\"1280\" is not WIDTHxHEIGHT"));
-  const auto device = support::run_program(AFM_PROGRAM " view --haptics falcon");
+  const auto device = support::run_program(support::touchafm() + " view --haptics falcon");
   EXPECT_EQ(device.exit_code, 2);
   EXPECT_THAT(device.err, HasSubstr("choose auto, mouse, hdapi, haply, gamepad, "));
-  const auto session = support::run_program(AFM_PROGRAM " view --haptics replay:/nowhere/x.afms");
+  const auto session = support::run_program(support::touchafm() + " view --haptics replay:/nowhere/x.afms");
   EXPECT_EQ(session.exit_code, 3);
-  const auto mode = support::run_program(AFM_PROGRAM " view --stereo holographic");
+  const auto mode = support::run_program(support::touchafm() + " view --stereo holographic");
   EXPECT_EQ(mode.exit_code, 2);
   EXPECT_THAT(mode.err, HasSubstr("side-by-side"));
 }
 
-}  // namespace
+}  // namespace view_test
 }  // namespace afm::app

@@ -12,20 +12,20 @@
 #include <vector>
 
 #include "exhibit/exhibit_setup.h"
-#include "places.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/tracker.h"
 #include "support/virtual_display.h"
 
 namespace afm::app {
-namespace {
+namespace view_wand_test {
 
 using ::testing::HasSubstr;
 
 TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
   exhibit::ExhibitFiles files;
-  files.assets_dir = AFM_SOURCE_DIR "/assets";
+  files.assets_dir = support::source("assets");
   const exhibit::Stage stage = exhibit::load_exhibit(files).value();
   const glm::dvec3 gold = stage.wall_scene.swatch_targets()[1].center_m;
   const glm::dvec3 hand(0.5, 1.2, 1.8);
@@ -33,8 +33,8 @@ TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
   support::Tracker tracker;
   tracker.show(hand, gold + glm::dvec3(3.0, 0.0, 0.0), 0);
   support::LiveProgram view(
-      {AFM_PROGRAM, "view", "--size", "320x240", "--frame-rate", "12", "--eye-width", "160", "--servo", AFM_SERVO_MODE,
-       "--wand", "dtrack:" + tracker.place(), "--head", "dtrack:2", "--validate"},
+      {support::touchafm(), "view", "--size", "320x240", "--frame-rate", "12", "--eye-width", "160", "--servo",
+       support::servo_mode(), "--wand", "dtrack:" + tracker.place(), "--head", "dtrack:2", "--validate"},
       display.name());
   ASSERT_TRUE(view.says("listening for a tracker at " + tracker.place())) << view.said();
   ASSERT_TRUE(view.says("Choose a sample")) << view.said();
@@ -106,8 +106,8 @@ TEST(ViewWand, MovesNothingWhileTheTipIsInContact) {
   support::Tracker tracker;
   tracker.show(hand, aim, 0);
   support::LiveProgram view(
-      {AFM_PROGRAM, "view", "--size", "320x240", "--frame-rate", "12", "--eye-width", "160", "--servo", AFM_SERVO_MODE,
-       "--haptics", "sim", "--material", "gold", "--wand", "dtrack:" + tracker.place()},
+      {support::touchafm(), "view", "--size", "320x240", "--frame-rate", "12", "--eye-width", "160", "--servo",
+       support::servo_mode(), "--haptics", "sim", "--material", "gold", "--wand", "dtrack:" + tracker.place()},
       display.name());
   ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
   ASSERT_EQ(support::run_program("DISPLAY=" + display.name() + " xdotool mousemove 160 10 key 1").exit_code, 0);
@@ -121,5 +121,5 @@ TEST(ViewWand, MovesNothingWhileTheTipIsInContact) {
   expect_locked_in_contact(view.said());
 }
 
-}  // namespace
+}  // namespace view_wand_test
 }  // namespace afm::app

@@ -15,10 +15,10 @@
 #include "app/program.h"
 #include "architecture/prose.h"
 #include "core/whole_file.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm {
-namespace {
+namespace plain_english_test {
 
 using support::lines_with;
 using support::messages_of;
@@ -76,7 +76,7 @@ constexpr std::array kProduction{"app",     "cluster", "core",    "curves", "doc
                                  "haptics", "input",   "physics", "render", "scene",          "servo"};
 
 std::string in_tree(const std::filesystem::path& path) {
-  return std::filesystem::relative(path, AFM_SOURCE_DIR).string();
+  return std::filesystem::relative(path, support::source()).string();
 }
 
 // "where:line: word (better)" for each that a text holds.
@@ -93,7 +93,7 @@ std::vector<std::string> faults_of(const std::string& where, const Prose& prose)
 std::vector<std::filesystem::path> files_below(const std::string& folder,
                                                std::initializer_list<std::string_view> endings) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(AFM_SOURCE_DIR "/") + folder)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(support::source(folder))) {
     const std::string ending = entry.path().extension().string();
     if (entry.is_regular_file() && std::find(endings.begin(), endings.end(), ending) != endings.end()) {
       files.push_back(entry.path());
@@ -108,7 +108,7 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
 }
 
 std::vector<std::string> faults_of_page(const std::string& path) {
-  return faults_of(path, page_of(core::read_file(std::string(AFM_SOURCE_DIR "/") + path).value()));
+  return faults_of(path, page_of(core::read_file(support::source(path)).value()));
 }
 
 std::vector<std::string> faults_of_help(const std::string& command, const app::CommandDescription& description) {
@@ -191,5 +191,5 @@ TEST(PlainEnglish, IsWhatTheDocumentsAndTheWallUse) {
   EXPECT_THAT(faults, IsEmpty());
 }
 
-}  // namespace
+}  // namespace plain_english_test
 }  // namespace afm

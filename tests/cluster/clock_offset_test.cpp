@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace clock_offset_test {
 
 using afm::cluster::ClockOffset;
 using afm::cluster::ReadyMessage;
@@ -25,4 +25,4 @@ TEST(ClockOffset, IsThatOfTheShortestRoundTrip) {
   EXPECT_EQ(clock.ahead_ns(), 499);
 }
 
-}  // namespace
+}  // namespace clock_offset_test

@@ -20,7 +20,7 @@
 #include "core/clock.h"
 #include "support/scratch_folder.h"
 
-namespace {
+namespace link_test {
 
 using namespace afm;
 using namespace afm::cluster;
@@ -192,4 +192,4 @@ TEST(ClusterNetworkTest, ConfiguresRepairLeaseAndInterface) {
   EXPECT_THAT(unicast, HasSubstr("<Peers><Peer address=\"10.0.0.2\"/></Peers>"));
 }
 
-}  // namespace
+}  // namespace link_test

@@ -4,7 +4,7 @@
 
 #include "cluster/membership.h"
 
-namespace {
+namespace membership_test {
 
 using namespace afm::cluster;
 using testing::ElementsAre;
@@ -183,4 +183,4 @@ TEST_F(MembershipTest, NamesANodeOfAnotherBuildOnce) {
   EXPECT_EQ(membership_.missing(), 3U);
 }
 
-}  // namespace
+}  // namespace membership_test

@@ -9,7 +9,7 @@
 #include "cluster/document.h"
 #include "cluster/frame_message.h"
 
-namespace {
+namespace messages_test {
 
 using namespace afm;
 using namespace afm::cluster;
@@ -69,4 +69,4 @@ TEST(DocumentReaderTest, PutsPiecesTogetherInAnyOrderAndTwice) {
   EXPECT_TRUE(reader.add(pieces_of(std::span(document).first(4), {.session = 6, .number = 1}).front()));
 }
 
-}  // namespace
+}  // namespace messages_test

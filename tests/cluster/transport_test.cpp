@@ -6,7 +6,7 @@
 #include <array>
 #include <thread>
 
-namespace {
+namespace transport_test {
 
 using namespace afm;
 using namespace afm::cluster;
@@ -30,4 +30,4 @@ TEST(ClusterTransportDeathTest, EndsTheProgramWhereAThreadWritesThatDoesNotOwnIt
   EXPECT_DEATH(write_elsewhere(), "owner_ == std::this_thread::get_id");
 }
 
-}  // namespace
+}  // namespace transport_test

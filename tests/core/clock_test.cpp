@@ -7,7 +7,7 @@
 #include <ctime>
 
 namespace afm::core {
-namespace {
+namespace clock_test {
 
 std::int64_t kernel_ns() {
   timespec time{};
@@ -26,5 +26,5 @@ TEST(MonotonicClock, IsTheKernels) {
   }
 }
 
-}  // namespace
+}  // namespace clock_test
 }  // namespace afm::core

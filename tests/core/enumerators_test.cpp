@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace {
+namespace enumerators_test {
 
 using afm::core::has_row_for_each;
 using afm::core::is_enumerator;
@@ -39,4 +39,4 @@ TEST(Enumerators, SeeARowThatIsForgottenOrMisplaced) {
                                   &Row::law));
 }
 
-}  // namespace
+}  // namespace enumerators_test

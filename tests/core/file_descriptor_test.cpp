@@ -7,7 +7,7 @@
 
 #include <utility>
 
-namespace {
+namespace file_descriptor_test {
 
 using afm::core::FileDescriptor;
 
@@ -38,4 +38,4 @@ TEST(FileDescriptor, MovesItsOwnership) {
   EXPECT_FALSE(open_in_kernel(number));
 }
 
-}  // namespace
+}  // namespace file_descriptor_test

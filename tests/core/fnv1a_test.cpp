@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace fnv1a_test {
 
 // The values of draft-eastlake-fnv, section 8.
 TEST(Fnv1a, HasTheValuesOfItsSpecification) {
@@ -12,4 +12,4 @@ TEST(Fnv1a, HasTheValuesOfItsSpecification) {
   EXPECT_EQ(afm::core::fnv1a("foobar"), 0x85944171F73967E8ULL);
 }
 
-}  // namespace
+}  // namespace fnv1a_test

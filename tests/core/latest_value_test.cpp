@@ -13,7 +13,7 @@
 #include <new>
 #include <thread>
 
-namespace {
+namespace latest_value_test {
 
 using afm::core::LatestValue;
 
@@ -133,4 +133,4 @@ TEST(LatestValue, OutlivesAWriterKilledAtAnyMoment) {
   std::printf("the writer died in the middle of a store in %d of %d kills\n", left_in_the_middle, kKills);
 }
 
-}  // namespace
+}  // namespace latest_value_test

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace afm::core {
-namespace {
+namespace percentiles_test {
 
 // p of the values are at most as large, and no smaller value will do.
 TEST(Percentiles, AreTheSmallestValuesThatCoverTheirShare) {
@@ -71,5 +71,5 @@ TEST(Percentiles, OfAHistogramAreNeverAboveItsMaximum) {
   EXPECT_EQ(of.max, 357.0);
 }
 
-}  // namespace
+}  // namespace percentiles_test
 }  // namespace afm::core

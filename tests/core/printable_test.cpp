@@ -6,7 +6,7 @@
 #include <string_view>
 
 namespace afm::core {
-namespace {
+namespace printable_test {
 
 using namespace std::string_view_literals;
 
@@ -37,5 +37,5 @@ TEST(Printable, ReplacesWhatIsNoUtf8) {
   EXPECT_EQ(printable("\xE5\x8A"), "\uFFFD\uFFFD") << "cut short";
 }
 
-}  // namespace
+}  // namespace printable_test
 }  // namespace afm::core

@@ -9,7 +9,7 @@
 #include <random>
 #include <thread>
 
-namespace {
+namespace spsc_ring_test {
 
 using afm::core::SpscRing;
 
@@ -80,4 +80,4 @@ TEST(SpscRing, SurvivesGarbageInItsIndices) {
   }
 }
 
-}  // namespace
+}  // namespace spsc_ring_test

@@ -16,7 +16,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::core {
-namespace {
+namespace whole_file_test {
 
 using ::testing::EndsWith;
 namespace fs = std::filesystem;
@@ -140,5 +140,5 @@ TEST_F(WholeFile, AFullDiskIsSaid) {
   EXPECT_THAT(written.error().message, EndsWith("/dev/full: No space left on device"));
 }
 
-}  // namespace
+}  // namespace whole_file_test
 }  // namespace afm::core

@@ -7,16 +7,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "places.h"
 #include "scene/samples/material_library.h"
+#include "support/places.h"
 
 namespace afm::curves {
-namespace {
+namespace adhesion_map_plot_test {
 
 using testing::HasSubstr;
 
 SvgPlot map_of(const char* material) {
-  const auto library = scene::load_materials(std::string(AFM_SOURCE_DIR "/assets/materials.toml")).value();
+  const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   const physics::ContactParameters& contact = library.find(material)->contact;
   return adhesion_map_plot(material, physics::choose_law(contact), contact, physics::Force(-1e-9));
 }
@@ -55,5 +55,5 @@ TEST(AdhesionMapPlot, PutsTheBordersOfTheLawsWhereTheChoiceChanges) {
   for (const SvgPoint& point : plot.lines[3].points) EXPECT_NEAR(point.x, 5.0, 1e-6);
 }
 
-}  // namespace
+}  // namespace adhesion_map_plot_test
 }  // namespace afm::curves

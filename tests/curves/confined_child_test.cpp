@@ -20,7 +20,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::curves {
-namespace {
+namespace confined_child_test {
 
 using testing::HasSubstr;
 
@@ -107,5 +107,5 @@ TEST(ConfinedChild, DiesWithItsParent) {
   EXPECT_THAT(state_of(child), testing::AnyOf("", "Z"));
 }
 
-}  // namespace
+}  // namespace confined_child_test
 }  // namespace afm::curves

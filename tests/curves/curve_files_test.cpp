@@ -14,7 +14,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::curves {
-namespace {
+namespace curve_files_test {
 
 using testing::HasSubstr;
 
@@ -254,5 +254,5 @@ TEST(CurveFiles, AreWrittenWholeOrRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("c.ibw")));
 }
 
-}  // namespace
+}  // namespace curve_files_test
 }  // namespace afm::curves

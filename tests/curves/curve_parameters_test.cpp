@@ -13,10 +13,10 @@
 #include "curves/curve_output.h"
 #include "curves/curve_report.h"
 #include "curves/curve_run.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::curves {
-namespace {
+namespace curve_parameters_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -24,7 +24,7 @@ using testing::Not;
 // A law with the lever's dynamics, so that every parameter acts.
 CurveRun dynamic_run() {
   app::ContactOptions options;
-  options.assets_dir = AFM_SOURCE_DIR "/assets";
+  options.assets_dir = support::source("assets");
   options.material = "mica";
   options.model = "dynamic-maugis";
   options.values = {{"spring-constant", "1N/m"},
@@ -111,7 +111,7 @@ TEST(ParametersInCsv, AreAllReadBackAndPrinted) {
 
 CurveRun run_of_events(const char* model, const char* step, bool events_only) {
   app::ContactOptions options;
-  options.assets_dir = AFM_SOURCE_DIR "/assets";
+  options.assets_dir = support::source("assets");
   options.material = "mica";
   options.model = model;
   PathOptions path;
@@ -173,5 +173,5 @@ TEST(Parameters, AnotherFilesLinesAreReadOrRefused) {
   }
 }
 
-}  // namespace
+}  // namespace curve_parameters_test
 }  // namespace afm::curves

@@ -11,7 +11,7 @@
 
 // HDF5 files that lead to other files: whoever sends one must not learn what the others hold.
 namespace afm::curves {
-namespace {
+namespace hdf5_links_test {
 
 using testing::HasSubstr;
 
@@ -83,5 +83,5 @@ TEST_F(Hdf5Links, AColumnPutTogetherFromOtherFilesIsRefused) {
   EXPECT_THAT(error(), HasSubstr("its column \"force\" lies in another file, which is not read"));
 }
 
-}  // namespace
+}  // namespace hdf5_links_test
 }  // namespace afm::curves

@@ -10,7 +10,7 @@
 
 // HDF5 files hold text of a fixed length, as C and Fortran write it, or of any length, as Python does.
 namespace afm::curves {
-namespace {
+namespace hdf5_text_test {
 
 using testing::HasSubstr;
 
@@ -55,5 +55,5 @@ TEST_F(Hdf5Text, ThatIsNoForceCurvesIsRefused) {
   EXPECT_THAT(curve.error().message, HasSubstr("its imaging mode is \"creep-compliance\""));
 }
 
-}  // namespace
+}  // namespace hdf5_text_test
 }  // namespace afm::curves

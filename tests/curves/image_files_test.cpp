@@ -14,7 +14,7 @@
 #include "support/image_files.h"
 
 namespace afm::curves {
-namespace {
+namespace image_files_test {
 
 using testing::HasSubstr;
 using namespace afm::test;
@@ -395,5 +395,5 @@ TEST(ImageFiles, SurviveAnyChangeOfTheirBytes) {
   EXPECT_GT(read, 100);
 }
 
-}  // namespace
+}  // namespace image_files_test
 }  // namespace afm::curves

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-namespace {
+namespace image_output_test {
 
 using namespace afm::curves;
 using afm::physics::ScanImage;
@@ -96,4 +96,4 @@ TEST(ImageFormat, IsKnownByTheEndingOfAFile) {
   EXPECT_FALSE(image_format("b.png"));
 }
 
-}  // namespace
+}  // namespace image_output_test

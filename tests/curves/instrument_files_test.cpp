@@ -14,7 +14,7 @@
 #include "support/stored_zip.h"
 
 namespace afm::curves {
-namespace {
+namespace instrument_files_test {
 
 using testing::HasSubstr;
 
@@ -248,5 +248,5 @@ TEST(IgorFile, RefusesOtherVersionsDamageAndEveryCut) {
   EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(40, 0).bytes()), HasSubstr("no table of channels with labels"));
 }
 
-}  // namespace
+}  // namespace instrument_files_test
 }  // namespace afm::curves

@@ -7,18 +7,18 @@
 #include <set>
 
 #include "curves/sample_model.h"
-#include "places.h"
 #include "scene/samples/material_library.h"
+#include "support/places.h"
 
 namespace afm::curves {
-namespace {
+namespace live_parameters_test {
 
 using Row = LiveParameters::Row;
 
 class LiveParametersTest : public ::testing::Test {
  protected:
   static SampleModel material(const char* name) {
-    const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+    const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
     return make_sample_model(ContactSetup{*library.find(name), {}, {}}).value();
   }
 
@@ -119,5 +119,5 @@ TEST_F(LiveParametersTest, ARigidContactSoftensFromAStiffOne) {
   EXPECT_EQ(parameters.value(Row::ReducedModulus), "rigid");
 }
 
-}  // namespace
+}  // namespace live_parameters_test
 }  // namespace afm::curves

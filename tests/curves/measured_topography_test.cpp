@@ -14,7 +14,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::curves {
-namespace {
+namespace measured_topography_test {
 
 using testing::HasSubstr;
 
@@ -120,5 +120,5 @@ TEST(MeasuredTopography, IsNoSampleWhereItIsNoHeight) {
   EXPECT_THAT(blank.error().message, HasSubstr("no point"));
 }
 
-}  // namespace
+}  // namespace measured_topography_test
 }  // namespace afm::curves

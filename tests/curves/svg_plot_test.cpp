@@ -9,7 +9,7 @@
 #include <random>
 
 namespace afm::curves {
-namespace {
+namespace svg_plot_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -107,5 +107,5 @@ TEST(SvgPlot, DrawsAxesForNothingAtAll) {
   }
 }
 
-}  // namespace
+}  // namespace svg_plot_test
 }  // namespace afm::curves

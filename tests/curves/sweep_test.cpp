@@ -10,16 +10,16 @@
 
 #include "app/options/contact_options.h"
 #include "physics/contact.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::curves {
-namespace {
+namespace sweep_test {
 
 using testing::HasSubstr;
 
 ContactSetup setup_of(const char* material, const char* model) {
   app::ContactOptions options;
-  options.assets_dir = AFM_SOURCE_DIR "/assets";
+  options.assets_dir = support::source("assets");
   options.material = material;
   options.model = model;
   return app::contact_setup(options).value();
@@ -155,5 +155,5 @@ TEST(SweepTable, HasAColumnForEveryNumberAndALineForEveryPoint) {
   EXPECT_FALSE(json["parameters"].contains("spring_constant_N_per_m"));
 }
 
-}  // namespace
+}  // namespace sweep_test
 }  // namespace afm::curves

@@ -7,7 +7,7 @@
 #include "support/paper_wall.h"
 
 namespace afm::exhibit {
-namespace {
+namespace analogy_test {
 
 class AnalogyTest : public test::PaperWall {
  protected:
@@ -87,5 +87,5 @@ TEST_F(AnalogyTest, TheServoFeelsTheSameSampleWhateverIsShown) {
   }
 }
 
-}  // namespace
+}  // namespace analogy_test
 }  // namespace afm::exhibit

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace afm::exhibit {
-namespace {
+namespace blank_picture_test {
 
 TEST(BlankPicture, ShowsNoPanelWhateverWasShown) {
   render::FrameState frame;
@@ -25,5 +25,5 @@ TEST(BlankPicture, ShowsNoPanelWhateverWasShown) {
   EXPECT_EQ(frame.visible, std::vector<std::uint8_t>(3, 0));
 }
 
-}  // namespace
+}  // namespace blank_picture_test
 }  // namespace afm::exhibit

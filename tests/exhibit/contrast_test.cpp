@@ -12,7 +12,7 @@
 #include "panels/panel_fonts.h"
 
 namespace afm::render {
-namespace {
+namespace contrast_test {
 
 // Relative luminance of an sRGB colour, and the ratio of two (WCAG 2.2).
 double luminance(const glm::dvec3& srgb) {
@@ -81,5 +81,5 @@ TEST(Letters, OfEveryStyleAreLargeEnoughFromTheSweetSpotOfThePapersWall) {  // D
   }
 }
 
-}  // namespace
+}  // namespace contrast_test
 }  // namespace afm::render

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace afm::exhibit {
-namespace {
+namespace cycle_curve_test {
 
 scene::TipSample sample(std::int64_t ms, double z_nm, scene::ServoState state = scene::ServoState::Running) {
   scene::TipSample s;
@@ -56,5 +56,5 @@ TEST(CycleCurve, LeavesOutWhatIsNotFelt) {
   EXPECT_TRUE(curve.empty());
 }
 
-}  // namespace
+}  // namespace cycle_curve_test
 }  // namespace afm::exhibit

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace afm::exhibit {
-namespace {
+namespace cycle_history_test {
 
 constexpr double kHandMPerM = 0.05 / 14e-9;
 
@@ -103,5 +103,5 @@ TEST_F(CycleHistoryTest, KeepsTheOtherMaterialAndForgetsWhatOtherParametersGave)
   EXPECT_GT(points(0), 100U);
 }
 
-}  // namespace
+}  // namespace cycle_history_test
 }  // namespace afm::exhibit

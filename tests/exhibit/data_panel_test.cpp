@@ -8,17 +8,17 @@
 #include <string_view>
 
 #include "curves/sample_model.h"
-#include "places.h"
 #include "scene/samples/material_library.h"
 #include "support/phrases.h"
+#include "support/places.h"
 
 namespace afm::exhibit {
-namespace {
+namespace data_panel_test {
 
 using physics::Law;
 
 render::DataPanel panel_of(Law law, const scene::Tip& tip = {}) {
-  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+  const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   curves::ContactSetup setup{*library.find("mica"), {}, {}};
   setup.model.law = law;
   return data_panel(curves::make_sample_model(setup).value(), tip, test::english());
@@ -61,5 +61,5 @@ TEST(DataPanel, SaysWhichWayTheLeverIsBent) {
   EXPECT_EQ(panel_of(Law::Paper, pressed).rows.back().source, "lever bent up by 7.00 nm");
 }
 
-}  // namespace
+}  // namespace data_panel_test
 }  // namespace afm::exhibit

@@ -16,10 +16,10 @@
 #include "exhibit/guidance.h"
 #include "exhibit/procedure.h"
 #include "exhibit/sound/narrator.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::exhibit {
-namespace {
+namespace flashes_test {
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr int kSeconds = 12, kFrameMs = 17;
@@ -65,7 +65,7 @@ class Flashes : public ::testing::Test {
  protected:
   Flashes() {
     ExhibitFiles files;
-    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    files.assets_dir = support::source("assets");
     stage_.emplace(load_exhibit(files).value());
     for (const scene::MaterialEntry& entry : stage_->materials.materials) {
       models_.push_back(curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value());
@@ -211,5 +211,5 @@ TEST_F(Flashes, TheLineThatFollowsTheTipIsTooSmallForOne) {
   }
 }
 
-}  // namespace
+}  // namespace flashes_test
 }  // namespace afm::exhibit

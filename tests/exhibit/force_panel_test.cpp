@@ -12,11 +12,11 @@
 #include "exhibit/frame_builder.h"
 #include "panels/marker_layout.h"
 #include "physics/cycle_figures.h"
-#include "places.h"
 #include "support/phrases.h"
+#include "support/places.h"
 
 namespace afm::exhibit {
-namespace {
+namespace force_panel_test {
 
 using render::LabelBox;
 using render::MarkerLabel;
@@ -44,7 +44,7 @@ std::vector<MarkerLabel> labels_of(const render::ForcePanel& panel) {
 }
 
 TEST(ForcePanel, NoLabelCoversAnotherForAnyMaterialOfTheLibrary) {
-  const std::string assets = AFM_SOURCE_DIR "/assets";
+  const std::string assets = support::source("assets");
   const scene::MaterialLibrary library = scene::load_materials(assets + "/materials.toml").value();
   const scene::Wall wall = scene::load_wall(assets + "/walls/powerwall.toml").value();
   std::size_t looked_at = 0;
@@ -78,7 +78,7 @@ TEST(ForcePanel, NoLabelCoversAnotherForAnyMaterialOfTheLibrary) {
 
 // An earlier sample's forces need other axes: its curve would cross the plot from edge to edge.
 TEST(ForcePanel, ThePresentSamplesCurveIsThereAlone) {
-  const std::string assets = AFM_SOURCE_DIR "/assets";
+  const std::string assets = support::source("assets");
   const scene::MaterialLibrary library =
       scene::load_materials(assets + "/materials.toml").value().only(scene::kPaperMaterials).value();
   const scene::Wall wall = scene::load_wall(assets + "/walls/powerwall.toml").value();
@@ -148,5 +148,5 @@ TEST(ForcePanel, CurvesAreToldApartWithoutRedOrGreenVision) {
   }
 }
 
-}  // namespace
+}  // namespace force_panel_test
 }  // namespace afm::exhibit

@@ -14,7 +14,7 @@
 
 // The friction loop that F shows, of a tip that rubs with 0.7 nN on a spring of 3 N/m.
 namespace afm::exhibit {
-namespace {
+namespace friction_panel_test {
 
 using physics::FrictionLaw;
 using physics::Length;
@@ -165,5 +165,5 @@ TEST(FrictionHistory, IsBoundedHoweverLongTheTipIsLedAndEmptyWhereItRests) {
   EXPECT_EQ(history.contact().size(), before);
 }
 
-}  // namespace
+}  // namespace friction_panel_test
 }  // namespace afm::exhibit

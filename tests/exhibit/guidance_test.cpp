@@ -12,7 +12,7 @@
 #include "support/phrases.h"
 
 namespace afm::exhibit {
-namespace {
+namespace guidance_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -118,5 +118,5 @@ TEST(Guidance, AsksToHoldTheButtonThatTheForceHangsOn) {
   EXPECT_EQ(next_step(lifted, {}), Hint::TurnOnAndHold);
 }
 
-}  // namespace
+}  // namespace guidance_test
 }  // namespace afm::exhibit

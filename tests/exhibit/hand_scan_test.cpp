@@ -14,11 +14,11 @@
 #include "exhibit/scan/scan_hand.h"
 #include "exhibit/scan/scan_panels.h"
 #include "haptics/device.h"
-#include "places.h"
+#include "support/places.h"
 
 // An image that a hand takes, and a scan that leads one.
 namespace afm::exhibit {
-namespace {
+namespace hand_scan_test {
 
 using scene::ScanHand;
 using scene::TipSample;
@@ -27,7 +27,7 @@ constexpr double kSideM = 64e-9;
 constexpr double kMPerS = 40e-9;  // of the tip
 
 const Phrases& english() {
-  static const Phrases phrases = Phrases::load(AFM_SOURCE_DIR "/assets/guidance/en.toml").value();
+  static const Phrases phrases = Phrases::load(support::source("assets/guidance/en.toml")).value();
   return phrases;
 }
 
@@ -309,5 +309,5 @@ TEST(LeadingScan, LeavesTheWayBackToTheForceToTheProcedure) {
   EXPECT_THAT(hand_guidance(painted, tip, english()).value_or(""), testing::StartsWith("Your hand takes the image"));
 }
 
-}  // namespace
+}  // namespace hand_scan_test
 }  // namespace afm::exhibit

@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace afm::exhibit {
-namespace {
+namespace height_colours_test {
 
 using Linear = std::array<double, 3>;
 
@@ -71,5 +71,5 @@ TEST(HeightColours, EndWhereTheScaleEnds) {
   EXPECT_EQ(height_colour(std::numeric_limits<double>::quiet_NaN()), kNoHeightColour);
 }
 
-}  // namespace
+}  // namespace height_colours_test
 }  // namespace afm::exhibit

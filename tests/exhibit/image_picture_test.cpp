@@ -9,7 +9,7 @@
 
 #include "exhibit/height_colours.h"
 
-namespace {
+namespace image_picture_test {
 
 using namespace afm;
 using Color = std::array<std::uint8_t, 3>;
@@ -37,4 +37,4 @@ TEST(ImagePicture, ShowsRowsFromTheTopOverTheirWholeRange) {
   EXPECT_NE(pixel(picture, 12, below), pixel(picture, 12 + 57, below));
 }
 
-}  // namespace
+}  // namespace image_picture_test

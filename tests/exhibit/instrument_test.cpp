@@ -14,7 +14,7 @@
 #include "support/paper_wall.h"
 
 namespace afm::exhibit {
-namespace {
+namespace instrument_test {
 
 constexpr double kLeastAbove = 0.1;  // sine of the light's angle with the lever's face
 
@@ -144,5 +144,5 @@ TEST_F(InstrumentTest, TheMarksOfTheUnbentLeverPassBesideTheTipAndOverTheSample)
   EXPECT_GT(shown, 40);
 }
 
-}  // namespace
+}  // namespace instrument_test
 }  // namespace afm::exhibit

@@ -16,7 +16,7 @@
 #include "support/paper_wall.h"
 
 namespace afm::exhibit {
-namespace {
+namespace journey_test {
 
 class JourneyTest : public test::PaperWall {
  protected:
@@ -251,5 +251,5 @@ TEST(JourneyTravel, InStepsChangesTheScaleOnlyWhereNothingIsSeen) {
   EXPECT_FALSE(travel.away());
 }
 
-}  // namespace
+}  // namespace journey_test
 }  // namespace afm::exhibit

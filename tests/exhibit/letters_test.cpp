@@ -16,10 +16,10 @@
 #include "exhibit/scan/scan_panels.h"
 #include "full_panels.h"
 #include "panel_painter.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::exhibit {
-namespace {
+namespace letters_test {
 
 constexpr double kCapShare = 0.727;  // of Inter's em square
 constexpr double kLeastMinutes = 20.0;
@@ -28,7 +28,7 @@ class LettersOfThePanels : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWall) {
   ExhibitFiles files;
-  files.assets_dir = AFM_SOURCE_DIR "/assets";
+  files.assets_dir = support::source("assets");
   files.language = GetParam();
   const auto stage = load_exhibit(files);
   ASSERT_TRUE(stage) << stage.error().message;
@@ -68,5 +68,5 @@ TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWal
 
 INSTANTIATE_TEST_SUITE_P(Languages, LettersOfThePanels, ::testing::Values("en", "de"));
 
-}  // namespace
+}  // namespace letters_test
 }  // namespace afm::exhibit

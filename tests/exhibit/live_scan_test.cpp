@@ -20,13 +20,13 @@
 #include "exhibit/scan/scan_cause.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
-#include "places.h"
 #include "support/image_files.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 // The scan that the live wall shows, driven as the keys drive it.
 namespace afm::exhibit {
-namespace {
+namespace live_scan_test {
 
 constexpr std::size_t kMica = 0, kGold = 1;
 constexpr double kFrameS = 1.0 / 60.0;
@@ -34,7 +34,7 @@ constexpr double kFrameS = 1.0 / 60.0;
 const Stage& stage() {
   static const Stage loaded = [] {
     ExhibitFiles files;
-    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    files.assets_dir = support::source("assets");
     return load_exhibit(files).value();
   }();
   return loaded;
@@ -102,7 +102,7 @@ TEST(ScanArtefacts, HaveTheirNameAndTheirPhraseInEveryLanguage) {
   const auto artefacts = core::kEnumerators<physics::ScanArtefact>;
   ASSERT_EQ(physics::kScanArtefacts.size(), artefacts.size());
   for (const LanguageRow& language : kLanguages) {
-    const std::string file = fmt::format("{}/assets/guidance/{}.toml", AFM_SOURCE_DIR, language.word);
+    const std::string file = fmt::format("{}/assets/guidance/{}.toml", support::source(), language.word);
     const Phrases phrases = Phrases::load(file).value();
     std::set<std::string> texts;
     for (std::size_t i = 0; i < artefacts.size(); ++i) {
@@ -147,7 +147,7 @@ TEST(LiveScan, ScansAMeasuredSampleAsItIsDrawnAndABlunterTipHigher) {
     heights.push_back(static_cast<float>(150e-9 * std::sin(0.9 * (i % 40)) * std::cos(0.5 * std::floor(i / 40.0))));
   }
   ExhibitFiles files;
-  files.assets_dir = AFM_SOURCE_DIR "/assets";
+  files.assets_dir = support::source("assets");
   files.sample = folder.write("scan.gsf", test::gsf_file("XRes = 40\nYRes = 40\nXReal = 2000\nYReal = 2000\n"
                                                          "XYUnits = nm\nZUnits = m\n",
                                                          heights));
@@ -364,7 +364,7 @@ TEST(LiveScan, TakesThePlaceOfTheCurveAndTheTipFollowsUnlessTheHandHasIt) {
 
 TEST(LiveScan, LeavesRoomForTheServosNodesWithEveryMaterialOnTheShelf) {
   ExhibitFiles files;
-  files.assets_dir = AFM_SOURCE_DIR "/assets";
+  files.assets_dir = support::source("assets");
   const auto library = scene::load_materials(files.assets_dir + "/materials.toml").value();
   for (const auto& material : library.materials) {
     if (files.shown.size() < kMostMaterials) files.shown.push_back(material.name);
@@ -373,5 +373,5 @@ TEST(LiveScan, LeavesRoomForTheServosNodesWithEveryMaterialOnTheShelf) {
   EXPECT_LE(load_exhibit(files).value().wall_scene.scene().nodes.size(), scene::kMaxNodes);
 }
 
-}  // namespace
+}  // namespace live_scan_test
 }  // namespace afm::exhibit

@@ -10,7 +10,7 @@
 #include "exhibit/wall_marks.h"
 
 namespace afm::exhibit {
-namespace {
+namespace marks_test {
 
 TEST(ScaleBar, IsRoundAndFillsItsPlaceAtEveryScale) {
   constexpr double kLongest = 0.46;
@@ -113,5 +113,5 @@ TEST(FilmStrip, PutsReducedFramesInRows) {
   EXPECT_EQ(red(2, 1), 0) << "no fourth frame";
 }
 
-}  // namespace
+}  // namespace marks_test
 }  // namespace afm::exhibit

@@ -17,7 +17,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {
-namespace {
+namespace model_view_test {
 
 using testing::HasSubstr;
 
@@ -200,5 +200,5 @@ TEST_F(OwnModel, SaysThatItsAnimationsAreNotPlayedOnTheWall) {
   EXPECT_THAT(said(R"(, "animations": [{"samplers": [], "channels": []}])"), HasSubstr("is shown at rest"));
 }
 
-}  // namespace
+}  // namespace model_view_test
 }  // namespace afm::exhibit

@@ -5,14 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "curves/sample_model.h"
-#include "places.h"
 #include "render/control_layout.h"
 #include "render/presenter.h"
 #include "scene/samples/material_library.h"
 #include "support/phrases.h"
+#include "support/places.h"
 
 namespace afm::exhibit {
-namespace {
+namespace parameter_panel_test {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -24,7 +24,7 @@ curves::LiveParameters mica() {
   return curves::LiveParameters(
       curves::make_sample_model(
           curves::ContactSetup{
-              *scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value().find("mica"), {}, {}})
+              *scene::load_materials(support::source("assets/materials.toml")).value().find("mica"), {}, {}})
           .value());
 }
 
@@ -82,5 +82,5 @@ TEST(PicturePlace, KeepsProportionsBetweenBarsAndScalesNothingThatFits) {
   EXPECT_GE(render::picture_place({1, 1}, {4000, 30}).size_px.y, 1U);
 }
 
-}  // namespace
+}  // namespace parameter_panel_test
 }  // namespace afm::exhibit

@@ -11,17 +11,17 @@
 
 #include "core/whole_file.h"
 #include "exhibit/exhibit_setup.h"
-#include "places.h"
 #include "scene/samples/probe_library.h"
 #include "support/phrases.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {
-namespace {
+namespace phrases_test {
 
 using ::testing::HasSubstr;
 
-const std::string kAssets = AFM_SOURCE_DIR "/assets";
+const std::string kAssets = support::source("assets");
 
 Phrases german() { return Phrases::load(test::kPhraseFolder + "de.toml").value(); }
 
@@ -120,5 +120,5 @@ TEST(Language, FollowsTheFirstVariableOfTheLocaleThatIsSet) {
   EXPECT_EQ(language({"", "", ""}), "en");
 }
 
-}  // namespace
+}  // namespace phrases_test
 }  // namespace afm::exhibit

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace afm::exhibit {
-namespace {
+namespace procedure_test {
 
 using State = scene::ServoState;
 using physics::Phase;
@@ -111,5 +111,5 @@ TEST_F(ProcedureTest, AForceThatCameBackHasNotLetGoYet) {
   EXPECT_EQ(shown_.back().hint, Hint::MoveDown);
 }
 
-}  // namespace
+}  // namespace procedure_test
 }  // namespace afm::exhibit

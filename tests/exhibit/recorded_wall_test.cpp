@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace afm::exhibit {
-namespace {
+namespace recorded_wall_test {
 
 const std::vector<std::string> kShown{"mica", "gold", "nitride"};
 constexpr std::int64_t kFirstNs = 5'000'000'000, kFrameNs = 100'000'000;
@@ -72,5 +72,5 @@ TEST(RecordedWall, ShowsAFrameUntilTheNextOneAndTheFirstOneBeforeIt) {
   EXPECT_EQ(moment_on_wall(all, kShown, kFirstNs + 9 * kFrameNs).frame, &all.wall[3]);
 }
 
-}  // namespace
+}  // namespace recorded_wall_test
 }  // namespace afm::exhibit

@@ -6,7 +6,7 @@
 #include <string>
 
 namespace afm::exhibit {
-namespace {
+namespace scan_choice_test {
 
 constexpr double kSide_m = 1e-6;
 constexpr int kBeyondEveryEnd = 40;
@@ -46,5 +46,5 @@ TEST(ScanChoiceSteps, AreASeriesThatIsTheSameBackwards) {
   EXPECT_EQ(value_text(choice, ScanRow::Gain), "200/s");
 }
 
-}  // namespace
+}  // namespace scan_choice_test
 }  // namespace afm::exhibit

@@ -9,7 +9,7 @@
 #include "support/phrases.h"
 
 namespace afm::exhibit {
-namespace {
+namespace servo_rows_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -59,5 +59,5 @@ TEST(ServoRows, TellOfWarmMotorsAndOfTheButtonThatMustBeHeld) {
   EXPECT_THAT(all, HasSubstr("Hz, real-time"));
 }
 
-}  // namespace
+}  // namespace servo_rows_test
 }  // namespace afm::exhibit

@@ -9,13 +9,13 @@
 
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/wall_layout.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::exhibit {
-namespace {
+namespace stage_place_test {
 
 scene::Wall preset_wall(const std::string& name) {
-  return scene::load_wall(AFM_SOURCE_DIR "/assets/walls/" + name + ".toml").value();
+  return scene::load_wall(support::source("assets/walls/") + name + ".toml").value();
 }
 
 std::string name_or_none(const std::optional<scene::Screen>& screen) { return screen ? screen->name : "none"; }
@@ -74,7 +74,7 @@ TEST(WallShape, PutsThePanelsWhereThereIsRoomForThem) {
 
 TEST(StageWithoutAWallFile, FillsTheProportionsOfTheWindow) {
   ExhibitFiles files;
-  files.assets_dir = AFM_SOURCE_DIR "/assets";
+  files.assets_dir = support::source("assets");
   for (const double aspect : {16.0 / 9.0, 4.0 / 3.0, 9.0 / 16.0}) {
     files.aspect = aspect;
     const auto stage = load_exhibit(files);
@@ -88,5 +88,5 @@ TEST(StageWithoutAWallFile, FillsTheProportionsOfTheWindow) {
   EXPECT_NEAR(load_exhibit(files)->screen.width_m(), 3.048, 1e-9) << "a wall file is believed";
 }
 
-}  // namespace
+}  // namespace stage_place_test
 }  // namespace afm::exhibit

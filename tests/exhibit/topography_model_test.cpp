@@ -18,7 +18,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {
-namespace {
+namespace topography_model_test {
 
 // Hills on 48 x 32 points, 3 um x 2 um.
 class MeasuredSample : public test::PaperWall {
@@ -157,5 +157,5 @@ TEST(ExaggerationOfHeights, KeepsTrueProportionsWhereTheyCanBeFelt) {
   }
 }
 
-}  // namespace
+}  // namespace topography_model_test
 }  // namespace afm::exhibit

@@ -26,13 +26,13 @@
 #include "exhibit/lesson/instructor_page.h"
 #include "exhibit/parameter_panel.h"
 #include "exhibit/servo_rows.h"
-#include "places.h"
 #include "scene/shared/shared_blocks.h"
 #include "support/phrases.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {
-namespace {
+namespace translated_wall_test {
 
 // Names: of symbols (F_attr), units, laws, products and scheduling classes; and the number of a report without a run.
 const std::set<std::string, std::less<>> kNames{"attr",  "ad",  "joc",      "fold",    "kPa",    "MPa",
@@ -63,7 +63,7 @@ class TranslatedWall : public ::testing::Test {
  protected:
   void SetUp() override {
     ExhibitFiles files;
-    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    files.assets_dir = support::source("assets");
     files.guidance = folder_.write("pseudo.toml", test::pseudo_language());
     files.shown = {"mica", "gold", "si3n4", "mica-air", "polystyrene-air", "pdms-air"};
     auto stage = load_exhibit(files);
@@ -259,5 +259,5 @@ TEST_F(TranslatedWall, HasNoEnglishWordInItsReport) {
   check(text);
 }
 
-}  // namespace
+}  // namespace translated_wall_test
 }  // namespace afm::exhibit

@@ -7,18 +7,18 @@
 #include "exhibit/calibration.h"
 #include "exhibit/comfort_clamp.h"
 #include "exhibit/depth_report.h"
-#include "places.h"
 #include "support/phrases.h"
+#include "support/places.h"
 
 namespace afm::exhibit {
-namespace {
+namespace wall_pictures_test {
 
 using scene::EyeOrder;
 using scene::StereoMode;
 using ::testing::HasSubstr;
 
 scene::Wall preset(const std::string& name) {
-  return scene::load_wall(AFM_SOURCE_DIR "/assets/walls/" + name + ".toml").value();
+  return scene::load_wall(support::source("assets/walls/") + name + ".toml").value();
 }
 
 TEST(WallPictures, ThePatternHasALetterForEachEyeOnlyWhereTheirPicturesDiffer) {
@@ -205,5 +205,5 @@ TEST(ComfortClamp, NarrowsSoonWidensSlowlyAndNeverJumps) {
   EXPECT_NEAR(before, 0.063, 1e-12);
 }
 
-}  // namespace
+}  // namespace wall_pictures_test
 }  // namespace afm::exhibit

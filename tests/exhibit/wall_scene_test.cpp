@@ -14,7 +14,7 @@
 #include "support/paper_wall.h"
 
 namespace afm::exhibit {
-namespace {
+namespace wall_scene_test {
 
 class WallSceneTest : public test::PaperWall {
  protected:
@@ -247,5 +247,5 @@ TEST_F(WallSceneTest, AMissingModelIsABadInputFileThatIsNamed) {
   EXPECT_THAT(missing.error().message, ::testing::HasSubstr("/nowhere/models/"));
 }
 
-}  // namespace
+}  // namespace wall_scene_test
 }  // namespace afm::exhibit

@@ -21,21 +21,21 @@
 #include "exhibit/frame_builder.h"
 #include "exhibit/stage_place.h"
 #include "exhibit/wall_pictures.h"
-#include "places.h"
 #include "render/depth_meter.h"
 #include "support/pictures.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 #include "support/vulkan_fixture.h"
 
 namespace afm::exhibit {
-namespace {
+namespace walls_test {
 
 constexpr std::uint32_t kEyeWidth = 640;
 constexpr std::size_t kFrame = 18;
 
 core::Result<Stage> stage_on(const std::string& wall_file) {
   ExhibitFiles files;
-  files.assets_dir = AFM_SOURCE_DIR "/assets";
+  files.assets_dir = support::source("assets");
   files.wall = wall_file;
   return load_exhibit(files);
 }
@@ -161,7 +161,7 @@ void expect_everything_in_its_place(const std::string& wall_file, const std::str
 TEST(EveryWall, HasRoomForAllThatMustBeRead) {
   for (const char* preset : {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2", "blended", "curved",
                              "cave", "floor", "wide", "phone"}) {
-    expect_everything_in_its_place(fmt::format("{}/assets/walls/{}.toml", AFM_SOURCE_DIR, preset), preset);
+    expect_everything_in_its_place(fmt::format("{}/assets/walls/{}.toml", support::source(), preset), preset);
   }
   const support::ScratchFolder folder;
   const auto expect = [&](const char* what, double width_m, double height_m, double bottom_m,
@@ -214,7 +214,7 @@ class DepthOfAWall : public test::VulkanTest {
 // live window, which must then never warn.
 TEST_F(DepthOfAWall, StaysWithinOneDegreeOnEveryPreset) {
   for (const char* preset : {"powerwall", "3d-tv", "desk-red-cyan", "cave", "wide"}) {
-    const auto stage = stage_on(fmt::format("{}/assets/walls/{}.toml", AFM_SOURCE_DIR, preset));
+    const auto stage = stage_on(fmt::format("{}/assets/walls/{}.toml", support::source(), preset));
     ASSERT_TRUE(stage) << stage.error().message;
     const scene::Viewer& viewer = stage->wall.viewers.front();
     const double distance_m = glm::dot(viewer.sweet_spot.position_m - stage->screen.lower_left, stage->screen.normal());
@@ -236,7 +236,7 @@ using PixelsOfAWall = test::VulkanTest;
 
 // In a cycle most of the wall stays as it is: what is drawn of it gives the bytes of drawing all of it.
 TEST_F(PixelsOfAWall, AreRedrawnWhereTheTipMovesAndAsIfAllWere) {
-  const auto stage = stage_on(AFM_SOURCE_DIR "/assets/walls/desk-red-cyan.toml");
+  const auto stage = stage_on(support::source("assets/walls/desk-red-cyan.toml"));
   ASSERT_TRUE(stage) << stage.error().message;
   const auto subject = app::wall_subject(*stage, 960, app::WallMotion::Tip).value();
   render::RendererOptions drawing = subject.drawing;
@@ -272,5 +272,5 @@ TEST_F(PixelsOfAWall, MayBeFewAndMany) {
   }
 }
 
-}  // namespace
+}  // namespace walls_test
 }  // namespace afm::exhibit

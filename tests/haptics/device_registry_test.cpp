@@ -11,8 +11,9 @@
 
 #include "core/exit_code.h"
 #include "mock_control.h"
+#include "support/places.h"
 
-namespace {
+namespace device_registry_test {
 
 using namespace afm::haptics;
 using afm::core::ErrorCategory;
@@ -49,7 +50,7 @@ class DeviceRegistry : public testing::Test {
     };
   }
 
-  const Environment mock = with_library(AFM_MOCK_HD);
+  const Environment mock = with_library(afm::support::mock_hd());
   const Environment nowhere = with_library("/nowhere/libHD.so");
   const MonotonicClock clock;
 };
@@ -146,4 +147,4 @@ TEST_F(DeviceRegistry, KnowsWhichHandNobodyHolds) {
   EXPECT_TRUE(open_word("hdapi", mock, clock)->device->spec().has_own_hand);
 }
 
-}  // namespace
+}  // namespace device_registry_test

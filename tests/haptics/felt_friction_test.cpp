@@ -18,7 +18,7 @@
 #include "support/no_alloc.h"
 #include "support/rough_surface.h"
 
-namespace {
+namespace felt_friction_test {
 
 using namespace afm;
 using physics::FrictionLaw;
@@ -107,7 +107,7 @@ class NoisyHand {
  public:
   explicit NoisyHand(std::uint64_t seed) : random_(seed) { model_->use(ScaleMode::Atoms); }
 
-  void put_down() { on_m_ = ::put_down(*model_); }
+  void put_down() { on_m_ = felt_friction_test::put_down(*model_); }
 
   // The hand is at x for one tick; how often the tip slips.
   int read_at(double x_m, bool noise) {
@@ -342,4 +342,4 @@ TEST(FeltFriction, IsRefusedForThePapersLawAndWhereThereIsNoArea) {
   EXPECT_FALSE(haptics::build_tables(unknown, {}));
 }
 
-}  // namespace
+}  // namespace felt_friction_test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "haptics/force_limiter.h"
+#include "support/deep.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace {
+namespace force_limiter_test {
 
 using namespace afm::haptics;
 using afm::scene::FaultCode;
@@ -146,7 +147,7 @@ class Random {
 };
 
 TEST(ForceLimiter, StaysFiniteWithinCapAndSlewWhateverComesIn) {
-  constexpr int kInputs = 10'000'000;
+  const int kInputs = afm::support::draws(10'000'000);
   Random random;
   ForceLimiter output = stage();
   glm::dvec3 last_n(0.0);
@@ -223,4 +224,4 @@ TEST(WorkspaceStop, IsNotThereOnAnAxisThatTheDeviceDoesNotHave) {
   EXPECT_FALSE(one_axis.is_outside({0.3, 0.0, -0.3}));
 }
 
-}  // namespace
+}  // namespace force_limiter_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace {
+namespace force_rumble_test {
 
 using afm::haptics::ForceRumble;
 using afm::haptics::Rumble;
@@ -46,4 +46,4 @@ TEST(ForceRumble, HumsInProportionAndIsSilentWithoutForce) {
   EXPECT_DOUBLE_EQ(rumble.step(50.0, 4 * kTickNs).light, ForceRumble::kHumShare);
 }
 
-}  // namespace
+}  // namespace force_rumble_test

@@ -8,7 +8,7 @@
 #include "physics/contact.h"
 #include "servo_bench.h"
 
-namespace {
+namespace full_cycle_test {
 
 using namespace afm::scene;
 using afm::test::calculated;
@@ -103,4 +103,4 @@ INSTANTIATE_TEST_SUITE_P(
              "At" + std::to_string(std::lround(1e3 * std::get<1>(test.param))) + "mmPerS";
     });
 
-}  // namespace
+}  // namespace full_cycle_test

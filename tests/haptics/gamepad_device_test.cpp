@@ -16,7 +16,7 @@
 
 // Virtual joysticks of the real SDL2, and for force feedback, which those lack, its functions replaced by ours. SDL's
 // thread runs in real time; how long anything takes decides nothing.
-namespace {
+namespace gamepad_device_test {
 
 using namespace afm::haptics;
 using afm::core::ErrorCategory;
@@ -270,4 +270,4 @@ TEST_F(GamepadDeviceTest, DoesNotAllocateInATick) {
   }
 }
 
-}  // namespace
+}  // namespace gamepad_device_test

@@ -7,7 +7,7 @@
 #include "haptics/safety.h"
 
 // Whose energy the governor books: the hand's, and that of one visit to the sample.
-namespace {
+namespace governor_energy_test {
 
 using namespace afm::haptics;
 using afm::physics::Phase;
@@ -58,4 +58,4 @@ TEST_F(GovernorEnergy, BeginsAnewHighAboveTheSample) {
   EXPECT_EQ(governor_.state(), ServoState::Running);
 }
 
-}  // namespace
+}  // namespace governor_energy_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace {
+namespace hand_motion_test {
 
 using afm::haptics::HandMotion;
 
@@ -45,4 +45,4 @@ TEST(HandMotion, FollowsASteadyHandAndForgetsIt) {
   EXPECT_EQ(motion.moved_m(), glm::dvec3(0.0));
 }
 
-}  // namespace
+}  // namespace hand_motion_test

@@ -8,7 +8,7 @@
 #include "haptics/safety.h"
 
 // What the governor makes of a tick that comes late: the hand is elsewhere by then, and the model wants another force.
-namespace {
+namespace late_tick_test {
 
 using namespace afm::haptics;
 using afm::scene::FaultCode;
@@ -62,4 +62,4 @@ TEST_F(Governor, EndsAFadeInItsTimeThoughATickInItIsLate) {
   EXPECT_EQ(governor_.fault(), FaultCode::RendererDied);
 }
 
-}  // namespace
+}  // namespace late_tick_test

@@ -10,7 +10,7 @@
 
 #include "servo_bench.h"
 
-namespace {
+namespace material_edit_test {
 
 using namespace afm::scene;
 using afm::test::kGold;
@@ -197,4 +197,4 @@ TEST(MaterialEdit, CrossesBetweenThreads) {
   EXPECT_EQ(bench.state().active.edit_revision, revision);
 }
 
-}  // namespace
+}  // namespace material_edit_test

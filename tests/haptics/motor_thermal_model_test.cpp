@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace motor_thermal_model_test {
 
 using afm::haptics::MotorThermalModel;
 
@@ -92,4 +92,4 @@ TEST(MotorThermalModel, SimulatesNothingForADeviceWithoutARating) {
   EXPECT_EQ(motors.heat(), 0.0);
 }
 
-}  // namespace
+}  // namespace motor_thermal_model_test

@@ -17,7 +17,7 @@
 #include "servo_bench.h"
 #include "support/rough_surface.h"
 
-namespace {
+namespace passivity_observer_test {
 
 using namespace afm::haptics;
 using afm::physics::Law;
@@ -370,4 +370,4 @@ TEST(PassivityObserverInTheLoop, TakesTheForceAwayWhereDampingDoesNotSuffice) {
   EXPECT_LE(ticks, 21);
 }
 
-}  // namespace
+}  // namespace passivity_observer_test

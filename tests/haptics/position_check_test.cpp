@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace afm::haptics {
-namespace {
+namespace position_check_test {
 
 constexpr std::int64_t kTickNs = 1'000'000;
 const glm::dvec3 kNone(0.0), kPull(0.0, -0.4, 0.0);
@@ -99,5 +99,5 @@ TEST(PlausiblePlacesOfExactDevices, AreAllBelieved) {
   }
 }
 
-}  // namespace
+}  // namespace position_check_test
 }  // namespace afm::haptics

@@ -10,7 +10,7 @@
 
 #include "servo_bench.h"
 
-namespace {
+namespace potential_energy_test {
 
 using afm::haptics::ContactModel;
 using afm::haptics::PotentialEnergy;
@@ -104,4 +104,4 @@ INSTANTIATE_TEST_SUITE_P(Laws, StoredEnergyOf,
                                          AnyLaw{"LennardJones", Law::LennardJones}),
                          [](const auto& test) { return test.param.name; });
 
-}  // namespace
+}  // namespace potential_energy_test

@@ -15,7 +15,7 @@
 #include "support/recorded_cycles.h"
 
 namespace afm::haptics {
-namespace {
+namespace recorded_contact_test {
 
 struct Felt {
   std::shared_ptr<const physics::LawTables> tables;
@@ -112,5 +112,5 @@ TEST_P(RecordedContact, StaysBelowTheStiffnessThatAHandStands) {
 
 INSTANTIATE_TEST_SUITE_P(Recordings, RecordedContact, testing::Values(0, 1, 2, 3));
 
-}  // namespace
+}  // namespace recorded_contact_test
 }  // namespace afm::haptics

@@ -11,7 +11,7 @@
 #include "scene/shared/shared_segment.h"
 #include "support/paper_model.h"
 
-namespace {
+namespace recorded_device_test {
 
 using namespace afm::haptics;
 using afm::scene::HandScript;
@@ -112,4 +112,4 @@ TEST(RecordedDevice, RefusesNothingAndWhatCannotBe) {
   }
 }
 
-}  // namespace
+}  // namespace recorded_device_test

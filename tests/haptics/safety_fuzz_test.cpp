@@ -8,7 +8,7 @@
 
 #include "haptics/safety.h"
 
-namespace {
+namespace safety_fuzz_test {
 
 using namespace afm::haptics;
 using afm::physics::Phase;
@@ -78,4 +78,4 @@ TEST(GovernorFuzz, StaysFiniteWithinCapAndSlewWhateverComesIn) {
   EXPECT_GT(in_force, 100'000) << "the fuzzer hardly ever reached a force";
 }
 
-}  // namespace
+}  // namespace safety_fuzz_test

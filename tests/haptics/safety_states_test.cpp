@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace safety_states_test {
 
 using namespace afm::haptics;
 using afm::scene::FaultCode;
@@ -205,4 +205,4 @@ TEST(SafetyStates, FadeForAChangeOfMaterialOnlyWhereThereIsAForce) {
   }
 }
 
-}  // namespace
+}  // namespace safety_states_test

@@ -11,7 +11,7 @@
 
 #include "governor_bench.h"
 
-namespace {
+namespace safety_test {
 
 using namespace afm::haptics;
 using afm::physics::Phase;
@@ -343,4 +343,4 @@ TEST_F(Governor, ChangesTheForceNoFasterThanTheDeviceAllows) {
   EXPECT_DOUBLE_EQ(safety_limits(device, kPeriodNs, kReleaseHeightM, false).slew_n_per_s, SafetyGovernor::kSlewNPerS);
 }
 
-}  // namespace
+}  // namespace safety_test

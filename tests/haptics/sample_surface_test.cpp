@@ -10,13 +10,13 @@
 #include <random>
 #include <string>
 
-#include "places.h"
 #include "scene/gltf/gltf_loader.h"
 #include "scene/graph/height_field.h"
 #include "support/measured_surface.h"
+#include "support/places.h"
 #include "support/rough_surface.h"
 
-namespace {
+namespace sample_surface_test {
 
 using namespace afm::haptics;
 using afm::scene::SharedHeightField;
@@ -159,8 +159,7 @@ TEST(SampleSurface, OfTheDrawnSamplesFollowsThemAsATipDoes) {
   };
   for (const Expected& expected :
        {Expected{"mica", 0.6, 0.33, 0.6}, {"gold", 0.6, 0.41, 0.9}, {"si3n4", 1.3, 0.24, 0.6}}) {
-    const auto scene =
-        afm::scene::load_gltf(std::string(AFM_SOURCE_DIR "/assets/models/sample-") + expected.model + ".glb");
+    const auto scene = afm::scene::load_gltf(afm::support::source("assets/models/sample-") + expected.model + ".glb");
     ASSERT_TRUE(scene) << scene.error().message;
     const auto field = afm::scene::height_field_below(*scene, scene->find_node("surface").value());
     ASSERT_TRUE(field);
@@ -241,4 +240,4 @@ TEST(SampleSurface, OfAGentleTopographyIsTheMeasuredOnePointByPoint) {
   EXPECT_LE(smoothed.steepest_slope(), SampleSurface::kSteepestSlope) << "whatever it takes";
 }
 
-}  // namespace
+}  // namespace sample_surface_test

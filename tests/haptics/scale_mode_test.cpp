@@ -7,7 +7,7 @@
 #include "physics/contact.h"
 #include "servo_bench.h"
 
-namespace {
+namespace scale_mode_test {
 
 using afm::physics::Phase;
 using afm::scene::ScaleMode;
@@ -122,4 +122,4 @@ TEST(ScaleMode, OfNoKindThatIsKnownIsRefused) {
   EXPECT_GT(bench.state().garbage_blocks, 0U);
 }
 
-}  // namespace
+}  // namespace scale_mode_test

@@ -13,7 +13,7 @@
 #include "haptics/simulated_device.h"
 #include "physics/law_tables.h"
 
-namespace {
+namespace scaling_test {
 
 using namespace afm::haptics;
 using afm::physics::build_law_tables;
@@ -338,4 +338,4 @@ TEST(AtomsScaling, GivesAnAtomTheSameWidthInTheHandWhateverTheMaterial) {
   EXPECT_EQ(Scaling::atoms(*tables, device, 5e-9)->lateral_m_per_m(), Scaling::fit(*tables, device)->hand_m_per_m());
 }
 
-}  // namespace
+}  // namespace scaling_test

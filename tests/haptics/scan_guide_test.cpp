@@ -15,7 +15,7 @@
 #include "support/rough_surface.h"
 
 // A hand that a scan leads, and a hand that is the scanner.
-namespace {
+namespace scan_guide_test {
 
 using namespace afm::haptics;
 using afm::scene::ScanHand;
@@ -327,4 +327,4 @@ TEST(ScanOfTheHand, ChangesNoBitOfAForceWhileItIsApart) {
   EXPECT_GT(*std::max_element(without.begin(), without.end()), 0.1);
 }
 
-}  // namespace
+}  // namespace scan_guide_test

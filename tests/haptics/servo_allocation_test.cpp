@@ -15,7 +15,7 @@
 #include "support/no_lock.h"
 #include "support/rough_surface.h"
 
-namespace {
+namespace servo_allocation_test {
 
 using afm::physics::Law;
 using afm::test::NoAllocation;
@@ -221,4 +221,4 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsOverATopographyOfTheMostPoints)
   RecordProperty("p99_us", std::to_string(work_us[work_us.size() * 99 / 100]));
 }
 
-}  // namespace
+}  // namespace servo_allocation_test

@@ -10,7 +10,7 @@
 #include "physics/contact.h"
 #include "servo_bench.h"
 
-namespace {
+namespace servo_loop_test {
 
 using namespace afm::scene;
 using afm::haptics::ServoLoop;
@@ -394,4 +394,4 @@ TEST(ServoLoop, RefusesAMaterialWithoutAForceLaw) {
   EXPECT_THAT(ServoLoop::create(*segment, device, {}).error().message, testing::HasSubstr("gold"));
 }
 
-}  // namespace
+}  // namespace servo_loop_test

@@ -13,7 +13,7 @@
 #include "servo_bench.h"
 
 // What a renderer that has lost its mind could write, while the hand is held.
-namespace {
+namespace shared_garbage_test {
 
 using namespace afm::scene;
 using afm::haptics::SafetyGovernor;
@@ -169,4 +169,4 @@ TEST(SharedGarbage, OfAScanLeavesTheForceWithinItsLimits) {
   }
 }
 
-}  // namespace
+}  // namespace shared_garbage_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
-namespace {
+namespace simulated_device_test {
 
 using afm::haptics::SimulatedDevice;
 using afm::scene::HandScript;
@@ -135,4 +135,4 @@ TEST(SimulatedHand, LivesThroughPausesOfAnyLength) {
   EXPECT_NEAR(device.read(now_ns + 6 * kMs).position_m.y, 0.04, 1e-9);
 }
 
-}  // namespace
+}  // namespace simulated_device_test

@@ -18,7 +18,7 @@
 #include "support/measured_surface.h"
 #include "support/rough_surface.h"
 
-namespace {
+namespace topography_test {
 
 using namespace afm::haptics;
 using afm::physics::Phase;
@@ -347,4 +347,4 @@ TEST(SampleAxes, StayWhereATransformIsNoUse) {
   EXPECT_EQ(axes.normal(), normal);
 }
 
-}  // namespace
+}  // namespace topography_test

@@ -5,7 +5,7 @@
 
 // A headset that is off, lost or hidden: the renderer lives, and nobody sees its picture.
 namespace afm::haptics {
-namespace {
+namespace unseen_picture_test {
 
 using scene::FaultCode;
 using scene::ServoState;
@@ -41,5 +41,5 @@ TEST(UnseenPicture, IsNoFaultBeforeTheFirstOne) {
   EXPECT_EQ(bench.state().fault, FaultCode::None);
 }
 
-}  // namespace
+}  // namespace unseen_picture_test
 }  // namespace afm::haptics

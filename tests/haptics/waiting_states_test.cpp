@@ -8,7 +8,7 @@
 #include <queue>
 #include <string>
 
-namespace {
+namespace waiting_states_test {
 
 using afm::haptics::WaitingStates;
 
@@ -93,4 +93,4 @@ TEST(WaitingStates, KeepTheLastStateBeforeBytesThatAreNone) {
   EXPECT_DOUBLE_EQ(taken.newest->position_m.x, 0.03);
 }
 
-}  // namespace
+}  // namespace waiting_states_test

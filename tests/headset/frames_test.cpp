@@ -7,7 +7,7 @@
 
 // The pictures that a headset gets, byte for byte: the stand-in's images lie on our device.
 namespace afm::test {
-namespace {
+namespace frames_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -213,5 +213,5 @@ TEST_F(HeadsetFrames, ComeWithTheControllerThatWasUsedLast) {
   EXPECT_EQ(log().pulses, 1);
 }
 
-}  // namespace
+}  // namespace frames_test
 }  // namespace afm::test

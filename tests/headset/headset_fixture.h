@@ -14,6 +14,7 @@
 #include "core/clock.h"
 #include "render/headset.h"
 #include "stand_in.h"
+#include "support/places.h"
 #include "support/test_scene.h"
 
 namespace afm::test {
@@ -31,7 +32,7 @@ class HandClock final : public core::Clock {
 class HeadsetTest : public testing::Test {
  protected:
   HeadsetTest() {
-    ::setenv("XR_RUNTIME_JSON", AFM_OPENXR_STAND_IN_JSON, 1);
+    ::setenv("XR_RUNTIME_JSON", support::openxr_stand_in().c_str(), 1);
     ::setenv("XR_LOADER_DEBUG", "none", 1);
     stand_in::stand_in().begin_again();
   }
@@ -47,7 +48,7 @@ class HeadsetTest : public testing::Test {
   }
 
   void connect() {
-    runtime_ = must(render::HeadsetRuntime::connect(AFM_OPENXR_STAND_IN_JSON));
+    runtime_ = must(render::HeadsetRuntime::connect(support::openxr_stand_in()));
     context_.emplace(must(render::Context::open(validation_, render::Presentation::None, runtime_.get())));
     const glm::uvec2 eye_px = runtime_->eye_px();
     renderer_.emplace(must(render::Renderer::create(*context_, scene_.scene,

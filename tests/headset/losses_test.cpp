@@ -5,7 +5,7 @@
 
 // Headsets that are taken off, lost, closed or frozen, and machines that have none.
 namespace afm::test {
-namespace {
+namespace losses_test {
 
 using render::Headset;
 using ::testing::HasSubstr;
@@ -207,5 +207,5 @@ TEST_F(HeadsetLosses, MissingPartsAreNamedInOneLine) {
   EXPECT_THAT(refusal(), HasSubstr("XR_ERROR_RUNTIME_UNAVAILABLE"));
 }
 
-}  // namespace
+}  // namespace losses_test
 }  // namespace afm::test

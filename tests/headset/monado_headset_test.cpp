@@ -13,13 +13,14 @@
 
 #include "core/whole_file.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
 // The program on the service of Monado (Debian 13: monado-service, libopenxr1-monado), whose null compositor asks a
 // simulated headset's picture 20 times a second. For machines that have it: the label monado.
 namespace afm {
-namespace {
+namespace monado_headset_test {
 
 constexpr const char* kService = "/usr/bin/monado-service";
 constexpr const char* kManifest = "/usr/share/openxr/1/openxr_monado.json";
@@ -63,8 +64,8 @@ TEST_F(MonadosNullCompositor, GetsSixtyFramesAndAGoodEnd) {
   ASSERT_TRUE(comes([&] { return std::filesystem::exists(folder_.file("monado_comp_ipc")); })) << service.said();
   // without --validate: to the features of our device Monado 25 adds one that Vulkan 1.2's already hold, and the
   // validation layer reports it
-  support::LiveProgram view({AFM_PROGRAM, "view", "--headset", "--size", "320x240", "--haptics", "sim", "--servo",
-                             AFM_SERVO_MODE, "--frame-log", folder_.file("frames.csv")},
+  support::LiveProgram view({support::touchafm(), "view", "--headset", "--size", "320x240", "--haptics", "sim",
+                             "--servo", support::servo_mode(), "--frame-log", folder_.file("frames.csv")},
                             display_.name());
   EXPECT_TRUE(view.says("headset: has the controllers")) << view.said() << service.said();
   EXPECT_TRUE(comes([&] { return shown() >= kFrames; })) << view.said() << service.said();
@@ -72,5 +73,5 @@ TEST_F(MonadosNullCompositor, GetsSixtyFramesAndAGoodEnd) {
   EXPECT_EQ(view.ends(), 0) << view.said();
 }
 
-}  // namespace
+}  // namespace monado_headset_test
 }  // namespace afm

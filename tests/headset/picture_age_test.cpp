@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace afm::app {
-namespace {
+namespace picture_age_test {
 
 constexpr std::int64_t kMs = 1'000'000;
 
@@ -53,5 +53,5 @@ TEST(PictureAge, IsNoneWhileNobodySeesAPicture) {
   EXPECT_TRUE(age.stands_still(10'250 * kMs)) << "the time without a picture is not that of a slow one";
 }
 
-}  // namespace
+}  // namespace picture_age_test
 }  // namespace afm::app

@@ -9,7 +9,7 @@
 
 // Panels that the runtime shows itself, and those that stay in the eyes' pictures.
 namespace afm::test {
-namespace {
+namespace quads_test {
 
 using ::testing::SizeIs;
 
@@ -309,5 +309,5 @@ TEST_F(HeadsetDepth, ComesInTwoImagesWhereArraysAreRefused) {
   for (const std::size_t eye : {0U, 1U}) expect_ball(eye);
 }
 
-}  // namespace
+}  // namespace quads_test
 }  // namespace afm::test

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace afm::render {
-namespace {
+namespace session_states_test {
 
 using enum SessionEvent;
 using ::testing::ElementsAre;
@@ -92,5 +92,5 @@ TEST(SessionStates, BeginAndEndByTurnsWhateverComes) {
   }
 }
 
-}  // namespace
+}  // namespace session_states_test
 }  // namespace afm::render

@@ -11,7 +11,7 @@
 // Whatever a runtime does, and in whatever order: the picture comes back, nothing is called against the specification,
 // no message of Vulkan's layers comes, and memory stays. AFM_HEADSET_SOAK: how many things it does in each test.
 namespace afm::test {
-namespace {
+namespace soak_test {
 
 using render::Headset;
 
@@ -143,5 +143,5 @@ TEST_F(HeadsetSoak, MemoryStaysWhateverTheRuntimeDoes) {
   EXPECT_LT(second_bytes, first_bytes + kMostGrowth_bytes * actions());
 }
 
-}  // namespace
+}  // namespace soak_test
 }  // namespace afm::test

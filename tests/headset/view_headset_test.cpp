@@ -22,12 +22,12 @@
 #include "app/headset/view_headset.h"
 #include "core/whole_file.h"
 #include "exhibit/exhibit_setup.h"
-#include "places.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
 #include "support/faulty_device.h"
 #include "support/frame_log.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
@@ -35,7 +35,7 @@
 // The program with a headset of the stand-in runtime, which a file of the test's scripts, and its mirror on an X server
 // without a screen. Vulkan's calls are validated: a message would end the program with exit code 1.
 namespace afm::app {
-namespace {
+namespace view_headset_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -45,15 +45,26 @@ class ViewInAHeadset : public ::testing::Test {
  protected:
   ViewInAHeadset() {
     folder_.write("script", "");
-    ::setenv("XR_RUNTIME_JSON", AFM_OPENXR_STAND_IN_JSON, 1);
+    ::setenv("XR_RUNTIME_JSON", support::openxr_stand_in().c_str(), 1);
     ::setenv("AFM_STAND_IN", folder_.file("script").c_str(), 1);
   }
   ~ViewInAHeadset() override { ::unsetenv("AFM_STAND_IN"); }
 
   static std::vector<std::string> command(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> all{AFM_PROGRAM, "view",    "--headset",    "--size",    "320x240",
-                                 "--wand",    "mouse",   "--frame-rate", "12",        "--haptics",
-                                 "sim",       "--servo", AFM_SERVO_MODE, "--validate"};
+    std::vector<std::string> all{support::touchafm(),
+                                 "view",
+                                 "--headset",
+                                 "--size",
+                                 "320x240",
+                                 "--wand",
+                                 "mouse",
+                                 "--frame-rate",
+                                 "12",
+                                 "--haptics",
+                                 "sim",
+                                 "--servo",
+                                 support::servo_mode(),
+                                 "--validate"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -93,7 +104,7 @@ class ViewInAHeadset : public ::testing::Test {
   }
   static exhibit::Stage stage_of_the_assets() {
     exhibit::ExhibitFiles files;
-    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    files.assets_dir = support::source("assets");
     return std::move(*exhibit::load_exhibit(files));
   }
   void expect_good_end(support::LiveProgram& view) const {
@@ -256,10 +267,10 @@ TEST_F(ViewInAHeadset, LosesNoSampleAndReplaysWhateverTheRuntimeDoes) {
 TEST_F(ViewInAHeadset, SaysInOneLineWhatIsMissing) {
   tell("gone");
   const auto begin = std::chrono::steady_clock::now();
-  const auto gone = support::run_program(std::string(AFM_PROGRAM) + " view --headset");
+  const auto gone = support::run_program(support::touchafm() + " view --headset");
   EXPECT_EQ(gone.exit_code, 4);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));  // twice the second that it may take
-  EXPECT_THAT(gone.err, AllOf(HasSubstr("XR_ERROR_RUNTIME_UNAVAILABLE"), HasSubstr(AFM_OPENXR_STAND_IN_JSON),
+  EXPECT_THAT(gone.err, AllOf(HasSubstr("XR_ERROR_RUNTIME_UNAVAILABLE"), HasSubstr(support::openxr_stand_in()),
                               HasSubstr("install libopenxr-loader1")));
   EXPECT_EQ(std::count(gone.err.begin(), gone.err.end(), '\n'), 1) << gone.err;
 }
@@ -280,5 +291,5 @@ TEST(RoomFromHeadsetFloor, PutsTheWearerBeforeTheWall) {
   EXPECT_LT(glm::distance(ahead, glm::dvec3(-1, 0, 0)), 1e-12);
 }
 
-}  // namespace
+}  // namespace view_headset_test
 }  // namespace afm::app

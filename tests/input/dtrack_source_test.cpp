@@ -12,7 +12,7 @@
 #include "support/loopback_sender.h"
 
 namespace afm::input {
-namespace {
+namespace dtrack_source_test {
 
 class HandClock final : public core::Clock {
  public:
@@ -143,5 +143,5 @@ TEST(DtrackSource, SaysWhyItCannotListen) {
   EXPECT_EQ(third.error().category, core::ErrorCategory::WrongUsage);
 }
 
-}  // namespace
+}  // namespace dtrack_source_test
 }  // namespace afm::input

@@ -11,7 +11,7 @@
 #include "support/stereo_cases.h"
 
 namespace afm::input {
-namespace {
+namespace dtrack_test {
 
 // The tracker rows of the research's test vectors whose convention is dtrack or dtrack_bad.
 std::vector<test::StereoCase> dtrack_rows() {
@@ -116,5 +116,5 @@ TEST(Dtrack, KeepsTheJoystickWithinItsRange) {
   EXPECT_EQ(frame->flystick(0)->joystick[1], -1.0);
 }
 
-}  // namespace
+}  // namespace dtrack_test
 }  // namespace afm::input

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 namespace afm::input {
-namespace {
+namespace head_tracker_test {
 
 constexpr std::int64_t kMillisecond = 1'000'000;
 constexpr std::int64_t kStart = 1'000 * kMillisecond;
@@ -105,5 +105,5 @@ TEST(HeadTracker, BelievesNoPoseThatIsNone) {
   EXPECT_EQ(tracker.head(kStart + kMillisecond, 0.0).position_m, kSweetSpot.position_m);
 }
 
-}  // namespace
+}  // namespace head_tracker_test
 }  // namespace afm::input

@@ -20,12 +20,12 @@
 #include "input/spacemouse.h"
 #include "input/wand.h"
 #include "input/wiimote.h"
-#include "places.h"
 #include "support/hex_report.h"
+#include "support/places.h"
 #include "support/stereo_cases.h"
 
 namespace afm::input {
-namespace {
+namespace hid_parsers_test {
 
 using test::from_hex;
 using test::Report;
@@ -283,7 +283,7 @@ bool is_readable(const std::string& rules, const HidModel& model) {
 }
 
 TEST(Catalog, EveryWandIsInTheUdevRules) {
-  std::ifstream file(AFM_SOURCE_DIR "/assets/wands/70-touchafm-wands.rules");
+  std::ifstream file(support::source("assets/wands/70-touchafm-wands.rules"));
   const std::string rules{std::istreambuf_iterator<char>(file), {}};
   for (const HidModel& model : hid_models()) {
     EXPECT_TRUE(model.make == nullptr || is_readable(rules, model)) << model.name;
@@ -325,5 +325,5 @@ TEST(EveryDriver, SurvivesWhateverBytesComeAndStaysFinite) {
   EXPECT_GT(taken, 1000);
 }
 
-}  // namespace
+}  // namespace hid_parsers_test
 }  // namespace afm::input

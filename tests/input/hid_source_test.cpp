@@ -10,7 +10,7 @@
 #include "support/wand_port.h"
 
 namespace afm::input {
-namespace {
+namespace hid_source_test {
 
 constexpr const char* kCompact = "256F:0000C635";
 constexpr const char* kCadMouse = "256F:0000C650";
@@ -103,5 +103,5 @@ TEST_F(HidSourceTest, CountsReportsOfTheWrongLengthAndGoesOn) {
   poll_until(**source, [](const WandState& wand) { return wand.pressed(WandButton::Select); });
 }
 
-}  // namespace
+}  // namespace hid_source_test
 }  // namespace afm::input

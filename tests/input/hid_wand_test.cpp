@@ -11,7 +11,7 @@
 #include "input/spacemouse.h"
 
 namespace afm::input {
-namespace {
+namespace hid_wand_test {
 
 using Report = std::vector<std::uint8_t>;
 
@@ -132,5 +132,5 @@ TEST(RateResponse, IsOddDeadInTheMiddleAndGrowsToOne) {
   }
 }
 
-}  // namespace
+}  // namespace hid_wand_test
 }  // namespace afm::input

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace afm::input {
-namespace {
+namespace idle_watch_test {
 
 using Change = IdleWatch::Change;
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -23,5 +23,5 @@ TEST(IdleWatch, ChangesOnceEachWay) {
   EXPECT_EQ(watch.update(false, 2062 * kSecond), Change::WentAway);
 }
 
-}  // namespace
+}  // namespace idle_watch_test
 }  // namespace afm::input

@@ -12,7 +12,7 @@
 #include "support/hex_report.h"
 
 namespace afm::input {
-namespace {
+namespace motion_plus_test {
 
 using test::from_hex;
 using test::Report;
@@ -152,5 +152,5 @@ TEST(MotionPlus, PointsTheWandWhereItIsTurned) {
   EXPECT_NEAR(direction.z, 0.0, 0.02);
 }
 
-}  // namespace
+}  // namespace motion_plus_test
 }  // namespace afm::input

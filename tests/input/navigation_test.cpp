@@ -9,7 +9,7 @@
 #include <random>
 
 namespace afm::input {
-namespace {
+namespace navigation_test {
 
 constexpr glm::dvec3 kPivot(0.0, 1.65, 0.0);
 constexpr double kFrameS = 1.0 / 60.0;
@@ -225,5 +225,5 @@ TEST(NavigationLock, HoldsInContactAndWhileTheHandFeelsAForce) {
   EXPECT_TRUE(navigation_locked(tip));
 }
 
-}  // namespace
+}  // namespace navigation_test
 }  // namespace afm::input

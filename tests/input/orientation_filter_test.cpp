@@ -9,7 +9,7 @@
 #include <numbers>
 
 namespace afm::input {
-namespace {
+namespace orientation_filter_test {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kStepS = 0.005;
@@ -99,5 +99,5 @@ TEST(OrientationFilter, IsNotShakenByWhatIsNoNumber) {
   EXPECT_NEAR(std::abs(angle_between(filter.level_from_wand(), pitch(0.1))), 0.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace orientation_filter_test
 }  // namespace afm::input

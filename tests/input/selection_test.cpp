@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace afm::input {
-namespace {
+namespace selection_test {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -112,5 +112,5 @@ TEST(Selector, HoversWhatTheEyeSeesThoughTheHandReachesBehindIt) {
   EXPECT_EQ(Selector().update(wand, {0.0, 2.0, 0.0}, targets).hovered, 1U);
 }
 
-}  // namespace
+}  // namespace selection_test
 }  // namespace afm::input

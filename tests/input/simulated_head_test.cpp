@@ -9,7 +9,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::input {
-namespace {
+namespace simulated_head_test {
 
 using ::testing::HasSubstr;
 
@@ -80,5 +80,5 @@ TEST(HeadScript, IsRefusedWithFileAndLine) {
   EXPECT_EQ(load_head_script("/nowhere/head.csv").error().category, core::ErrorCategory::BadInputFile);
 }
 
-}  // namespace
+}  // namespace simulated_head_test
 }  // namespace afm::input

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace afm::input {
-namespace {
+namespace simulated_person_test {
 
 constexpr std::int64_t kFrameNs = 50'000'000;
 
@@ -55,5 +55,5 @@ TEST(SimulatedPerson, PressesTurnOnAgainAfterAFault) {
   EXPECT_EQ(person.step(), SimulatedPerson::Step::PressTurnOn);
 }
 
-}  // namespace
+}  // namespace simulated_person_test
 }  // namespace afm::input

@@ -13,7 +13,7 @@
 #include "input/selection.h"
 
 namespace afm::input {
-namespace {
+namespace simulated_user_test {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDistanceM = 2.5;
@@ -111,5 +111,5 @@ TEST(SimulatedUser, SeesAHoverInTheFrameInWhichTheRayArrives) {
   }
 }
 
-}  // namespace
+}  // namespace simulated_user_test
 }  // namespace afm::input

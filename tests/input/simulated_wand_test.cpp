@@ -10,7 +10,7 @@
 #include "input/selection.h"
 
 namespace afm::input {
-namespace {
+namespace simulated_wand_test {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
@@ -43,5 +43,5 @@ TEST(SimulatedWand, HoldsTheButtonAsLongAsItWasTold) {
   EXPECT_FALSE(wand.state(kSecond + kSecond / 5).pressed(WandButton::Select));
 }
 
-}  // namespace
+}  // namespace simulated_wand_test
 }  // namespace afm::input

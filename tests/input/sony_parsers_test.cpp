@@ -13,7 +13,7 @@
 #include "input/wand.h"
 
 namespace afm::input {
-namespace {
+namespace sony_parsers_test {
 
 using Report = std::vector<std::uint8_t>;
 constexpr double kRadPerDegree = std::numbers::pi / 180.0;
@@ -148,5 +148,5 @@ TEST(PsMove, TakesItsGainsFromTheBlocksOfItsCalibrationInAnyOrder) {
   EXPECT_NE(parse_psmove_calibration(PsMoveModel::Zcm1, blocks).gyro_gain, calibration.gyro_gain);
 }
 
-}  // namespace
+}  // namespace sony_parsers_test
 }  // namespace afm::input

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace afm::input {
-namespace {
+namespace tracker_report_test {
 
 using ::testing::HasSubstr;
 using ::testing::Optional;
@@ -54,5 +54,5 @@ TEST(TrackerReport, AddsUpWhatWasLost) {
   EXPECT_THAT(report.total(), HasSubstr("361 frames received, 5 lost, 1 late or repeated"));
 }
 
-}  // namespace
+}  // namespace tracker_report_test
 }  // namespace afm::input

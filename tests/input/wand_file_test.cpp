@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "input/hid_wand.h"
-#include "places.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::input {
-namespace {
+namespace wand_file_test {
 
 using ::testing::HasSubstr;
 
@@ -27,11 +27,11 @@ core::Result<WandFile> load(const std::string& text) {
 }
 
 TEST(WandFile, OfTheAssetsAreAllGood) {
-  const auto mappings = load_mappings(AFM_SOURCE_DIR "/assets/wands");
+  const auto mappings = load_mappings(support::source("assets/wands"));
   ASSERT_TRUE(mappings) << mappings.error().message;
   ASSERT_EQ(mappings->size(), 1U);
   EXPECT_EQ(mappings->front().vendor, 0x054c);
-  const auto tracker = load_wand_file(AFM_SOURCE_DIR "/assets/wands/dtrack.toml");
+  const auto tracker = load_wand_file(support::source("assets/wands/dtrack.toml"));
   ASSERT_TRUE(tracker && tracker->dtrack);
   EXPECT_EQ(tracker->dtrack->address, "127.0.0.1");
   EXPECT_EQ(tracker->head_body, 0U);
@@ -134,5 +134,5 @@ TEST(WandFile, ThatIsNotThereIsNamed) {
               HasSubstr("wand file /nowhere/wand.toml: cannot be read"));
 }
 
-}  // namespace
+}  // namespace wand_file_test
 }  // namespace afm::input

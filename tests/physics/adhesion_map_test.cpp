@@ -9,7 +9,7 @@
 #include "random_interaction.h"
 
 namespace afm::physics {
-namespace {
+namespace adhesion_map_test {
 
 using namespace literals;
 
@@ -113,5 +113,5 @@ TEST(AdhesionMap, RefusesAnUnphysicalContact) {
   EXPECT_THROW(choose_law(m), UnphysicalValue);
 }
 
-}  // namespace
+}  // namespace adhesion_map_test
 }  // namespace afm::physics

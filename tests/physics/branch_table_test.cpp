@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace afm::physics {
-namespace {
+namespace branch_table_test {
 
 using namespace literals;
 
@@ -116,5 +116,5 @@ TEST(BranchTable, AnswersWhateverItIsAsked) {
   EXPECT_EQ(table.force(Length(std::nan(""))).si, -1e-9);
 }
 
-}  // namespace
+}  // namespace branch_table_test
 }  // namespace afm::physics

@@ -34,7 +34,7 @@ double max(double a, double b) { return a > b ? a : b; }
 }  // namespace shader
 
 namespace afm::physics {
-namespace {
+namespace cantilever_test {
 
 using namespace literals;
 using testing::HasSubstr;
@@ -217,5 +217,5 @@ TEST(LeverDynamics, RefusesWhatNoLeverHas) {
   EXPECT_THROW(validate(bad), UnphysicalValue);
 }
 
-}  // namespace
+}  // namespace cantilever_test
 }  // namespace afm::physics

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case_table.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +11,6 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
-
-#include "places.h"
 
 namespace afm::physics {
 namespace {
@@ -77,7 +76,7 @@ std::vector<double> numbers(const std::string& text) {
 }
 
 std::vector<Case> read_cases() {
-  const std::string path = AFM_SOURCE_DIR "/tests/physics/data/physics_cases.csv";
+  const std::string path = support::source("tests/physics/data/physics_cases.csv");
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   std::string line;

@@ -16,7 +16,7 @@
 #include "physics/van_der_waals.h"
 
 namespace afm::physics {
-namespace {
+namespace contact_cases_test {
 
 AdhesiveContact contact_of(const Case& row) {
   return {Length(row.input("R")), Pressure(row.input("E_star")), SurfaceEnergy(row.input("W"))};
@@ -110,5 +110,5 @@ TEST_P(ContactCase, Agrees) {
 INSTANTIATE_TEST_SUITE_P(Research, ContactCase, testing::ValuesIn(cases_of(CaseProgram::Contact)),
                          [](const auto& test) { return test.param.name; });
 
-}  // namespace
+}  // namespace contact_cases_test
 }  // namespace afm::physics

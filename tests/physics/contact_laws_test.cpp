@@ -12,7 +12,7 @@
 #include "random_interaction.h"
 
 namespace afm::physics {
-namespace {
+namespace contact_laws_test {
 
 using namespace literals;
 using std::numbers::pi;
@@ -139,5 +139,5 @@ TEST(Jkr, RefusesALoadThatNoContactHolds) {
   EXPECT_THROW(jkr_contact_radius(contact, Force(std::nan(""))), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace contact_laws_test
 }  // namespace afm::physics

@@ -9,7 +9,7 @@
 #include "physics/law.h"
 
 namespace afm::physics {
-namespace {
+namespace contact_parameters_test {
 
 using namespace literals;
 
@@ -86,5 +86,5 @@ TEST(ValidateOptions, RefusesWhatNoLiquidAndNoSpectrumHas) {
   EXPECT_EQ(refusal(options, "surface_tension"), "surface tension 72.8 J/m2 is not within 0.1 mJ/m2 to 10 J/m2");
 }
 
-}  // namespace
+}  // namespace contact_parameters_test
 }  // namespace afm::physics

@@ -12,7 +12,7 @@
 #include "physics/curve_analysis.h"
 
 namespace afm::physics {
-namespace {
+namespace contact_point_test {
 
 using namespace literals;
 
@@ -108,5 +108,5 @@ TEST(ContactPoint, HasAMethodForEachName) {
   EXPECT_EQ(names.size(), kContactMethods.size());
 }
 
-}  // namespace
+}  // namespace contact_point_test
 }  // namespace afm::physics

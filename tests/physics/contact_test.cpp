@@ -9,7 +9,7 @@
 #include <limits>
 
 namespace afm::physics {
-namespace {
+namespace contact_test {
 
 using namespace literals;
 using testing::HasSubstr;
@@ -176,5 +176,5 @@ TEST(Validate, QuotesTheValueWithItsUnitAndTheRange) {
   EXPECT_THROW(approach_retract_events(contact), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace contact_test
 }  // namespace afm::physics

@@ -14,7 +14,7 @@
 #include "physics/measured_branches.h"
 
 namespace afm::physics {
-namespace {
+namespace curve_analysis_test {
 
 using namespace literals;
 using testing::HasSubstr;
@@ -255,5 +255,5 @@ TEST(MeasuredBranches, RefuseACurveThatTouchesNothing) {
   EXPECT_THROW(measured_branches(flat), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace curve_analysis_test
 }  // namespace afm::physics

@@ -16,7 +16,7 @@
 #include "physics/law_tables.h"
 
 namespace afm::physics {
-namespace {
+namespace cycle_cases_test {
 
 // The closed forms of the paper and of Hao; the other rows go through the tables.
 std::vector<Case> closed_form_cases() {
@@ -218,5 +218,5 @@ TEST(PhysicsCases, EveryRowBelongsToATestProgram) {
   EXPECT_EQ(cases_of(CaseProgram::Friction).size(), 45U);
 }
 
-}  // namespace
+}  // namespace cycle_cases_test
 }  // namespace afm::physics

@@ -15,7 +15,7 @@
 #include "support/no_alloc.h"
 
 namespace afm::physics {
-namespace {
+namespace dynamic_model_test {
 
 using namespace literals;
 using testing::HasSubstr;
@@ -274,5 +274,5 @@ TEST(DynamicCurve, HoldsTheWholeCycle) {
   EXPECT_EQ(curve.events.size(), 2U);
 }
 
-}  // namespace
+}  // namespace dynamic_model_test
 }  // namespace afm::physics

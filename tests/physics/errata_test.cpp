@@ -13,7 +13,7 @@
 // What Liu & Peng print that their own equations do not give; docs/physics.md has the list. Each test shows both that
 // we follow the equations and where the printed number comes from.
 namespace afm::physics {
-namespace {
+namespace errata_test {
 
 using namespace literals;
 
@@ -193,5 +193,5 @@ TEST(Errata, DirectionRuleChattersUnderSensorNoiseAndTheLatchDoesNot) {
   EXPECT_EQ(latch_jumps, 0);
 }
 
-}  // namespace
+}  // namespace errata_test
 }  // namespace afm::physics

@@ -11,7 +11,7 @@
 #include "physics/curve_analysis.h"
 
 namespace afm::physics {
-namespace {
+namespace force_curve_test {
 
 using namespace literals;
 using testing::HasSubstr;
@@ -142,5 +142,5 @@ TEST(ForceCurve, OfTheDirectionRuleLooksRightAndEndsOneStepEarly) {
   EXPECT_LT(abs(summary.approach.force), abs(rule.figures().force_after_jtc));
 }
 
-}  // namespace
+}  // namespace force_curve_test
 }  // namespace afm::physics

@@ -18,7 +18,7 @@
 #include "random_interaction.h"
 
 namespace afm::physics {
-namespace {
+namespace force_laws_test {
 
 using namespace literals;
 using std::numbers::pi;
@@ -199,5 +199,5 @@ TEST(LawNames, AreReadBack) {
   EXPECT_EQ(name_of(static_cast<Law>(99)), "unknown");
 }
 
-}  // namespace
+}  // namespace force_laws_test
 }  // namespace afm::physics

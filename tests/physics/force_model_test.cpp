@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace afm::physics {
-namespace {
+namespace force_model_test {
 
 using namespace literals;
 using testing::HasSubstr;
@@ -319,5 +319,5 @@ TEST(ModelOfAnyLaw, FeelsTheAttractionBeforeTheJump) {
   EXPECT_LT(figures.force_after_jtc, 2.0 * figures.force_before_jtc);
 }
 
-}  // namespace
+}  // namespace force_model_test
 }  // namespace afm::physics

@@ -17,7 +17,7 @@
 #include "physics/force_laws.h"
 
 namespace afm::physics {
-namespace {
+namespace law_tables_test {
 
 using namespace literals;
 using testing::HasSubstr;
@@ -265,5 +265,5 @@ TEST(LawTables, RefuseWhatHasNoLaw) {
   EXPECT_THAT(refusal(Law::Measured, kContacts[0]), HasSubstr("measured"));
 }
 
-}  // namespace
+}  // namespace law_tables_test
 }  // namespace afm::physics

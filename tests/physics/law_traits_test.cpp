@@ -12,10 +12,10 @@
 #include "physics/dynamic_model.h"
 #include "physics/law.h"
 #include "physics/law_tables.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::physics {
-namespace {
+namespace law_traits_test {
 
 using namespace literals;
 
@@ -77,7 +77,7 @@ TEST_P(EveryComputedLaw, MovesAMassWhereItsRowSaysSo) {
 
 TEST_P(EveryComputedLaw, IsDescribedInTheDocuments) {
   for (const char* name : {"docs/physics.md", "docs/manual.md"}) {
-    std::ifstream file(std::string(AFM_SOURCE_DIR "/") + name);
+    std::ifstream file(support::source(name));
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     EXPECT_NE(text.find("`" + std::string(traits_.name) + "`"), std::string::npos) << traits_.name << " in " << name;
   }
@@ -94,5 +94,5 @@ TEST(LawTable, HasNoNameTwiceAndNoneThatIsAModelOfAnotherKind) {
   }
 }
 
-}  // namespace
+}  // namespace law_traits_test
 }  // namespace afm::physics

@@ -17,11 +17,12 @@
 #include "physics/law_tables.h"
 #include "physics/maugis_dugdale.h"
 #include "random_interaction.h"
+#include "support/deep.h"
 
 namespace afm::physics {
-namespace {
+namespace laws_property_test {
 
-constexpr int kMaterials = 1'500;  // a law: more than ten thousand in all
+const int kMaterials = support::draws(1'500);  // a law: more than ten thousand in all, deep
 
 // None where the paper's law or Hao's has no loop: an adhesion weaker than what the van der Waals force pulled in.
 std::shared_ptr<const LawTables> tables_of(Law law, const ContactParameters& contact) {
@@ -240,5 +241,5 @@ TEST(LawLimits, ThePapersLawIsAStraightLineExactly) {
   EXPECT_GT(looked_at, 5'000);
 }
 
-}  // namespace
+}  // namespace laws_property_test
 }  // namespace afm::physics

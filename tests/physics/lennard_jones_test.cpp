@@ -10,7 +10,7 @@
 #include "random_interaction.h"
 
 namespace afm::physics {
-namespace {
+namespace lennard_jones_test {
 
 using namespace literals;
 using std::numbers::pi;
@@ -88,5 +88,5 @@ TEST(LennardJones, IsVanDerWaalsFarAway) {
   }
 }
 
-}  // namespace
+}  // namespace lennard_jones_test
 }  // namespace afm::physics

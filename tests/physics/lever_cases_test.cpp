@@ -20,7 +20,7 @@
 #include "physics/tip_oscillator.h"
 
 namespace afm::physics {
-namespace {
+namespace lever_cases_test {
 
 using namespace literals;
 
@@ -203,5 +203,5 @@ TEST_P(LeverCase, Agrees) { expect_agrees(GetParam(), value_of(GetParam())); }
 INSTANTIATE_TEST_SUITE_P(Research, LeverCase, testing::ValuesIn(cases_of(CaseProgram::Lever)),
                          [](const auto& test) { return test.param.name; });
 
-}  // namespace
+}  // namespace lever_cases_test
 }  // namespace afm::physics

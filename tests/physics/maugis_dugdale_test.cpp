@@ -15,9 +15,10 @@
 #include "physics/law_tables.h"
 #include "physics/van_der_waals.h"
 #include "random_interaction.h"
+#include "support/deep.h"
 
 namespace afm::physics {
-namespace {
+namespace maugis_dugdale_test {
 
 using namespace literals;
 using std::numbers::pi;
@@ -259,7 +260,7 @@ TEST(MaugisLaw, EveryCycleDissipatesAndEveryJumpLosesEnergy) {
       EXPECT_TRUE(!figures.hysteretic || stiffness < 1.001 * figures.critical_stiffness.si || !joined.single_valued());
     }
   };
-  constexpr int kTabulated = 1'500;
+  const int kTabulated = support::draws(1'500);
   for_random_laws(check, kTabulated);
 }
 
@@ -341,5 +342,5 @@ TEST(MaugisLaw, IsJkrsShiftedByTheContactGapForASoftContact) {
   EXPECT_NEAR((end.h - law.contact_gap) / -jkr_indentation(contact, radius), 1.0, 0.03);
 }
 
-}  // namespace
+}  // namespace maugis_dugdale_test
 }  // namespace afm::physics

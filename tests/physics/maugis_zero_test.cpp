@@ -14,7 +14,7 @@
 #include "random_interaction.h"
 
 namespace afm::physics {
-namespace {
+namespace maugis_zero_test {
 
 using std::numbers::pi;
 
@@ -149,5 +149,5 @@ TEST(SingleValued, ZoneWithoutContactEndsAtThePointForOneLambda) {
   EXPECT_LE(maugis_fixed_grips_end(lambda * (1.0 + 1e-9)), 0.0);
 }
 
-}  // namespace
+}  // namespace maugis_zero_test
 }  // namespace afm::physics

@@ -13,7 +13,7 @@
 #include "support/recorded_cycles.h"
 
 namespace afm::physics {
-namespace {
+namespace measured_branches_test {
 
 using namespace literals;
 
@@ -133,5 +133,5 @@ TEST(MeasuredCurve, RefusesAJumpOutsideOfItsBranch) {
   }
 }
 
-}  // namespace
+}  // namespace measured_branches_test
 }  // namespace afm::physics

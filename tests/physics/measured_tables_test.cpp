@@ -12,7 +12,7 @@
 #include "physics/law_tables.h"
 
 namespace afm::physics {
-namespace {
+namespace measured_tables_test {
 
 using namespace literals;
 using testing::HasSubstr;
@@ -129,5 +129,5 @@ TEST(MeasuredTables, NeedALever) {
   EXPECT_THROW(measured_law_tables(good.approach, good.retract, none), UnphysicalValue);
 }
 
-}  // namespace
+}  // namespace measured_tables_test
 }  // namespace afm::physics

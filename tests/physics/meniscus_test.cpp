@@ -14,7 +14,7 @@
 #include "random_interaction.h"
 
 namespace afm::physics {
-namespace {
+namespace meniscus_test {
 
 using namespace literals;
 
@@ -116,5 +116,5 @@ TEST(WetLaw, PotentialWhereTheBridgeBreaksIsTheDryLawsThere) {
   }
 }
 
-}  // namespace
+}  // namespace meniscus_test
 }  // namespace afm::physics

@@ -10,7 +10,7 @@
 #include <numbers>
 
 namespace afm::physics {
-namespace {
+namespace normal_generator_test {
 
 // Enough for the tail, which begins at 3.65, to be met some 2600 times.
 constexpr int kCount = 10'000'000;
@@ -79,5 +79,5 @@ TEST(NormalGenerator, TakesZeroForASeed) {
   EXPECT_GT(sum, 20.0);
 }
 
-}  // namespace
+}  // namespace normal_generator_test
 }  // namespace afm::physics

@@ -10,7 +10,7 @@
 #include <random>
 
 namespace afm::physics {
-namespace {
+namespace quantity_text_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -166,5 +166,5 @@ TEST(QuantityText, DoesNotFollowTheLocale) {
   std::setlocale(LC_ALL, before.c_str());
 }
 
-}  // namespace
+}  // namespace quantity_text_test
 }  // namespace afm::physics

@@ -13,7 +13,7 @@
 #include "physics/thermal_noise.h"
 
 namespace afm::physics {
-namespace {
+namespace tip_oscillator_test {
 
 using namespace literals;
 
@@ -201,5 +201,5 @@ TEST(TipOscillator, StaysBoundedHoweverDeepItIsPushed) {
   }
 }
 
-}  // namespace
+}  // namespace tip_oscillator_test
 }  // namespace afm::physics

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 namespace afm::physics {
-namespace {
+namespace units_test {
 
 using namespace literals;
 
@@ -54,5 +54,5 @@ TEST(Units, TravelAsCheaplyAsTheirNumber) {
   static_assert(sizeof(Force) == sizeof(double));
 }
 
-}  // namespace
+}  // namespace units_test
 }  // namespace afm::physics

@@ -11,7 +11,7 @@
 #include "random_interaction.h"
 
 namespace afm::physics {
-namespace {
+namespace van_der_waals_test {
 
 using namespace literals;
 
@@ -130,5 +130,5 @@ TEST(ContactGap, IsAnAtomsDistanceForThePapersMaterials) {
   EXPECT_NEAR(contact_gap({50_nm, 0.036_N_per_m, rigid, 10_zJ, 0.955_mJ_per_m2}).si, 0.3727e-9, 5e-14);
 }
 
-}  // namespace
+}  // namespace van_der_waals_test
 }  // namespace afm::physics

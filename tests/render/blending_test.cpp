@@ -16,7 +16,7 @@
 
 // Projectors that overlap show together what one would.
 namespace afm::test {
-namespace {
+namespace blending_test {
 
 using scene::EyeOrder;
 using scene::StereoMode;
@@ -273,5 +273,5 @@ TEST_F(Blended, SharesOutWhatTheAnaglyphMixed) {
   }
 }
 
-}  // namespace
+}  // namespace blending_test
 }  // namespace afm::test

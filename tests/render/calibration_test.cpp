@@ -5,7 +5,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace calibration_test {
 
 class Calibration : public VulkanTest {
  protected:
@@ -98,5 +98,5 @@ TEST_F(Calibration, LiesInTheWallsPlane) {
   EXPECT_LT(unlike, 50U);
 }
 
-}  // namespace
+}  // namespace calibration_test
 }  // namespace afm::test

@@ -9,7 +9,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace compose_test {
 
 using scene::EyeOrder;
 using scene::PixelEye;
@@ -290,5 +290,5 @@ TEST_F(Compose, OnePixelIsAPicture) {
   }
 }
 
-}  // namespace
+}  // namespace compose_test
 }  // namespace afm::test

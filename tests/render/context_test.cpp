@@ -8,7 +8,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace context_test {
 
 class Context : public VulkanTest {};
 
@@ -50,5 +50,5 @@ TEST(WithoutDriver, TheErrorSaysWhatToInstall) {
   EXPECT_EQ(devices.error().category, core::ErrorCategory::DeviceMissing);
 }
 
-}  // namespace
+}  // namespace context_test
 }  // namespace afm::test

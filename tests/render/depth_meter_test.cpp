@@ -7,7 +7,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace depth_meter_test {
 
 constexpr double kHeadM = 2.5;         // before the wall
 constexpr double kHalfWidthM = 1.524;  // of the wall
@@ -100,5 +100,5 @@ TEST_F(DepthMeters, FollowsEveryFrameThroughResizes) {
   }
 }
 
-}  // namespace
+}  // namespace depth_meter_test
 }  // namespace afm::test

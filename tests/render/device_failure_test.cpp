@@ -11,7 +11,7 @@
 
 // A layer of our own stands between the program and the driver and fails as real devices do.
 namespace afm::test {
-namespace {
+namespace device_failure_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -96,5 +96,5 @@ TEST_F(DeviceFailureTest, AnyAllocationMayBeTheLast) {
   EXPECT_GE(drawn, 1);
 }
 
-}  // namespace
+}  // namespace device_failure_test
 }  // namespace afm::test

@@ -10,7 +10,7 @@
 
 // Once everything has been as large as it gets. Without the validation layers, which allocate in the caller's thread.
 namespace afm::test {
-namespace {
+namespace frame_allocation_test {
 
 render::Context open_context() {
   auto context = render::Context::open();
@@ -117,5 +117,5 @@ TEST_F(FrameAllocation, AChangeOfDetailTakesNone) {
   draw_all();
 }
 
-}  // namespace
+}  // namespace frame_allocation_test
 }  // namespace afm::test

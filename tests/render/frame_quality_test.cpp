@@ -5,7 +5,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace frame_quality_test {
 
 class QualityOfFrames : public VulkanTest {
  protected:
@@ -111,5 +111,5 @@ TEST_F(QualityOfFrames, WhatPassesBesideTheHeadIsSeenByBothEyes) {
   }
 }
 
-}  // namespace
+}  // namespace frame_quality_test
 }  // namespace afm::test

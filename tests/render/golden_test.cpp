@@ -3,7 +3,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace golden_test {
 
 class Golden : public VulkanTest {};
 
@@ -23,5 +23,5 @@ TEST_F(Golden, ThePanelsLookAsTheyDid) {
   EXPECT_EQ(compare_with_golden(draw(test.scene, full_frame(test), options).left, "panels"), "");
 }
 
-}  // namespace
+}  // namespace golden_test
 }  // namespace afm::test

@@ -9,7 +9,7 @@
 #include "support/pictures.h"
 
 namespace afm::test {
-namespace {
+namespace image_file_test {
 
 class ImageFile : public testing::Test {
  protected:
@@ -62,5 +62,5 @@ TEST_F(ImageFile, DoesNotReplaceAFolder) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()), 1);
 }
 
-}  // namespace
+}  // namespace image_file_test
 }  // namespace afm::test

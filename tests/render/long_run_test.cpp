@@ -11,11 +11,12 @@
 #include "render/depth_meter.h"
 #include "render/screenshot_queue.h"
 #include "support/faulty_device.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace long_run_test {
 
 constexpr int kWarmUpRounds = 3;
 constexpr int kRounds = 9;
@@ -35,7 +36,7 @@ struct Held {
 
 class LongRun : public testing::Test {
  protected:
-  LongRun() : context_(open()), layer_(dlopen(AFM_FAULT_LAYER_FILE, RTLD_NOW | RTLD_NOLOAD)) {
+  LongRun() : context_(open()), layer_(dlopen(support::fault_layer().c_str(), RTLD_NOW | RTLD_NOLOAD)) {
     if (layer_ == nullptr) throw std::runtime_error("the layer is not loaded");
     live_allocations_ = reinterpret_cast<int (*)()>(dlsym(layer_, "afm_live_allocations"));
   }
@@ -108,5 +109,5 @@ TEST_F(LongRun, HoldsNoMoreMemoryAfterARoundThanBeforeIt) {
   EXPECT_LT(median(growths_bytes), kFrames * kLeak_bytes) << testing::PrintToString(growths_bytes);
 }
 
-}  // namespace
+}  // namespace long_run_test
 }  // namespace afm::test

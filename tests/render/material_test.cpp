@@ -8,7 +8,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace material_test {
 
 using scene::TextureSlot;
 
@@ -293,5 +293,5 @@ TEST_F(Materials, EmitWhatTheirTextureSays) {
   EXPECT_GT(at(image, 1, -1).g, at(image, -1, -1).g + 30);
 }
 
-}  // namespace
+}  // namespace material_test
 }  // namespace afm::test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace afm::render {
-namespace {
+namespace memory_type_test {
 
 using Flag = vk::MemoryPropertyFlagBits;
 
@@ -36,5 +36,5 @@ TEST(MemoryType, IsAmongThoseThatTheResourceTakes) {
   EXPECT_EQ(memory_type(discrete_gpu(), 0b10000, kHost, Flag::eHostCached), 4U);
 }
 
-}  // namespace
+}  // namespace memory_type_test
 }  // namespace afm::render

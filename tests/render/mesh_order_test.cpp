@@ -7,7 +7,7 @@
 #include <array>
 
 namespace afm::render {
-namespace {
+namespace mesh_order_test {
 
 // A square of `side` by `side` cells, row by row, as height fields come, and a vertex that nothing uses.
 scene::Primitive grid(std::uint32_t side) {
@@ -102,5 +102,5 @@ TEST(MeshOrder, LeavesWhatBlendsAndWhatIsNoTrianglesAlone) {
   EXPECT_EQ(order.vertices, as_given(primitive).vertices);
 }
 
-}  // namespace
+}  // namespace mesh_order_test
 }  // namespace afm::render

@@ -11,7 +11,7 @@
 // A device that cannot draw both eyes in one pass: the layer hides the feature, and the validation layer below it
 // objects to every use of what was not asked for.
 namespace afm::test {
-namespace {
+namespace one_view_test {
 
 class OneView : public testing::Test {
  protected:
@@ -92,5 +92,5 @@ TEST_F(OneView, RefusesToDrawBothEyesInOnePass) {
   EXPECT_THAT(renderer.error().message, testing::HasSubstr("does not support multiview; draw them in two passes"));
 }
 
-}  // namespace
+}  // namespace one_view_test
 }  // namespace afm::test

@@ -8,7 +8,7 @@
 #include <span>
 
 namespace afm::render {
-namespace {
+namespace painted_shapes_test {
 
 class PaintedShapesTest : public testing::Test {
  protected:
@@ -58,5 +58,5 @@ TEST_F(PaintedShapesTest, OfAnotherClipMayDifferAnywhere) {
   EXPECT_FALSE(squares(std::array{0.0F}).difference(PaintedShapes()));
 }
 
-}  // namespace
+}  // namespace painted_shapes_test
 }  // namespace afm::render

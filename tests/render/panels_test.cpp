@@ -6,7 +6,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace panels_test {
 
 class PanelsInTheRoom : public VulkanTest {
  protected:
@@ -186,5 +186,5 @@ TEST_F(PanelsInTheRoom, TwentyThousandPointsLookLikeTheLineTheyAre) {
   EXPECT_LE(difference(plain.left, dense.left, 24).share_beyond, 0.002);
 }
 
-}  // namespace
+}  // namespace panels_test
 }  // namespace afm::test

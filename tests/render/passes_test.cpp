@@ -5,7 +5,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace passes_test {
 
 class Passes : public VulkanTest {
  protected:
@@ -83,5 +83,5 @@ TEST_F(Passes, PicturesAreOpaque) {
   }
 }
 
-}  // namespace
+}  // namespace passes_test
 }  // namespace afm::test

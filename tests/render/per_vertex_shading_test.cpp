@@ -13,7 +13,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace per_vertex_shading_test {
 
 // A square of 1 x 1 node units with hills of that height, in 2 x quads x quads triangles, up along +z.
 scene::Primitive hills(std::uint32_t material, std::uint32_t quads, double hill_height) {
@@ -166,5 +166,5 @@ TEST_F(PerVertexShading, IsNotCompiledAnewInEveryFrame) {
   EXPECT_EQ(compiled_bytes(), warm);
 }
 
-}  // namespace
+}  // namespace per_vertex_shading_test
 }  // namespace afm::test

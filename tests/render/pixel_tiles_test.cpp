@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace afm::render {
-namespace {
+namespace pixel_tiles_test {
 
 // How many of the area's boxes have the pixel.
 int times(const PixelArea& area, const glm::ivec2& pixel) {
@@ -62,5 +62,5 @@ TEST(PixelTilesTest, LeaveOutWhatIsBetween) {
   EXPECT_TRUE(tiles.area().everything());
 }
 
-}  // namespace
+}  // namespace pixel_tiles_test
 }  // namespace afm::render

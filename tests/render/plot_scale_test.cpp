@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace afm::render {
-namespace {
+namespace plot_scale_test {
 
 TEST(TickStep, IsOneTwoOrFiveTimesAPowerOfTen) {
   for (double range = 1e-6; range < 1e6; range *= 1.37) {
@@ -64,5 +64,5 @@ TEST(ThinOut, OfNothingIsNothing) {
   EXPECT_TRUE(none.empty());
 }
 
-}  // namespace
+}  // namespace plot_scale_test
 }  // namespace afm::render

@@ -15,7 +15,7 @@
 
 // A frame draws only what differs from the last one: the pictures are byte for byte those of drawing everything.
 namespace afm::test {
-namespace {
+namespace redraw_test {
 
 constexpr int kFrames = 40;
 constexpr std::array<unsigned, 3> kSeeds{1, 2, 4};
@@ -256,5 +256,5 @@ TEST_F(Redraw, DrawsAsMuchAsHasChanged) {
   EXPECT_EQ(share(frame), 0.0);
 }
 
-}  // namespace
+}  // namespace redraw_test
 }  // namespace afm::test

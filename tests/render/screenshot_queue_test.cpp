@@ -16,7 +16,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace screenshot_queue_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -137,5 +137,5 @@ TEST_F(PictureSaving, TakesTheTimeOfComposingAndReadingBack) {
   EXPECT_GT(times->readback_ms, 0.0);
 }
 
-}  // namespace
+}  // namespace screenshot_queue_test
 }  // namespace afm::test

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "device/shader_interface.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::render {
-namespace {
+namespace shader_variant_test {
 
 using scene::PbrMaterial;
 using scene::PbrUse;
@@ -59,7 +59,7 @@ TEST(ShaderVariants, HaveABitForEachFeature) {
 }
 
 std::string material_shader() {
-  std::ifstream file(AFM_SOURCE_DIR "/shaders/material.frag");
+  std::ifstream file(support::source("shaders/material.frag"));
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -110,5 +110,5 @@ TEST(MaterialShader, HasTheFeaturesOfTheTable) {
   EXPECT_EQ(names_in(material_shader(), "const int kClearcoatFeature", ";", "(\\w+ = \\d+)"), features);
 }
 
-}  // namespace
+}  // namespace shader_variant_test
 }  // namespace afm::render

@@ -11,7 +11,7 @@
 
 // The shadow map stays as it is while nothing that it depends on changes.
 namespace afm::test {
-namespace {
+namespace shadow_test {
 
 class ShadowTest : public VulkanTest {
  protected:
@@ -123,5 +123,5 @@ TEST_F(ShadowTest, LeavesNoSpecksOnWhatShadowsItself) {
   }
 }
 
-}  // namespace
+}  // namespace shadow_test
 }  // namespace afm::test

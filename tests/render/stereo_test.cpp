@@ -8,7 +8,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace stereo_test {
 
 constexpr double kWallWidth = 3.048;
 constexpr double kDistance = 2.5;
@@ -149,5 +149,5 @@ TEST_F(Stereo, TheUnitOfAMeshDoesNotShow) {
   EXPECT_LE(found.share_beyond, 0.0005);
 }
 
-}  // namespace
+}  // namespace stereo_test
 }  // namespace afm::test

@@ -9,7 +9,7 @@
 
 // The fixture fails a test on any message of the validation layers, synchronisation validation among them.
 namespace afm::test {
-namespace {
+namespace storm_test {
 
 class Storm : public VulkanTest {
  protected:
@@ -65,5 +65,5 @@ TEST_F(Storm, TheLongestPicturesThatTheDeviceTakesAreDrawn) {
   }
 }
 
-}  // namespace
+}  // namespace storm_test
 }  // namespace afm::test

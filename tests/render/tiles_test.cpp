@@ -6,7 +6,7 @@
 #include "support/vulkan_fixture.h"
 
 namespace afm::test {
-namespace {
+namespace tiles_test {
 
 class Tiles : public VulkanTest {
  protected:
@@ -55,5 +55,5 @@ TEST_F(Tiles, TogetherAreTheWholeWall) {
   }
 }
 
-}  // namespace
+}  // namespace tiles_test
 }  // namespace afm::test

@@ -14,7 +14,7 @@
 
 // Warp meshes bend an output's picture after the stereo layout has chosen each pixel's eye.
 namespace afm::test {
-namespace {
+namespace warping_test {
 
 using scene::EyeOrder;
 using scene::StereoMode;
@@ -171,5 +171,5 @@ TEST_F(Warped, IsRightAtManySizes) {
   }
 }
 
-}  // namespace
+}  // namespace warping_test
 }  // namespace afm::test

@@ -9,12 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "places.h"
 #include "scene/display/wall.h"
 #include "support/scratch_folder.h"
 
 namespace afm::scene {
-namespace {
+namespace blend_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -273,5 +272,5 @@ TEST(BlendOfAWall, ReadsTheWarpMeshBesideTheWallFile) {
   EXPECT_THAT(with("warp_mesh = 3\n").error().message, HasSubstr("output.warp_mesh"));
 }
 
-}  // namespace
+}  // namespace blend_test
 }  // namespace afm::scene

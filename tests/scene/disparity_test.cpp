@@ -10,7 +10,7 @@
 #include "support/stereo_cases.h"
 
 namespace afm::scene {
-namespace {
+namespace disparity_test {
 
 using test::StereoCase;
 
@@ -68,5 +68,5 @@ TEST(ComfortZone, ReachesFartherForEyesThatAreCloserTogether) {
             comfort_zone(2.5, 0.065, kComfortableDisparityRad).farthest_m);
 }
 
-}  // namespace
+}  // namespace disparity_test
 }  // namespace afm::scene

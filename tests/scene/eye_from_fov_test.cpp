@@ -10,7 +10,7 @@
 #include "scene/display/wall.h"
 
 namespace afm::scene {
-namespace {
+namespace eye_from_fov_test {
 
 constexpr double kExact = 1e-12;
 constexpr int kPoses = 200;
@@ -123,5 +123,5 @@ TEST(EyeFromFov, RefusesWhatNoEyeHas) {
   EXPECT_TRUE(refused({.room_from_head = {kNan, 0, 0, 0}}, field));
 }
 
-}  // namespace
+}  // namespace eye_from_fov_test
 }  // namespace afm::scene

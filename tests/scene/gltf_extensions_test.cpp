@@ -8,13 +8,13 @@
 #include "gltf_document.h"
 #include "gltf_material_extensions.h"
 #include "gltf_schema.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::scene {
-namespace {
+namespace gltf_extensions_test {
 
 std::string row_of_the_manual() {
-  std::ifstream file(AFM_SOURCE_DIR "/docs/gltf.md");
+  std::ifstream file(support::source("docs/gltf.md"));
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with("| extensions |")) return line;
   }
@@ -50,5 +50,5 @@ TEST_F(RequiredExtensions, AreAcceptedWhereTheyAreKnown) {
   }
 }
 
-}  // namespace
+}  // namespace gltf_extensions_test
 }  // namespace afm::scene

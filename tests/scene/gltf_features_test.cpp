@@ -13,7 +13,7 @@
 #include "scene/gltf/gltf_loader.h"
 
 namespace afm::scene {
-namespace {
+namespace gltf_features_test {
 
 using nlohmann::json;
 using testing::ElementsAre;
@@ -367,5 +367,5 @@ TEST_F(GltfFeatures, NotesWhatIsNotShown) {
                                          testing::HasSubstr("without POSITION")));
 }
 
-}  // namespace
+}  // namespace gltf_features_test
 }  // namespace afm::scene

@@ -14,7 +14,7 @@
 #include "scene/gltf/gltf_loader.h"
 
 namespace afm::scene {
-namespace {
+namespace gltf_hostile_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -383,5 +383,5 @@ TEST_F(HostileGltf, IsRefusedForImagesThatAreNone) {
   expect_refused(load(with_image("../../../../etc/passwd")), "not a regular file in the model's folder");
 }
 
-}  // namespace
+}  // namespace gltf_hostile_test
 }  // namespace afm::scene

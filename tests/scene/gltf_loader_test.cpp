@@ -11,7 +11,7 @@
 #include "gltf_document.h"
 
 namespace afm::scene {
-namespace {
+namespace gltf_loader_test {
 
 using nlohmann::json;
 
@@ -194,5 +194,5 @@ TEST_F(GltfLoader, ReadsTextFilesWithSideFilesAndEmbeddedData) {
   EXPECT_EQ(embedded->meshes[0].primitives[0].indices.size(), 6U);
 }
 
-}  // namespace
+}  // namespace gltf_loader_test
 }  // namespace afm::scene

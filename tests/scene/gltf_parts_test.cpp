@@ -12,7 +12,7 @@
 
 // The parts of a model of which there is more than one, each with numbers of its own.
 namespace afm::scene {
-namespace {
+namespace gltf_parts_test {
 
 using nlohmann::json;
 using testing::ElementsAre;
@@ -108,5 +108,5 @@ TEST_F(MeshoptTriangles, HaveThreeCornersEach) {
   expect_refused(load_triangles({0, 1, 2}, 4), "inconsistent count, byteStride and filter");
 }
 
-}  // namespace
+}  // namespace gltf_parts_test
 }  // namespace afm::scene

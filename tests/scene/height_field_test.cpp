@@ -7,15 +7,15 @@
 #include <cmath>
 #include <string>
 
-#include "places.h"
 #include "scene/gltf/gltf_loader.h"
+#include "support/places.h"
 
 namespace afm::scene {
-namespace {
+namespace height_field_test {
 
 class DrawnSample : public testing::TestWithParam<std::string> {
  protected:
-  Scene scene_ = load_gltf(AFM_SOURCE_DIR "/assets/models/sample-" + GetParam() + ".glb").value();
+  Scene scene_ = load_gltf(support::source("assets/models/sample-") + GetParam() + ".glb").value();
   NodeIndex surface_ = scene_.find_node("surface").value();
 
   std::vector<Primitive>& primitives() { return scene_.meshes[*scene_.nodes[surface_].mesh].primitives; }
@@ -91,5 +91,5 @@ TEST(HeightField, OfNothingIsNone) {
   EXPECT_FALSE(height_field_below(empty, 0));
 }
 
-}  // namespace
+}  // namespace height_field_test
 }  // namespace afm::scene

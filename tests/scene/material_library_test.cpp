@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/samples/material_library.h"
+#include "support/places.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,15 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "places.h"
-
 namespace afm::scene {
-namespace {
+namespace material_library_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr const char* kShipped = AFM_SOURCE_DIR "/assets/materials.toml";
+const std::string kShipped = support::source("assets/materials.toml");
 
 constexpr const char* kOneMaterial = R"([[material]]
 name = "mica"
@@ -282,5 +281,5 @@ TEST(MaterialFile, NeverCrashesOnATruncatedOne) {
   }
 }
 
-}  // namespace
+}  // namespace material_library_test
 }  // namespace afm::scene

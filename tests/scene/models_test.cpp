@@ -13,16 +13,16 @@
 #include <vector>
 
 #include "models.h"
-#include "places.h"
 #include "scene/gltf/gltf_loader.h"
+#include "support/places.h"
 
 namespace afm::scene {
-namespace {
+namespace models_test {
 
 namespace fs = std::filesystem;
 
 const fs::path& models_folder() {
-  static const fs::path folder = fs::path(AFM_SOURCE_DIR) / "assets" / "models";
+  static const fs::path folder = fs::path(support::source()) / "assets" / "models";
   return folder;
 }
 
@@ -266,5 +266,5 @@ TEST(Gold, IsGrainedByAFewNanometres) {
   EXPECT_EQ(scene.materials.at(material).metallic, 1.0F);
 }
 
-}  // namespace
+}  // namespace models_test
 }  // namespace afm::scene

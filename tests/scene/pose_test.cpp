@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 namespace afm::scene {
-namespace {
+namespace pose_test {
 
 constexpr float kTolerance = 1e-6F;
 
@@ -148,5 +148,5 @@ TEST(Roles, AreFoundByExtrasBeforeNames) {
   EXPECT_EQ(find_role(scene, "tip"), 1U);
 }
 
-}  // namespace
+}  // namespace pose_test
 }  // namespace afm::scene

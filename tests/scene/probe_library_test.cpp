@@ -7,15 +7,15 @@
 #include <cmath>
 #include <string>
 
-#include "places.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::scene {
-namespace {
+namespace probe_library_test {
 
 using testing::HasSubstr;
 
-constexpr const char* kShipped = AFM_SOURCE_DIR "/assets/probes.toml";
+const std::string kShipped = support::source("assets/probes.toml");
 
 constexpr const char* kOneProbe = R"([[probe]]
 name = "mine"
@@ -51,11 +51,11 @@ std::string refusal(const std::string& text) {
 }
 
 MaterialEntry material(const char* name) {
-  return *load_materials(std::string(AFM_SOURCE_DIR "/assets/materials.toml")).value().find(name);
+  return *load_materials(support::source("assets/materials.toml")).value().find(name);
 }
 
 TEST(ProbeLibrary, HoldsProbesThatEveryMaterialAccepts) {
-  const auto probes = load_probes(std::string(kShipped));
+  const auto probes = load_probes(kShipped);
   ASSERT_TRUE(probes.has_value()) << probes.error().message;
   EXPECT_GE(probes->probes.size(), 8U);
   for (const ProbeEntry& probe : probes->probes) {
@@ -67,7 +67,7 @@ TEST(ProbeLibrary, HoldsProbesThatEveryMaterialAccepts) {
 
 // 169 GPa x 50 um x (2 um)^3/(4 (450 um)^3) = 0.18546 N/m; f_1 = 0.16154 t/L^2 sqrt(E/rho) = 13.59 kHz
 TEST(ProbeLibrary, ComputesWhatTheGeometrySays) {
-  const auto probes = load_probes(std::string(kShipped));
+  const auto probes = load_probes(kShipped);
   ASSERT_TRUE(probes.has_value());
   const ProbeEntry* probe = probes->find("silicon-450x50x2");
   ASSERT_NE(probe, nullptr);
@@ -77,7 +77,7 @@ TEST(ProbeLibrary, ComputesWhatTheGeometrySays) {
 }
 
 TEST(ProbeLibrary, ListsTheKnownNamesForAnUnknownOne) {
-  const auto missing = load_probes(std::string(kShipped)).value().require("tweezers");
+  const auto missing = load_probes(kShipped).value().require("tweezers");
   ASSERT_FALSE(missing.has_value());
   EXPECT_EQ(missing.error().category, core::ErrorCategory::WrongUsage);
   EXPECT_THAT(missing.error().message, HasSubstr("unknown probe \"tweezers\"; choose mlct-c"));
@@ -142,5 +142,5 @@ TEST(ProbeFile, NeverCrashesOnATruncatedOne) {
   }
 }
 
-}  // namespace
+}  // namespace probe_library_test
 }  // namespace afm::scene

@@ -9,7 +9,7 @@
 #include <set>
 
 namespace afm::scene {
-namespace {
+namespace scene_test {
 
 // A lever with a tip below it: two nodes, one mesh of one triangle, one material, one texture of two pixels.
 Scene probe() {
@@ -131,5 +131,5 @@ TEST(Digest, ChangesWithEveryFieldOfAMaterial) {
   });
 }
 
-}  // namespace
+}  // namespace scene_test
 }  // namespace afm::scene

@@ -16,7 +16,7 @@
 
 // A process that writes its blocks as fast as it can is killed at a random moment, over and over; the other one reads
 // all the while. Every block is computed from one number that it carries, so that a mixture of two is recognised.
-namespace {
+namespace segment_crash_test {
 
 using namespace afm::scene;
 using std::chrono::microseconds;
@@ -231,4 +231,4 @@ TEST(SegmentCrash, OfTheRendererLeavesTheServoWithWholeValues) {
   std::printf("%lu values read over %d kills\n", static_cast<unsigned long>(values), kKills);
 }
 
-}  // namespace
+}  // namespace segment_crash_test

@@ -14,7 +14,7 @@
 #include "scene/shared/shared_segment.h"
 #include "support/paper_model.h"
 
-namespace {
+namespace shared_blocks_test {
 
 using namespace afm::scene;
 using afm::test::paper_model;
@@ -190,4 +190,4 @@ TEST(SharedBlocks, MadeOfRandomBytesCrashNobody) {
   }
 }
 
-}  // namespace
+}  // namespace shared_blocks_test

@@ -20,7 +20,7 @@
 
 #include "support/paper_model.h"
 
-namespace {
+namespace shared_segment_test {
 
 using namespace afm::scene;
 using afm::core::FileDescriptor;
@@ -362,4 +362,4 @@ TEST(SharedModel, ComposesTheRestTransform) {
   EXPECT_EQ(rest[3], glm::dvec4(0, 1.75, 0, 1));
 }
 
-}  // namespace
+}  // namespace shared_segment_test

@@ -17,7 +17,7 @@
 #include "support/stereo_cases.h"
 
 namespace afm::scene {
-namespace {
+namespace stereo_faults_test {
 
 // ---- projections: a screen and both eyes give a view each ----
 
@@ -298,5 +298,5 @@ TEST(StereoFaults, EveryWrongAnaglyphIsNoticed) {
       << "colour masks";
 }
 
-}  // namespace
+}  // namespace stereo_faults_test
 }  // namespace afm::scene

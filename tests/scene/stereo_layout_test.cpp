@@ -12,7 +12,7 @@
 #include "support/stereo_cases.h"
 
 namespace afm::scene {
-namespace {
+namespace stereo_layout_test {
 
 using test::StereoCase;
 using ::testing::AllOf;
@@ -211,5 +211,5 @@ TEST(StereoLayout, FramePackingScaledIsStillLeftBlankRight) {
   }
 }
 
-}  // namespace
+}  // namespace stereo_layout_test
 }  // namespace afm::scene

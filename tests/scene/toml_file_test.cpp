@@ -8,7 +8,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::scene {
-namespace {
+namespace toml_file_test {
 
 using ::testing::HasSubstr;
 
@@ -71,5 +71,5 @@ TEST(TomlFile, LeavesUnfinishedStringsToTheParser) {
   }
 }
 
-}  // namespace
+}  // namespace toml_file_test
 }  // namespace afm::scene

@@ -4,12 +4,12 @@
 
 #include <string>
 
-#include "places.h"
 #include "scene/display/wall.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::scene {
-namespace {
+namespace wall_file_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -42,7 +42,7 @@ std::string error_of(const std::string& text) {
 }
 
 TEST(WallFile, OfThePaperHasTheSizeThatThePaperGives) {
-  const auto wall = load_wall(AFM_SOURCE_DIR "/assets/walls/powerwall.toml");
+  const auto wall = load_wall(support::source("assets/walls/powerwall.toml"));
   ASSERT_TRUE(wall.has_value()) << wall.error().message;
   ASSERT_EQ(wall->screens.size(), 1U);
   EXPECT_NEAR(wall->screens[0].width_m(), 10.0 * 0.3048, 1e-12);
@@ -302,5 +302,5 @@ TEST(WallFile, ThatIsNotThereIsABadInputFile) {
   EXPECT_THAT(wall.error().message, HasSubstr("/nowhere/wall.toml"));
 }
 
-}  // namespace
+}  // namespace wall_file_test
 }  // namespace afm::scene

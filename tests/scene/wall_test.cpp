@@ -13,7 +13,7 @@
 #include "support/stereo_cases.h"
 
 namespace afm::scene {
-namespace {
+namespace wall_test {
 
 using test::StereoCase;
 using ::testing::HasSubstr;
@@ -295,5 +295,5 @@ TEST(DoubtOfHead, KnowsRoomsWhoseOriginIsNotOnTheFloor) {
   EXPECT_EQ(doubt_of_head(of_paraview, {0.0, -0.2, 0.0}), "");
 }
 
-}  // namespace
+}  // namespace wall_test
 }  // namespace afm::scene

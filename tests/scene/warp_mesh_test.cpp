@@ -9,12 +9,12 @@
 #include <functional>
 #include <string>
 
-#include "places.h"
 #include "scene/display/wall.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::scene {
-namespace {
+namespace warp_mesh_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -207,7 +207,7 @@ TEST(WarpMesh, RefusesToDrawTheOutputAgainAndAgain) {
 // The preset's mesh: where the ray from the eye to a place on the cylinder, which the projector lights, meets the flat
 // screen between its edges.
 TEST(WarpMesh, OfTheCurvedPresetIsThatOfItsCylinder) {
-  const Wall wall = load_wall(AFM_SOURCE_DIR "/assets/walls/curved.toml").value();
+  const Wall wall = load_wall(support::source("assets/walls/curved.toml")).value();
   const Screen& screen = wall.screens.front();
   ASSERT_TRUE(wall.outputs.front().warp);
   const WarpMesh& mesh = *wall.outputs.front().warp;
@@ -232,5 +232,5 @@ TEST(WarpMesh, OfTheCurvedPresetIsThatOfItsCylinder) {
   }
 }
 
-}  // namespace
+}  // namespace warp_mesh_test
 }  // namespace afm::scene

@@ -10,7 +10,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::servo {
-namespace {
+namespace frame_log_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -94,5 +94,5 @@ TEST(ServoLateness, IsThatOfTheTicksSinceTheFrameBefore) {
   EXPECT_EQ(lateness.since_last(timing), 70'000U);
 }
 
-}  // namespace
+}  // namespace frame_log_test
 }  // namespace afm::servo

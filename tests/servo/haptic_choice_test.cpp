@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 namespace afm::servo {
-namespace {
+namespace haptic_choice_test {
 
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -38,5 +38,5 @@ TEST(HapticChoice, NamesEveryWordForOneThatIsNone) {
   }
 }
 
-}  // namespace
+}  // namespace haptic_choice_test
 }  // namespace afm::servo

@@ -10,7 +10,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::servo {
-namespace {
+namespace keep_running_test {
 
 using ::testing::HasSubstr;
 
@@ -53,5 +53,5 @@ TEST_F(KeepRunning, DoesNotRepeatWhatIsRefused) {
   EXPECT_FALSE(keep_running("/nowhere/touchafm", {}));
 }
 
-}  // namespace
+}  // namespace keep_running_test
 }  // namespace afm::servo

@@ -10,16 +10,16 @@
 #include <utility>
 
 #include "core/clock.h"
-#include "places.h"
 #include "servo/servo_process.h"
 #include "support/paper_model.h"
+#include "support/places.h"
 
 // What touchafm does for a servo in real time, for tests with real processes. The machine that runs them may stall for
 // many milliseconds at any moment, and the servo then lets go of the hand, as it should. So whatever needs the hand to
 // be held has to be ready to try again; what must happen is waited for with a generous limit.
 namespace afm::test {
 
-inline const std::string kServoProgram = AFM_BINARY_DIR "/bin/touchafm-servo";
+inline const std::string kServoProgram = support::built("bin/touchafm-servo");
 inline constexpr double kRateHz = 1000.0;
 inline constexpr auto kPatience = std::chrono::seconds(100);
 

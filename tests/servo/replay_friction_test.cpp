@@ -12,7 +12,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::servo {
-namespace {
+namespace replay_friction_test {
 
 using scene::TipSample;
 
@@ -86,5 +86,5 @@ TEST(SessionFriction, IsMeasuredFromARecording) {
   EXPECT_FALSE(friction_loop(without));
 }
 
-}  // namespace
+}  // namespace replay_friction_test
 }  // namespace afm::servo

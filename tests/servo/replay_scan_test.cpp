@@ -13,7 +13,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::servo {
-namespace {
+namespace replay_scan_test {
 
 using scene::ScanHand;
 using scene::ScanLead;
@@ -87,5 +87,5 @@ TEST(Replay, GivesAHandThatScansAgain) {
   EXPECT_FALSE(replay(without)->identical());
 }
 
-}  // namespace
+}  // namespace replay_scan_test
 }  // namespace afm::servo

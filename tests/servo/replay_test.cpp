@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "places.h"
 #include "servo/recorded_servo.h"
 #include "support/paper_model.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::servo {
-namespace {
+namespace replay_test {
 
 using scene::FaultCode;
 using scene::ServoState;
@@ -76,7 +76,7 @@ TEST(Replay, ComparesThePartThatItIsTold) {
 
 // Recorded by 0.1.0 with g++ 12 on x86-64: the same bits from every later version.
 TEST(Replay, OfASessionOf010IsTheSameBitForBit) {
-  const auto session = load_session(AFM_SOURCE_DIR "/tests/formats/0.1.0/session-gold.afms");
+  const auto session = load_session(support::source("tests/formats/0.1.0/session-gold.afms"));
   ASSERT_TRUE(session) << session.error().message;
   EXPECT_GT(strongest_n(*session), 0.5);
   expect_same(*session);
@@ -281,5 +281,5 @@ TEST(Replay, IsTheSameFromAFile) {
   expect_same(*loaded);
 }
 
-}  // namespace
+}  // namespace replay_test
 }  // namespace afm::servo

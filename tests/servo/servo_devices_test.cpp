@@ -13,20 +13,20 @@
 #include "core/clock.h"
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
-#include "places.h"
 #include "servo/servo_process.h"
 #include "servo/session_file.h"
 #include "support/paper_model.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 // touchafm-servo as a process, with the device that it was told to take. The mock of the vendor's library plays a
 // person by itself; how long anything takes decides nothing.
 namespace afm::servo {
-namespace {
+namespace servo_devices_test {
 
 using scene::TipSample;
 
-const std::string kServoProgram = AFM_BINARY_DIR "/bin/touchafm-servo";
+const std::string kServoProgram = support::built("bin/touchafm-servo");
 
 // Two presses at the top, because a fault takes one to acknowledge; then down, and up again. Contact lies at y = -20
 // mm.
@@ -78,7 +78,7 @@ class ServoDevices : public testing::Test {
 
 TEST_F(ServoDevices, LetsACycleBeFeltThroughTheVendorsLibrary) {
   const support::ScratchFolder folder;
-  const Environment library("TOUCHAFM_HD_LIBRARY", AFM_MOCK_HD);
+  const Environment library("TOUCHAFM_HD_LIBRARY", support::mock_hd());
   const Environment script("MOCK_HD_SCRIPT", folder.write("person.txt", kPerson));
   const auto felt = [&] {
     return events.size() >= 2 &&
@@ -111,7 +111,7 @@ TEST_F(ServoDevices, EndsWithFourWhenTheNamedDeviceIsMissing) {
   ASSERT_TRUE(no_library);
   EXPECT_EQ(exit_code(**no_library), 4);
 
-  const Environment library("TOUCHAFM_HD_LIBRARY", AFM_MOCK_HD);
+  const Environment library("TOUCHAFM_HD_LIBRARY", support::mock_hd());
   const Environment fault("MOCK_HD_FAULT", "missing");
   auto no_device = start("hdapi");
   ASSERT_TRUE(no_device);
@@ -195,5 +195,5 @@ TEST_F(ServoDevices, ReplaysASessionTickByTickToTheSameForces) {
   EXPECT_GT(compared, 1500U);
 }
 
-}  // namespace
+}  // namespace servo_devices_test
 }  // namespace afm::servo

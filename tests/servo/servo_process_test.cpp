@@ -25,7 +25,7 @@
 #include "live_renderer.h"
 
 // Real processes and real time. How long something took is printed and decides nothing.
-namespace {
+namespace servo_process_test {
 
 using namespace afm::scene;
 using namespace afm::test;
@@ -372,4 +372,4 @@ TEST(ServoProgram, NeedsNeitherVulkanNorAWindow) {
   }
 }
 
-}  // namespace
+}  // namespace servo_process_test

@@ -15,7 +15,7 @@
 
 // The servo with the rights that a person may or may not have. Each case is a child of its own, which gives up root's
 // privileges for good, takes the limits of the case and then starts the servo.
-namespace {
+namespace servo_rights_test {
 
 using namespace afm::scene;
 using namespace afm::test;
@@ -122,4 +122,4 @@ TEST(ServoRights, OfNobodyLeaveItRunningInEveryRespect) {
   EXPECT_THAT(started.said, AllOf(HasSubstr("rtprio 80"), HasSubstr("memlock unlimited")));
 }
 
-}  // namespace
+}  // namespace servo_rights_test

@@ -22,7 +22,7 @@
 // The servo under a filter of the kernel that kills it at once for any system call but the two that it may make: sleep,
 // and the clock where the kernel does not map it. A tick that logged, took a lock that somebody holds, asked for memory
 // or read a file would not survive.
-namespace {
+namespace servo_syscall_test {
 
 using namespace afm::scene;
 using namespace afm::test;
@@ -127,4 +127,4 @@ TEST(ServoSystemCalls, OfAnyOtherKindEndTheServoOfThisTest) {
   EXPECT_EQ(WTERMSIG(status), SIGSYS);
 }
 
-}  // namespace
+}  // namespace servo_syscall_test

@@ -19,19 +19,19 @@
 #include <thread>
 
 #include "core/clock.h"
-#include "places.h"
 #include "servo/servo_client.h"
 #include "servo/servo_handover.h"
 #include "support/paper_model.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 // A renderer is killed, and another one comes. Real processes: what must happen is waited for, how long it takes
 // decides nothing.
 namespace afm::servo {
-namespace {
+namespace servo_takeover_test {
 
-const std::string kProgram = AFM_BINARY_DIR "/bin/touchafm";
-const std::string kServoProgram = AFM_BINARY_DIR "/bin/touchafm-servo";
+const std::string kProgram = support::built("bin/touchafm");
+const std::string kServoProgram = support::built("bin/touchafm-servo");
 constexpr std::uint64_t kScene = 42;
 constexpr double kHeldHeightM = 0.073;
 constexpr double kLong_s = 100.0;
@@ -275,11 +275,11 @@ TEST_F(ServoTakeover, IsNotWaitedForByAServoThatWasNotToldTo) {
 
 TEST_F(ServoTakeover, IsWaitedForAsLongAsItWasTold) {
   Predecessor predecessor(0.3);
-  predecessor.kill();
   const auto killed = std::chrono::steady_clock::now();
+  predecessor.kill();
   EXPECT_TRUE(eventually([&] { return predecessor.servo_exit_code() == 1; }));
   EXPECT_GE(std::chrono::steady_clock::now() - killed, std::chrono::milliseconds(250));
 }
 
-}  // namespace
+}  // namespace servo_takeover_test
 }  // namespace afm::servo

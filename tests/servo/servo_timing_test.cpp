@@ -14,7 +14,7 @@
 #include "live_renderer.h"
 
 // When ticks come, and what becomes of the force when they come late. Real time.
-namespace {
+namespace servo_timing_test {
 
 using namespace afm::scene;
 using namespace afm::test;
@@ -138,4 +138,4 @@ TEST_P(StoppedServo, GoesOnWithoutAStepOfTheForceAndLetsGoAfterTwentyMillisecond
 
 INSTANTIATE_TEST_SUITE_P(ForMilliseconds, StoppedServo, testing::Values(5, 50, 500), testing::PrintToStringParamName());
 
-}  // namespace
+}  // namespace servo_timing_test

@@ -11,12 +11,12 @@
 
 #include "core/whole_file.h"
 #include "haptics/device.h"
-#include "places.h"
 #include "servo/session_writer.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::servo {
-namespace {
+namespace session_file_test {
 
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
@@ -198,7 +198,7 @@ TEST(SessionFile, ThatGrowsReplacesNothingAndFollowsNoLink) {
 
 // 0.1.0's bytes: tests/formats/README.md.
 TEST(SessionFile, OfVersion010IsRead) {
-  const auto session = load_session(AFM_SOURCE_DIR "/tests/formats/0.1.0/session-gold.afms");
+  const auto session = load_session(support::source("tests/formats/0.1.0/session-gold.afms"));
   ASSERT_TRUE(session) << session.error().message;
   EXPECT_EQ(session->material, "gold");
   EXPECT_TRUE(session->complete);
@@ -349,5 +349,5 @@ TEST(SessionFile, ThatIsSomethingElseIsNamedSo) {
   EXPECT_THAT(error_of(folder.write("picture.png", "\x89PNG and so on")), HasSubstr("not a TouchAFM session"));
 }
 
-}  // namespace
+}  // namespace session_file_test
 }  // namespace afm::servo

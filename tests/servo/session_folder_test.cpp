@@ -8,7 +8,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::servo {
-namespace {
+namespace session_folder_test {
 
 RecordedSession part(std::int64_t begin_ms, int ticks, scene::ServoState state) {
   RecordedSession session;
@@ -53,5 +53,5 @@ TEST(SessionFolder, SaysWhenItHasGone) {
   EXPECT_NE(added.error().message.find("cannot write"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace session_folder_test
 }  // namespace afm::servo

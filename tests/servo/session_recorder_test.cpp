@@ -9,7 +9,7 @@
 #include "servo/tip_stream.h"
 
 namespace afm::servo {
-namespace {
+namespace session_recorder_test {
 
 using physics::Phase;
 using scene::ServoState;
@@ -120,5 +120,5 @@ TEST(TipStream, GivesAnEventJustBeforeTheSampleAtOrAfterIt) {
   EXPECT_EQ(order_of({none}), "e2 s2 ");
 }
 
-}  // namespace
+}  // namespace session_recorder_test
 }  // namespace afm::servo

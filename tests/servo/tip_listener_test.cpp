@@ -14,7 +14,7 @@
 #include "support/paper_model.h"
 
 namespace afm::servo {
-namespace {
+namespace tip_listener_test {
 
 // Counts, and notes any event that comes after the sample of its tick.
 class Counting final : public TipAudience {
@@ -92,5 +92,5 @@ TEST(TipListener, GivesTheFrameLoopEventsBeforeTheSamplesOfTheirTicks) {
   EXPECT_EQ(frames.late, 0);
 }
 
-}  // namespace
+}  // namespace tip_listener_test
 }  // namespace afm::servo

@@ -10,7 +10,7 @@
 #include "core/file_descriptor.h"
 
 namespace afm::servo {
-namespace {
+namespace trusted_peer_test {
 
 TEST(TrustedPeer, IsAProcessOfTheUserAndOfNobodyElse) {
   std::array<int, 2> ends{};
@@ -25,5 +25,5 @@ TEST(TrustedPeer, IsNobodyWhereThereIsNoSocket) {
   EXPECT_EQ(trusted_peer(-1, 0), std::nullopt);
 }
 
-}  // namespace
+}  // namespace trusted_peer_test
 }  // namespace afm::servo

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "support/places.h"
+
 namespace afm::test {
 
 // A command line that runs a program whose graphics device fails, or is less able, in that way.
 inline std::vector<std::string> on_faulty_device(const std::string& fault, const std::vector<std::string>& program) {
-  std::vector<std::string> command{"/usr/bin/env", "VK_ADD_LAYER_PATH=" AFM_FAULT_LAYER_DIR,
+  std::vector<std::string> command{"/usr/bin/env", "VK_ADD_LAYER_PATH=" + support::fault_layer_folder(),
                                    "VK_INSTANCE_LAYERS=VK_LAYER_AFM_fault", "AFM_TEST_FAULT=" + fault};
   command.insert(command.end(), program.begin(), program.end());
   return command;
@@ -21,7 +23,7 @@ inline std::vector<std::string> on_faulty_device(const std::string& fault, const
 class FaultyDevice {
  public:
   explicit FaultyDevice(const std::string& fault) {
-    setenv("VK_ADD_LAYER_PATH", AFM_FAULT_LAYER_DIR, 1);
+    setenv("VK_ADD_LAYER_PATH", support::fault_layer_folder().c_str(), 1);
     setenv("VK_INSTANCE_LAYERS", "VK_LAYER_AFM_fault", 1);
     setenv("AFM_TEST_FAULT", fault.c_str(), 1);
   }

@@ -6,17 +6,17 @@
 #include <string>
 
 #include "exhibit/wall_scene.h"
-#include "places.h"
 #include "scene/display/wall.h"
 #include "scene/samples/material_library.h"
 #include "support/phrases.h"
+#include "support/places.h"
 
 namespace afm::test {
 
 // The paper's samples before the paper's wall, as they are shown.
 class PaperWall : public ::testing::Test {
  protected:
-  const std::string assets_ = AFM_SOURCE_DIR "/assets";
+  const std::string assets_ = support::source("assets");
   const scene::MaterialLibrary materials_ =
       scene::load_materials(assets_ + "/materials.toml").value().only(scene::kPaperMaterials).value();
   const scene::Wall wall_ = scene::load_wall(assets_ + "/walls/powerwall.toml").value();

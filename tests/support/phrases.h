@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "exhibit/phrases.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::test {
 
-inline const std::string kPhraseFolder = std::string(AFM_SOURCE_DIR) + "/assets/guidance/";
+inline const std::string kPhraseFolder = support::source("assets/guidance/");
 
 inline const exhibit::Phrases& english() {
   static const exhibit::Phrases phrases = exhibit::Phrases::load(kPhraseFolder + "en.toml").value();

@@ -9,8 +9,8 @@
 #include <glm/common.hpp>
 #include <stdexcept>
 
-#include "places.h"
 #include "render/image_file.h"
+#include "support/places.h"
 
 namespace afm::test {
 namespace {
@@ -115,7 +115,7 @@ namespace {
 // NAME.png, and those of other versions of a library: NAME-imgui-1.90.png.
 std::vector<std::string> goldens_of(const std::string& name) {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(AFM_SOURCE_DIR) + "/tests/golden")) {
+  for (const auto& entry : std::filesystem::directory_iterator(support::source("tests/golden"))) {
     const std::string file = entry.path().filename().string();
     if (file == name + ".png" || file.starts_with(name + "-")) files.push_back(entry.path().string());
   }
@@ -141,7 +141,7 @@ std::string where_differ(const render::Image& a, const render::Image& b) {
 }
 
 std::string compare_with_golden(const render::Image& actual, const std::string& name) {
-  const std::string golden = std::string(AFM_SOURCE_DIR) + "/tests/golden/" + name + ".png";
+  const std::string golden = support::source("tests/golden/") + name + ".png";
   if (const char* update = std::getenv("AFM_UPDATE_GOLDEN"); update != nullptr && std::string(update) == "1") {
     write_or_throw(actual, golden);
     return {};
@@ -152,7 +152,7 @@ std::string compare_with_golden(const render::Image& actual, const std::string& 
   }
   const render::Image expected = read_png(golden);
   const Difference found = difference(actual, expected, kTolerance);
-  const std::string folder = std::string(AFM_BINARY_DIR) + "/golden/";
+  const std::string folder = support::built("golden/");
   std::filesystem::create_directories(folder);
   write_or_throw(actual, folder + name + "-actual.png");
   write_or_throw(expected, folder + name + "-expected.png");

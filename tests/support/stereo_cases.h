@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::test {
 
@@ -33,7 +33,7 @@ inline std::vector<double> numbers(const std::string& text) {
 }
 
 inline std::vector<StereoCase> stereo_cases(const std::string& kind) {
-  std::ifstream file(AFM_SOURCE_DIR "/tests/scene/data/stereo_cases.csv");
+  std::ifstream file(support::source("tests/scene/data/stereo_cases.csv"));
   std::vector<StereoCase> cases;
   for (std::string line; std::getline(file, line);) {
     std::vector<std::string> fields;

@@ -17,9 +17,10 @@
 #include "core/whole_file.h"
 #include "exhibit/cluster/wall_model.h"
 #include "servo/session_file.h"
+#include "support/places.h"
 
 namespace afm::app {
-namespace {
+namespace cluster_failures_test {
 
 using std::chrono::seconds;
 using ::testing::ContainsRegex;
@@ -176,7 +177,7 @@ TEST_F(ClusterFailures, NodesOutliveTheirMasterAndFollowTheNext) {
 }
 
 TEST_F(ClusterFailures, ANodeOfAnotherBuildOrWithOtherModelsIsRefusedAndBothAreNamed) {
-  const auto own = exhibit::build_digest(AFM_PROGRAM);
+  const auto own = exhibit::build_digest(support::touchafm());
   ASSERT_TRUE(own);
   for (const bool other_build : {true, false}) {
     const exhibit::WallModel model{.build = other_build ? 0x1111222233334444U : *own,
@@ -203,8 +204,8 @@ TEST_F(ClusterFailures, ANodeOfAnotherBuildOrWithOtherModelsIsRefusedAndBothAreN
 }
 
 TEST_F(ClusterFailures, TheDoctorNamesTheNodeThatDoesNotAnswerAndHowToStartIt) {
-  const std::string doctor = std::string(AFM_PROGRAM) + " doctor --cluster " + folder_.file("wall.toml") +
-                             " --domain " + domain() + " --interface 127.0.0.1 --patience ";
+  const std::string doctor = support::touchafm() + " doctor --cluster " + folder_.file("wall.toml") + " --domain " +
+                             domain() + " --interface 127.0.0.1 --patience ";
   const auto left = node("left");
   const support::ProgramResult one = support::run_program(doctor + "6");
   EXPECT_EQ(one.exit_code, 1);
@@ -218,8 +219,8 @@ TEST_F(ClusterFailures, TheDoctorNamesTheNodeThatDoesNotAnswerAndHowToStartIt) {
 }
 
 TEST_F(ClusterFailures, TheBenchmarkStartsNodesOfItsOwn) {
-  const support::ProgramResult measured = support::run_program(
-      std::string(AFM_PROGRAM) + " bench cluster --nodes 2 --frames 60 --json --domain " + domain());
+  const support::ProgramResult measured =
+      support::run_program(support::touchafm() + " bench cluster --nodes 2 --frames 60 --json --domain " + domain());
   ASSERT_EQ(measured.exit_code, 0) << measured.err;
   const auto result = nlohmann::json::parse(measured.out);
   EXPECT_EQ(result.at("frames"), 60);
@@ -241,5 +242,5 @@ TEST_F(ClusterFailures, AHundredThousandBrokenDatagramsEndNoProgram) {
   }
 }
 
-}  // namespace
+}  // namespace cluster_failures_test
 }  // namespace afm::app

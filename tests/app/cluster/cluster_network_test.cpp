@@ -17,9 +17,10 @@
 #include "core/percentiles.h"
 #include "core/whole_file.h"
 #include "support/frame_log.h"
+#include "support/places.h"
 
 namespace afm::app {
-namespace {
+namespace cluster_network_test {
 
 using support::LossyNetwork;
 using ::testing::Each;
@@ -34,8 +35,8 @@ class ClusterNetworkTest : public ::testing::Test {
 
   std::unique_ptr<support::LiveProgram> node(std::size_t number) const {
     return std::make_unique<support::LiveProgram>(
-        network_->on(number + 1, {AFM_PROGRAM, "bench", "cluster", "--answer", std::to_string(number), "--interface",
-                                  LossyNetwork::address(number + 1)}),
+        network_->on(number + 1, {support::touchafm(), "bench", "cluster", "--answer", std::to_string(number),
+                                  "--interface", LossyNetwork::address(number + 1)}),
         "");
   }
   void start_nodes() {
@@ -43,9 +44,9 @@ class ClusterNetworkTest : public ::testing::Test {
   }
   std::string master(int frames) const {
     std::string line;
-    for (const std::string& word :
-         network_->on(0, {AFM_PROGRAM, "bench", "cluster", "--elsewhere", "--json", "--nodes", std::to_string(kNodes),
-                          "--frames", std::to_string(frames), "--interface", LossyNetwork::address(0)})) {
+    for (const std::string& word : network_->on(
+             0, {support::touchafm(), "bench", "cluster", "--elsewhere", "--json", "--nodes", std::to_string(kNodes),
+                 "--frames", std::to_string(frames), "--interface", LossyNetwork::address(0)})) {
       line += word + " ";
     }
     return line;
@@ -219,5 +220,5 @@ TEST_F(ClusterWithoutMulticastTest, NodesThatNameTheirMasterShowTheWallAndOnlyTh
   EXPECT_EQ(hand->ends(), 0) << hand->said();
 }
 
-}  // namespace
+}  // namespace cluster_network_test
 }  // namespace afm::app

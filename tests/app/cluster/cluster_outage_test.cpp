@@ -21,9 +21,10 @@
 #include "app/cluster/cluster_noise.h"
 #include "core/percentiles.h"
 #include "core/whole_file.h"
+#include "support/places.h"
 
 namespace afm::app {
-namespace {
+namespace cluster_outage_test {
 
 using std::chrono::seconds;
 using ::testing::HasSubstr;
@@ -107,8 +108,8 @@ TEST_F(ClusterOutage, TwentyRestartsOfANodeEachShowTheWallAgain) {
 }
 
 TEST_F(ClusterOutage, AMinuteOfFramesLosesNone) {
-  const support::ProgramResult measured = support::run_program(
-      std::string(AFM_PROGRAM) + " bench cluster --nodes 3 --frames 3600 --json --domain " + domain());
+  const support::ProgramResult measured =
+      support::run_program(support::touchafm() + " bench cluster --nodes 3 --frames 3600 --json --domain " + domain());
   ASSERT_EQ(measured.exit_code, 0) << measured.err;
   std::printf("%s", measured.out.c_str());
   const auto result = nlohmann::json::parse(measured.out);
@@ -190,5 +191,5 @@ TEST_F(ClusterOutage, TenMinutesOfAWallTakeNoMemory) {
   EXPECT_THAT(hand->said(), Not(HasSubstr("built frame")));
 }
 
-}  // namespace
+}  // namespace cluster_outage_test
 }  // namespace afm::app

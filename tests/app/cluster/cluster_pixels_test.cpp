@@ -17,9 +17,10 @@
 #include "core/fnv1a.h"
 #include "core/percentiles.h"
 #include "support/faulty_device.h"
+#include "support/places.h"
 
 namespace afm::app {
-namespace {
+namespace cluster_pixels_test {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
@@ -113,7 +114,7 @@ TEST_F(ClusterPixels, SixOutputsOnThreeNodesAreThoseOfOneMachineInEveryMode) {
     bool same = false;
     while (!same && std::chrono::steady_clock::now() < end) same = !rows_differ();
     EXPECT_TRUE(same) << "after " << pressed << ": " << hand.said();
-    if (!same) (void)render::write_png(display.screenshot(), AFM_BINARY_DIR "/cluster-tiles.png");
+    if (!same) (void)render::write_png(display.screenshot(), support::built("cluster-tiles.png"));
   }
   expect_orderly_end(hand);
   for (const char* name : kNodeNames) {
@@ -309,5 +310,5 @@ TEST_F(ClusterPixels, ScreensOfOtherSizesBecomeBlankWithTheOthers) {
   expect_orderly_end(*hand);
 }
 
-}  // namespace
+}  // namespace cluster_pixels_test
 }  // namespace afm::app

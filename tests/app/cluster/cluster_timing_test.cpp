@@ -13,7 +13,7 @@
 #include "core/clock.h"
 
 namespace afm::app {
-namespace {
+namespace cluster_timing_test {
 
 using ::testing::ElementsAre;
 
@@ -64,5 +64,5 @@ TEST_F(ClusterTimingTest, CountsAllThatANodeLacksThatWasStartedAnew) {
   EXPECT_THAT(lost(213, [](std::uint64_t frame) { return frame < 45 ? 1000U : 3U; }), ElementsAre(3U));
 }
 
-}  // namespace
+}  // namespace cluster_timing_test
 }  // namespace afm::app

@@ -10,9 +10,10 @@
 #include "app/cluster/cluster_wall.h"
 #include "core/whole_file.h"
 #include "support/faulty_device.h"
+#include "support/places.h"
 
 namespace afm::app {
-namespace {
+namespace cluster_view_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -25,7 +26,7 @@ class ClusterViewTest : public ClusterWall {
     std::vector<std::string> program = node_command(name, "127.0.0.1");
     if (!fault.empty()) program = test::on_faulty_device(fault, program);
     program.insert(program.begin(),
-                   {"/usr/bin/env", "TOUCHAFM_HD_LIBRARY=" AFM_MOCK_HD, "TMPDIR=" + temporary_.path()});
+                   {"/usr/bin/env", "TOUCHAFM_HD_LIBRARY=" + support::mock_hd(), "TMPDIR=" + temporary_.path()});
     return start(program);
   }
   support::ScratchFolder temporary_;  // the nodes' own
@@ -68,7 +69,7 @@ TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   // no servo and no haptic device but the master's
   EXPECT_EQ(children_of(left->pid()), "");
   EXPECT_EQ(open_devices_of(left->pid()), "");
-  EXPECT_FALSE(has_loaded(left->pid(), AFM_MOCK_HD));
+  EXPECT_FALSE(has_loaded(left->pid(), support::mock_hd()));
   EXPECT_TRUE(has_loaded(left->pid(), "libddsc"));
 
   EXPECT_THAT(left->said(), HasSubstr("without VK_NV_present_barrier"));
@@ -103,5 +104,5 @@ TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   EXPECT_EQ(left->ends(), 0) << left->said();
 }
 
-}  // namespace
+}  // namespace cluster_view_test
 }  // namespace afm::app

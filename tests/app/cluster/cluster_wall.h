@@ -14,9 +14,9 @@
 #include <thread>
 #include <vector>
 
-#include "places.h"
 #include "render/image_file.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
@@ -68,12 +68,12 @@ class ClusterWall : public ::testing::Test {
   ClusterWall() { folder_.write("wall.toml", wall_of_three("127.0.0.1", "127.0.0.1")); }
 
   std::vector<std::string> node_command(const std::string& name, const std::string& address) const {
-    return {AFM_PROGRAM, "node", name, "--interface", address, "--domain", domain()};
+    return {support::touchafm(), "node", name, "--interface", address, "--domain", domain()};
   }
   std::vector<std::string> master_command() const {
-    return {AFM_PROGRAM,    "view",         "--wall", folder_.file("wall.toml"),
-            "--cluster",    "--domain",     domain(), "--servo",
-            AFM_SERVO_MODE, "--frame-rate", "12"};
+    return {support::touchafm(),   "view",         "--wall", folder_.file("wall.toml"),
+            "--cluster",           "--domain",     domain(), "--servo",
+            support::servo_mode(), "--frame-rate", "12"};
   }
   std::unique_ptr<support::LiveProgram> start(const std::vector<std::string>& command) const {
     return std::make_unique<support::LiveProgram>(command, display_.name());
@@ -123,7 +123,7 @@ class ClusterWall : public ::testing::Test {
       const render::Image seen = display_.screenshot();
       if (is_drawn(seen, 0) && difference(seen, 0, 1) == 0 && difference(seen, 0, 2) == 0) return true;
       if (std::chrono::steady_clock::now() > end) {
-        (void)render::write_png(seen, AFM_BINARY_DIR "/cluster-windows.png");
+        (void)render::write_png(seen, support::built("cluster-windows.png"));
         return false;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(50));

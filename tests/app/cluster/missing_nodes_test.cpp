@@ -5,7 +5,7 @@
 #include "support/phrases.h"
 
 namespace afm::app {
-namespace {
+namespace missing_nodes_test {
 
 TEST(MissingNodes, AreNamedOnTheWallInItsOrder) {
   scene::Wall wall;
@@ -22,5 +22,5 @@ TEST(MissingNodes, AreNamedOnTheWallInItsOrder) {
   EXPECT_EQ(banner.warning, "screen missing: left, no hand");
 }
 
-}  // namespace
+}  // namespace missing_nodes_test
 }  // namespace afm::app

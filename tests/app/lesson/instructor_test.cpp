@@ -11,16 +11,16 @@
 
 #include "core/whole_file.h"
 #include "exhibit/lesson/instructor_page.h"
-#include "places.h"
 #include "render/image_file.h"
 #include "support/live_program.h"
 #include "support/phrases.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/two_monitors.h"
 
 namespace afm::app {
-namespace {
+namespace instructor_test {
 
 using exhibit::InstructorAction;
 using support::TwoMonitors;
@@ -30,9 +30,10 @@ using ::testing::Not;
 class InstructorTest : public ::testing::Test {
  protected:
   std::vector<std::string> command(std::vector<std::string> more = {}) const {
-    std::vector<std::string> all{AFM_PROGRAM, "lesson",       file_,        "--monitor", "DUMMY0",       "--instructor",
-                                 "DUMMY1",    "--frame-rate", "12",         "--servo",   AFM_SERVO_MODE, "--haptics",
-                                 "sim",       "--validate",   "--language", "en"};
+    std::vector<std::string> all{
+        support::touchafm(), "lesson", file_,     "--monitor",           "DUMMY0",    "--instructor", "DUMMY1",
+        "--frame-rate",      "12",     "--servo", support::servo_mode(), "--haptics", "sim",          "--validate",
+        "--language",        "en"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -56,7 +57,7 @@ class InstructorTest : public ::testing::Test {
   }
   // Kept in the build tree for people to look at.
   void picture(const std::string& name) const {
-    EXPECT_TRUE(render::write_png(monitors_.screenshot(), AFM_BINARY_DIR "/instructor-" + name + ".png"));
+    EXPECT_TRUE(render::write_png(monitors_.screenshot(), support::built("instructor-") + name + ".png"));
   }
 
   const support::ScratchFolder folder_;
@@ -110,15 +111,15 @@ TEST_F(InstructorTest, GoesOnTakesTheForceAwaySkipsAndStopsFromTheSecondMonitor)
 }
 
 TEST_F(InstructorTest, NeedsAMonitorThatIsThere) {
-  const auto missing = support::run_program("env -u WAYLAND_DISPLAY DISPLAY=" + monitors_.name() + " " + AFM_PROGRAM +
-                                            " lesson " + file_ + " --instructor TV");
+  const auto missing = support::run_program("env -u WAYLAND_DISPLAY DISPLAY=" + monitors_.name() + " " +
+                                            support::touchafm() + " lesson " + file_ + " --instructor TV");
   EXPECT_EQ(missing.exit_code, 4);
   EXPECT_THAT(missing.err, HasSubstr("--instructor: there is no monitor \"TV\"; choose from: 1 DUMMY0"));
-  const auto simulated = support::run_program(AFM_PROGRAM " lesson " + file_ + " --participant sim:1 --out " +
+  const auto simulated = support::run_program(support::touchafm() + " lesson " + file_ + " --participant sim:1 --out " +
                                               folder_.file("study") + " --instructor window");
   EXPECT_EQ(simulated.exit_code, 2);
   EXPECT_THAT(simulated.err, HasSubstr("--instructor: a simulated participant has no window"));
 }
 
-}  // namespace
+}  // namespace instructor_test
 }  // namespace afm::app

@@ -10,21 +10,21 @@
 #include <thread>
 
 #include "core/whole_file.h"
-#include "places.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
 namespace afm {
-namespace {
+namespace lesson_program_test {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string kLessons = AFM_SOURCE_DIR "/assets/lessons/";
+const std::string kLessons = support::source("assets/lessons/");
 
 support::ProgramResult lesson(const std::string& arguments) {
-  return support::run_program(AFM_PROGRAM " lesson " + arguments);
+  return support::run_program(support::touchafm() + " lesson " + arguments);
 }
 
 // Every file of a folder.
@@ -122,7 +122,7 @@ TEST(LessonProgram, LosesAtMostTheRunningTrialWhenItIsKilled) {
   std::size_t cut = 0;
   for (int delay_ms = 2; delay_ms < 60 && cut < 3; delay_ms += 2) {
     const std::string study = folder.file("killed-" + std::to_string(delay_ms));
-    support::LiveProgram program({AFM_PROGRAM, "lesson", file, "--participant", "sim:5", "--out", study}, "");
+    support::LiveProgram program({support::touchafm(), "lesson", file, "--participant", "sim:5", "--out", study}, "");
     // it has begun its file
     for (int i = 0; i < 2000 && !fs::exists(study + "/" + name); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -138,5 +138,5 @@ TEST(LessonProgram, LosesAtMostTheRunningTrialWhenItIsKilled) {
   EXPECT_GT(cut, 0U) << "no run was killed before its end";
 }
 
-}  // namespace
+}  // namespace lesson_program_test
 }  // namespace afm

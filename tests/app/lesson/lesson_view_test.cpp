@@ -17,15 +17,15 @@
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/lesson/lesson_panel.h"
-#include "places.h"
 #include "render/image_file.h"
 #include "support/live_program.h"
+#include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
 namespace afm::app {
-namespace {
+namespace lesson_view_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -41,9 +41,9 @@ class LessonView : public ::testing::Test {
 
   std::vector<std::string> command(const std::string& file, std::vector<std::string> more = {},
                                    const std::string& hand = "sim") const {
-    std::vector<std::string> all{AFM_PROGRAM,    "lesson",     file,          "--size", "640x480",
-                                 "--frame-rate", "12",         "--eye-width", "320",    "--servo",
-                                 AFM_SERVO_MODE, "--validate", "--haptics",   hand};
+    std::vector<std::string> all{support::touchafm(),   "lesson",     file,          "--size", "640x480",
+                                 "--frame-rate",        "12",         "--eye-width", "320",    "--servo",
+                                 support::servo_mode(), "--validate", "--haptics",   hand};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -54,7 +54,7 @@ class LessonView : public ::testing::Test {
   // On one of so many targets of the guide, as one eye sees it.
   void click(std::size_t target, std::size_t targets) const {
     exhibit::ExhibitFiles files;
-    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    files.assets_dir = support::source("assets");
     files.aspect = static_cast<double>(kWidth) / kHeight;
     exhibit::Stage stage = exhibit::load_exhibit(files).value();
     stage.wall.viewers.front().ipd_m = 0.0;
@@ -70,7 +70,7 @@ class LessonView : public ::testing::Test {
   }
   // Kept in the build tree for people to look at.
   void picture(const std::string& name) const {
-    EXPECT_TRUE(render::write_png(display_.screenshot(), AFM_BINARY_DIR "/lesson-" + name + ".png"));
+    EXPECT_TRUE(render::write_png(display_.screenshot(), support::built("lesson-") + name + ".png"));
   }
   std::string lesson(const std::string& steps, const std::string& scale = "common") const {
     return folder_.write("lesson.toml",
@@ -176,5 +176,5 @@ TEST_F(LessonView, LaysTheVariantsOfAThresholdAndHidesWhatABlindStepAsksFor) {
   EXPECT_THAT(events, HasSubstr("\tblind\tidentify\tn/a\t0\t1\tn/a\tsi3n4\tsi3n4\t1\t"));
 }
 
-}  // namespace
+}  // namespace lesson_view_test
 }  // namespace afm::app

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 namespace afm::app {
-namespace {
+namespace mouse_hand_test {
 
 using Kind = render::WindowEvent::Kind;
 
@@ -146,5 +146,5 @@ TEST_F(MouseHandTest, TheLeftButtonMovesNothing) {
   EXPECT_EQ(hand_.wanted_m(), MouseHand::kRestM);
 }
 
-}  // namespace
+}  // namespace mouse_hand_test
 }  // namespace afm::app

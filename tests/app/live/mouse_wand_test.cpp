@@ -9,7 +9,7 @@
 #include "exhibit/panel_hit.h"
 
 namespace afm::app {
-namespace {
+namespace mouse_wand_test {
 
 constexpr double kExact = 1e-12;
 
@@ -153,5 +153,5 @@ TEST_F(MouseWandTest, ARayHitsAPanelWhereItIsAndNothingBesideIt) {
   EXPECT_FALSE(exhibit::hit_of(towards({0.1, 1.3, 0.0}), render::kNoPlacement, 1e-3));
 }
 
-}  // namespace
+}  // namespace mouse_wand_test
 }  // namespace afm::app

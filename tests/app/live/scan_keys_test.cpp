@@ -20,12 +20,12 @@
 #include "exhibit/scan/scan_cause.h"
 #include "exhibit/scan/scan_subject.h"
 #include "physics/imaging/scan_artefact.h"
-#include "places.h"
+#include "support/places.h"
 
 // A visitor makes each artefact in the image with Tab, + and - as the manual says, and undoes it: what the image itself
 // shows is measured, beside the cause that the wall names.
 namespace afm::app {
-namespace {
+namespace scan_keys_test {
 
 using exhibit::LiveScan;
 using physics::ScanArtefact;
@@ -67,7 +67,7 @@ std::string trimmed(const std::string& text) {
 }
 
 std::vector<ManualRow> rows_of_the_manual() {
-  const std::string manual = core::read_file(AFM_SOURCE_DIR "/docs/manual.md").value();
+  const std::string manual = core::read_file(support::source("docs/manual.md")).value();
   std::size_t line = manual.find("| press, on the row | artefact |");
   std::vector<ManualRow> rows;
   if (line == std::string::npos) return rows;
@@ -91,7 +91,7 @@ std::vector<ManualRow> rows_of_the_manual() {
 const exhibit::Stage& stage() {
   static const exhibit::Stage loaded = [] {
     exhibit::ExhibitFiles files;
-    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    files.assets_dir = support::source("assets");
     return exhibit::load_exhibit(files).value();
   }();
   return loaded;
@@ -292,5 +292,5 @@ TEST(KeysOfTheManual, MakeEachArtefactInTheImageAndUndoIt) {
   }
 }
 
-}  // namespace
+}  // namespace scan_keys_test
 }  // namespace afm::app

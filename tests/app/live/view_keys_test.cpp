@@ -10,15 +10,15 @@
 #include <vector>
 
 #include "core/whole_file.h"
-#include "places.h"
 #include "support/phrases.h"
+#include "support/places.h"
 
 namespace afm::app {
-namespace {
+namespace view_keys_test {
 
 // The first column of the manual's table of keys.
 std::vector<std::string> manual_keys() {
-  const auto manual = core::read_file(AFM_SOURCE_DIR "/docs/manual.md");
+  const auto manual = core::read_file(support::source("docs/manual.md"));
   EXPECT_TRUE(manual.has_value());
   const std::string head = "| key | mouse | what |\n|---|---|---|\n";
   const std::size_t table = manual->find(head);
@@ -73,5 +73,5 @@ TEST(LiveKeys, OfAnUnattendedWindowAreThoseOfVisitors) {
   }
 }
 
-}  // namespace
+}  // namespace view_keys_test
 }  // namespace afm::app

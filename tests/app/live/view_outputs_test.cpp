@@ -7,7 +7,7 @@
 #include <memory>
 
 namespace afm::app {
-namespace {
+namespace view_outputs_test {
 
 using scene::Eye;
 using scene::EyeOrder;
@@ -143,5 +143,5 @@ TEST_F(ViewOutputsTest, DualNeedsAnEyeForEachOutput) {
   EXPECT_THAT(dual.error().message, HasSubstr("\"tile\""));
 }
 
-}  // namespace
+}  // namespace view_outputs_test
 }  // namespace afm::app

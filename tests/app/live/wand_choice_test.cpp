@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 
 #include "app/live/view_wand.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::app {
-namespace {
+namespace wand_choice_test {
 
 using ::testing::HasSubstr;
 using Source = WandChoice::Source;
@@ -33,7 +33,7 @@ TEST(WandChoice, KnowsEverySource) {
 // A file that was copied and not changed alters nothing.
 TEST(WandChoice, TakesATrackersAxesAsTheShippedFileDoes) {
   const auto without = choose("dtrack:127.0.0.1:5000", "dtrack:2");
-  const auto with = parse_wand_choice({.file = AFM_SOURCE_DIR "/assets/wands/dtrack.toml"});
+  const auto with = parse_wand_choice({.file = support::source("assets/wands/dtrack.toml")});
   ASSERT_TRUE(without && with);
   EXPECT_FALSE(without->has_tracker_file);
   EXPECT_TRUE(with->has_tracker_file);
@@ -44,13 +44,13 @@ TEST(WandChoice, TakesATrackersAxesAsTheShippedFileDoes) {
 }
 
 TEST(WandChoice, TakesTheTrackerOfTheWandFile) {
-  const auto choice = parse_wand_choice({.file = AFM_SOURCE_DIR "/assets/wands/dtrack.toml", .head = "dtrack:4"});
+  const auto choice = parse_wand_choice({.file = support::source("assets/wands/dtrack.toml"), .head = "dtrack:4"});
   ASSERT_TRUE(choice) << choice.error().message;
   EXPECT_EQ(choice->source, Source::Dtrack);
   EXPECT_EQ(choice->head_body, 4U);
   EXPECT_NE(choice->file.dtrack->room_from_tracker, glm::dquat(1.0, 0.0, 0.0, 0.0));
   const auto elsewhere =
-      parse_wand_choice({.source = "dtrack:127.0.0.2:6000", .file = AFM_SOURCE_DIR "/assets/wands/dtrack.toml"});
+      parse_wand_choice({.source = "dtrack:127.0.0.2:6000", .file = support::source("assets/wands/dtrack.toml")});
   EXPECT_EQ(elsewhere->file.dtrack->port, 6000);
   EXPECT_EQ(elsewhere->head_body, 0U) << "of the file";
 }
@@ -80,5 +80,5 @@ TEST(WandChoice, RefusesWhatIsNone) {
   EXPECT_EQ(parse_wand_choice({.file = "/nowhere.toml"}).error().category, core::ErrorCategory::BadInputFile);
 }
 
-}  // namespace
+}  // namespace wand_choice_test
 }  // namespace afm::app

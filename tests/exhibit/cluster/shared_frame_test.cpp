@@ -15,16 +15,16 @@
 #include "exhibit/cycle_history.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::exhibit {
-namespace {
+namespace shared_frame_test {
 
 class SharedFrame : public ::testing::Test {
  protected:
   void SetUp() override {
     ExhibitFiles files;
-    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    files.assets_dir = support::source("assets");
     auto stage = load_exhibit(files);
     ASSERT_TRUE(stage) << stage.error().message;
     stage_.emplace(std::move(*stage));
@@ -120,5 +120,5 @@ TEST_F(SharedFrame, HasTheTipOfTheHand) {
   EXPECT_EQ(there.realtime, tip.realtime);
 }
 
-}  // namespace
+}  // namespace shared_frame_test
 }  // namespace afm::exhibit

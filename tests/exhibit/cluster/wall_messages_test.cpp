@@ -11,7 +11,7 @@
 #include "exhibit/cluster/wall_model.h"
 #include "support/scratch_folder.h"
 
-namespace {
+namespace wall_messages_test {
 
 using namespace afm;
 using namespace afm::cluster;
@@ -203,4 +203,4 @@ TEST(WallModelTest, ComesBackAndRefusesWhatIsNotValid) {
   EXPECT_FALSE(read_wall_model(document_of(model)));
 }
 
-}  // namespace
+}  // namespace wall_messages_test

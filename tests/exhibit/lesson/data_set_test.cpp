@@ -13,7 +13,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {
-namespace {
+namespace data_set_test {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -170,5 +170,5 @@ TEST(ParticipantCode, IsSixCapitalLetters) {
   }
 }
 
-}  // namespace
+}  // namespace data_set_test
 }  // namespace afm::exhibit

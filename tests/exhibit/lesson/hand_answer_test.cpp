@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace afm::exhibit {
-namespace {
+namespace hand_answer_test {
 
 using Layout = HandAnswer::Layout;
 
@@ -105,5 +105,5 @@ TEST_F(HandAnswerTest, MarksTheSameAnswerAtMostThreeTimesASecondHoweverTheHandSh
   }
 }
 
-}  // namespace
+}  // namespace hand_answer_test
 }  // namespace afm::exhibit

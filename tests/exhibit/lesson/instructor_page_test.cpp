@@ -10,7 +10,7 @@
 #include "support/phrases.h"
 
 namespace afm::exhibit {
-namespace {
+namespace instructor_page_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -116,5 +116,5 @@ TEST(InstructorPage, MarksWhatIsPointedAt) {
   EXPECT_THAT(marked, ElementsAre("2  Skip this step"));
 }
 
-}  // namespace
+}  // namespace instructor_page_test
 }  // namespace afm::exhibit

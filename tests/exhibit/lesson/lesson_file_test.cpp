@@ -11,13 +11,13 @@
 #include "exhibit/lesson/lesson_run.h"
 #include "exhibit/lesson/lesson_samples.h"
 #include "exhibit/lesson/simulated_student.h"
-#include "places.h"
 #include "scene/samples/material_library.h"
 #include "support/phrases.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {
-namespace {
+namespace lesson_file_test {
 
 using ::testing::HasSubstr;
 
@@ -102,7 +102,7 @@ TEST(LessonSamples, RefuseAThresholdThatTheCommonScaleHasNoRoomFor) {
       "lesson.toml", kHead + kCommon + "[[step]]\nid = \"one\"\n" + kWords +
                          "type = \"threshold\"\nmaterial = \"gold\"\nstaircase = \"weighted\"\ndistance = \"kept\"\n"));
   ASSERT_TRUE(lesson) << lesson.error().message;
-  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+  const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   const auto samples = lesson_samples(*lesson, library);
   ASSERT_FALSE(samples.has_value());
   EXPECT_THAT(samples.error().message, HasSubstr("add a stronger material"));
@@ -110,7 +110,7 @@ TEST(LessonSamples, RefuseAThresholdThatTheCommonScaleHasNoRoomFor) {
 
 // Kept: the comparison has 1 + w times the pull-off and both jumps at the same Z, so that no distance tells them apart.
 TEST(ComparisonSample, KeepsTheDistancesOrRovesThemAsTheLessonSays) {
-  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+  const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   const auto standard = curves::make_sample_model(curves::ContactSetup{*library.find("si3n4"), {}, {}}).value();
   const auto& before = standard.figures();
   const auto kept = comparison_sample(standard, DistanceCue::Kept, 0.3, 1.0).value().figures();
@@ -124,7 +124,7 @@ TEST(ComparisonSample, KeepsTheDistancesOrRovesThemAsTheLessonSays) {
 
 // E26: why blind identification needs the common scale.
 TEST(CommonScale, KeepsTheRatioOfPullOffsWhichFitDoesNot) {
-  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+  const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   const auto mica = curves::make_sample_model(curves::ContactSetup{*library.find("mica"), {}, {}}).value();
   const auto gold = curves::make_sample_model(curves::ContactSetup{*library.find("gold"), {}, {}}).value();
   const double mica_n = mica.figures().force_before_joc.si, gold_n = gold.figures().force_before_joc.si;
@@ -134,14 +134,14 @@ TEST(CommonScale, KeepsTheRatioOfPullOffsWhichFitDoesNot) {
 
 std::vector<std::string> shipped_lessons() {
   std::vector<std::string> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(AFM_SOURCE_DIR "/assets/lessons")) {
+  for (const auto& entry : std::filesystem::directory_iterator(support::source("assets/lessons"))) {
     paths.push_back(entry.path().string());
   }
   return paths;
 }
 
 TEST(ShippedLessons, AreSixThatLoadAndRunToTheirEndInBothLanguages) {
-  const auto library = scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value();
+  const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   std::set<StepKind> kinds;
   std::size_t lessons = 0;
   for (const std::string& path : shipped_lessons()) {
@@ -172,5 +172,5 @@ TEST(ShippedLessons, AreSixThatLoadAndRunToTheirEndInBothLanguages) {
   EXPECT_EQ(kinds.size(), kStepKinds.size()) << "the lessons show every type of step";
 }
 
-}  // namespace
+}  // namespace lesson_file_test
 }  // namespace afm::exhibit

@@ -13,12 +13,12 @@
 #include "exhibit/lesson/data_set.h"
 #include "exhibit/lesson/lesson_samples.h"
 #include "exhibit/lesson/simulated_student.h"
-#include "places.h"
 #include "scene/samples/material_library.h"
 #include "support/phrases.h"
+#include "support/places.h"
 
 namespace afm::exhibit {
-namespace {
+namespace lesson_run_test {
 
 using ::testing::HasSubstr;
 using Wants = LessonPrompt::Wants;
@@ -39,7 +39,7 @@ class LessonRunTest : public ::testing::Test {
     lesson_.title.texts = {"Test", "Test"};
     lesson_.materials = {"mica", "si3n4"};
     lesson_.scale = scene::ScaleMode::Common;
-    samples_ = lesson_samples(lesson_, scene::load_materials(AFM_SOURCE_DIR "/assets/materials.toml").value()).value();
+    samples_ = lesson_samples(lesson_, scene::load_materials(support::source("assets/materials.toml")).value()).value();
   }
 
   LessonRun run(const LessonRun::Setup& setup = {}) {
@@ -396,5 +396,5 @@ TEST(SimulatedParticipant, IsReadFromItsText) {
   }
 }
 
-}  // namespace
+}  // namespace lesson_run_test
 }  // namespace afm::exhibit

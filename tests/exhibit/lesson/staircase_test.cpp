@@ -16,7 +16,7 @@
 #include "support/phrases.h"
 
 namespace afm::exhibit {
-namespace {
+namespace staircase_test {
 
 // E22: PsychoPy's tests/test_data/test_StairHandlers.py, test_StairHandlerLinear.
 TEST(UpDownStaircase, GoesThroughTheLevelsOfPsychoPy) {
@@ -148,5 +148,5 @@ TEST(Questionnaires, HaveTheirItemsAndAnswersInBothLanguages) {
   }
 }
 
-}  // namespace
+}  // namespace staircase_test
 }  // namespace afm::exhibit

@@ -21,7 +21,7 @@
 #include "support/phrases.h"
 
 namespace afm::exhibit {
-namespace {
+namespace heard_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -307,5 +307,5 @@ TEST_F(NarratorTest, TellsOfEachLineOfAnImage) {
   EXPECT_THAT(signals_, ElementsAre(HeardEvent::ScanLine, HeardEvent::ScanLine));
 }
 
-}  // namespace
+}  // namespace heard_test
 }  // namespace afm::exhibit

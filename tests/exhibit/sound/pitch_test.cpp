@@ -16,7 +16,7 @@
 
 // Rows D01 to D12 of the reference cases.
 namespace afm::exhibit {
-namespace {
+namespace pitch_test {
 
 constexpr double kSnapIn = 0.239752e-9, kPullOff = 1.399894e-9;  // of mica, newtons
 
@@ -142,5 +142,5 @@ TEST(Envelope, OfSidesKeepsThePower) {  // D12
   }
 }
 
-}  // namespace
+}  // namespace pitch_test
 }  // namespace afm::exhibit

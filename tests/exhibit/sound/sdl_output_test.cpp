@@ -15,7 +15,7 @@
 #include "support/sound_analysis.h"
 
 namespace afm::exhibit {
-namespace {
+namespace sdl_output_test {
 
 TEST(SoundOutput, PlaysThePitchOfAForceIntoSdlsDiskDriver) {
   const support::ScratchFolder folder;
@@ -64,5 +64,5 @@ TEST(SoundOutput, WithoutACardIsOneLine) {
   EXPECT_EQ(output.error().message.find('\n'), std::string::npos);
 }
 
-}  // namespace
+}  // namespace sdl_output_test
 }  // namespace afm::exhibit

@@ -14,7 +14,7 @@
 #include "support/sound_analysis.h"
 
 namespace afm::exhibit {
-namespace {
+namespace session_sound_test {
 
 constexpr std::int64_t kStartNs = 200'000'000;
 
@@ -83,5 +83,5 @@ TEST(SessionSound, OfAnEndlessSessionIsRefused) {
   EXPECT_THAT(sound.error().message, testing::HasSubstr("longer than an hour"));
 }
 
-}  // namespace
+}  // namespace session_sound_test
 }  // namespace afm::exhibit

@@ -19,7 +19,7 @@
 #include "support/sound_analysis.h"
 
 namespace afm::exhibit {
-namespace {
+namespace synthesizer_test {
 
 constexpr double kRate = kSoundRateHz;
 // The steepest that a sine of this pitch and its octave can be between two samples.
@@ -289,5 +289,5 @@ TEST(SoundMixer, IsSilentWithoutVolumeAndSpeaksWithoutTones) {
   EXPECT_LT(test::rms(test::channel(card.played, 0)), 1e-5);
 }
 
-}  // namespace
+}  // namespace synthesizer_test
 }  // namespace afm::exhibit

@@ -13,7 +13,7 @@
 #include "exhibit/study/threshold.h"
 
 namespace afm::exhibit {
-namespace {
+namespace coverage_test {
 
 constexpr int kPeople = 1000;
 constexpr std::size_t kTrials = 40;
@@ -112,5 +112,5 @@ TEST(CoverageOfTheReport, OfWeberFractionAndBiasIsNinetyThreePercent) {
   }
 }
 
-}  // namespace
+}  // namespace coverage_test
 }  // namespace afm::exhibit

@@ -15,7 +15,7 @@
 #include "exhibit/study/questionnaires.h"
 
 namespace afm::exhibit {
-namespace {
+namespace statistics_test {
 
 using ::testing::ElementsAre;
 
@@ -239,5 +239,5 @@ TEST(Holm, RejectsInTheOrderOfP) {
                           ::testing::DoubleNear(0.06, 1e-12)));
 }
 
-}  // namespace
+}  // namespace statistics_test
 }  // namespace afm::exhibit

@@ -12,7 +12,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {
-namespace {
+namespace study_data_test {
 
 using test::event_line;
 using test::kEventsHeader;
@@ -251,5 +251,5 @@ TEST_F(StudyFolder, WaitsForNoPipeAndFollowsNoLoop) {
   EXPECT_THAT(message(), HasSubstr("it is a device, not a file"));
 }
 
-}  // namespace
+}  // namespace study_data_test
 }  // namespace afm::exhibit

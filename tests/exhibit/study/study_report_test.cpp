@@ -18,7 +18,7 @@
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {
-namespace {
+namespace study_report_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -326,5 +326,5 @@ TEST(ReportPage, WritesNumbersAsPeopleDo) {
             "t: t(3) = 9, p < 0.001; d = 2.00 [1.00, 3.00]");
 }
 
-}  // namespace
+}  // namespace study_report_test
 }  // namespace afm::exhibit

@@ -8,7 +8,7 @@
 #include "exhibit/study/threshold.h"
 
 namespace afm::exhibit {
-namespace {
+namespace threshold_test {
 
 TEST(Threshold, IsWhatPerfectDataWereMadeOf) {
   std::vector<ThresholdTrial> trials;
@@ -44,5 +44,5 @@ TEST(Threshold, IsNotBoundedByTrialsThatSayNothing) {
   EXPECT_TRUE(std::isnan(fitted_threshold(nothing).weber_fraction.value));
 }
 
-}  // namespace
+}  // namespace threshold_test
 }  // namespace afm::exhibit

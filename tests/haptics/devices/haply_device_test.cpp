@@ -16,7 +16,7 @@
 #include "haply_service.h"
 #include "haptics/safety.h"
 
-namespace {
+namespace haply_device_test {
 
 using afm::haptics::GovernorInput;
 using afm::haptics::HaplyDevice;
@@ -249,4 +249,4 @@ TEST(HaplyDevice, GivesUpOnOneWhoNeverShakesHands) {
   EXPECT_THAT(device.error().message, HasSubstr("no haply inverse service"));
 }
 
-}  // namespace
+}  // namespace haply_device_test

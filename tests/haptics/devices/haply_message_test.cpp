@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-namespace {
+namespace haply_message_test {
 
 using afm::haptics::haply_force_message;
 using afm::haptics::parse_haply_state;
@@ -66,4 +66,4 @@ TEST(HaplyMessage, BelievesNoOtherBytes) {
   parse_haply_state(std::string(60'000, '['));
 }
 
-}  // namespace
+}  // namespace haply_message_test

@@ -17,6 +17,7 @@
 #include "mock_control.h"
 #include "scene/shared/shared_segment.h"
 #include "support/paper_model.h"
+#include "support/places.h"
 
 namespace afm::test {
 
@@ -39,7 +40,7 @@ class HdapiBench {
     mock_hd_reset();
     mock_hd_set_position(0, kContactMm + kTopMm, 0);
     prepare();
-    device = std::move(*haptics::HdapiDevice::open(*haptics::load_hdapi(AFM_MOCK_HD).functions, clock, "",
+    device = std::move(*haptics::HdapiDevice::open(*haptics::load_hdapi(afm::support::mock_hd()).functions, clock, "",
                                                    haptics::HdapiDevice::Supervision::Caller));
     loop = std::move(*haptics::ServoLoop::create(segment, *device, {}));
     renderer.store(scene::Selection{.material = kMica, .revision = 1});

@@ -7,9 +7,10 @@
 
 #include "hdapi_bench.h"
 #include "support/no_alloc.h"
+#include "support/places.h"
 
 // The mock's scheduler runs only when a test says so: every millisecond here is the same in every run.
-namespace {
+namespace hdapi_device_test {
 
 using namespace afm::haptics;
 using afm::scene::FaultCode;
@@ -26,7 +27,7 @@ constexpr unsigned kNominalForceProperty = 0x2603, kVelocityProperty = 0x2606, k
 constexpr unsigned kMotorTemperatureProperty = 0x2605;
 constexpr unsigned kCalibrated = 0x5000, kNeedsUpdate = 0x5001, kNeedsManualInput = 0x5002;
 
-HdapiFunctions mock_functions() { return *load_hdapi(AFM_MOCK_HD).functions; }
+HdapiFunctions mock_functions() { return *load_hdapi(afm::support::mock_hd()).functions; }
 
 auto open_mock(const afm::core::Clock& clock, const std::string& name = "") {
   return HdapiDevice::open(mock_functions(), clock, name, HdapiDevice::Supervision::Caller);
@@ -395,4 +396,4 @@ TEST(HdapiDevice, RefusesLimitsThatCannotBe) {
   }
 }
 
-}  // namespace
+}  // namespace hdapi_device_test

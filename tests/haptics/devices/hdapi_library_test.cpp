@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/hdapi_library.h"
+#include "support/places.h"
 
 #include <dlfcn.h>
 #include <gmock/gmock.h>
 
 #include <iterator>
 
-namespace {
+namespace hdapi_library_test {
 
 using afm::haptics::HdapiSearch;
 using afm::haptics::load_hdapi;
@@ -26,7 +27,7 @@ TEST(HdapiLibrary, TriesTheKnownNamesAndSaysWhatTheLinkerSaid) {
 }
 
 TEST(HdapiLibrary, TakesTheConfiguredOneAndNoOther) {
-  const HdapiSearch found = load_hdapi(AFM_MOCK_HD);
+  const HdapiSearch found = load_hdapi(afm::support::mock_hd());
   ASSERT_TRUE(found.functions);
   ASSERT_THAT(found.attempts, SizeIs(1));
   EXPECT_EQ(found.attempts[0].refusal, "");
@@ -38,18 +39,19 @@ TEST(HdapiLibrary, TakesTheConfiguredOneAndNoOther) {
 }
 
 TEST(HdapiLibrary, RefusesALibraryThatLacksAFunctionByItsName) {
-  const HdapiSearch search = load_hdapi(AFM_MOCK_HD_WITHOUT_UNSCHEDULE);
+  const HdapiSearch search = load_hdapi(afm::support::mock_hd_without_unschedule());
   EXPECT_FALSE(search.functions);
   ASSERT_THAT(search.attempts, SizeIs(1));
   EXPECT_EQ(search.attempts[0].refusal, "it lacks the function hdUnschedule");
 }
 
 TEST(HdapiLibrary, GivesTheSameFunctionsWhenItIsLoadedAgain) {
-  EXPECT_EQ(load_hdapi(AFM_MOCK_HD).functions->init_device, load_hdapi(AFM_MOCK_HD).functions->init_device);
+  EXPECT_EQ(load_hdapi(afm::support::mock_hd()).functions->init_device,
+            load_hdapi(afm::support::mock_hd()).functions->init_device);
 }
 
 TEST(MockHd, ExportsTheThirtySixFunctionsOfTheInterface) {
-  void* library = ::dlopen(AFM_MOCK_HD, RTLD_NOW);
+  void* library = ::dlopen(afm::support::mock_hd().c_str(), RTLD_NOW);
   ASSERT_NE(library, nullptr);
   const char* const names[] = {"hdInitDevice",
                                "hdDisableDevice",
@@ -91,4 +93,4 @@ TEST(MockHd, ExportsTheThirtySixFunctionsOfTheInterface) {
   for (const char* name : names) EXPECT_NE(::dlsym(library, name), nullptr) << name;
 }
 
-}  // namespace
+}  // namespace hdapi_library_test

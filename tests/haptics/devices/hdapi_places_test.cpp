@@ -4,7 +4,7 @@
 
 #include "hdapi_bench.h"
 
-namespace {
+namespace hdapi_places_test {
 
 using afm::scene::FaultCode;
 using afm::test::HdapiBench;
@@ -38,4 +38,4 @@ TEST(HdapiPlaces, GivesNoOtherForceForPlacesWhereNoHandCanBe) {
   }
 }
 
-}  // namespace
+}  // namespace hdapi_places_test

@@ -9,9 +9,10 @@
 #include "devices/hdapi_device.h"
 #include "hdapi_bench.h"
 #include "mock_control.h"
+#include "support/places.h"
 
 // The mock's scheduler and the device's supervisor as threads of their own, in real time.
-namespace {
+namespace hdapi_scheduler_test {
 
 using namespace afm::haptics;
 using afm::core::MonotonicClock;
@@ -38,7 +39,7 @@ class HdapiScheduler : public testing::Test {
     mock_hd_use_thread();
   }
 
-  auto open() { return HdapiDevice::open(*load_hdapi(AFM_MOCK_HD).functions, clock, ""); }
+  auto open() { return HdapiDevice::open(*load_hdapi(afm::support::mock_hd()).functions, clock, ""); }
 
   const MonotonicClock clock;
 };
@@ -101,4 +102,4 @@ TEST(StalledHdapi, IsSwitchedOffBeforeItsSchedulerIsStopped) {
   EXPECT_EQ(all[before], "output_off");
 }
 
-}  // namespace
+}  // namespace hdapi_scheduler_test

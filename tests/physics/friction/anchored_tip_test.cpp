@@ -7,7 +7,7 @@
 #include <random>
 
 namespace afm::physics {
-namespace {
+namespace anchored_tip_test {
 
 using namespace literals;
 
@@ -118,5 +118,5 @@ TEST(AnchoredTip, LosesTheWorkOfItsForce) {
   EXPECT_NEAR(work, lost + tip.stored().si, 1e-7 * work);
 }
 
-}  // namespace
+}  // namespace anchored_tip_test
 }  // namespace afm::physics

@@ -15,7 +15,7 @@
 #include "physics/friction/prandtl_tomlinson.h"
 
 namespace afm::physics {
-namespace {
+namespace friction_cases_test {
 
 SineLattice lattice_of(const Case& row) {
   const double a = row.input("a"), k = row.input("k");
@@ -123,5 +123,5 @@ TEST_P(FrictionCase, Agrees) { expect_agrees(GetParam(), value_of(GetParam())); 
 INSTANTIATE_TEST_SUITE_P(Research, FrictionCase, testing::ValuesIn(cases_of(CaseProgram::Friction)),
                          [](const auto& test) { return test.param.name; });
 
-}  // namespace
+}  // namespace friction_cases_test
 }  // namespace afm::physics

@@ -12,7 +12,7 @@
 #include "physics/friction/prandtl_tomlinson.h"
 
 namespace afm::physics {
-namespace {
+namespace friction_loop_test {
 
 using namespace literals;
 
@@ -105,5 +105,5 @@ TEST(FrictionLoop, NeedsAWholeCycle) {
   EXPECT_FALSE(last_friction_loop(there));
 }
 
-}  // namespace
+}  // namespace friction_loop_test
 }  // namespace afm::physics

@@ -13,7 +13,7 @@
 #include "physics/mica.h"
 
 namespace afm::physics {
-namespace {
+namespace friction_test {
 
 using namespace literals;
 
@@ -121,5 +121,5 @@ TEST(LateralContact, IsWithoutForceOffTheSample) {
   }
 }
 
-}  // namespace
+}  // namespace friction_test
 }  // namespace afm::physics

@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "physics/friction/prandtl_tomlinson.h"
+#include "support/deep.h"
 
 namespace afm::physics {
-namespace {
+namespace lattice_tip_test {
 
 using namespace literals;
 
@@ -188,7 +189,7 @@ TEST(LatticeTip, NeverGivesEnergyOnAClosedPath) {
   std::mt19937_64 random(19);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   int with_slips = 0, by_force = 0;
-  for (int path = 0; path < 100'000; ++path) {
+  for (int path = 0; path < support::draws(100'000); ++path) {
     const auto kind = static_cast<LatticeKind>(path % 3);
     const Energy full = LatticeLandscape::scale_of_row(kind, row_amplitude(6.0));
     const auto anywhere = [&] {
@@ -234,9 +235,9 @@ TEST(LatticeTip, NeverGivesEnergyOnAClosedPath) {
       ASSERT_LT(gained, 0.0) << path;
     }
   }
-  EXPECT_GT(with_slips, 30'000);
-  EXPECT_GT(by_force, 10'000);
+  EXPECT_GT(with_slips, support::draws(30'000));
+  EXPECT_GT(by_force, support::draws(10'000));
 }
 
-}  // namespace
+}  // namespace lattice_tip_test
 }  // namespace afm::physics

@@ -12,7 +12,7 @@
 
 // Every artefact where a person sees it: in the numbers of the image, with its closed form; and gone from the image of
 // the same sample when its setting is.
-namespace {
+namespace artefact_images_test {
 
 using namespace afm::physics;
 
@@ -192,4 +192,4 @@ TEST(ImageOfAPeak, HasAGhostOfASecondApexAndNoneWithout) {
   EXPECT_LT(highest(doubled, kApartM), 0.1e-9);
 }
 
-}  // namespace
+}  // namespace artefact_images_test

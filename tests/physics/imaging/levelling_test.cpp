@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace afm::physics {
-namespace {
+namespace levelling_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kColumns = 40, kRows = 25;
@@ -119,5 +119,5 @@ TEST(HeightStatistics, CountWhatWasMeasuredAlone) {
   EXPECT_EQ(height_statistics(std::vector<double>{kNan}).measured, 0U);
 }
 
-}  // namespace
+}  // namespace levelling_test
 }  // namespace afm::physics

@@ -11,7 +11,7 @@
 #include <vector>
 
 // A02 to A14, A36 and F15 are rows of the table of cases.
-namespace {
+namespace morphology_test {
 
 using namespace afm::physics;
 
@@ -391,4 +391,4 @@ TEST(HeightGrid, IsLinearBetweenItsPointsAndLevelBeyondThem) {
   EXPECT_EQ(surface.range_m(), 5.0);
 }
 
-}  // namespace
+}  // namespace morphology_test

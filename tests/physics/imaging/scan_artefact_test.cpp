@@ -12,7 +12,7 @@
 #include "physics/imaging/morphology.h"
 #include "physics/imaging/scan_truth.h"
 
-namespace {
+namespace scan_artefact_test {
 
 using namespace afm::physics;
 
@@ -120,4 +120,4 @@ TEST(ScanTruth, AddsWhatTheTipReachedAndWhatItIs) {
   }
 }
 
-}  // namespace
+}  // namespace scan_artefact_test

@@ -12,7 +12,7 @@
 #include <vector>
 
 // A15 to A26 are rows of the table of cases, each at three rates of the feedback.
-namespace {
+namespace scan_loop_test {
 
 using namespace afm::physics;
 
@@ -222,4 +222,4 @@ TEST_P(LoopOfTheTable, A26PutsTheDetectorsNoiseIntoTheHeight) {
   EXPECT_NEAR(std::sqrt(square / ticks) / std::sqrt(density / (4.0 * kTau)), 1.0, 0.04);
 }
 
-}  // namespace
+}  // namespace scan_loop_test

@@ -14,7 +14,7 @@
 #include "support/no_alloc.h"
 
 // A27 to A29 and F15 are rows of the table of cases.
-namespace {
+namespace scanner_test {
 
 using namespace afm::physics;
 
@@ -246,4 +246,4 @@ TEST(Scanner, EndsAFrameWhereItIsToldTo) {
   EXPECT_TRUE(std::isnan(height[3 * 256]));
 }
 
-}  // namespace
+}  // namespace scanner_test
